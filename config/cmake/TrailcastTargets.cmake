@@ -1,0 +1,72 @@
+# What every target of ours has in common: the standard, warnings as errors, sanitizers, ccache,
+# and where binaries land. Targets list their sources; nothing is globbed.
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(TRAILCAST_CCACHE ccache)
+if(TRAILCAST_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${TRAILCAST_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${TRAILCAST_CCACHE}")
+endif()
+
+set(TRAILCAST_SANITIZE "" CACHE STRING "Comma-separated sanitizers, e.g. address,undefined")
+if(TRAILCAST_SANITIZE)
+  add_compile_options(-fsanitize=${TRAILCAST_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${TRAILCAST_SANITIZE})
+endif()
+
+# Applied to each of our targets; generated code (idlc, protoc) is kept out of it.
+function(trailcast_target_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
+                                           -Wnon-virtual-dtor -Woverloaded-virtual)
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+endfunction()
+
+# trailcast_library(<name> SOURCES a.cc b.cc DEPS x PRIVATE_DEPS y)
+function(trailcast_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  trailcast_target_defaults(${name})
+  target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# trailcast_executable(<name> SOURCES main.cc DEPS x)
+function(trailcast_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  trailcast_target_defaults(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPS})
+endfunction()
+
+# trailcast_test(<name> LABEL unit|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
+# Every case is a ctest test of its own, so that they run in parallel and are named by situation.
+function(trailcast_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  trailcast_target_defaults(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(
+    ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                    TRAILCAST_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+# trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.
+function(trailcast_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  trailcast_target_defaults(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPS} benchmark::benchmark)
+endfunction()

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <chrono>
+
+namespace trailcast {
+
+// When a sensor took its sample, from an arbitrary zero of that device (a recording's or the
+// simulator's start, a robot's boot). Only differences mean anything.
+using SensorTime = std::chrono::nanoseconds;
+
+[[nodiscard]] inline double Seconds(std::chrono::nanoseconds duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+[[nodiscard]] inline std::chrono::nanoseconds FromSeconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(seconds));
+}
+
+}  // namespace trailcast

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+// Which topics a process takes part in. Few endpoints keep discovery quick, so each role names its
+// own: a scout reads requests and receipts, a follower reads routes and segments, and so on.
+enum class Topic : std::uint8_t {
+  kRoutes,
+  kSegments,
+  kSegmentRequests,
+  kReceipts,
+  kCatalogRequests,
+  kCatalogReplies,
+  kAgents,
+};
+
+struct TopicUse {
+  std::vector<Topic> write;
+  std::vector<Topic> read;
+};
+
+[[nodiscard]] TopicUse ScoutTopics();
+[[nodiscard]] TopicUse FollowerTopics();
+[[nodiscard]] TopicUse ServerTopics();
+[[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the catalog
+
+// The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and over
+// DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread publishes
+// and takes. Delivery is reliable while both ends are up and keep taking; who needs more
+// (what was missed while away) asks for it: see RouteSender, RouteFetcher, RouteKeeper.
+class RouteExchange {
+ public:
+  virtual ~RouteExchange() = default;
+  RouteExchange(const RouteExchange&) = delete;
+  RouteExchange& operator=(const RouteExchange&) = delete;
+
+  // kUnavailable when the message could not be handed over (it was then not sent: try again);
+  // kInvalidArgument for a topic this exchange was not opened to write, or a message out of bounds.
+  [[nodiscard]] virtual Result<void> Publish(const Message& message) = 0;
+
+  // Everything received since the last call, oldest first within a topic. Waits for the first
+  // message up to `max_wait`. Own messages never come back. Late joiners get the latest sample per
+  // key of the routes, receipts and agents topics; other topics start at the join. Messages that
+  // cannot be decoded are dropped and counted (dropped()).
+  [[nodiscard]] virtual std::vector<Message> Take(std::chrono::milliseconds max_wait) = 0;
+
+  // Samples received and thrown away because they were out of bounds or could not be decoded.
+  [[nodiscard]] virtual std::uint64_t dropped() const = 0;
+
+ protected:
+  RouteExchange() = default;
+};
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/image/image.h"
+
+namespace trailcast::image {
+
+using Color = std::array<std::uint8_t, 3>;  // red, green, blue
+
+struct PixelPoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+// A picture to draw on: anti-aliased lines, marks and text. Knows nothing of what it shows.
+class Canvas {
+ public:
+  Canvas(int width, int height, Color background);
+
+  void Line(const std::vector<PixelPoint>& points, Color color, double width_px,
+            bool dashed = false);
+  void FillPolygon(const std::vector<PixelPoint>& corners, Color color);
+  void Disc(PixelPoint center, double radius_px, Color color);
+  void Cross(PixelPoint center, double radius_px, Color color, double width_px);
+  // Baseline-left at `at`; height of a capital letter in pixels.
+  void Text(const std::string& text, PixelPoint at, double height_px, Color color);
+  [[nodiscard]] static double TextWidth(const std::string& text, double height_px);
+  // Copies `picture` with its upper left corner at (x, y), scaled to the given size.
+  void Paste(const RgbImage& picture, int x, int y, int width, int height);
+
+  [[nodiscard]] const RgbImage& picture() const { return picture_; }
+
+ private:
+  RgbImage picture_;
+};
+
+}  // namespace trailcast::image

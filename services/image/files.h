@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "services/base/result.h"
+#include "services/image/image.h"
+
+namespace trailcast::image {
+
+// Reads any still picture OpenCV knows (PNG, JPEG, ...). Errors name the file and what is wrong.
+[[nodiscard]] Result<GrayImage> ReadGray(const std::filesystem::path& file);
+[[nodiscard]] Result<RgbImage> ReadRgb(const std::filesystem::path& file);
+[[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
+[[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
+
+// The frames of a recorded run, in order: a folder of pictures (sorted by name) or a video file.
+class FrameSequence {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<FrameSequence>> Open(
+      const std::filesystem::path& folder_or_video);
+  virtual ~FrameSequence() = default;
+
+  // The next frame, or nothing at the end. A frame that cannot be read, or whose size differs from
+  // the first one's, is an error that names it.
+  [[nodiscard]] virtual Result<std::optional<GrayImage>> Next() = 0;
+  // Number of frames, if it is known beforehand.
+  [[nodiscard]] virtual std::optional<int> size() const = 0;
+  // Frames a second if the recording says so (videos), otherwise nothing.
+  [[nodiscard]] virtual std::optional<double> rate_hz() const = 0;
+};
+
+}  // namespace trailcast::image

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace trailcast::image {
+
+// 8-bit grey picture, row-major, no padding: pixel (x, y) is pixels[y * width + x].
+struct GrayImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;
+
+  [[nodiscard]] bool empty() const { return pixels.empty(); }
+  [[nodiscard]] std::uint8_t at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+};
+
+// 8-bit RGB picture, row-major, 3 bytes a pixel in the order red, green, blue.
+struct RgbImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;
+
+  [[nodiscard]] bool empty() const { return pixels.empty(); }
+};
+
+}  // namespace trailcast::image

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "services/base/result.h"
+#include "services/route/route.h"
+
+namespace trailcast::route {
+
+[[nodiscard]] Digest Sha256(std::span<const std::uint8_t> bytes);
+// RouteInfo::manifest_digest of segments with these digests, in order.
+[[nodiscard]] Digest ManifestDigest(std::span<const Digest> digests);
+// Lower-case hexadecimal.
+[[nodiscard]] std::string ToHex(const Digest& digest);
+
+// Encodes and hashes: what a scout stores and publishes.
+[[nodiscard]] SegmentPiece MakePiece(const RouteKey& key, const Segment& segment);
+// kCorrupt, naming route and segment, if the bytes are not those that were hashed.
+[[nodiscard]] Result<void> CheckDigest(const SegmentPiece& piece);
+// CheckDigest, then Decode, then the decoded index must be the piece's.
+[[nodiscard]] Result<Segment> Open(const SegmentPiece& piece);
+
+}  // namespace trailcast::route

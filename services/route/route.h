@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/ids.h"
+
+namespace trailcast::route {
+
+// The grey pattern around a feature, contrast-normalised, seen in the segment's first image:
+// kPatchSize x kPatchSize samples one pixel apart, row-major, 0..15 (4 bits are what a correlation
+// needs, and what travels), 8 about the patch's mean.
+inline constexpr int kPatchSize = 11;
+using Patch = std::array<std::uint8_t, kPatchSize * kPatchSize>;
+
+// Upright (unrotated) ORB descriptor at the scale of the segment's first image.
+using Descriptor = std::array<std::uint8_t, 32>;
+
+// Where a feature was when a fraction `s` of its segment had been driven. Pixels of the scout's
+// camera from its image centre, u to the right, v down. Resolution on the wire: 1/16 px.
+struct TrackKnot {
+  float s = 0.0F;  // 0 at the segment's first image, 1 at its last
+  float u_px = 0.0F;
+  float v_px = 0.0F;
+};
+
+struct Feature {
+  Patch patch{};
+  Descriptor descriptor{};
+  // At least two knots in rising s; front() is the first image, back() the milestone.
+  std::vector<TrackKnot> track;
+
+  [[nodiscard]] const TrackKnot& first() const { return track.front(); }
+  [[nodiscard]] const TrackKnot& milestone() const { return track.back(); }
+};
+
+// Taught heading relative to the segment's start against metres driven since then, counter-clockwise
+// positive: c[0] s + c[1] s^2 + c[2] s^3 (Chen & Birchfield 2009, II.B: a third-order polynomial;
+// its constant term is zero because heading is counted from the segment's start).
+struct HeadingPolynomial {
+  std::array<double, 3> c{};
+};
+
+// What was taught between two milestones. Odometry is local to the segment (metres, radians).
+struct Segment {
+  SegmentIndex index;
+  bool has_odometry = false;        // false: a recording without it; the four below are then 0
+  double length_m = 0.0;            // distance driven
+  double heading_change_rad = 0.0;  // counter-clockwise positive
+  double heading_variation_rad = 0.0;  // largest |heading| inside the segment: sigma_h
+  HeadingPolynomial heading;
+  double duration_s = 0.0;  // how long teaching took; speed is length over duration
+  std::vector<Feature> features;
+
+  [[nodiscard]] double speed_mps() const { return duration_s > 0.0 ? length_m / duration_s : 0.0; }
+};
+
+// A route's two-part identity. A revision is immutable once complete.
+struct RouteKey {
+  RouteId route;
+  RevisionNumber revision{1};
+
+  auto operator<=>(const RouteKey&) const = default;
+};
+
+// SHA-256 of the bytes that travel and are stored.
+using Digest = std::array<std::uint8_t, 32>;
+using Bytes = std::vector<std::uint8_t>;
+
+enum class RouteState : std::uint8_t {
+  kTeaching = 0,  // more segments will come
+  kComplete = 1,  // immutable from now on
+};
+
+// What is known of a route without its segments: announced by the scout, kept in the catalog.
+struct RouteInfo {
+  RouteKey key;
+  std::string name;   // what people call it; IsValidName
+  AgentId scout;      // who taught it
+  std::string camera;  // the scout's camera, for people ("webcam 320x240"); at most 128 bytes
+  int image_width_px = 0;  // of the scout's frames
+  int image_height_px = 0;
+  std::int64_t taught_unix_ms = 0;  // when teaching began, by the scout's clock
+  RouteState state = RouteState::kTeaching;
+  std::uint32_t segment_count = 0;  // segments taught so far
+  double length_m = 0.0;            // sum over those segments
+  std::uint64_t bytes = 0;          // sum of their encoded sizes
+  // SHA-256 over the digests of segments 0..segment_count-1 put one after the other.
+  Digest manifest_digest{};
+
+  bool operator==(const RouteInfo&) const = default;
+};
+
+// A segment as it travels and is stored: the bytes that were hashed at the scout, never re-encoded.
+struct SegmentPiece {
+  RouteKey key;
+  SegmentIndex index;
+  Digest digest{};
+  Bytes bytes;
+
+  bool operator==(const SegmentPiece&) const = default;
+};
+
+}  // namespace trailcast::route

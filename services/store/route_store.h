@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/route/route.h"
+
+namespace trailcast::store {
+
+// Durable routes: their infos and their segments' bytes. One process opens a store for writing;
+// not thread-safe. Every read of a segment checks its digest. Errors name the file.
+class RouteStore {
+ public:
+  virtual ~RouteStore() = default;
+  RouteStore(const RouteStore&) = delete;
+  RouteStore& operator=(const RouteStore&) = delete;
+
+  // Inserts, or replaces what is known of the same key. A kComplete route never changes again:
+  // kConflict if `info` differs from what is stored (an identical one is fine). An info with fewer
+  // segments than known is old news and ignored.
+  [[nodiscard]] virtual Result<void> PutRoute(const route::RouteInfo& info) = 0;
+
+  // All or nothing, on disk when this returns. Pieces already held with the same digest are fine;
+  // kConflict if a held index has another digest; kCorrupt if a piece's bytes fail its digest;
+  // kUnavailable when the disk is full. The route need not be known yet.
+  [[nodiscard]] virtual Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) = 0;
+
+  // kNotFound, or kCorrupt when the bytes on disk fail their digest.
+  [[nodiscard]] virtual Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key,
+                                                                SegmentIndex index) = 0;
+  // Indices held, rising.
+  [[nodiscard]] virtual Result<std::vector<SegmentIndex>> HeldSegments(
+      const route::RouteKey& key) = 0;
+
+  [[nodiscard]] virtual Result<std::optional<route::RouteInfo>> FindRoute(
+      const route::RouteKey& key) = 0;
+  // Newest first (taught_unix_ms, then key).
+  [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> ListRoutes() = 0;
+  [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesByName(
+      const std::string& name) = 0;
+
+  // The scout's book-keeping: segments that some server has confirmed, and those none has.
+  [[nodiscard]] virtual Result<void> MarkReceipted(const route::RouteKey& key,
+                                                   std::span<const SegmentIndex> indices) = 0;
+  [[nodiscard]] virtual Result<std::vector<SegmentIndex>> UnreceiptedSegments(
+      const route::RouteKey& key) = 0;
+
+  // What would be read wrong: one line per damaged segment or route. Empty when all is whole.
+  [[nodiscard]] virtual Result<std::vector<std::string>> Verify() = 0;
+
+ protected:
+  RouteStore() = default;
+};
+
+// Opens or creates. kCorrupt when the file is not a store or is damaged (it is left untouched),
+// kConflict when another process has it open, kUnavailable when it cannot be written.
+[[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenSqliteStore(
+    const std::filesystem::path& file);
+
+}  // namespace trailcast::store
