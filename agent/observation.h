@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "services/base/time.h"
+#include "services/image/image.h"
+#include "services/motion/motion.h"
+
+namespace trailcast::agent {
+
+// What a robot senses at one instant: one camera frame, and wheel odometry where there is any.
+struct Observation {
+  SensorTime stamp{0};
+  image::GrayImage image;
+  std::optional<motion::Pose2> odometry;  // in the odometry's own frame
+};
+
+}  // namespace trailcast::agent

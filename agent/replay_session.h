@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/observation.h"
+#include "services/base/result.h"
+#include "services/motion/motion.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+enum class ReplayState {
+  kWaiting,    // at the end of what is known of the route: standing until more comes
+  kFollowing,  // by vision (and odometry, where there is any)
+  kBlind,      // too few features: by odometry alone for a short way, slowly
+  kArrived,    // past the last milestone of a complete route
+  kLost,       // cannot go on: `reason` says why; the command is "stop"
+};
+
+[[nodiscard]] const char* ToString(ReplayState state);
+
+enum class ReplayMethod {
+  kPaper,    // Chen & Birchfield 2009 as printed
+  kDefault,  // with what this project adds
+};
+
+struct ReplaySessionOptions {
+  ReplayMethod method = ReplayMethod::kDefault;
+  motion::VelocityLimits limits{1.0, 0.8};
+  double speed_factor = 1.0;  // times the taught speed
+};
+
+struct ReplayStep {
+  motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
+  ReplayState state = ReplayState::kWaiting;
+  SegmentIndex segment;     // the one being followed
+  double fraction = 0.0;    // of that segment, 0..1
+  double progress = 0.0;    // of the route as far as it is known, 0..1, by segment count
+  int features = 0;         // matched and tracked
+  double turn_rad = 0.0;    // desired heading change theta_d, positive to the right
+  double found_share = 0.0;  // of stored features found, mean over hand-overs so far
+  int hand_overs = 0;
+  std::string reason;  // kLost, kBlind, kWaiting: one line for people
+};
+
+// Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's
+// follower. Segments may be added while driving. Touches no socket, lock, disk or clock.
+class ReplaySession {
+ public:
+  // `route` gives the size of the scout's frames; its segment_count and state are not looked at.
+  ReplaySession(const ReplaySessionOptions& options, const route::RouteInfo& route);
+  ~ReplaySession();
+  ReplaySession(ReplaySession&&) noexcept;
+
+  // In order from index 0; kInvalidArgument otherwise.
+  [[nodiscard]] Result<void> AddSegment(route::Segment segment);
+  // The last segment added is the route's last.
+  void MarkComplete();
+
+  // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
+  [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::agent

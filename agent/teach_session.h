@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/observation.h"
+#include "services/base/result.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+struct TeachStep {
+  std::optional<route::Segment> finished;  // a segment that ended with this frame
+  int features = 0;                        // still tracked in the current segment
+  bool too_few_features = false;           // nothing to hold on to in this frame (dark, blank)
+};
+
+// Frames and odometry in, segments out: vision's tracker feeding teach's segment recorder. Touches
+// no socket, lock, disk or clock. Not thread-safe.
+class TeachSession {
+ public:
+  TeachSession();
+  ~TeachSession();
+  TeachSession(TeachSession&&) noexcept;
+
+  // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
+  [[nodiscard]] Result<TeachStep> Observe(const Observation& observation);
+
+  // The segment under way, ended at the last frame; nothing if no feature or metre is in it.
+  [[nodiscard]] std::optional<route::Segment> Finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::agent
