@@ -29,7 +29,8 @@ class RouteStore {
   // All or nothing, on disk when this returns. Pieces already held with the same digest are fine;
   // kConflict if a held index has another digest; kCorrupt if a piece's bytes fail its digest;
   // kUnavailable when the disk is full. The route need not be known yet.
-  [[nodiscard]] virtual Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) = 0;
+  [[nodiscard]] virtual Result<void> AppendSegments(
+      std::span<const route::SegmentPiece> pieces) = 0;
 
   // kNotFound, or kCorrupt when the bytes on disk fail their digest.
   [[nodiscard]] virtual Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key,
