@@ -13,7 +13,9 @@ namespace trailcast::exchange {
 
 // One value type for each topic of the wire (idl/trailcast.idl); the prose is in idl/README.md.
 
-// trailcast/routes: the latest that is known of a route, from its scout or from a server.
+// trailcast/routes: the latest that is known of a route, from its scout or from a server. A server
+// announces what it can serve: while it lacks segments, `info` is kTeaching and counts the durable
+// prefix only, its length and bytes are estimates and its manifest digest is zero.
 struct RouteAnnouncement {
   AgentId holder;  // who announces, and can be asked for segments
   route::RouteInfo info;
@@ -41,6 +43,8 @@ struct Receipt {
   route::RouteKey key;
   std::uint32_t durable_prefix = 0;
   std::vector<SegmentIndex> durable_beyond;
+  // kComplete: the route's final RouteInfo is on disk too and its manifest digest was found right.
+  route::RouteState durable_state = route::RouteState::kTeaching;
   bool operator==(const Receipt&) const = default;
 };
 
@@ -67,12 +71,12 @@ enum class AgentRole : std::uint8_t { kServer = 0, kScout = 1, kFollower = 2, kO
 // What the agent does at present, for people and for tools.
 enum class AgentMode : std::uint8_t {
   kStarting = 0,
-  kWaiting = 1,   // for a server, a route or a segment; `detail` says which
+  kWaiting = 1,  // for a server, a route or a segment; `detail` says which
   kTeaching = 2,
   kReplaying = 3,
-  kArrived = 4,   // the scout: taught and everything receipted
-  kStopped = 5,   // by a signal or at the end of a recording
-  kFault = 6,     // cannot go on; `detail` says why
+  kArrived = 4,  // the scout: taught and everything receipted
+  kStopped = 5,  // by a signal or at the end of a recording
+  kFault = 6,    // cannot go on; `detail` says why
 };
 
 // trailcast/agents
@@ -86,10 +90,10 @@ struct AgentStatus {
   std::uint32_t segments = 0;  // segments known of the route
   double progress = 0.0;       // 0..1 of the route as far as it is known; the scout: of its drive
   double speed_mps = 0.0;
-  std::uint32_t features = 0;   // tracked at present
-  double found_share = 0.0;     // mean share of features found at hand-overs so far
-  std::uint32_t backlog = 0;    // scout: segments without a receipt
-  std::string detail;           // one line for people
+  std::uint32_t features = 0;  // tracked at present
+  double found_share = 0.0;    // mean share of features found at hand-overs so far
+  std::uint32_t backlog = 0;   // scout: segments without a receipt
+  std::string detail;          // one line for people
   bool operator==(const AgentStatus&) const = default;
 };
 
