@@ -41,8 +41,8 @@ class LandmarkScene {
                                                         double focal_px = kFocal_px) const {
     std::vector<route::TrackedFeature> features;
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      const motion::Pose2 seen = motion::Between(
-          pose_world, {landmarks_[i].x(), landmarks_[i].y(), 0.0});
+      const motion::Pose2 seen =
+          motion::Between(pose_world, {landmarks_[i].x(), landmarks_[i].y(), 0.0});
       if (seen.x_m < 0.3) continue;
       const Eigen::Vector2d upright(-focal_px * seen.y_m / seen.x_m,
                                     -focal_px * landmarks_[i].z() / seen.x_m);

@@ -64,15 +64,16 @@ TEST(SegmentFollower, TaughtTurnIsDriven) {
 TEST(SegmentFollower, DrivesAtTheTaughtSpeed) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   SegmentFollower follower(run.segment, 320, {});
-  const FollowStep step = follower.Step({test::Matched(kScene, run, {}), motion::OdometryIncrement{}});
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {}), motion::OdometryIncrement{}});
   EXPECT_NEAR(step.command.linear_mps, 0.3, 0.01);
 }
 
 TEST(SegmentFollower, RollIsUndoneBeforeComparing) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   SegmentFollower follower(run.segment, 320, {});
-  const FollowStep step =
-      follower.Step({test::Matched(kScene, run, {1.9, 0.0, 0.0}, 0.08), motion::OdometryIncrement{}});
+  const FollowStep step = follower.Step(
+      {test::Matched(kScene, run, {1.9, 0.0, 0.0}, 0.08), motion::OdometryIncrement{}});
   EXPECT_NEAR(step.roll_rad, -0.08, 0.02);
   EXPECT_NEAR(step.vision_turn_rad, 0.0, 0.01);
 }
@@ -80,7 +81,8 @@ TEST(SegmentFollower, RollIsUndoneBeforeComparing) {
 TEST(SegmentFollower, VisionAloneSteersWithoutOdometry) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   SegmentFollower follower(run.segment, 320, {});
-  const FollowStep step = follower.Step({test::Matched(kScene, run, {1.0, 0.0, 0.1}), std::nullopt});
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {1.0, 0.0, 0.1}), std::nullopt});
   EXPECT_GT(step.turn_rad, 0.0);
   EXPECT_EQ(step.turn_rad, step.vision_turn_rad);
   EXPECT_LT(step.command.angular_radps, 0.0);  // right is clockwise

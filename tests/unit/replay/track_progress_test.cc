@@ -11,7 +11,8 @@ namespace {
 const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 14.0, 60, 3);
 
 TEST(TaughtPlace, RunsThroughTheKnotsAndBeyondTheLast) {
-  const route::Feature feature{{}, {}, {{0.0F, 10.0F, 0.0F}, {0.5F, 20.0F, 4.0F}, {1.0F, 40.0F, 8.0F}}};
+  const route::Feature feature{
+      {}, {}, {{0.0F, 10.0F, 0.0F}, {0.5F, 20.0F, 4.0F}, {1.0F, 40.0F, 8.0F}}};
   EXPECT_FLOAT_EQ(route::TaughtPlace(feature, 0.0).u_px, 10.0F);
   EXPECT_FLOAT_EQ(route::TaughtPlace(feature, 0.25).u_px, 15.0F);
   EXPECT_FLOAT_EQ(route::TaughtPlace(feature, 0.75).v_px, 6.0F);

@@ -59,7 +59,8 @@ TEST(TransitionDetector, LargerTauFiresLater) {
 TEST(TransitionDetector, RemembersWhereThePeakWas) {
   TransitionDetector detector;
   double s = 0.0;
-  while (!detector.Add(std::exp(-(s - 1.0) * (s - 1.0) / 0.5), std::exp(-s * s / 2.0), s)) s += 0.02;
+  while (!detector.Add(std::exp(-(s - 1.0) * (s - 1.0) / 0.5), std::exp(-s * s / 2.0), s))
+    s += 0.02;
   EXPECT_NEAR(detector.distance_at_peak_m(), 1.0, 0.07);  // the median is two steps late
 }
 
