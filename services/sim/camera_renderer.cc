@@ -74,7 +74,8 @@ void CameraRenderer::RenderBlock(int x0, int y0) {
     if (!packet_.valid[i]) continue;
     view_.gray[pixels[i]] = seen[i].gray;
     view_.depth_m[pixels[i]] = seen[i].depth_m;
-    surface_[pixels[i]] = seen[i].surface;
+    // A shadow's edge is an edge as well: lit and shaded parts count as different surfaces.
+    surface_[pixels[i]] = seen[i].in_shadow ? ~seen[i].surface : seen[i].surface;
   }
 }
 

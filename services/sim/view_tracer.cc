@@ -82,7 +82,7 @@ float ViewTracer::SkyGray(const Eigen::Vector3f& direction) const {
   return GrayOf(lighting_.sky_horizon + height * (lighting_.sky_zenith - lighting_.sky_horizon));
 }
 
-void ViewTracer::CastShadows(const RayPacket& packet, const std::array<SeenPoint, kSize>& seen,
+void ViewTracer::CastShadows(const RayPacket& packet, std::array<SeenPoint, kSize>& seen,
                              std::array<Lit, kSize>& lit) const {
   alignas(32) std::array<int, kSize> valid{};
   RTCRay8 rays;
@@ -112,7 +112,9 @@ void ViewTracer::CastShadows(const RayPacket& packet, const std::array<SeenPoint
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded8(valid.data(), world_.embree_scene(), &context, &rays);
   for (std::size_t i = 0; i < kSize; ++i) {
-    if (valid[i] != 0 && rays.tfar[i] < 0.0F) lit[i].sun = 0.0F;  // how Embree says "hit"
+    if (valid[i] == 0 || !(rays.tfar[i] < 0.0F)) continue;  // below 0 is how Embree says "hit"
+    lit[i].sun = 0.0F;
+    seen[i].in_shadow = true;
   }
 }
 

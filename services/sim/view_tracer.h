@@ -24,6 +24,7 @@ struct SeenPoint {
   float gray = 0.0F;     // 0..255 and above where it is brighter than white
   float depth_m = 1e9F;  // along the ray
   std::uint32_t surface = kSky;
+  bool in_shadow = false;
 };
 
 // Rays into a world, and what they see: texture filtered over the pixel's footprint, ambient light,
@@ -39,7 +40,7 @@ class ViewTracer {
   [[nodiscard]] Lit Shade(const Surface& surface, const Eigen::Vector3f& direction, float spread,
                           float distance, const Eigen::Vector2f& barycentric) const;
   [[nodiscard]] float SkyGray(const Eigen::Vector3f& direction) const;
-  void CastShadows(const RayPacket& packet, const std::array<SeenPoint, RayPacket::kSize>& seen,
+  void CastShadows(const RayPacket& packet, std::array<SeenPoint, RayPacket::kSize>& seen,
                    std::array<Lit, RayPacket::kSize>& lit) const;
 
   const World& world_;
