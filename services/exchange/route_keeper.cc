@@ -82,11 +82,14 @@ void RouteKeeper::Handle(const SegmentBatch& batch, Time now) {
 }
 
 void RouteKeeper::Handle(const SegmentRequest& request, Time now) {
-  const KeptRoute* kept = Find(request.key, now);
-  if (kept == nullptr) return;
+  // Not Find: asking for routes that nobody has must not fill the memory.
+  const auto found = routes_.find(request.key);
+  if (found == routes_.end()) return;
+  KeptRoute& kept = found->second;
+  if (request.lacking.empty()) kept.announce_due = kept.resend_due = true;
   std::vector<SegmentIndex> held;
   std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
-               [&](SegmentIndex index) { return kept->Holds(index); });
+               [&](SegmentIndex index) { return kept.Holds(index); });
   answers_.Ask(request.key, held, now);
 }
 

@@ -39,6 +39,7 @@ void RouteSender::Handle(const Message& message, Time now) {
 
 void RouteSender::Handle(const SegmentRequest& request, Time now) {
   if (request.key != info_.key) return;
+  if (request.lacking.empty()) changed_ = true;
   if (left_to_server_.size() > kMaxSegmentsPerRoute) left_to_server_.clear();
   std::vector<SegmentIndex> wanted;
   for (const SegmentIndex index : request.lacking) {
