@@ -46,10 +46,10 @@ void RouteFetcher::Handle(const Message& message, Time now) {
     Learn(announcement->info, now);
     if (known_before && announcement->info.key == key_) want_.Hurry(now);
   }
-  if (const auto* batch = std::get_if<SegmentBatch>(&message)) Handle(*batch, now);
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) HandleBatch(*batch, now);
 }
 
-void RouteFetcher::Handle(const SegmentBatch& batch, Time now) {
+void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key == key_) Accept(piece, now);
   }

@@ -12,7 +12,7 @@
 namespace trailcast::exchange {
 
 struct RouteFetcherOptions {
-  WantList::Options want;
+  WantList::Options want{};
   // Segments announced just now are probably on their way: not asked for before this has passed.
   std::chrono::milliseconds fresh_grace{200};
   // Above the scout's announce_every: a scout in range is never taken for nobody. After so long a
@@ -70,7 +70,7 @@ class RouteFetcher {
   [[nodiscard]] const std::optional<route::RouteInfo>& info() const { return info_; }
 
  private:
-  void Handle(const SegmentBatch& batch, Time now);
+  void HandleBatch(const SegmentBatch& batch, Time now);
   void Accept(const route::SegmentPiece& piece, Time now);
   void WantMissing(Time ask_at);
   void Judge();
