@@ -30,7 +30,7 @@ class Stranger {
  public:
   explicit Stranger(const std::string& tag, exchange::Topic topic)
       : domain_(Domain::Create(DomainConfig(test::LoopbackOptions(tag), "").value()).value()),
-        participant_(Participant::Create(domain_).value()),
+        participant_(Participant::Create(domain_, "stranger").value()),
         topic_(Topic::Create(participant_, TypeOf(topic), exchange::NameOf(topic)).value()),
         writer_(Writer::Create(participant_, topic_,
                                MakeQos(QosOf(topic), std::chrono::milliseconds(1000)))
