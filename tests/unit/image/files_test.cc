@@ -1,0 +1,128 @@
+#include "services/image/files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::image {
+namespace {
+
+using ::testing::HasSubstr;
+
+GrayImage Gradient(int width, int height) {
+  GrayImage image{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.pixels.push_back(static_cast<std::uint8_t>((7 * x + 3 * y + (x * y) % 11) % 256));
+    }
+  }
+  return image;
+}
+
+// What is left of an encoded picture when only a share of its bytes was written.
+void WriteTruncated(const std::string& extension, double share, const std::filesystem::path& file) {
+  GrayImage image = Gradient(64, 48);
+  const cv::Mat view(image.height, image.width, CV_8UC1, image.pixels.data());
+  std::vector<std::uint8_t> bytes;
+  ASSERT_TRUE(cv::imencode(extension, view, bytes));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(share * static_cast<double>(bytes.size())));
+}
+
+TEST(Files, GrayPictureSurvivesWritingAndReading) {
+  const test::TempDir folder;
+  const GrayImage written = Gradient(31, 17);
+  ASSERT_TRUE(WritePng(written, folder / "a.png"));
+  const auto read = ReadGray(folder / "a.png");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->width, 31);
+  EXPECT_EQ(read->height, 17);
+  EXPECT_EQ(read->pixels, written.pixels);
+}
+
+TEST(Files, RgbPictureKeepsItsChannelOrder) {
+  const test::TempDir folder;
+  const RgbImage written{2, 1, {200, 100, 50, 1, 2, 3}};
+  ASSERT_TRUE(WritePng(written, folder / "a.png"));
+  const auto read = ReadRgb(folder / "a.png");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->pixels, written.pixels);
+  // OpenCV itself holds blue first: the file must agree with other programs, not only with us.
+  const cv::Mat bgr = cv::imread((folder / "a.png").string());
+  EXPECT_EQ(bgr.at<cv::Vec3b>(0, 0), cv::Vec3b(50, 100, 200));
+}
+
+TEST(Files, MissingPictureIsNotFoundAndNamed) {
+  const test::TempDir folder;
+  const auto read = ReadGray(folder / "absent.png");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(read.error().message, HasSubstr("absent.png"));
+}
+
+TEST(Files, FolderInPlaceOfAPictureIsRefused) {
+  const test::TempDir folder;
+  const auto read = ReadGray(folder.path());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(Files, TextInPlaceOfAPictureIsCorruptAndNamed) {
+  const test::TempDir folder;
+  std::ofstream(folder / "notes.png") << "this is no picture";
+  const auto read = ReadRgb(folder / "notes.png");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(read.error().message, HasSubstr("notes.png"));
+}
+
+TEST(Files, EmptyFileIsCorrupt) {
+  const test::TempDir folder;
+  std::ofstream(folder / "empty.jpg") << "";
+  const auto read = ReadGray(folder / "empty.jpg");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kCorrupt);
+}
+
+class TruncatedPicture : public ::testing::TestWithParam<std::tuple<std::string, double>> {};
+
+TEST_P(TruncatedPicture, IsCorruptAndNamed) {
+  const test::TempDir folder;
+  const auto& [extension, share] = GetParam();
+  const auto file = folder / ("cut" + extension);
+  WriteTruncated(extension, share, file);
+  const auto read = ReadGray(file);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(read.error().message, HasSubstr("cut" + extension));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, TruncatedPicture,
+                         ::testing::Combine(::testing::Values(".png", ".jpg", ".bmp"),
+                                            ::testing::Values(0.3, 0.6, 0.9)));
+
+TEST(Files, WritingIntoAMissingFolderFailsWithItsName) {
+  const test::TempDir folder;
+  const auto written = WritePng(Gradient(4, 4), folder / "no_such_folder" / "a.png");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(written.error().message, HasSubstr("no_such_folder"));
+}
+
+TEST(Files, EmptyPictureIsNotWritten) {
+  const test::TempDir folder;
+  EXPECT_FALSE(WritePng(RgbImage{}, folder / "a.png"));
+  EXPECT_FALSE(WritePng(GrayImage{}, folder / "a.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+}  // namespace
+}  // namespace trailcast::image
