@@ -25,7 +25,7 @@ std::string ProgressBar(double fraction, int width) {
   std::string bar(done, '=');
   bar.resize(static_cast<std::size_t>(width), ' ');
   if (done > 0 && done < bar.size()) bar[done - 1] = '>';
-  return "[" + bar + "]";
+  return fmt::format("[{}]", bar);
 }
 
 LiveLines::LiveLines(std::FILE* out, std::chrono::milliseconds plain_interval)
@@ -36,13 +36,13 @@ void LiveLines::Show(const std::vector<std::string>& lines, bool now) {
   if (terminal_) {
     if (drawn_ > 0) text += fmt::format("\033[{}A", drawn_);
     const std::size_t width = TerminalWidth(fileno(out_));
-    for (const std::string& line : lines) text += "\r" + line.substr(0, width - 1) + "\033[K\n";
+    for (const std::string& line : lines) text += fmt::format("\r{}\033[K\n", line.substr(0, width - 1));
     drawn_ = lines.size();
   } else {
     const auto time = std::chrono::steady_clock::now();
     if (!now && time < next_plain_) return;
     next_plain_ = time + plain_interval_;
-    for (const std::string& line : lines) text += line + "\n";
+    for (const std::string& line : lines) text += fmt::format("{}\n", line);
   }
   std::fputs(text.c_str(), out_);
   std::fflush(out_);
