@@ -24,6 +24,8 @@ struct TrackKnot {
   float s = 0.0F;  // 0 at the segment's first image, 1 at its last
   float u_px = 0.0F;
   float v_px = 0.0F;
+
+  bool operator==(const TrackKnot&) const = default;
 };
 
 struct Feature {
@@ -34,27 +36,32 @@ struct Feature {
 
   [[nodiscard]] const TrackKnot& first() const { return track.front(); }
   [[nodiscard]] const TrackKnot& milestone() const { return track.back(); }
+  bool operator==(const Feature&) const = default;
 };
 
-// Taught heading relative to the segment's start against metres driven since then, counter-clockwise
-// positive: c[0] s + c[1] s^2 + c[2] s^3 (Chen & Birchfield 2009, II.B: a third-order polynomial;
-// its constant term is zero because heading is counted from the segment's start).
+// Taught heading relative to the segment's start against metres driven since then,
+// counter-clockwise positive: c[0] s + c[1] s^2 + c[2] s^3 (Chen & Birchfield 2009, II.B: a
+// third-order polynomial; its constant term is zero because heading is counted from the segment's
+// start).
 struct HeadingPolynomial {
   std::array<double, 3> c{};
+
+  bool operator==(const HeadingPolynomial&) const = default;
 };
 
 // What was taught between two milestones. Odometry is local to the segment (metres, radians).
 struct Segment {
   SegmentIndex index;
-  bool has_odometry = false;        // false: a recording without it; the four below are then 0
-  double length_m = 0.0;            // distance driven
-  double heading_change_rad = 0.0;  // counter-clockwise positive
+  bool has_odometry = false;           // false: a recording without it; the four below are then 0
+  double length_m = 0.0;               // distance driven
+  double heading_change_rad = 0.0;     // counter-clockwise positive
   double heading_variation_rad = 0.0;  // largest |heading| inside the segment: sigma_h
   HeadingPolynomial heading;
   double duration_s = 0.0;  // how long teaching took; speed is length over duration
   std::vector<Feature> features;
 
   [[nodiscard]] double speed_mps() const { return duration_s > 0.0 ? length_m / duration_s : 0.0; }
+  bool operator==(const Segment&) const = default;
 };
 
 // A route's two-part identity. A revision is immutable once complete.
@@ -77,9 +84,9 @@ enum class RouteState : std::uint8_t {
 // What is known of a route without its segments: announced by the scout, kept in the catalog.
 struct RouteInfo {
   RouteKey key;
-  std::string name;   // what people call it; IsValidName
-  AgentId scout;      // who taught it
-  std::string camera;  // the scout's camera, for people ("webcam 320x240"); at most 128 bytes
+  std::string name;        // what people call it; IsValidName
+  AgentId scout;           // who taught it
+  std::string camera;      // the scout's camera, for people ("webcam 320x240"); at most 128 bytes
   int image_width_px = 0;  // of the scout's frames
   int image_height_px = 0;
   std::int64_t taught_unix_ms = 0;  // when teaching began, by the scout's clock

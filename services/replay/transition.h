@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+namespace trailcast::replay {
+
+// Equation (2) of Chen & Birchfield 2009: are we at the segment's end?
+
+// Squared errors, and the scales that make them comparable. A term whose sigma is zero is left out
+// (no odometry; no feature).
+struct TransitionErrors {
+  double feature_px2 = 0.0;         // e_f: mean squared distance of features to the milestone's
+  double feature_sigma_px = 0.0;    // sigma_f: the same at the segment's start, its root
+  double distance_m2 = 0.0;         // e_l: squared difference of distance driven and length
+  double distance_sigma_m = 0.0;    // sigma_l: the segment's length
+  double heading_rad2 = 0.0;        // e_h: squared difference to the segment's final heading
+  double heading_sigma_rad = 0.0;   // sigma_h: the largest heading variation in the segment
+};
+
+// delta, in [0, 1].
+[[nodiscard]] double EndProbability(const TransitionErrors& errors);
+
+// The median of the last `length` values: the low-pass nonlinear filter.
+class MedianFilter {
+ public:
+  explicit MedianFilter(std::size_t length) : length_(length) {}
+  [[nodiscard]] double Add(double value);
+
+ private:
+  std::size_t length_;
+  std::deque<double> window_;
+};
+
+struct TransitionOptions {
+  double tau = 0.05;           // the paper's figure
+  std::size_t median_length = 5;  // frames; at 30 Hz shorter than any segment
+};
+
+// Watches delta (against this segment's milestone) and delta minus (against the previous one) and
+// says when both have fallen by more than tau from their highest.
+class TransitionDetector {
+ public:
+  explicit TransitionDetector(const TransitionOptions& options = {});
+
+  // True: the segment's end has been passed. `distance_m`: driven in the segment so far.
+  [[nodiscard]] bool Add(double delta, double delta_minus, double distance_m);
+
+  // Smoothed, as of the last Add.
+  [[nodiscard]] double delta() const { return current_.value; }
+  [[nodiscard]] double delta_minus() const { return previous_.value; }
+  // Where delta was highest: the best guess of where the milestone was.
+  [[nodiscard]] double distance_at_peak_m() const { return distance_at_peak_m_; }
+
+ private:
+  struct Signal {
+    MedianFilter filter;
+    double value = 0.0;
+    double peak = 0.0;
+  };
+
+  TransitionOptions options_;
+  Signal current_;
+  Signal previous_;
+  double distance_at_peak_m_ = 0.0;
+};
+
+}  // namespace trailcast::replay

@@ -1,0 +1,251 @@
+#include "services/route/codec.h"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "idl/route.pb.h"
+
+namespace trailcast::route {
+namespace {
+
+constexpr double kStepsPerPixel = 16.0;
+constexpr double kStepsPerMetre = 1e4;
+constexpr double kStepsPerRadian = 1e5;
+constexpr double kStepsPerSecond = 1e3;
+constexpr int kLastKnotTime = 255;
+constexpr std::size_t kPackedPatchBytes = (std::tuple_size_v<Patch> + 1) / 2;
+constexpr std::size_t kDescriptorBytes = std::tuple_size_v<Descriptor>;
+
+// Nearest multiple, held inside int32: a robot gone mad must not make undefined behaviour of it.
+std::int32_t Quantise(double value, double steps_per_unit) {
+  assert(std::isfinite(value));
+  if (!std::isfinite(value)) return 0;
+  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(
+      std::lround(std::clamp(value * steps_per_unit, -kLimit, kLimit)));
+}
+
+std::int32_t QuantisePixels(float px) {
+  return Quantise(std::clamp(px, -1.0F * kMaxCoordinatePx, 1.0F * kMaxCoordinatePx),
+                  kStepsPerPixel);
+}
+
+void AppendPatch(const Patch& patch, std::string& packed) {
+  for (std::size_t i = 0; i < patch.size(); i += 2) {
+    const unsigned low = std::min<unsigned>(patch[i], 15U);
+    const unsigned high = i + 1 < patch.size() ? std::min<unsigned>(patch[i + 1], 15U) : 0U;
+    packed.push_back(static_cast<char>(low | high << 4U));
+  }
+}
+
+Patch UnpackPatch(const char* packed) {
+  Patch patch{};
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const unsigned byte = static_cast<std::uint8_t>(packed[i / 2]);
+    patch[i] = static_cast<std::uint8_t>(i % 2 == 0 ? byte & 15U : byte >> 4U);
+  }
+  return patch;
+}
+
+void AppendTrack(const std::vector<TrackKnot>& track, format::v1::Segment& out) {
+  assert(track.size() >= 2 && track.size() <= kMaxKnots);
+  int time = 0;
+  std::int32_t u = 0;
+  std::int32_t v = 0;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const bool last = i + 1 == track.size();
+    if (i > 0) {
+      const int knot_time = last ? kLastKnotTime : Quantise(track[i].s, kLastKnotTime);
+      if (knot_time <= time || (!last && knot_time >= kLastKnotTime)) continue;
+      time = knot_time;
+      out.mutable_knot_times()->push_back(static_cast<char>(time));
+    }
+    const std::int32_t knot_u = QuantisePixels(track[i].u_px);
+    const std::int32_t knot_v = QuantisePixels(track[i].v_px);
+    out.add_track(knot_u - u);
+    out.add_track(knot_v - v);
+    u = knot_u;
+    v = knot_v;
+  }
+}
+
+void SetOdometry(const Segment& segment, format::v1::Odometry& out) {
+  out.set_length_tenth_mm(Quantise(segment.length_m, kStepsPerMetre));
+  out.set_heading_change_centi_mrad(Quantise(segment.heading_change_rad, kStepsPerRadian));
+  out.set_heading_variation_centi_mrad(Quantise(segment.heading_variation_rad, kStepsPerRadian));
+  for (const double c : segment.heading.c) out.add_heading_polynomial(static_cast<float>(c));
+}
+
+Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
+  if (in.heading_polynomial_size() != static_cast<int>(segment.heading.c.size())) {
+    return Fail(ErrorCode::kCorrupt, "segment's heading polynomial has {} coefficients, not {}",
+                in.heading_polynomial_size(), segment.heading.c.size());
+  }
+  segment.has_odometry = true;
+  segment.length_m = in.length_tenth_mm() / kStepsPerMetre;
+  segment.heading_change_rad = in.heading_change_centi_mrad() / kStepsPerRadian;
+  segment.heading_variation_rad = in.heading_variation_centi_mrad() / kStepsPerRadian;
+  std::copy(in.heading_polynomial().begin(), in.heading_polynomial().end(),
+            segment.heading.c.begin());
+  if (!std::all_of(segment.heading.c.begin(), segment.heading.c.end(),
+                   [](double c) { return std::isfinite(c); })) {
+    return Fail(ErrorCode::kCorrupt, "segment's heading polynomial is not finite");
+  }
+  return {};
+}
+
+// Every column must speak of the same number of features, and of knots.
+Result<std::size_t> CountFeatures(const format::v1::Segment& in) {
+  const std::string& times = in.knot_times();
+  const auto features = static_cast<std::size_t>(
+      std::count(times.begin(), times.end(), static_cast<char>(kLastKnotTime)));
+  if (features > kMaxFeatures) {
+    return Fail(ErrorCode::kCorrupt, "segment has {} features, more than {}", features,
+                kMaxFeatures);
+  }
+  if (in.patches().size() != features * kPackedPatchBytes ||
+      in.descriptors().size() != features * kDescriptorBytes) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment has {} features by its knot times, but {} bytes of patches (expected {}) "
+                "and {} of descriptors (expected {})",
+                features, in.patches().size(), features * kPackedPatchBytes,
+                in.descriptors().size(), features * kDescriptorBytes);
+  }
+  const std::size_t coordinates = 2 * (features + times.size());
+  if (static_cast<std::size_t>(in.track_size()) != coordinates) {
+    return Fail(ErrorCode::kCorrupt, "segment has {} track coordinates, expected {}",
+                in.track_size(), coordinates);
+  }
+  if (!times.empty() && static_cast<std::uint8_t>(times.back()) != kLastKnotTime) {
+    return Fail(ErrorCode::kCorrupt, "segment's last feature has no milestone");
+  }
+  return features;
+}
+
+// Walks the columns of knots, one feature at a time.
+class TrackReader {
+ public:
+  explicit TrackReader(const format::v1::Segment& in) : in_(in) {}
+
+  Result<std::vector<TrackKnot>> Next() {
+    u_ = v_ = 0;
+    std::vector<TrackKnot> track;
+    int time = 0;
+    if (!AddKnot(time, track)) return OutOfRange();
+    while (time != kLastKnotTime) {
+      const int next = static_cast<std::uint8_t>(in_.knot_times()[next_time_++]);
+      if (next <= time) return Fail(ErrorCode::kCorrupt, "its knots are out of order");
+      time = next;
+      if (track.size() == kMaxKnots) {
+        return Fail(ErrorCode::kCorrupt, "it has more than {} knots", kMaxKnots);
+      }
+      if (!AddKnot(time, track)) return OutOfRange();
+    }
+    return track;
+  }
+
+ private:
+  static tl::unexpected<Error> OutOfRange() {
+    return Fail(ErrorCode::kCorrupt, "it lies more than {} px from the image centre",
+                kMaxCoordinatePx);
+  }
+
+  [[nodiscard]] bool AddKnot(int time, std::vector<TrackKnot>& track) {
+    constexpr double kLimit = kMaxCoordinatePx * kStepsPerPixel;
+    u_ += in_.track(next_coordinate_++);
+    v_ += in_.track(next_coordinate_++);
+    if (std::abs(static_cast<double>(u_)) > kLimit || std::abs(static_cast<double>(v_)) > kLimit) {
+      return false;
+    }
+    track.push_back({static_cast<float>(time) / static_cast<float>(kLastKnotTime),
+                     static_cast<float>(static_cast<double>(u_) / kStepsPerPixel),
+                     static_cast<float>(static_cast<double>(v_) / kStepsPerPixel)});
+    return true;
+  }
+
+  const format::v1::Segment& in_;
+  std::size_t next_time_ = 0;
+  int next_coordinate_ = 0;
+  std::int64_t u_ = 0;  // wide: a sum of hostile differences must not overflow
+  std::int64_t v_ = 0;
+};
+
+Result<void> ReadFeatures(const format::v1::Segment& in, Segment& segment) {
+  const Result<std::size_t> count = CountFeatures(in);
+  if (!count) return tl::unexpected(count.error());
+  segment.features.resize(*count);
+  TrackReader tracks(in);
+  for (std::size_t i = 0; i < *count; ++i) {
+    Feature& feature = segment.features[i];
+    const char* packed = in.patches().data() + i * kPackedPatchBytes;
+    if ((static_cast<std::uint8_t>(packed[kPackedPatchBytes - 1]) >> 4U) != 0) {
+      return Fail(ErrorCode::kCorrupt, "segment's feature {}: its patch has a 122nd sample", i);
+    }
+    feature.patch = UnpackPatch(packed);
+    std::copy_n(in.descriptors().begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes),
+                kDescriptorBytes, feature.descriptor.begin());
+    Result<std::vector<TrackKnot>> track = tracks.Next();
+    if (!track) return Wrap(track.error(), fmt::format("segment's feature {}", i));
+    feature.track = std::move(*track);
+  }
+  return {};
+}
+
+}  // namespace
+
+Bytes Encode(const Segment& segment) {
+  assert(segment.features.size() <= kMaxFeatures);
+  format::v1::Segment out;
+  out.set_format_version(kFormatVersion);
+  out.set_index(segment.index.value());
+  out.set_duration_ms(
+      static_cast<std::uint32_t>(std::max(0, Quantise(segment.duration_s, kStepsPerSecond))));
+  if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
+  for (const Feature& feature : segment.features) {
+    AppendPatch(feature.patch, *out.mutable_patches());
+    out.mutable_descriptors()->append(feature.descriptor.begin(), feature.descriptor.end());
+    AppendTrack(feature.track, out);
+  }
+  Bytes bytes(out.ByteSizeLong());
+  google::protobuf::io::ArrayOutputStream array(bytes.data(), static_cast<int>(bytes.size()));
+  google::protobuf::io::CodedOutputStream stream(&array);
+  stream.SetSerializationDeterministic(true);
+  out.SerializeWithCachedSizes(&stream);
+  return bytes;
+}
+
+Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > kMaxSegmentBytes) {
+    return Fail(ErrorCode::kCorrupt, "segment of {} bytes is larger than {}", bytes.size(),
+                kMaxSegmentBytes);
+  }
+  format::v1::Segment in;
+  if (!in.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    return Fail(ErrorCode::kCorrupt, "{} bytes are no segment, or it is cut short", bytes.size());
+  }
+  if (in.format_version() != kFormatVersion) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment is in route format {}, this program reads {}: is it newer than this one?",
+                in.format_version(), kFormatVersion);
+  }
+  Segment segment;
+  segment.index = SegmentIndex(in.index());
+  segment.duration_s = in.duration_ms() / kStepsPerSecond;
+  if (in.has_odometry()) {
+    if (Result<void> odometry = ReadOdometry(in.odometry(), segment); !odometry) {
+      return tl::unexpected(odometry.error());
+    }
+  }
+  if (Result<void> features = ReadFeatures(in, segment); !features) {
+    return tl::unexpected(features.error());
+  }
+  return segment;
+}
+
+}  // namespace trailcast::route

@@ -1,0 +1,58 @@
+#include "services/route/digest.h"
+
+#include <openssl/evp.h>
+
+#include <new>
+
+#include "services/route/codec.h"
+
+namespace trailcast::route {
+
+Digest Sha256(std::span<const std::uint8_t> bytes) {
+  Digest digest{};
+  unsigned int length = 0;
+  // Refuses only when it cannot allocate.
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1 ||
+      length != digest.size()) {
+    throw std::bad_alloc();
+  }
+  return digest;
+}
+
+Digest ManifestDigest(std::span<const Digest> digests) {
+  static_assert(sizeof(Digest) == std::tuple_size_v<Digest>, "digests lie one after the other");
+  return Sha256({reinterpret_cast<const std::uint8_t*>(digests.data()), digests.size_bytes()});
+}
+
+std::string ToHex(const Digest& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
+
+SegmentPiece MakePiece(const RouteKey& key, const Segment& segment) {
+  SegmentPiece piece{key, segment.index, {}, Encode(segment)};
+  piece.digest = Sha256(piece.bytes);
+  return piece;
+}
+
+Result<void> CheckDigest(const SegmentPiece& piece) {
+  const Digest actual = Sha256(piece.bytes);
+  if (actual == piece.digest) return {};
+  return Fail(ErrorCode::kCorrupt,
+              "segment {} of route {} revision {}: its {} bytes have digest {:.12}.., expected "
+              "{:.12}..; fetch it again",
+              piece.index.value(), piece.key.route.value(), piece.key.revision.value(),
+              piece.bytes.size(), ToHex(actual), ToHex(piece.digest));
+}
+
+Result<Segment> Open(const SegmentPiece& piece) {
+  if (Result<void> whole = CheckDigest(piece); !whole) return tl::unexpected(whole.error());
+  const std::string which = fmt::format("segment {} of route {} revision {}", piece.index.value(),
+                                        piece.key.route.value(), piece.key.revision.value());
+  Result<Segment> segment = Decode(piece.bytes);
+  if (!segment) return Wrap(segment.error(), which);
+  if (segment->index != piece.index) {
+    return Fail(ErrorCode::kCorrupt, "{}: its bytes are of segment {}", which,
+                segment->index.value());
+  }
+  return segment;
+}
+
+}  // namespace trailcast::route

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "services/route/route.h"
+
+namespace trailcast::route {
+
+// What a scout knows of the route it teaches, kept in step with the segments taught so far.
+class RouteBuilder {
+ public:
+  // `info` says who teaches what; its state, counts, sums and digest are set here, to a route
+  // without segments that is being taught.
+  explicit RouteBuilder(RouteInfo info);
+
+  // Encodes and hashes the next segment and counts it in. Its index must be the number of segments
+  // so far, and the route not complete.
+  [[nodiscard]] SegmentPiece Add(const Segment& segment);
+  // No more segments will come.
+  void Complete() { info_.state = RouteState::kComplete; }
+
+  [[nodiscard]] const RouteInfo& info() const { return info_; }
+
+ private:
+  RouteInfo info_;
+  std::vector<Digest> digests_;
+};
+
+}  // namespace trailcast::route

@@ -1,0 +1,153 @@
+#include "services/vision/feature_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "services/vision/appearance.h"
+#include "services/vision/frame.h"
+
+namespace trailcast::vision {
+namespace {
+
+using Pyramid = std::vector<cv::Mat>;
+
+const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
+constexpr double kFlowMinEigenvalue = 1e-4;
+constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
+
+struct Flow {
+  std::vector<cv::Point2f> points;
+  std::vector<std::uint8_t> found;
+};
+
+}  // namespace
+
+struct FeatureTracker::State {
+  FeatureTrackerOptions options;
+  Pyramid last;  // of the last frame; empty before the first
+  Pyramid next;  // kept for its memory
+  std::vector<int> ids;
+  std::vector<cv::Point2f> points;  // OpenCV pixel coordinates in the last frame
+
+  [[nodiscard]] cv::Size window() const { return {options.window_px, options.window_px}; }
+  [[nodiscard]] Flow FlowTo(const Pyramid& from, const Pyramid& to,
+                            const std::vector<cv::Point2f>& start,
+                            const std::vector<cv::Point2f>& guess) const;
+  void KeepThoseThatReturn(const Flow& forward, const Flow& backward);
+  [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
+};
+
+Flow FeatureTracker::State::FlowTo(const Pyramid& from, const Pyramid& to,
+                                   const std::vector<cv::Point2f>& start,
+                                   const std::vector<cv::Point2f>& guess) const {
+  Flow flow{guess, {}};
+  cv::calcOpticalFlowPyrLK(from, to, start, flow.points, flow.found, cv::noArray(), window(),
+                           options.pyramid_levels, kFlowEnd, cv::OPTFLOW_USE_INITIAL_FLOW,
+                           kFlowMinEigenvalue);
+  return flow;
+}
+
+void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow& backward) {
+  const cv::Size size = last.front().size();
+  const cv::Rect2f inside(kEdge_px, kEdge_px, static_cast<float>(size.width - 2 * kEdge_px),
+                          static_cast<float>(size.height - 2 * kEdge_px));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool returned = forward.found[i] != 0 && backward.found[i] != 0 &&
+                          cv::norm(backward.points[i] - points[i]) <= options.forward_backward_px;
+    if (!returned || !inside.contains(forward.points[i])) continue;
+    ids[kept] = ids[i];
+    points[kept] = forward.points[i];
+    ++kept;
+  }
+  ids.resize(kept);
+  points.resize(kept);
+}
+
+std::vector<route::TrackedFeature> FeatureTracker::State::Current() const {
+  std::vector<route::TrackedFeature> features;
+  if (last.empty()) return features;
+  const cv::Point2f centre = Centre(last.front().size());
+  features.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    features.push_back({ids[i], points[i].x - centre.x, points[i].y - centre.y});
+  }
+  return features;
+}
+
+FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
+    : state_(std::make_unique<State>()) {
+  state_->options = options;
+}
+
+FeatureTracker::~FeatureTracker() = default;
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+
+std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame) {
+  State& s = *state_;
+  cv::buildOpticalFlowPyramid(View(frame), s.next, s.window(), s.options.pyramid_levels,
+                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101,
+                              cv::BORDER_CONSTANT, /*tryReuseInputImage=*/false);
+  if (!s.points.empty()) {
+    const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
+    const Flow backward = s.FlowTo(s.next, s.last, forward.points, s.points);
+    s.KeepThoseThatReturn(forward, backward);
+  }
+  std::swap(s.last, s.next);
+  return s.Current();
+}
+
+std::vector<route::TrackedFeature> FeatureTracker::Detect() {
+  State& s = *state_;
+  const cv::Mat& frame = s.last.front();
+  const double spacing_px =
+      s.options.min_spacing_share *
+      std::sqrt(static_cast<double>(frame.total()) / std::max(1, s.options.max_features));
+  cv::Mat where = FieldOfView(frame);
+  const int edge_px = route::kPatchSize / 2 + 2;
+  cv::rectangle(where, {0, 0}, {frame.cols - 1, frame.rows - 1}, cv::Scalar(0), 2 * edge_px);
+  cv::goodFeaturesToTrack(frame, s.points, s.options.max_features, s.options.detection_quality,
+                          spacing_px, where, s.options.window_px);
+  s.ids.resize(s.points.size());
+  for (std::size_t i = 0; i < s.ids.size(); ++i) s.ids[i] = static_cast<int>(i);
+  return s.Current();
+}
+
+void FeatureTracker::Follow(std::vector<route::TrackedFeature> features) {
+  State& s = *state_;
+  const cv::Point2f centre = Centre(s.last.front().size());
+  s.ids.clear();
+  s.points.clear();
+  for (const route::TrackedFeature& feature : features) {
+    s.ids.push_back(feature.id);
+    s.points.emplace_back(static_cast<float>(feature.u_px) + centre.x,
+                          static_cast<float>(feature.v_px) + centre.y);
+  }
+}
+
+std::vector<route::DescribedFeature> FeatureTracker::Describe() const {
+  const cv::Mat& frame = state_->last.front();
+  const std::vector<route::TrackedFeature> current = state_->Current();
+  std::vector<cv::KeyPoint> key_points;
+  for (std::size_t i = 0; i < current.size(); ++i) {
+    key_points.push_back(UprightKeyPoint(state_->points[i]));
+    key_points.back().class_id = static_cast<int>(i);
+  }
+  const cv::Mat descriptors = DescribeUpright(frame, key_points);
+  std::vector<route::DescribedFeature> described;
+  std::vector<route::Descriptor> descriptor_of(current.size());
+  for (std::size_t row = 0; row < key_points.size(); ++row) {
+    const std::uint8_t* bytes = descriptors.ptr<std::uint8_t>(static_cast<int>(row));
+    std::copy_n(bytes, descriptor_of.front().size(),
+                descriptor_of[static_cast<std::size_t>(key_points[row].class_id)].begin());
+  }
+  for (std::size_t i = 0; i < current.size(); ++i) {
+    const auto patch = CutPatch(frame, state_->points[i]);
+    if (patch) described.push_back({current[i], *patch, descriptor_of[i]});
+  }
+  return described;
+}
+
+}  // namespace trailcast::vision

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "services/image/image.h"
+#include "services/route/tracked_feature.h"
+
+namespace trailcast::vision {
+
+struct FeatureTrackerOptions {
+  int max_features = 60;  // the paper's figure
+  // Smallest eigenvalue accepted, as a share of the image's best (Shi & Tomasi 1994).
+  double detection_quality = 0.01;
+  // Features are spread over the image: no two closer than this share of the distance that
+  // max_features on a regular grid would have.
+  double min_spacing_share = 0.35;
+  int window_px = 7;      // the paper's figure
+  int pyramid_levels = 3;  // beyond the full image: motions up to about 40 px between frames
+  // A feature tracked forward and back again must return to where it came from this closely.
+  double forward_backward_px = 0.7;
+};
+
+// Shi-Tomasi features followed from frame to frame by pyramidal KLT. A lost feature vanishes from
+// the result and never comes back. All frames must have the size of the first. Deterministic.
+class FeatureTracker {
+ public:
+  explicit FeatureTracker(const FeatureTrackerOptions& options = {});
+  ~FeatureTracker();
+  FeatureTracker(FeatureTracker&&) noexcept;
+
+  // Takes the next frame and finds the current features in it. The first frame gives none.
+  std::vector<route::TrackedFeature> Track(const image::GrayImage& frame);
+
+  // Forgets the current features and detects new ones in the last frame, ids from 0.
+  std::vector<route::TrackedFeature> Detect();
+
+  // Goes on with these features at these places of the last frame (hand-over).
+  void Follow(std::vector<route::TrackedFeature> features);
+
+  // What the current features look like in the last frame; those too near its edge are left out.
+  [[nodiscard]] std::vector<route::DescribedFeature> Describe() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::vision

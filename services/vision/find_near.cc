@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "services/vision/feature_finder.h"
+#include "services/vision/frame.h"
+
+namespace trailcast::vision {
+namespace {
+
+// Below this much of a change the frame is searched as it is: the patches bear it.
+constexpr double kScaleWorthResizing = 0.06;
+
+struct Peak {
+  cv::Point2f at;  // pixel coordinates of the searched picture
+  double correlation = 0.0;
+};
+
+// Vertex of the parabola through three equidistant samples, as an offset from the middle one.
+float ParabolaVertex(float left, float middle, float right) {
+  const float curvature = left - 2.0F * middle + right;
+  return std::abs(curvature) < 1e-6F
+             ? 0.0F
+             : std::clamp(0.5F * (left - right) / curvature, -0.5F, 0.5F);
+}
+
+// Best place of the patch in the window of `picture` around `expected`.
+std::optional<Peak> BestPlace(const cv::Mat& picture, const route::Patch& patch,
+                              cv::Point2f expected, cv::Point2f radius) {
+  const int half = route::kPatchSize / 2;
+  const cv::Rect window =
+      cv::Rect(cv::Point(cvRound(expected.x - radius.x) - half,
+                         cvRound(expected.y - radius.y) - half),
+               cv::Point(cvRound(expected.x + radius.x) + half + 1,
+                         cvRound(expected.y + radius.y) + half + 1)) &
+      cv::Rect({0, 0}, picture.size());
+  if (window.width < route::kPatchSize || window.height < route::kPatchSize) return std::nullopt;
+  const cv::Mat pattern(route::kPatchSize, route::kPatchSize, CV_8UC1,
+                        const_cast<std::uint8_t*>(patch.data()));
+  cv::Mat score;
+  cv::matchTemplate(picture(window), pattern, score, cv::TM_CCOEFF_NORMED);
+  Peak peak;
+  cv::Point best;
+  cv::minMaxLoc(score, nullptr, &peak.correlation, nullptr, &best);
+  peak.at = cv::Point2f(static_cast<float>(window.x + best.x + half),
+                        static_cast<float>(window.y + best.y + half));
+  if (best.x > 0 && best.x + 1 < score.cols) {
+    peak.at.x += ParabolaVertex(score.at<float>(best.y, best.x - 1), score.at<float>(best),
+                                score.at<float>(best.y, best.x + 1));
+  }
+  if (best.y > 0 && best.y + 1 < score.rows) {
+    peak.at.y += ParabolaVertex(score.at<float>(best.y - 1, best.x), score.at<float>(best),
+                                score.at<float>(best.y + 1, best.x));
+  }
+  return peak;
+}
+
+// The frame at the scout's magnification.
+cv::Mat AtScoutScale(const cv::Mat& frame, double scale) {
+  if (std::abs(scale - 1.0) < kScaleWorthResizing) return frame;
+  cv::Mat resized;
+  cv::resize(frame, resized, {}, 1.0 / scale, 1.0 / scale,
+             scale > 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return resized;
+}
+
+}  // namespace
+
+route::TrackKnot TaughtPlace(const route::Feature& feature, double s) {
+  const auto after = std::find_if(feature.track.begin(), feature.track.end(),
+                                  [s](const route::TrackKnot& knot) { return knot.s >= s; });
+  if (after == feature.track.begin()) return feature.track.front();
+  if (after == feature.track.end()) return feature.track.back();
+  const auto before = std::prev(after);
+  const float w = (static_cast<float>(s) - before->s) / std::max(1e-6F, after->s - before->s);
+  return {static_cast<float>(s), before->u_px + w * (after->u_px - before->u_px),
+          before->v_px + w * (after->v_px - before->v_px)};
+}
+
+FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
+                                   std::span<const route::Feature> sought, double s,
+                                   const ViewFit& expected) const {
+  const cv::Mat picture = AtScoutScale(View(frame), expected.scale);
+  const double scale = static_cast<double>(frame.width) / picture.cols;  // exact, after rounding
+  const cv::Point2f centre = Centre(picture.size());
+  const cv::Point2f radius(static_cast<float>(options_.search_u_px),
+                           static_cast<float>(options_.search_v_px));
+  std::vector<ViewPair> pairs;  // all in pixels of the scout's magnification
+  std::vector<int> index;
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const route::TrackKnot taught = TaughtPlace(sought[i], s);
+    const cv::Point2f place(
+        centre.x + static_cast<float>(expected.MapU(taught.u_px) / scale),
+        centre.y + static_cast<float>(expected.MapV(taught.v_px) / scale));
+    const auto peak = BestPlace(picture, sought[i].patch, place, radius);
+    if (!peak || peak->correlation < options_.min_correlation) continue;
+    pairs.push_back({taught.u_px, taught.v_px, peak->at.x - centre.x, peak->at.y - centre.y});
+    index.push_back(static_cast<int>(i));
+  }
+  ViewFitOptions agree;
+  agree.min_scale = 0.7;
+  agree.max_scale = 1.4;
+  agree.tolerance_u_px = options_.agree_u_px;
+  agree.tolerance_v_px = options_.agree_v_px;
+  const ViewFitResult agreed = FitView(pairs, agree);
+  FindResult result;
+  result.fit = {agreed.fit.scale * scale, agreed.fit.du_px * scale, agreed.fit.dv_px * scale};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!agreed.inlier[i]) continue;
+    result.features.push_back({index[i], pairs[i].u_px * scale, pairs[i].v_px * scale});
+  }
+  return result;
+}
+
+}  // namespace trailcast::vision

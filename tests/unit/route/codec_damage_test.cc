@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "idl/route.pb.h"
+#include "services/route/codec.h"
+#include "tests/unit/route/sample_segment.h"
+
+namespace trailcast::route {
+namespace {
+
+using testing::HasSubstr;
+
+// A small language for damage: a good message, changed by one line, must be refused and say why.
+std::string ErrorAfter(const std::function<void(format::v1::Segment&)>& damage) {
+  const Bytes good = Encode(SampleSegment(5, 3, 3));
+  format::v1::Segment message;
+  EXPECT_TRUE(message.ParseFromArray(good.data(), static_cast<int>(good.size())));
+  damage(message);
+  Bytes bytes(message.ByteSizeLong());
+  EXPECT_TRUE(message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size())));
+  const Result<Segment> decoded = Decode(bytes);
+  if (decoded) return "accepted";
+  EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);
+  return decoded.error().message;
+}
+
+TEST(CodecDamage, MessageLeftAsItIsIsAccepted) {
+  EXPECT_EQ(ErrorAfter([](format::v1::Segment&) {}), "accepted");
+}
+
+TEST(CodecDamage, OtherFormatVersionIsRefusedAndNamed) {
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(2); }), HasSubstr("route format 2"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_format_version(); }), HasSubstr("route format 0"));
+}
+
+TEST(CodecDamage, ColumnsOfDifferentLengthsAreRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_patches()->pop_back(); }),
+              HasSubstr("182 bytes of patches (expected 183)"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_descriptors()->push_back('x'); }),
+              HasSubstr("97 of descriptors (expected 96)"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_track()->RemoveLast(); }),
+              HasSubstr("17 track coordinates, expected 18"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_knot_times(); }), HasSubstr("0 features"));
+}
+
+TEST(CodecDamage, LastFeatureWithoutMilestoneIsRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) {
+                m.mutable_knot_times()->push_back('\x10');
+                m.add_track(0);
+                m.add_track(0);
+              }),
+              HasSubstr("no milestone"));
+}
+
+TEST(CodecDamage, KnotsOutOfOrderAreRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) {
+                *m.mutable_knot_times() = "\x20\x10\xff\xff\xff";
+                m.mutable_track()->Resize(16, 0);
+              }),
+              HasSubstr("feature 0: its knots are out of order"));
+  EXPECT_THAT(ErrorAfter([](auto& m) {
+                m.set_knot_times(std::string("\xff\x40\xff\x00\xff", 5));
+                m.mutable_track()->Resize(16, 0);
+              }),
+              HasSubstr("feature 2: its knots are out of order"));
+}
+
+TEST(CodecDamage, MoreKnotsThanAllowedAreRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) {
+                m.clear_knot_times();
+                for (int t = 1; t <= 64; ++t)
+                  m.mutable_knot_times()->push_back(static_cast<char>(t));
+                m.mutable_knot_times()->append("\xff\xff\xff");
+                m.mutable_track()->Resize(2 * (3 + 67), 0);
+              }),
+              HasSubstr("more than 64 knots"));
+}
+
+TEST(CodecDamage, MoreFeaturesThanAllowedAreRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_knot_times(std::string(1025, '\xff')); }),
+              HasSubstr("1025 features, more than 1024"));
+}
+
+TEST(CodecDamage, CoordinatesOfNoCameraAreRefusedWithoutOverflow) {
+  constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_track(0, kLargest); }),
+              HasSubstr("feature 0: it lies more than 65536 px"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_track(9, -kLargest - 1); }),
+              HasSubstr("feature 1: it lies more than 65536 px"));
+}
+
+TEST(CodecDamage, HeadingPolynomialThatIsNoneIsRefused) {
+  EXPECT_THAT(
+      ErrorAfter([](auto& m) { m.mutable_odometry()->set_heading_polynomial(1, std::nanf("")); }),
+      HasSubstr("not finite"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_odometry()->add_heading_polynomial(0.0F); }),
+              HasSubstr("4 coefficients, not 3"));
+}
+
+TEST(CodecDamage, PatchWithBitsBeyondItsLastSampleIsRefused) {
+  EXPECT_THAT(ErrorAfter([](auto& m) { (*m.mutable_patches())[60] = '\x7f'; }),
+              HasSubstr("feature 0: its patch has a 122nd sample"));
+}
+
+TEST(CodecDamage, OversizeBytesAreRefusedUnread) {
+  const Result<Segment> decoded = Decode(Bytes(kMaxSegmentBytes + 1, 0));
+  ASSERT_FALSE(decoded);
+  EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(decoded.error().message, HasSubstr("1048577 bytes is larger than 1048576"));
+}
+
+TEST(CodecDamage, NoBytesAreNoSegment) {
+  const Result<Segment> decoded = Decode({});
+  ASSERT_FALSE(decoded);
+  EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);
+}
+
+// What decodes in spite of the damage must still keep every promise a reader relies on.
+void ExpectSane(const Result<Segment>& decoded) {
+  if (!decoded) {
+    EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);
+    EXPECT_FALSE(decoded.error().message.empty());
+    return;
+  }
+  ASSERT_LE(decoded->features.size(), kMaxFeatures);
+  for (const Feature& feature : decoded->features) {
+    ASSERT_GE(feature.track.size(), 2U);
+    ASSERT_LE(feature.track.size(), kMaxKnots);
+    ASSERT_EQ(feature.first().s, 0.0F);
+    ASSERT_EQ(feature.milestone().s, 1.0F);
+    for (std::size_t k = 1; k < feature.track.size(); ++k) {
+      ASSERT_LT(feature.track[k - 1].s, feature.track[k].s);
+      ASSERT_LE(std::abs(feature.track[k].u_px), kMaxCoordinatePx);
+    }
+    for (const std::uint8_t sample : feature.patch) ASSERT_LE(sample, 15);
+  }
+}
+
+TEST(CodecDamage, CutShortAnywhereIsRefused) {
+  const Bytes good = Encode(SampleSegment(1, 4, 4));
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    const Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length));
+    const Result<Segment> decoded = Decode(cut);
+    ExpectSane(decoded);
+    // A cut before the first feature's column leaves a whole segment without features; any other
+    // cut leaves columns that disagree.
+    EXPECT_TRUE(!decoded || decoded->features.empty()) << "cut to " << length;
+  }
+}
+
+TEST(CodecDamage, EveryByteChangedEveryWayIsRefusedOrSane) {
+  const Bytes good = Encode(SampleSegment(1, 2, 3));
+  Bytes bytes = good;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (unsigned value = 0; value < 256; ++value) {
+      bytes[i] = static_cast<std::uint8_t>(value);
+      ExpectSane(Decode(bytes));
+    }
+    bytes[i] = good[i];
+  }
+}
+
+TEST(CodecDamage, RandomBytesAreRefusedOrSane) {
+  std::mt19937 random(20090401);
+  const Bytes good = Encode(SampleSegment(1, 6, 3));
+  for (int round = 0; round < 2000; ++round) {
+    Bytes bytes = good;
+    for (int change = 0; change < 8; ++change) {
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    }
+    if (round % 2 == 0) bytes.erase(bytes.begin(), bytes.begin() + random() % 100);
+    ExpectSane(Decode(bytes));
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::route

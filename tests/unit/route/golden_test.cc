@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "services/route/codec.h"
+#include "services/route/digest.h"
+#include "tests/unit/route/sample_segment.h"
+
+namespace trailcast::route {
+namespace {
+
+const std::filesystem::path kFile =
+    std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden/segment-v1.bin";
+
+Bytes ReadFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+class Golden : public testing::Test {
+ protected:
+  void SetUp() override {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread runs here.
+    if (std::getenv("TRAILCAST_WRITE_GOLDEN") == nullptr) return;
+    const Bytes bytes = Encode(SampleSegment(42, 3, 4));
+    std::ofstream(kFile, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
+    GTEST_SKIP() << "wrote " << kFile << "; see tests/golden/README.md before committing it";
+  }
+};
+
+TEST_F(Golden, KnownSegmentIsEncodedToTheFileByteForByte) {
+  EXPECT_EQ(Encode(SampleSegment(42, 3, 4)), ReadFile(kFile));
+}
+
+TEST_F(Golden, FileIsDecodedToTheKnownSegment) {
+  const Result<Segment> decoded = Decode(ReadFile(kFile));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, SampleSegment(42, 3, 4));
+}
+
+// Stores and receipts hold digests of these bytes: written out here so that regenerating the file
+// by mistake does not go unseen.
+TEST_F(Golden, DigestIsTheOneOfVersion1) {
+  EXPECT_EQ(ToHex(Sha256(ReadFile(kFile))),
+            "94b7c555f107507d5761757e09813302969a13b934a2b22bcaa156f3236d7361");
+}
+
+}  // namespace
+}  // namespace trailcast::route

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "services/route/route.h"
+
+namespace trailcast::route {
+
+// A segment of which every number lies on the route format's grid, so that it survives a round trip
+// unchanged. Plain arithmetic on purpose: the same on every machine, whatever its random library.
+[[nodiscard]] inline Segment SampleSegment(std::uint32_t index, int features, int knots = 3) {
+  Segment segment;
+  segment.index = SegmentIndex(index);
+  segment.has_odometry = true;
+  segment.length_m = 3.0625;
+  segment.heading_change_rad = -0.125;
+  segment.heading_variation_rad = 0.25;
+  segment.heading.c = {0.5, -0.25, 0.03125};
+  segment.duration_s = 6.125;
+  std::uint32_t state = 2009 + index;
+  const auto next = [&state] { return (state = state * 1664525U + 1013904223U) >> 16U; };
+  for (int i = 0; i < features; ++i) {
+    Feature feature;
+    for (std::uint8_t& sample : feature.patch) sample = static_cast<std::uint8_t>(next() % 16U);
+    for (std::uint8_t& byte : feature.descriptor) byte = static_cast<std::uint8_t>(next() % 256U);
+    // Anywhere in a 320 x 240 image, drifting outwards as features ahead of a robot do.
+    const float u = static_cast<float>(next() % 4480U) / 16.0F - 140.0F;
+    const float v = static_cast<float>(next() % 3200U) / 16.0F - 100.0F;
+    for (int k = 0; k < knots; ++k) {
+      const int time = 255 * k / (knots - 1);
+      const float growth = 1.0F + static_cast<float>(k) / 16.0F;
+      const auto on_grid = [growth](float px) {
+        return static_cast<float>(static_cast<int>(px * growth * 16.0F)) / 16.0F;
+      };
+      feature.track.push_back({static_cast<float>(time) / 255.0F, on_grid(u), on_grid(v)});
+    }
+    segment.features.push_back(feature);
+  }
+  return segment;
+}
+
+}  // namespace trailcast::route
