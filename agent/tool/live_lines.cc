@@ -36,7 +36,8 @@ void LiveLines::Show(const std::vector<std::string>& lines, bool now) {
   if (terminal_) {
     if (drawn_ > 0) text += fmt::format("\033[{}A", drawn_);
     const std::size_t width = TerminalWidth(fileno(out_));
-    for (const std::string& line : lines) text += fmt::format("\r{}\033[K\n", line.substr(0, width - 1));
+    for (const std::string& line : lines)
+      text += fmt::format("\r{}\033[K\n", line.substr(0, width - 1));
     drawn_ = lines.size();
   } else {
     const auto time = std::chrono::steady_clock::now();
