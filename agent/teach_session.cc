@@ -1,5 +1,6 @@
 #include "agent/teach_session.h"
 
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,18 +20,36 @@ struct TeachSession::State {
   vision::FeatureTracker tracker;
   teach::SegmentRecorder recorder;
   FrameCheck check;
-  bool recording = false;  // a segment is under way
+  // A segment is under way: with features, or blind, by odometry alone, until some come into view.
+  enum class Recording { kNothing, kBlind, kFeatures } recording = Recording::kNothing;
 
-  // Detects features in the last frame and begins a segment with them. False: too few.
-  bool BeginSegment(const Observation& observation);
+  [[nodiscard]] bool SegmentEnds(const Observation& observation);
+  void BeginSegment(const Observation& observation);
 };
 
-bool TeachSession::State::BeginSegment(const Observation& observation) {
+bool TeachSession::State::SegmentEnds(const Observation& observation) {
+  const std::vector<route::TrackedFeature> tracked = tracker.Track(observation.image);
+  if (recording == Recording::kNothing) return false;
+  if (recording == Recording::kFeatures) {
+    return recorder.Add(observation.stamp, tracked, observation.odometry);
+  }
+  std::ignore = recorder.Add(observation.stamp, {}, observation.odometry);
+  return tracker.Detect().size() >= kMinFeatures;
+}
+
+void TeachSession::State::BeginSegment(const Observation& observation) {
   tracker.Detect();
   std::vector<route::DescribedFeature> features = tracker.Describe();
-  recording = features.size() >= kMinFeatures;
-  if (recording) recorder.Begin(observation.stamp, std::move(features), observation.odometry);
-  return recording;
+  if (features.size() < kMinFeatures) {
+    features.clear();
+    tracker.Follow({});
+  }
+  recording = !features.empty()      ? Recording::kFeatures
+              : observation.odometry ? Recording::kBlind
+                                     : Recording::kNothing;
+  if (recording != Recording::kNothing) {
+    recorder.Begin(observation.stamp, std::move(features), observation.odometry);
+  }
 }
 
 TeachSession::TeachSession() : state_(std::make_unique<State>()) {}
@@ -40,23 +59,22 @@ TeachSession::TeachSession(TeachSession&&) noexcept = default;
 Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   State& s = *state_;
   if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
-  const std::vector<route::TrackedFeature> tracked = s.tracker.Track(observation.image);
   TeachStep step;
-  if (s.recording) {
-    const bool ends = s.recorder.Add(observation.stamp, tracked, observation.odometry);
-    step.features = static_cast<int>(tracked.size());
-    if (!ends) return step;
+  if (s.SegmentEnds(observation)) {
     step.finished = s.recorder.Finish();
+    s.BeginSegment(observation);
+  } else if (s.recording == State::Recording::kNothing) {
+    s.BeginSegment(observation);
   }
-  step.too_few_features = !s.BeginSegment(observation);
+  step.features = s.tracker.count();
+  step.too_few_features = s.recording != State::Recording::kFeatures;
   return step;
 }
 
 std::optional<route::Segment> TeachSession::Finish() {
-  State& s = *state_;
-  if (!s.recording) return std::nullopt;
-  s.recording = false;
-  return s.recorder.Finish();
+  if (state_->recording == State::Recording::kNothing) return std::nullopt;
+  state_->recording = State::Recording::kNothing;
+  return state_->recorder.Finish();
 }
 
 }  // namespace trailcast::agent

@@ -11,54 +11,59 @@
 
 namespace trailcast::exchange {
 
+// Every member has an initialiser, so that designated initialisers may leave some out.
 // One value type for each topic of the wire (idl/trailcast.idl); the prose is in idl/README.md.
 
-// trailcast/routes: the latest that is known of a route, from its scout or from a server.
+// trailcast/routes: the latest that is known of a route, from its scout or from a server. A server
+// announces what it can serve: while it lacks segments, `info` is kTeaching and counts the durable
+// prefix only, its length and bytes are estimates and its manifest digest is zero.
 struct RouteAnnouncement {
-  AgentId holder;  // who announces, and can be asked for segments
-  route::RouteInfo info;
+  AgentId holder{};  // who announces, and can be asked for segments
+  route::RouteInfo info{};
   bool operator==(const RouteAnnouncement&) const = default;
 };
 
 // trailcast/segments: from a scout teaching, or a holder answering a request. 32 to 64 KiB a batch.
 struct SegmentBatch {
-  AgentId sender;
-  std::vector<route::SegmentPiece> pieces;
+  AgentId sender{};
+  std::vector<route::SegmentPiece> pieces{};
   bool operator==(const SegmentBatch&) const = default;
 };
 
 // trailcast/segment_requests: "of this route I lack these".
 struct SegmentRequest {
-  AgentId requester;
-  route::RouteKey key;
-  std::vector<SegmentIndex> lacking;
+  AgentId requester{};
+  route::RouteKey key{};
+  std::vector<SegmentIndex> lacking{};
   bool operator==(const SegmentRequest&) const = default;
 };
 
 // trailcast/receipts: "of this route, these are on my disk": all below durable_prefix, and beyond.
 struct Receipt {
-  AgentId server;
-  route::RouteKey key;
+  AgentId server{};
+  route::RouteKey key{};
   std::uint32_t durable_prefix = 0;
-  std::vector<SegmentIndex> durable_beyond;
+  std::vector<SegmentIndex> durable_beyond{};
+  // kComplete: the route's final RouteInfo is on disk too and its manifest digest was found right.
+  route::RouteState durable_state = route::RouteState::kTeaching;
   bool operator==(const Receipt&) const = default;
 };
 
 // trailcast/catalog_requests and trailcast/catalog_replies.
 struct CatalogRequest {
-  AgentId client;
+  AgentId client{};
   std::uint64_t request = 0;  // echoed in the reply
-  std::string name;           // exact name; empty asks for every route
+  std::string name{};         // exact name; empty asks for every route
   bool operator==(const CatalogRequest&) const = default;
 };
 
 struct CatalogReply {
-  AgentId server;
-  AgentId client;
+  AgentId server{};
+  AgentId client{};
   std::uint64_t request = 0;
-  std::vector<route::RouteInfo> routes;    // newest first
-  std::vector<std::string> similar_names;  // when none matched: names that exist, nearest first
-  std::string error;                       // not empty: the request could not be answered
+  std::vector<route::RouteInfo> routes{};    // newest first
+  std::vector<std::string> similar_names{};  // when none matched: names that exist, nearest first
+  std::string error{};                       // not empty: the request could not be answered
   bool operator==(const CatalogReply&) const = default;
 };
 
@@ -67,35 +72,35 @@ enum class AgentRole : std::uint8_t { kServer = 0, kScout = 1, kFollower = 2, kO
 // What the agent does at present, for people and for tools.
 enum class AgentMode : std::uint8_t {
   kStarting = 0,
-  kWaiting = 1,   // for a server, a route or a segment; `detail` says which
+  kWaiting = 1,  // for a server, a route or a segment; `detail` says which
   kTeaching = 2,
   kReplaying = 3,
-  kArrived = 4,   // the scout: taught and everything receipted
-  kStopped = 5,   // by a signal or at the end of a recording
-  kFault = 6,     // cannot go on; `detail` says why
+  kArrived = 4,  // the scout: taught and everything receipted
+  kStopped = 5,  // by a signal or at the end of a recording
+  kFault = 6,    // cannot go on; `detail` says why
 };
 
 // trailcast/agents
 struct AgentStatus {
-  AgentId agent;
+  AgentId agent{};
   std::uint64_t instance = 0;  // random per process: tells two processes with one name apart
   AgentRole role = AgentRole::kOperator;
   AgentMode mode = AgentMode::kStarting;
-  std::string route;           // name; empty if none
+  std::string route{};         // name; empty if none
   std::uint32_t segment = 0;   // segment being taught or replayed
   std::uint32_t segments = 0;  // segments known of the route
   double progress = 0.0;       // 0..1 of the route as far as it is known; the scout: of its drive
   double speed_mps = 0.0;
-  std::uint32_t features = 0;   // tracked at present
-  double found_share = 0.0;     // mean share of features found at hand-overs so far
-  std::uint32_t backlog = 0;    // scout: segments without a receipt
-  std::string detail;           // one line for people
+  std::uint32_t features = 0;  // tracked at present
+  double found_share = 0.0;    // mean share of features found at hand-overs so far
+  std::uint32_t backlog = 0;   // scout: segments without a receipt
+  std::string detail{};        // one line for people
   bool operator==(const AgentStatus&) const = default;
 };
 
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
-  AgentId agent;
+  AgentId agent{};
   std::uint64_t instance = 0;
   bool operator==(const AgentGone&) const = default;
 };

@@ -30,9 +30,9 @@ struct TopicUse {
 [[nodiscard]] TopicUse ServerTopics();
 [[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the catalog
 
-// The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and over
-// DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread publishes
-// and takes. Delivery is reliable while both ends are up and keep taking; who needs more
+// The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and
+// over DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread
+// publishes and takes. Delivery is reliable while both ends are up and keep taking; who needs more
 // (what was missed while away) asks for it: see RouteSender, RouteFetcher, RouteKeeper.
 class RouteExchange {
  public:

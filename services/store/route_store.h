@@ -23,13 +23,16 @@ class RouteStore {
 
   // Inserts, or replaces what is known of the same key. A kComplete route never changes again:
   // kConflict if `info` differs from what is stored (an identical one is fine). An info with fewer
-  // segments than known is old news and ignored.
+  // segments than known is old news and ignored, and so is one that says kTeaching of a complete
+  // route. kInvalidArgument, naming the field, for what no route can be.
   [[nodiscard]] virtual Result<void> PutRoute(const route::RouteInfo& info) = 0;
 
   // All or nothing, on disk when this returns. Pieces already held with the same digest are fine;
   // kConflict if a held index has another digest; kCorrupt if a piece's bytes fail its digest;
-  // kUnavailable when the disk is full. The route need not be known yet.
-  [[nodiscard]] virtual Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) = 0;
+  // kUnavailable when the disk is full. The route need not be known yet. A held piece that has
+  // become damaged on disk is replaced by the one given.
+  [[nodiscard]] virtual Result<void> AppendSegments(
+      std::span<const route::SegmentPiece> pieces) = 0;
 
   // kNotFound, or kCorrupt when the bytes on disk fail their digest.
   [[nodiscard]] virtual Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key,
@@ -58,9 +61,16 @@ class RouteStore {
   RouteStore() = default;
 };
 
-// Opens or creates. kCorrupt when the file is not a store or is damaged (it is left untouched),
-// kConflict when another process has it open, kUnavailable when it cannot be written.
+struct SqliteOptions {
+  // How large the file may grow, in bytes; 0 is as large as the disk. The log beside it comes on
+  // top, some 4 MiB. Appending beyond gives kUnavailable; nothing held is lost.
+  std::uint64_t max_bytes = 0;
+};
+
+// Opens or creates; the folder must exist. kCorrupt when the file is not a store or is cut short
+// (it is left untouched), kConflict when another process has it open, kUnavailable when it cannot
+// be written. Takes milliseconds: damage inside is found by reading, and all of it by Verify().
 [[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenSqliteStore(
-    const std::filesystem::path& file);
+    const std::filesystem::path& file, const SqliteOptions& options = {});
 
 }  // namespace trailcast::store

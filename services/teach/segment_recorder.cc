@@ -84,7 +84,8 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature) co
 }
 
 std::optional<route::Segment> SegmentRecorder::Finish() {
-  if (moments_.size() < 2) return std::nullopt;
+  const bool survivors = !moments_.empty() && !moments_.back().features.empty();
+  if (moments_.size() < 2 || (!survivors && distance_m() < kStandstill_m)) return std::nullopt;
   route::Segment segment;
   segment.index = next_index_;
   next_index_ = SegmentIndex(next_index_.value() + 1);

@@ -34,7 +34,7 @@ class SegmentRecorder {
                          const std::optional<motion::Pose2>& odometry);
 
   // The segment from Begin to the last Add, with the features that were tracked throughout. Nothing
-  // if no image was added since Begin.
+  // if no image was added since Begin, or if it holds neither a feature nor a step of odometry.
   [[nodiscard]] std::optional<route::Segment> Finish();
 
   [[nodiscard]] double distance_m() const { return headings_.back().distance_m; }

@@ -17,10 +17,25 @@ const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS,
 constexpr double kFlowMinEigenvalue = 1e-4;
 constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
 
+// A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once smoothed).
+constexpr double kMinContrast_grey = 4.0;
+
 struct Flow {
   std::vector<cv::Point2f> points;
   std::vector<std::uint8_t> found;
 };
+
+// Whether there is more around the point than noise.
+bool StandsOut(const cv::Mat& smoothed, cv::Point2f point, int window_px) {
+  const cv::Rect around =
+      cv::Rect(cvRound(point.x) - window_px / 2, cvRound(point.y) - window_px / 2, window_px,
+               window_px) &
+      cv::Rect({0, 0}, smoothed.size());
+  cv::Scalar mean;
+  cv::Scalar sigma;
+  cv::meanStdDev(smoothed(around), mean, sigma);
+  return sigma[0] >= kMinContrast_grey;
+}
 
 }  // namespace
 
@@ -110,6 +125,11 @@ std::vector<route::TrackedFeature> FeatureTracker::Detect() {
   cv::rectangle(where, {0, 0}, {frame.cols - 1, frame.rows - 1}, cv::Scalar(0), 2 * edge_px);
   cv::goodFeaturesToTrack(frame, s.points, s.options.max_features, s.options.detection_quality,
                           spacing_px, where, s.options.window_px);
+  cv::Mat smoothed;
+  cv::blur(frame, smoothed, cv::Size(3, 3));
+  std::erase_if(s.points, [&](const cv::Point2f& point) {
+    return !StandsOut(smoothed, point, s.options.window_px);
+  });
   s.ids.resize(s.points.size());
   for (std::size_t i = 0; i < s.ids.size(); ++i) s.ids[i] = static_cast<int>(i);
   return s.Current();
@@ -126,6 +146,10 @@ void FeatureTracker::Follow(std::vector<route::TrackedFeature> features) {
                           static_cast<float>(feature.v_px) + centre.y);
   }
 }
+
+std::vector<route::TrackedFeature> FeatureTracker::Current() const { return state_->Current(); }
+
+int FeatureTracker::count() const { return static_cast<int>(state_->points.size()); }
 
 std::vector<route::DescribedFeature> FeatureTracker::Describe() const {
   const cv::Mat& frame = state_->last.front();

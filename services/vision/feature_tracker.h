@@ -38,6 +38,10 @@ class FeatureTracker {
   // Goes on with these features at these places of the last frame (hand-over).
   void Follow(std::vector<route::TrackedFeature> features);
 
+  // Those followed at present, in the last frame.
+  [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
+  [[nodiscard]] int count() const;
+
   // What the current features look like in the last frame; those too near its edge are left out.
   [[nodiscard]] std::vector<route::DescribedFeature> Describe() const;
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "services/base/result.h"
+
+namespace trailcast::cli {
+
+inline constexpr int kExitOk = 0;
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitNotArrived = 3;
+
+// What every process of ours is told: who it is and over which network it speaks.
+struct CommonOptions {
+  std::string name;  // unique in the fleet
+  int domain = 0;    // DDS domain
+  std::string dds_tag;
+  std::string network_interface;
+  std::string log_level = "info";
+};
+
+// --version, --config, --name and the options of the network and the log, each with its
+// environment variable. A value on the command line wins over the file, the file over the
+// environment.
+void AddCommonOptions(CLI::App& app, CommonOptions& options);
+
+// Parses. Nothing: go on. Otherwise the process shall end with that exit status: help or version
+// were shown, or what is wrong was said on stderr (kExitUsage).
+[[nodiscard]] std::optional<int> Parse(CLI::App& app, int argc, char** argv);
+
+// Accepts names that IsValidName accepts.
+[[nodiscard]] CLI::Validator NameValidator();
+
+// spdlog's default logger to stderr, one line an event.
+void SetUpLog(const CommonOptions& options);
+
+// "trailcast-agent: cannot ..." on stderr; returns kExitFailure.
+int Complain(const CLI::App& app, const Error& error);
+
+}  // namespace trailcast::cli

@@ -1,0 +1,240 @@
+#include "agent/follower.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+#include "agent/standstill.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
+
+// CPU time of the whole process: OpenCV may use other threads.
+double CpuMs() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+// Notices that a robot gets no further.
+class ProgressWatch {
+ public:
+  explicit ProgressWatch(std::chrono::seconds limit) : limit_(limit) {}
+
+  [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step) {
+    const double place = step.segment.value() + step.fraction;
+    const bool further = place > furthest_ + 1e-3;
+    if (further || step.state == ReplayState::kWaiting || !since_) {
+      furthest_ = std::max(furthest_, place);
+      since_ = stamp;
+    }
+    return stamp - *since_ > limit_;
+  }
+
+ private:
+  std::chrono::seconds limit_;
+  double furthest_ = -1.0;
+  std::optional<SensorTime> since_;
+};
+
+// The control loop and what it knows.
+class Loop {
+ public:
+  Loop(RobotDevice& device, const FollowerOptions& options, FollowerLink& link)
+      : device_(device), options_(options), link_(link), watch_(options.stuck_after) {}
+
+  // Ends when there is no more to do; the error is final.
+  [[nodiscard]] Result<void> Run();
+  [[nodiscard]] ReplayOutcome Outcome(const std::optional<route::RouteInfo>& route) &&;
+
+ private:
+  [[nodiscard]] Result<void> TakeFeed();
+  [[nodiscard]] Result<bool> WaitForFeed();
+  [[nodiscard]] Result<bool> Step(const Observation& observation);
+  [[nodiscard]] bool NothingToFollow() const;
+  void Tell(const ReplayStep& step);
+  bool End(std::string state, std::string reason);
+
+  RobotDevice& device_;
+  const FollowerOptions& options_;
+  FollowerLink& link_;
+  ProgressWatch watch_;
+  std::optional<ReplaySession> session_;
+  std::uint32_t segments_ = 0;  // given to the session
+  bool complete_ = false;
+  bool fed_ = false;  // since the last frame
+  std::optional<ReplayStep> last_;
+  std::string state_ = "WAITING";
+  std::string reason_;
+  ReplayLog log_;
+};
+
+Result<void> Loop::TakeFeed() {
+  while (auto item = link_.TryTake()) {
+    fed_ = true;
+    if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
+      session_.emplace(options_.session, *route);
+    } else if (auto* segment = std::get_if<route::Segment>(&*item)) {
+      if (auto added = session_->AddSegment(std::move(*segment)); !added) return added;
+      ++segments_;
+    } else if (std::get_if<RouteComplete>(&*item) != nullptr) {
+      session_->MarkComplete();
+      complete_ = true;
+    } else if (auto* error = std::get_if<Error>(&*item)) {
+      return tl::unexpected(*error);
+    }
+  }
+  return {};
+}
+
+bool Loop::NothingToFollow() const {
+  if (segments_ == 0) return true;
+  const bool waiting = last_ && last_->state == ReplayState::kWaiting;
+  return waiting && !fed_ && !complete_;
+}
+
+// False: the run is over.
+Result<bool> Loop::WaitForFeed() {
+  const auto began = steady_clock::now();
+  while (NothingToFollow()) {
+    if (options_.link.stop()) return End("STOPPED", "stopped by a signal");
+    // Before the first segment the link has bounds of its own, and says more precisely what fails.
+    const auto bound = options_.link.wait + (session_ ? milliseconds(0) : milliseconds(5000));
+    if (steady_clock::now() - began > bound) {
+      return End("WAITING",
+                 fmt::format("no further segment within {:.0f} s: only {} segments are known, and "
+                             "nobody who holds the rest answers",
+                             Seconds(options_.link.wait), segments_));
+    }
+    link_.WaitForFeed(kWakeUp);
+    if (auto taken = TakeFeed(); !taken) return tl::unexpected(taken.error());
+  }
+  return true;
+}
+
+Result<void> Loop::Run() {
+  const Standstill standstill(device_);
+  while (true) {
+    if (options_.link.stop()) {
+      End("STOPPED", "stopped by a signal");
+      return {};
+    }
+    if (auto taken = TakeFeed(); !taken) return taken;
+    auto ready = WaitForFeed();
+    if (!ready) return tl::unexpected(ready.error());
+    if (!*ready) return {};
+    auto observation = device_.Next();
+    if (!observation) return tl::unexpected(observation.error());
+    if (!*observation) {
+      End(last_ ? ToString(last_->state) : "WAITING",
+          last_ && !last_->reason.empty() ? last_->reason : "the recording ends");
+      return {};
+    }
+    auto on = Step(**observation);
+    if (!on) return tl::unexpected(on.error());
+    if (!*on) return {};
+  }
+}
+
+// False: the run is over.
+Result<bool> Loop::Step(const Observation& observation) {
+  fed_ = false;
+  const double before_ms = CpuMs();
+  auto step = session_->Observe(observation);
+  const double cpu_ms = CpuMs() - before_ms;
+  if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
+  if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
+  link_.Report(*step);
+  log_.Add(observation.stamp, *step, cpu_ms);
+  Tell(*step);
+  last_ = std::move(*step);
+  if (options_.open_loop) return true;
+  if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
+    return End(ToString(last_->state), last_->reason);
+  }
+  if (!watch_.Stuck(observation.stamp, *last_)) return true;
+  return End("STUCK", fmt::format("no progress for {} s in segment {}",
+                                  options_.stuck_after.count(), last_->segment.value()));
+}
+
+void Loop::Tell(const ReplayStep& step) {
+  if (!last_ || last_->state != step.state) {
+    spdlog::info("{} in segment {}{}{}", ToString(step.state), step.segment.value(),
+                 step.reason.empty() ? "" : ": ", step.reason);
+  } else if (last_->segment != step.segment) {
+    spdlog::info("segment {}: {} features", step.segment.value(), step.features);
+  }
+}
+
+bool Loop::End(std::string state, std::string reason) {
+  state_ = std::move(state);
+  reason_ = std::move(reason);
+  return false;
+}
+
+ReplayOutcome Loop::Outcome(const std::optional<route::RouteInfo>& route) && {
+  ReplayOutcome outcome;
+  const bool arrived = state_ == ToString(ReplayState::kArrived);
+  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" &&
+                          state_ != ToString(ReplayState::kLost);
+  outcome.success = arrived || to_its_end;
+  outcome.state = state_;
+  outcome.reason = reason_;
+  const ReplayStep last = last_.value_or(ReplayStep{});
+  Summary& summary = outcome.summary;
+  summary.Add("arrived", arrived ? "1" : "0");
+  summary.Add("state", state_);
+  summary.Add("reason", reason_);
+  summary.Add("route", options_.link.route);
+  summary.Add("segments", std::to_string(segments_));
+  summary.Add("segment", std::to_string(last.segment.value()));
+  summary.Add("progress", fmt::format("{:.4f}", last.progress));
+  summary.Add("found_share", fmt::format("{:.4f}", last.found_share));
+  summary.Add("hand_overs", std::to_string(last.hand_overs));
+  if (route) {
+    summary.Add("metres", fmt::format("{:.2f}", route->length_m));
+    summary.Add("bytes_per_m", route->length_m > 0.0
+                                   ? fmt::format("{:.0f}", route->bytes / route->length_m)
+                                   : "unknown");
+  }
+  summary.Add("frames", std::to_string(log_.frames()));
+  summary.Add("ms_per_frame", fmt::format("{:.3f}", log_.MedianMs()));
+  outcome.log = std::move(log_);
+  return outcome;
+}
+
+exchange::AgentMode LastMode(const Result<void>& ran, const ReplayOutcome& outcome,
+                             bool open_loop) {
+  using exchange::AgentMode;
+  if (!ran) return AgentMode::kFault;
+  if (outcome.state == ToString(ReplayState::kArrived)) return AgentMode::kArrived;
+  if (outcome.state == "STOPPED" || (open_loop && outcome.success)) return AgentMode::kStopped;
+  return AgentMode::kFault;
+}
+
+}  // namespace
+
+Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
+                             std::unique_ptr<store::RouteStore> store,
+                             std::unique_ptr<exchange::RouteExchange> exchange) {
+  const Standstill standstill(device);
+  FollowerLink link(options.link, std::move(store), std::move(exchange));
+  if (auto started = link.Start(); !started) return tl::unexpected(started.error());
+  Loop loop(device, options, link);
+  const auto ran = loop.Run();
+  link.Finish();
+  ReplayOutcome outcome = std::move(loop).Outcome(link.route());
+  link.Close(LastMode(ran, outcome, options.open_loop),
+             ran ? outcome.reason : ran.error().message);
+  if (!ran) return tl::unexpected(ran.error());
+  return outcome;
+}
+
+}  // namespace trailcast::agent

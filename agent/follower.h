@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "agent/device.h"
+#include "agent/follower_link.h"
+#include "agent/replay_log.h"
+#include "agent/summary.h"
+
+namespace trailcast::agent {
+
+struct FollowerOptions {
+  FollowerLinkOptions link;
+  ReplaySessionOptions session;
+  // The device is a recording: every frame is looked at, whatever the follower makes of it.
+  bool open_loop = false;
+  // A robot that gets no further along the route for so long (by its sensors' time) gives up.
+  std::chrono::seconds stuck_after{60};
+};
+
+struct ReplayOutcome {
+  bool success = false;  // arrived; or a recording was replayed to its end and not lost there
+  std::string state;     // the last: ARRIVED, LOST, STUCK, WAITING, ...
+  std::string reason;    // one line for people
+  Summary summary;
+  ReplayLog log;
+};
+
+// Follows a route with `device` until it arrives, is lost, or `options.link.stop` says so. Frames
+// are asked of the device only while there is something to follow. `exchange` may be null: then the
+// route comes from `store` alone. Errors: the route cannot be had, or camera, store or base failed.
+[[nodiscard]] Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
+                                           std::unique_ptr<store::RouteStore> store,
+                                           std::unique_ptr<exchange::RouteExchange> exchange);
+
+}  // namespace trailcast::agent

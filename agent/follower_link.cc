@@ -1,0 +1,319 @@
+#include "agent/follower_link.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "services/route/digest.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{20};
+// Who has the route already does not wait longer than this for a server's word on it.
+constexpr milliseconds kServerPatience{3000};
+
+exchange::AgentStatus FollowerStatus(const AgentId& agent, const std::string& route) {
+  exchange::AgentStatus status;
+  status.agent = agent;
+  status.role = exchange::AgentRole::kFollower;
+  status.route = route;
+  return status;
+}
+
+std::string NamesText(const std::vector<std::string>& names) {
+  return names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", "));
+}
+
+exchange::AgentMode ModeOf(ReplayState state) {
+  switch (state) {
+    case ReplayState::kWaiting:
+      return exchange::AgentMode::kWaiting;
+    case ReplayState::kFollowing:
+    case ReplayState::kBlind:
+      return exchange::AgentMode::kReplaying;
+    case ReplayState::kArrived:
+      return exchange::AgentMode::kArrived;
+    case ReplayState::kLost:
+      return exchange::AgentMode::kFault;
+  }
+  return exchange::AgentMode::kFault;
+}
+
+}  // namespace
+
+FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
+                           std::unique_ptr<exchange::RouteExchange> exchange)
+    : options_(std::move(options)),
+      store_(std::move(store)),
+      exchange_(std::move(exchange)),
+      finder_(options_.agent, options_.route) {
+  if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
+}
+
+FollowerLink::~FollowerLink() { Finish(); }
+
+Result<void> FollowerLink::Start() {
+  if (presence_) {
+    const auto handle = [this](const exchange::Message& message) { finder_.Handle(message); };
+    if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
+  }
+  thread_ = std::thread([this] { Run(); });
+  return {};
+}
+
+void FollowerLink::Report(const ReplayStep& step) {
+  ReplayStep copy = step;
+  // Full: the thread is busy on the disk, and will get a newer one.
+  [[maybe_unused]] const bool put = reports_.TryPut(std::move(copy));
+  reported_.Ring();
+}
+
+void FollowerLink::Finish() {
+  ending_ = true;
+  reported_.Ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
+  if (!presence_) return;
+  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
+  ShowStatus();
+  exchange::AgentStatus status = presence_->status();
+  status.mode = mode;
+  status.detail = detail;
+  status.speed_mps = 0.0;
+  presence_->Set(std::move(status));
+  presence_->Publish();
+}
+
+void FollowerLink::Run() {
+  auto worked = Work();
+  if (worked) return;
+  while (!over() && !TryPut(worked.error())) reported_.Wait(kWait);
+}
+
+Result<void> FollowerLink::Work() {
+  if (auto found = Find(); !found) return found;
+  if (over()) return {};
+  if (auto started = StartFetching(); !started) return started;
+  return Follow();
+}
+
+Result<std::optional<route::RouteInfo>> FollowerLink::FindOwn() {
+  auto named = store_->FindRoutesByName(options_.route);
+  if (!named) return tl::unexpected(named.error());
+  return ChooseRoute(*named);
+}
+
+Result<void> FollowerLink::Find() {
+  auto own = FindOwn();
+  if (!own) return tl::unexpected(own.error());
+  if (!exchange_) {
+    route_ = *own;
+    if (route_) return {};
+    std::vector<std::string> names;
+    if (auto routes = store_->ListRoutes()) {
+      for (const route::RouteInfo& info : *routes) names.push_back(info.name);
+    }
+    return Fail(ErrorCode::kNotFound, "there is no route '{}' in {}: {}", options_.route,
+                options_.store_file, NamesText(names));
+  }
+  waiting_for_ = fmt::format("waiting for a server that knows route '{}'", options_.route);
+  spdlog::info("asking for route '{}'", options_.route);
+  const auto began = steady_clock::now();
+  while (!over() && !route_) {
+    Trade();
+    if (auto asked = Asked(began, *own); !asked) return tl::unexpected(asked.error());
+  }
+  return {};
+}
+
+// Sets route_ when it is clear which one it is; an error when none will be.
+Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInfo>& own) {
+  const auto waited = steady_clock::now() - began;
+  const bool settled = finder_.unknown() || waited > kServerPatience;
+  if (finder_.found()) {
+    route_ = finder_.found();
+  } else if (settled && finder_.announced()) {
+    route_ = finder_.announced();
+  } else if (settled && own) {
+    spdlog::warn("{}: following '{}' from {}",
+                 finder_.unknown() ? "the server does not know the route" : "no server answers",
+                 options_.route, options_.store_file);
+    route_ = own;
+  } else if (finder_.unknown() && !options_.wait_for_route) {
+    return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
+                finder_.unknown()->server.value(), options_.route,
+                NamesText(finder_.unknown()->similar_names));
+  } else if (waited > options_.wait) {
+    if (finder_.unknown()) {
+      return Fail(ErrorCode::kNotFound, "nobody taught route '{}' within {:.0f} s: server '{}' {}",
+                  options_.route, Seconds(options_.wait), finder_.unknown()->server.value(),
+                  finder_.error().empty() ? "does not know it" : finder_.error());
+    }
+    return Fail(ErrorCode::kUnavailable,
+                "no server answered within {:.0f} s, and {} has no route '{}': is trailcast-server "
+                "running with the same --domain and --dds-tag?",
+                Seconds(options_.wait), options_.store_file, options_.route);
+  } else if (finder_.unknown()) {
+    waiting_for_ = fmt::format("waiting for a scout to teach route '{}'", options_.route);
+  }
+  return route_.has_value();
+}
+
+Result<void> FollowerLink::StartFetching() {
+  const route::RouteKey& key = route_->key;
+  auto indices = store_->HeldSegments(key);
+  if (!indices) return tl::unexpected(indices.error());
+  std::vector<exchange::RouteFetcher::Held> held;
+  for (const SegmentIndex index : *indices) {
+    auto piece = store_->ReadSegment(key, index);
+    if (!piece) return tl::unexpected(piece.error());
+    held.push_back({index, piece->digest});
+  }
+  spdlog::info("route '{}' of scout '{}', camera {}: {} segments so far, {} of them here",
+               route_->name, route_->scout.value(), route_->camera, route_->segment_count,
+               held.size());
+  if (exchange_) {
+    const auto now = steady_clock::now();
+    fetcher_.emplace(options_.agent, key, held,
+                     exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now);
+    fetcher_->Learn(*route_, now);
+  } else if (route_->state == route::RouteState::kTeaching) {
+    spdlog::warn("'{}' is unfinished in {}: following what is there", route_->name,
+                 options_.store_file);
+  }
+  while (!over() && !TryPut(*route_)) reported_.Wait(kWait);
+  return CountHeld();
+}
+
+Result<void> FollowerLink::Follow() {
+  while (!over()) {
+    if (exchange_) {
+      Trade();
+      if (auto stored = StoreArrived(); !stored) return stored;
+    } else {
+      reported_.Wait(kWait);
+    }
+    if (auto fed = FeedAll(); !fed) return fed;
+  }
+  return {};
+}
+
+void FollowerLink::Trade() {
+  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
+  auto messages = exchange_->Take(kWait);
+  const auto now = steady_clock::now();
+  for (const exchange::Message& message : messages) {
+    presence_->Handle(message);
+    if (fetcher_) {
+      fetcher_->Handle(message, now);
+    } else {
+      finder_.Handle(message);
+    }
+  }
+  for (const exchange::Message& message : fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now)) {
+    if (auto sent = exchange_->Publish(message); !sent) spdlog::debug("{}", sent.error().message);
+  }
+  HearServer();
+  ShowStatus();
+  presence_->Tick(now);
+}
+
+Result<void> FollowerLink::StoreArrived() {
+  const auto arrived = fetcher_->TakeArrived();
+  if (!arrived.empty()) {
+    if (auto appended = store_->AppendSegments(arrived); !appended) return appended;
+    // These are another agent's to deliver: never ours.
+    std::vector<SegmentIndex> indices;
+    for (const route::SegmentPiece& piece : arrived) indices.push_back(piece.index);
+    if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
+    if (auto counted = CountHeld(); !counted) return counted;
+  }
+  const auto progress = fetcher_->Progress(steady_clock::now());
+  if (progress.state == exchange::FetchState::kWrong) {
+    return Fail(ErrorCode::kCorrupt,
+                "the {} segments of route '{}' in {} are not those that its scout announced: move "
+                "that file away and fetch the route anew",
+                progress.held, route_->name, options_.store_file);
+  }
+  waiting_for_ = progress.state == exchange::FetchState::kWaiting
+                     ? "nobody who holds the route is heard"
+                     : fmt::format("{} of {} segments here", progress.held, progress.known);
+  if (!fetcher_->info() || *fetcher_->info() == *route_) return {};
+  route::RouteInfo news = *fetcher_->info();
+  // Complete in the own store only when all of it is there and right.
+  if (!fetcher_->Complete()) news.state = route::RouteState::kTeaching;
+  if (news == *route_) return {};
+  route_ = news;
+  return store_->PutRoute(news);
+}
+
+Result<void> FollowerLink::CountHeld() {
+  auto indices = store_->HeldSegments(route_->key);
+  if (!indices) return tl::unexpected(indices.error());
+  while (held_ < indices->size() && (*indices)[held_].value() == held_) ++held_;
+  if (exchange_) spdlog::debug("{} segments of '{}' are here", held_, route_->name);
+  return {};
+}
+
+bool FollowerLink::all_known() const {
+  if (fetcher_) return fetcher_->Complete() && next_feed_ == fetcher_->info()->segment_count;
+  return next_feed_ == held_;
+}
+
+Result<void> FollowerLink::FeedAll() {
+  for (; next_feed_ < held_; ++next_feed_) {
+    auto piece = store_->ReadSegment(route_->key, SegmentIndex(next_feed_));
+    if (!piece) return tl::unexpected(piece.error());
+    auto segment = route::Open(*piece);
+    if (!segment) return tl::unexpected(segment.error());
+    if (!TryPut(std::move(*segment))) return {};
+  }
+  if (!fed_all_ && all_known()) {
+    fed_all_ = TryPut(RouteComplete{});
+    if (fed_all_) spdlog::info("all {} segments of '{}' are here", next_feed_, route_->name);
+  }
+  return {};
+}
+
+bool FollowerLink::TryPut(Feed item) {
+  const bool put = feed_.TryPut(std::move(item));
+  if (put) fed_.Ring();
+  return put;
+}
+
+void FollowerLink::ShowStatus() {
+  exchange::AgentStatus status;
+  status.route = options_.route;
+  status.segments = route_ ? route_->segment_count : 0;
+  const bool started = next_feed_ > 0;
+  status.mode = started ? ModeOf(latest_.state) : exchange::AgentMode::kWaiting;
+  status.segment = latest_.segment.value();
+  status.progress = latest_.progress;
+  status.speed_mps = latest_.command.linear_mps;
+  status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
+  status.found_share = latest_.found_share;
+  status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
+  presence_->Set(std::move(status));
+}
+
+void FollowerLink::HearServer() {
+  const auto& server = presence_->server();
+  if (server == told_server_) return;
+  if (server) {
+    spdlog::info("server '{}' is there", server->value());
+  } else {
+    spdlog::warn("server '{}' is gone: going on with what is in {}", told_server_->value(),
+                 options_.store_file);
+  }
+  told_server_ = server;
+}
+
+}  // namespace trailcast::agent

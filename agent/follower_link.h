@@ -1,0 +1,105 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+
+#include "agent/mailbox.h"
+#include "agent/presence.h"
+#include "agent/replay_session.h"
+#include "agent/route_finder.h"
+#include "services/exchange/route_fetcher.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::agent {
+
+struct FollowerLinkOptions {
+  AgentId agent;
+  std::string route;       // name
+  std::string store_file;  // for messages
+  bool wait_for_route = false;  // a route that nobody knows yet may still be taught
+  // How long the agent waits for a server, the route, or the next segment, while none comes.
+  std::chrono::milliseconds wait{30'000};
+  std::function<bool()> stop = [] { return false; };  // any thread
+};
+
+// What the link gives the control loop, in this order: the route, its segments, that it is complete
+// (or that no more can be had); or why there will be nothing more.
+struct RouteComplete {};
+using Feed = std::variant<std::monostate, route::RouteInfo, route::Segment, RouteComplete, Error>;
+
+// The follower's other half: a thread that owns store and exchange, finds the route, fetches into
+// the own store what is missing, and feeds the control loop from there.
+class FollowerLink {
+ public:
+  // `exchange` may be null: then the route comes from the own store alone.
+  FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
+               std::unique_ptr<exchange::RouteExchange> exchange);
+  ~FollowerLink();
+  FollowerLink(const FollowerLink&) = delete;
+  FollowerLink& operator=(const FollowerLink&) = delete;
+
+  // Claims the name, then starts the thread.
+  [[nodiscard]] Result<void> Start();
+
+  // For the control loop. Neither takes a lock nor waits.
+  [[nodiscard]] std::optional<Feed> TryTake() { return feed_.TryGet(); }
+  void Report(const ReplayStep& step);
+  // While there is nothing to follow: waits until something was fed, or `at_most`.
+  void WaitForFeed(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
+
+  // Ends the thread.
+  void Finish();
+  // The last status peers see. After Finish.
+  void Close(exchange::AgentMode mode, const std::string& detail);
+  // As far as it is known. After Finish.
+  [[nodiscard]] const std::optional<route::RouteInfo>& route() const { return route_; }
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  void Run();
+  [[nodiscard]] Result<void> Work();
+  [[nodiscard]] Result<void> Find();
+  [[nodiscard]] Result<std::optional<route::RouteInfo>> FindOwn();
+  [[nodiscard]] Result<bool> Asked(Time began, const std::optional<route::RouteInfo>& own);
+  [[nodiscard]] Result<void> StartFetching();
+  [[nodiscard]] Result<void> Follow();
+  void Trade();
+  [[nodiscard]] Result<void> StoreArrived();
+  [[nodiscard]] Result<void> CountHeld();
+  [[nodiscard]] Result<void> FeedAll();
+  [[nodiscard]] bool all_known() const;
+  [[nodiscard]] bool TryPut(Feed item);
+  void ShowStatus();
+  void HearServer();
+  [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
+
+  FollowerLinkOptions options_;
+  std::unique_ptr<store::RouteStore> store_;
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  std::optional<Presence> presence_;
+  RouteFinder finder_;
+  std::optional<route::RouteInfo> route_;
+  std::optional<exchange::RouteFetcher> fetcher_;
+  std::uint32_t held_ = 0;      // segments in the own store without a gap
+  std::uint32_t next_feed_ = 0;
+  bool fed_all_ = false;
+  std::string waiting_for_ = "starting";
+  std::optional<AgentId> told_server_;
+
+  Mailbox<Feed> feed_{16};
+  Mailbox<ReplayStep> reports_{64};
+  ReplayStep latest_;
+  Bell fed_;
+  Bell reported_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace trailcast::agent

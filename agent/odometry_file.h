@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/base/time.h"
+#include "services/motion/motion.h"
+
+namespace trailcast::agent {
+
+// Wheel odometry of a recorded run: poses at rising times, seconds after the run's first frame.
+class OdometryFile {
+ public:
+  // CSV with the header `t_s,x_m,y_m,heading_rad` (more columns may follow and are not looked at).
+  // Errors name the file, the line and what was expected there.
+  [[nodiscard]] static Result<OdometryFile> Read(const std::filesystem::path& file);
+
+  // The pose at `time`, interpolated. Up to kSlack before the first and after the last row the
+  // nearest row holds; kInvalidArgument beyond.
+  [[nodiscard]] Result<motion::Pose2> At(SensorTime time) const;
+
+  static constexpr double kSlack_s = 0.5;
+
+ private:
+  struct Row {
+    double t_s = 0.0;
+    motion::Pose2 pose;
+  };
+  OdometryFile(std::filesystem::path file, std::vector<Row> rows)
+      : file_(std::move(file)), rows_(std::move(rows)) {}
+
+  std::filesystem::path file_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "agent/cli/name_claim.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::agent {
+
+// An agent as its peers see it: claims its name, publishes its status, and notes whether a server
+// is heard. Owned by the thread that owns the exchange.
+class Presence {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Handler = std::function<void(const exchange::Message&)>;
+  static constexpr std::chrono::milliseconds kInterval{200};
+
+  // `exchange` outlives this. `status` names agent and role; instance and mode are set here.
+  Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status);
+
+  // Publishes kStarting and listens; everything heard goes to `handle` too. kConflict when another
+  // running process has the name. Ends early, without error, when `stop` says so.
+  [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
+
+  // Notes whether a server speaks.
+  void Handle(const exchange::Message& message);
+
+  // The status to be published from now on; agent, role and instance stay.
+  void Set(exchange::AgentStatus status);
+  [[nodiscard]] const exchange::AgentStatus& status() const { return status_; }
+  // Publishes when the interval has passed or the mode has changed.
+  void Tick(Clock::time_point now);
+  // Publishes now.
+  void Publish();
+
+  // A server that was heard and has not gone since.
+  [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
+
+ private:
+  exchange::RouteExchange& exchange_;
+  exchange::AgentStatus status_;
+  cli::NameClaim claim_;
+  std::optional<exchange::AgentMode> published_mode_;
+  Clock::time_point next_{};
+  std::optional<AgentId> server_;
+};
+
+// Topics of a role, and the statuses of all agents: a process must see whether its name is taken.
+[[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
+
+}  // namespace trailcast::agent

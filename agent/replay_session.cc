@@ -1,0 +1,243 @@
+#include "agent/replay_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "agent/frame_check.h"
+#include "agent/hand_over.h"
+#include "services/replay/segment_follower.h"
+#include "services/vision/feature_tracker.h"
+
+namespace trailcast::agent {
+namespace {
+
+// With fewer features than this the funnel lane is not to be trusted.
+constexpr std::size_t kMinFeatures = 4;
+// How far a robot may go on by odometry alone, and how long one without odometry may look around,
+// before it is lost.
+constexpr double kBlindLimit_m = 2.5;
+constexpr int kBlindLimit_frames = 90;
+constexpr double kBlindSpeedFactor = 0.6;
+// Blind robots look for the route again every so many frames: the wide search costs time.
+constexpr int kLookAgain_frames = 5;
+// Segments whose milestone was not noticed: gone on by odometry so far past the taught length.
+constexpr double kOverrunShare = 0.25;
+constexpr double kOverrun_m = 0.3;
+
+}  // namespace
+
+const char* ToString(ReplayState state) {
+  switch (state) {
+    case ReplayState::kWaiting:
+      return "WAITING";
+    case ReplayState::kFollowing:
+      return "FOLLOWING";
+    case ReplayState::kBlind:
+      return "BLIND";
+    case ReplayState::kArrived:
+      return "ARRIVED";
+    case ReplayState::kLost:
+      return "LOST";
+  }
+  return "UNKNOWN";
+}
+
+struct ReplaySession::State {
+  ReplaySessionOptions options;
+  int scout_width_px = 0;
+  std::vector<route::Segment> segments;
+  bool complete = false;
+
+  FrameCheck check;
+  vision::FeatureTracker tracker;
+  std::optional<HandOver> hand_over;  // made with the first frame
+  std::optional<replay::SegmentFollower> follower;
+  std::optional<motion::Pose2> last_odometry;
+  ReplayState state = ReplayState::kWaiting;
+  std::string reason;
+  // Since features were last enough.
+  double blind_m = 0.0;
+  int blind_frames = 0;
+
+  [[nodiscard]] replay::SegmentFollowerOptions FollowerOptions() const;
+  [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(const Observation& observation);
+  void Begin(std::size_t index, const image::GrayImage& frame,
+             const motion::OdometryIncrement& start);
+  [[nodiscard]] replay::FollowStep Follow(const std::vector<route::TrackedFeature>& tracked,
+                                          const std::optional<motion::OdometryIncrement>& odometry);
+  [[nodiscard]] bool Overrun() const;
+  void EndSegment(const image::GrayImage& frame);
+  void LookAgain(const image::GrayImage& frame);
+  void JudgeSight(std::size_t features, const std::optional<motion::OdometryIncrement>& odometry,
+                  const image::GrayImage& frame);
+  [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
+};
+
+replay::SegmentFollowerOptions ReplaySession::State::FollowerOptions() const {
+  replay::SegmentFollowerOptions chosen;
+  chosen.limits = options.limits;
+  chosen.speed_factor = options.speed_factor;
+  return chosen;
+}
+
+std::optional<motion::OdometryIncrement> ReplaySession::State::OdometryStep(
+    const Observation& observation) {
+  std::optional<motion::OdometryIncrement> step;
+  if (observation.odometry && last_odometry) {
+    step = motion::IncrementBetween(*last_odometry, *observation.odometry);
+  } else if (observation.odometry) {
+    step = motion::OdometryIncrement{};
+  }
+  last_odometry = observation.odometry;
+  return step;
+}
+
+// Hand-over: the segment's stored features are found in this frame and followed from here.
+void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& frame,
+                                 const motion::OdometryIncrement& start) {
+  const route::Segment& segment = segments[index];
+  follower.emplace(segment, scout_width_px, FollowerOptions(), start);
+  tracker.Follow(hand_over->ToSegment(frame, segment));
+  state = ReplayState::kFollowing;
+  reason.clear();
+}
+
+replay::FollowStep ReplaySession::State::Follow(
+    const std::vector<route::TrackedFeature>& tracked,
+    const std::optional<motion::OdometryIncrement>& odometry) {
+  return follower->Step({hand_over->InScoutPixels(tracked), odometry});
+}
+
+bool ReplaySession::State::Overrun() const {
+  const route::Segment& segment = follower->segment();
+  return last_odometry && segment.has_odometry &&
+         follower->driven().distance_m >
+             segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
+}
+
+void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
+  const std::size_t next = follower->segment().index.value() + 1;
+  if (next < segments.size()) {
+    // What was driven past the milestone belongs to the next segment.
+    const double overshoot_m =
+        options.method == ReplayMethod::kPaper ? 0.0 : follower->overshoot_m();
+    Begin(next, frame, {overshoot_m, 0.0});
+  } else if (complete) {
+    state = ReplayState::kArrived;
+    reason = "arrived at the end of the route";
+  } else {
+    state = ReplayState::kWaiting;
+    reason = fmt::format("waiting for segment {}: not received yet", next);
+  }
+}
+
+void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
+  if (blind_frames % kLookAgain_frames != 0) return;
+  const std::size_t here = follower->segment().index.value();
+  const std::span<const route::Segment> ahead(segments.data() + here,
+                                              std::min<std::size_t>(3, segments.size() - here));
+  const auto seen = hand_over->Recover(frame, ahead);
+  if (!seen) return;
+  if (seen->segment != 0) {
+    follower.emplace(ahead[seen->segment], scout_width_px, FollowerOptions(),
+                     motion::OdometryIncrement{});
+  }
+  tracker.Follow(seen->features);
+}
+
+// Too few features: on by odometry alone for a while, slowly, looking for the route; then lost.
+void ReplaySession::State::JudgeSight(std::size_t features,
+                                      const std::optional<motion::OdometryIncrement>& odometry,
+                                      const image::GrayImage& frame) {
+  if (features >= kMinFeatures || follower->segment().features.size() < kMinFeatures) {
+    state = ReplayState::kFollowing;
+    reason.clear();
+    blind_m = 0.0;
+    blind_frames = 0;
+    return;
+  }
+  blind_m += odometry ? std::abs(odometry->distance_m) : 0.0;
+  ++blind_frames;
+  const bool lost = odometry ? blind_m > kBlindLimit_m : blind_frames > kBlindLimit_frames;
+  state = lost ? ReplayState::kLost : ReplayState::kBlind;
+  reason = fmt::format("{} of segment {}'s {} features in view for {}; at least {} are needed",
+                       features, follower->segment().index.value(),
+                       follower->segment().features.size(),
+                       odometry ? fmt::format("{:.1f} m", blind_m)
+                                : fmt::format("{} frames", blind_frames),
+                       kMinFeatures);
+  LookAgain(frame);
+}
+
+ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
+  ReplayStep report;
+  report.state = state;
+  report.reason = reason;
+  if (hand_over) {
+    report.found_share = hand_over->found_share();
+    report.hand_overs = hand_over->count();
+  }
+  report.features = tracker.count();
+  if (!follower) return report;
+  report.segment = follower->segment().index;
+  report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
+  report.progress =
+      (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
+  report.turn_rad = step.turn_rad;
+  const bool drive = state == ReplayState::kFollowing ||
+                     (state == ReplayState::kBlind && last_odometry.has_value());
+  if (drive) report.command = step.command;
+  if (state == ReplayState::kBlind) report.command.linear_mps *= kBlindSpeedFactor;
+  return report;
+}
+
+ReplaySession::ReplaySession(const ReplaySessionOptions& options, const route::RouteInfo& route)
+    : state_(std::make_unique<State>()) {
+  state_->options = options;
+  state_->scout_width_px = route.image_width_px;
+}
+
+ReplaySession::~ReplaySession() = default;
+ReplaySession::ReplaySession(ReplaySession&&) noexcept = default;
+
+Result<void> ReplaySession::AddSegment(route::Segment segment) {
+  if (segment.index.value() != state_->segments.size()) {
+    return Fail(ErrorCode::kInvalidArgument, "segment {} was given where {} comes next",
+                segment.index.value(), state_->segments.size());
+  }
+  state_->segments.push_back(std::move(segment));
+  return {};
+}
+
+void ReplaySession::MarkComplete() { state_->complete = true; }
+
+Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
+  State& s = *state_;
+  if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
+  const image::GrayImage& frame = observation.image;
+  const auto odometry = s.OdometryStep(observation);
+  const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
+  if (s.state == ReplayState::kArrived) return s.Report({});
+  if (s.state == ReplayState::kWaiting) {
+    const std::size_t next = s.follower ? s.follower->segment().index.value() + 1 : 0;
+    if (next >= s.segments.size()) {
+      if (s.complete && s.follower) s.state = ReplayState::kArrived;
+      return s.Report({});
+    }
+    if (!s.hand_over) {
+      s.hand_over.emplace(s.options.method, s.scout_width_px, frame.width);
+    }
+    s.Begin(next, frame, {});
+    return s.Report(s.Follow(s.tracker.Current(), odometry));
+  }
+  const replay::FollowStep step = s.Follow(tracked, odometry);
+  s.JudgeSight(tracked.size(), odometry, frame);
+  if (s.state != ReplayState::kLost && (step.ended || s.Overrun())) s.EndSegment(frame);
+  return s.Report(step);
+}
+
+}  // namespace trailcast::agent

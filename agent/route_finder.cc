@@ -1,0 +1,60 @@
+#include "agent/route_finder.h"
+
+#include <algorithm>
+#include <tuple>
+#include <variant>
+
+namespace trailcast::agent {
+
+std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes) {
+  const auto worse = [](const route::RouteInfo& a, const route::RouteInfo& b) {
+    const auto rank = [](const route::RouteInfo& info) {
+      return std::make_tuple(info.state == route::RouteState::kComplete, info.taught_unix_ms,
+                             info.key);
+    };
+    return rank(a) < rank(b);
+  };
+  const auto best = std::max_element(routes.begin(), routes.end(), worse);
+  return best == routes.end() ? std::nullopt : std::optional(*best);
+}
+
+void RouteFinder::Handle(const exchange::Message& message) {
+  if (found_) return;
+  if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
+    Handle(*reply);
+  } else if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    Handle(*announcement);
+  }
+}
+
+void RouteFinder::Handle(const exchange::RouteAnnouncement& announcement) {
+  if (announcement.info.name != name_) return;
+  const auto known =
+      std::find_if(announced_.begin(), announced_.end(), [&](const route::RouteInfo& info) {
+        return info.key == announcement.info.key;
+      });
+  if (known != announced_.end()) {
+    *known = announcement.info;
+  } else if (announced_.size() < kMaxAnnounced) {
+    announced_.push_back(announcement.info);
+  }
+}
+
+void RouteFinder::Handle(const exchange::CatalogReply& reply) {
+  if (reply.client != self_ || reply.request == 0 || reply.request > asked_) return;
+  error_ = reply.error;
+  if (!reply.error.empty()) return;
+  std::vector<route::RouteInfo> named = reply.routes;
+  std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
+  found_ = ChooseRoute(named);
+  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names};
+}
+
+std::vector<exchange::Message> RouteFinder::Tick(Time now) {
+  if (found_ || (asked_at_ && now - *asked_at_ < kAskEvery)) return {};
+  asked_at_ = now;
+  ++asked_;
+  return {exchange::CatalogRequest{self_, asked_, name_}};
+}
+
+}  // namespace trailcast::agent

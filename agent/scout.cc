@@ -1,0 +1,178 @@
+#include "agent/scout.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "agent/standstill.h"
+#include "agent/teach_session.h"
+
+namespace trailcast::agent {
+namespace {
+
+route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device,
+                          const image::GrayImage& frame) {
+  route::RouteInfo info;
+  info.name = options.route;
+  info.scout = options.link.agent;
+  info.camera = device.camera();
+  info.image_width_px = frame.width;
+  info.image_height_px = frame.height;
+  info.taught_unix_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
+                            std::chrono::system_clock::now().time_since_epoch())
+                            .count();
+  return info;
+}
+
+// What the control loop counts.
+struct Drive {
+  int frames = 0;
+  std::size_t features = 0;  // in finished segments
+  bool dark = false;         // the last frame had too few features
+};
+
+// Hands a finished segment over; never waits for it.
+Result<void> HandOver(route::Segment segment, ScoutLink& link, Drive& drive, TeachingNow& now) {
+  drive.features += segment.features.size();
+  now.speed_mps = segment.speed_mps();
+  if (link.Offer(std::move(segment))) return {};
+  return Fail(ErrorCode::kUnavailable, "the store does not keep up with teaching");
+}
+
+void TellDarkness(const TeachStep& step, Drive& drive) {
+  if (step.too_few_features && !drive.dark) {
+    spdlog::warn("frame {}: too few features to teach from (dark, blank or out of focus?)",
+                 drive.frames);
+  }
+  drive.dark = step.too_few_features;
+}
+
+// The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
+Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
+                       ScoutLink& link, Drive& drive) {
+  const Standstill standstill(device);
+  TeachSession session;
+  TeachingNow now;
+  std::optional<Observation> observation = std::move(first);
+  Result<void> result;
+  while (result && observation && !options.link.stop()) {
+    auto step = session.Observe(*observation);
+    if (!step) {
+      result = Wrap(step.error(), fmt::format("frame {}", drive.frames));
+      break;
+    }
+    if (step->finished) result = HandOver(std::move(*step->finished), link, drive, now);
+    TellDarkness(*step, drive);
+    ++drive.frames;
+    now.features = step->features;
+    now.drive_progress = device.drive_progress();
+    link.Report(now);
+    if (!result) break;
+    auto next = device.Next();
+    if (!next) {
+      result = tl::unexpected(next.error());
+    } else {
+      observation = std::move(*next);
+    }
+  }
+  standstill.Stop();
+  auto last = session.Finish();
+  if (last && !link.failed()) {
+    auto handed = HandOver(std::move(*last), link, drive, now);
+    if (result) result = handed;
+  }
+  return result;
+}
+
+Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
+  const route::RouteInfo& route = *outcome.route;
+  Summary summary;
+  summary.Add("route", route.name);
+  summary.Add("revision", std::to_string(route.key.revision.value()));
+  summary.Add("segments", std::to_string(route.segment_count));
+  summary.Add("metres", fmt::format("{:.2f}", route.length_m));
+  summary.Add("bytes", std::to_string(route.bytes));
+  summary.Add("bytes_per_m",
+              route.length_m > 0.0 ? fmt::format("{:.0f}", route.bytes / route.length_m) : "unknown");
+  summary.Add("features", std::to_string(drive.features));
+  summary.Add("frames", std::to_string(drive.frames));
+  summary.Add("unreceipted", std::to_string(outcome.unreceipted));
+  return summary;
+}
+
+Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_file) {
+  return {ErrorCode::kUnavailable,
+          fmt::format("{} segments not receipted, kept in {}: send them with 'trailcast-agent "
+                      "deliver --store {}' when a server is there",
+                      outcome.unreceipted, store_file, store_file)};
+}
+
+// What is wrong with a route that was taught, if anything.
+Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome, bool sent,
+                   const ScoutOptions& options) {
+  if (!driven && outcome.route) {
+    return Fail(driven.error().code, "{} (the {} segments taught before are kept in {})",
+                driven.error().message, outcome.route->segment_count, options.link.store_file);
+  }
+  if (!driven) return driven;
+  if (!outcome.route) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "nothing was taught: no segment had enough features or was long enough");
+  }
+  if (sent && !outcome.all_receipted) {
+    return tl::unexpected(NotReceipted(outcome, options.link.store_file));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
+                      std::unique_ptr<store::RouteStore> store,
+                      std::unique_ptr<exchange::RouteExchange> exchange) {
+  const Standstill standstill(device);
+  const bool send = exchange != nullptr;
+  if (!send) {
+    spdlog::info("no --server: the route is kept in {} only", options.link.store_file);
+  }
+  ScoutLink link(options.link, std::move(store), std::move(exchange));
+  if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
+  auto first = device.Next();
+  if (!first) return tl::unexpected(first.error());
+  if (!*first) return Fail(ErrorCode::kInvalidArgument, "there is no frame to teach from");
+  if (auto started = link.Start(NewRoute(options, device, (*first)->image)); !started) {
+    return tl::unexpected(started.error());
+  }
+  spdlog::info("teaching route '{}' with camera {}", options.route, device.camera());
+  Drive drive;
+  const auto driven = TeachLoop(device, std::move(**first), options, link, drive);
+  auto outcome = link.Finish();
+  if (!outcome) return tl::unexpected(outcome.error());
+  const auto judged = Judge(driven, *outcome, send, options);
+  using exchange::AgentMode;
+  const bool interrupted = options.link.stop();
+  link.Close(!judged ? AgentMode::kFault : interrupted ? AgentMode::kStopped : AgentMode::kArrived,
+             judged ? "" : judged.error().message);
+  if (!judged) return tl::unexpected(judged.error());
+  return Summarize(*outcome, drive);
+}
+
+Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
+                               std::unique_ptr<store::RouteStore> store,
+                               std::unique_ptr<exchange::RouteExchange> exchange) {
+  ScoutLink link(options, std::move(store), std::move(exchange));
+  if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
+  if (auto started = link.Start(std::nullopt); !started) return tl::unexpected(started.error());
+  auto outcome = link.Finish();
+  if (!outcome) return tl::unexpected(outcome.error());
+  using exchange::AgentMode;
+  link.Close(outcome->all_receipted ? AgentMode::kArrived : AgentMode::kFault, "");
+  if (!outcome->all_receipted) {
+    return tl::unexpected(NotReceipted(*outcome, options.store_file));
+  }
+  Summary summary;
+  summary.Add("unreceipted", "0");
+  return summary;
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "agent/device.h"
+#include "agent/scout_link.h"
+#include "agent/summary.h"
+
+namespace trailcast::agent {
+
+struct ScoutOptions {
+  std::string route;  // name
+  ScoutLinkOptions link;
+};
+
+// Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.
+// `exchange` may be null: then the route is stored and not sent. The error says why no route, or
+// only part of one, was taught, and what is kept where.
+[[nodiscard]] Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
+                                    std::unique_ptr<store::RouteStore> store,
+                                    std::unique_ptr<exchange::RouteExchange> exchange);
+
+// Sends what earlier runs left without a receipt, and waits for the receipts.
+[[nodiscard]] Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
+                                             std::unique_ptr<store::RouteStore> store,
+                                             std::unique_ptr<exchange::RouteExchange> exchange);
+
+}  // namespace trailcast::agent

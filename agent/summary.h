@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::agent {
+
+// How a run ended: names and values, in order, for people (a line each) and, as key=value lines in
+// a file, for tools.
+class Summary {
+ public:
+  void Add(std::string key, std::string value);
+
+  [[nodiscard]] const std::string* Find(const std::string& key) const;
+  [[nodiscard]] std::string Text() const;
+  [[nodiscard]] Result<void> Write(const std::filesystem::path& file) const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> lines_;
+};
+
+}  // namespace trailcast::agent

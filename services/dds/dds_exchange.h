@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "services/base/ids.h"
+#include "services/base/result.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::dds {
+
+struct DdsOptions {
+  std::uint32_t domain_id = 0;  // 0..230, decides the UDP ports
+  // Participants with different tags do not see each other: two swarms, or two tests, on one
+  // network.
+  std::string discovery_tag;
+  // "" lets Cyclone choose; "lo" works where there is nothing else.
+  std::string network_interface;
+  AgentId self;
+  std::string extra_config_xml;  // Cyclone's XML, has the last word (security, peers)
+
+  // How long Publish waits for slow readers, and closing for the last messages to arrive.
+  std::chrono::milliseconds write_timeout{100};
+  std::chrono::milliseconds close_timeout{1000};
+};
+
+// The bus over Cyclone DDS. One participant with the topics of `use`; QoS in qos_table.cc.
+// Destroying it says good-bye for the statuses it published (AgentGone at the others) after
+// waiting, at most close_timeout, for its last messages to arrive.
+[[nodiscard]] Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(
+    const DdsOptions& options, const exchange::TopicUse& use);
+
+}  // namespace trailcast::dds

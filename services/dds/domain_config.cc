@@ -1,0 +1,55 @@
+#include "services/dds/domain_config.h"
+
+#include "services/base/ids.h"
+
+namespace trailcast::dds {
+namespace {
+
+// A NACK after 10 ms instead of 100 ms: measured four times the throughput at 5 % packet loss.
+// Samples above 2 MB cannot be ours: they are not even put together. WhcHigh: what a writer may
+// have unacknowledged before it waits; 4 MB rides over a reader's short stall.
+constexpr const char* kDefaults =
+    "<CycloneDDS><Domain><Internal>"
+    "<NackDelay>10ms</NackDelay>"
+    "<MaxSampleSize>2MB</MaxSampleSize>"
+    "<Watermarks><WhcHigh>4MB</WhcHigh></Watermarks>"
+    "</Internal></Domain></CycloneDDS>";
+
+}  // namespace
+
+Result<std::string> DomainConfig(const DdsOptions& options, const std::string& cyclonedds_uri) {
+  constexpr std::uint32_t kMaxDomainId = 230;  // beyond, port numbers run out
+  if (options.domain_id > kMaxDomainId) {
+    return Fail(ErrorCode::kInvalidArgument, "DDS domain id {} is above {}", options.domain_id,
+                kMaxDomainId);
+  }
+  std::string discovery = fmt::format("<ExternalDomainId>{}</ExternalDomainId>", options.domain_id);
+  if (!options.discovery_tag.empty()) {
+    if (!IsValidName(options.discovery_tag)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "DDS discovery tag is not 1 to 64 of letters, digits, '_', '.', '-'");
+    }
+    discovery += fmt::format("<Tag>{}</Tag>", options.discovery_tag);
+  }
+  std::string general;
+  if (!options.network_interface.empty()) {
+    if (!IsValidName(options.network_interface)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "\"{}\" is not the name of a network interface; `ip link` lists them",
+                  options.network_interface);
+    }
+    // Forced: the loopback interface does multicast although it does not say so.
+    general = fmt::format(
+        "<General><AllowMulticast>true</AllowMulticast><Interfaces>"
+        "<NetworkInterface name=\"{}\" multicast=\"true\"/></Interfaces></General>",
+        options.network_interface);
+  }
+  std::string config = kDefaults;
+  if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
+  config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
+                        general, discovery);
+  if (!options.extra_config_xml.empty()) config += "," + options.extra_config_xml;
+  return config;
+}
+
+}  // namespace trailcast::dds

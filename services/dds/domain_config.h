@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "services/dds/dds_exchange.h"
+
+namespace trailcast::dds {
+
+// Cyclone's configuration, later parts taking precedence: our defaults, the environment's
+// CYCLONEDDS_URI, the options, extra_config_xml. kInvalidArgument for text that cannot be put in
+// XML or a domain id out of range.
+[[nodiscard]] Result<std::string> DomainConfig(const DdsOptions& options,
+                                               const std::string& cyclonedds_uri);
+
+}  // namespace trailcast::dds

@@ -1,0 +1,126 @@
+#include "services/dds/entities.h"
+
+#include <array>
+#include <cassert>
+
+namespace trailcast::dds {
+namespace {
+
+dds_duration_t ToDds(std::chrono::milliseconds duration) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
+}
+
+Result<void> Check(dds_return_t code, const char* doing) {
+  if (code >= 0) return {};
+  return tl::unexpected(DdsError(code, doing));
+}
+
+}  // namespace
+
+Error DdsError(dds_return_t code, const std::string& doing) {
+  ErrorCode kind = ErrorCode::kInternal;
+  if (code == DDS_RETCODE_TIMEOUT || code == DDS_RETCODE_OUT_OF_RESOURCES) {
+    kind = ErrorCode::kUnavailable;
+  } else if (code == DDS_RETCODE_BAD_PARAMETER || code == DDS_RETCODE_INCONSISTENT_POLICY) {
+    kind = ErrorCode::kInvalidArgument;
+  }
+  return {kind, fmt::format("DDS: {}: {}", doing, dds_strretcode(-code))};
+}
+
+Qos MakeQos() { return Qos(dds_create_qos()); }
+
+Result<Domain> Domain::Create(const std::string& config_xml) {
+  // The id is this process's own (the network sees ExternalDomainId), so any free one will do.
+  constexpr dds_domainid_t kMaxDomains = 230;
+  for (dds_domainid_t id = 0; id < kMaxDomains; ++id) {
+    const dds_entity_t handle = dds_create_domain(id, config_xml.c_str());
+    if (handle >= 0) return Domain(handle, id);
+    if (handle != DDS_RETCODE_PRECONDITION_NOT_MET) {
+      Error error = DdsError(handle, "creating a domain");
+      error.message +=
+          "; check the network interface's name and the XML (CYCLONEDDS_URI included); Cyclone's "
+          "own message is on stderr";
+      return tl::unexpected(error);
+    }
+  }
+  return Fail(ErrorCode::kInternal, "DDS: this process has {} domains open already", kMaxDomains);
+}
+
+Result<Participant> Participant::Create(const Domain& domain) {
+  const dds_entity_t handle = dds_create_participant(domain.id(), nullptr, nullptr);
+  if (handle < 0) return tl::unexpected(DdsError(handle, "creating a participant"));
+  return Participant(handle);
+}
+
+Result<Topic> Topic::Create(const Participant& participant, const dds_topic_descriptor_t& type,
+                            const std::string& name) {
+  const dds_entity_t handle =
+      dds_create_topic(participant.handle(), &type, name.c_str(), nullptr, nullptr);
+  if (handle < 0) return tl::unexpected(DdsError(handle, "creating topic " + name));
+  return Topic(handle);
+}
+
+Result<Writer> Writer::Create(const Participant& participant, const Topic& topic, const Qos& qos) {
+  const dds_entity_t handle =
+      dds_create_writer(participant.handle(), topic.handle(), qos.get(), nullptr);
+  if (handle < 0) return tl::unexpected(DdsError(handle, "creating a writer"));
+  return Writer(handle);
+}
+
+Result<void> Writer::Write(const void* sample) {
+  return Check(dds_write(handle(), sample), "writing");
+}
+
+Result<void> Writer::Dispose(const void* sample) {
+  return Check(dds_dispose(handle(), sample), "disposing");
+}
+
+Result<void> Writer::WaitForAcks(std::chrono::milliseconds max_wait) {
+  return Check(dds_wait_for_acks(handle(), ToDds(max_wait)), "waiting for acknowledgements");
+}
+
+Result<Reader> Reader::Create(const Participant& participant, const Topic& topic, const Qos& qos) {
+  const dds_entity_t handle =
+      dds_create_reader(participant.handle(), topic.handle(), qos.get(), nullptr);
+  if (handle < 0) return tl::unexpected(DdsError(handle, "creating a reader"));
+  return Reader(handle);
+}
+
+Result<void> Reader::Take(std::size_t max,
+                          const std::function<void(const void*, const dds_sample_info_t&)>& use) {
+  constexpr std::size_t kAtOnce = 64;
+  for (std::size_t taken = 0; taken < max;) {
+    std::array<void*, kAtOnce> samples{};  // null: loaned by Cyclone
+    std::array<dds_sample_info_t, kAtOnce> infos{};
+    const dds_return_t count = dds_take(handle(), samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count < 0) return Check(count, "taking");
+    if (count == 0) return {};
+    const auto received = static_cast<std::size_t>(count);
+    for (std::size_t i = 0; i < received; ++i) use(samples[i], infos[i]);
+    if (auto ok = Check(dds_return_loan(handle(), samples.data(), count), "returning samples");
+        !ok) {
+      return ok;
+    }
+    taken += received;
+  }
+  return {};
+}
+
+Result<WaitSet> WaitSet::Create(const Participant& participant) {
+  const dds_entity_t handle = dds_create_waitset(participant.handle());
+  if (handle < 0) return tl::unexpected(DdsError(handle, "creating a wait set"));
+  return WaitSet(handle);
+}
+
+Result<void> WaitSet::Attach(const Reader& reader) {
+  // Belongs to the reader and goes with it.
+  const dds_entity_t condition = dds_create_readcondition(reader.handle(), DDS_ANY_STATE);
+  if (condition < 0) return tl::unexpected(DdsError(condition, "creating a read condition"));
+  return Check(dds_waitset_attach(handle(), condition, condition), "attaching to a wait set");
+}
+
+Result<void> WaitSet::Wait(std::chrono::milliseconds max_wait) {
+  return Check(dds_waitset_wait(handle(), nullptr, 0, ToDds(max_wait)), "waiting");
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <chrono>
+
+#include "services/dds/entities.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::dds {
+
+// The QoS of each topic, for its writers and its readers alike. All are reliable.
+struct TopicQos {
+  exchange::Topic topic;
+  bool transient_local;  // late joiners get the latest sample per key
+  int keep_last;         // samples per key; 0: keep all, the writer waits for slow readers
+  std::chrono::milliseconds liveliness;  // a silent writer's samples are over after this; 0: never
+};
+
+[[nodiscard]] const TopicQos& QosOf(exchange::Topic topic);
+
+// `write_timeout`: how long a keep-all writer waits for slow readers before it gives up.
+[[nodiscard]] Qos MakeQos(const TopicQos& row, std::chrono::milliseconds write_timeout);
+
+}  // namespace trailcast::dds

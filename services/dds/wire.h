@@ -1,0 +1,28 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <functional>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::dds {
+
+// Between our messages and the C structs that idlc makes of idl/trailcast.idl.
+
+[[nodiscard]] const dds_topic_descriptor_t& TypeOf(exchange::Topic topic);
+
+// Gives `use` the message as a sample of its topic's type. The sample points into the message and
+// is valid during the call only. The message is within bounds (CheckBounds) and not AgentGone.
+using UseSample = std::function<Result<void>(const void* sample)>;
+[[nodiscard]] Result<void> WithWire(const exchange::Message& message, const UseSample& use);
+
+// A copy of a received sample; kInvalidArgument if anything in it is out of bounds.
+[[nodiscard]] Result<exchange::Message> FromWire(exchange::Topic topic, const void* sample);
+
+// From the key fields of a sample of the agents topic.
+[[nodiscard]] Result<exchange::AgentGone> GoneFromWire(const void* sample);
+
+}  // namespace trailcast::dds

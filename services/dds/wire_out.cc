@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <vector>
+
+#include "services/dds/wire.h"
+#include "trailcast.h"
+
+namespace trailcast::dds {
+namespace {
+
+using namespace exchange;  // every message type is used here
+using route::RouteInfo;
+using route::RouteKey;
+
+// The C types know no const; dds_write only reads.
+char* Lend(const std::string& text) { return const_cast<char*>(text.c_str()); }
+
+template <typename Sequence, typename Element>
+void Lend(std::vector<Element>& elements, Sequence& sequence) {
+  sequence._buffer = elements.data();
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(elements.size());
+  sequence._release = false;
+}
+
+std::vector<std::uint32_t> Values(const std::vector<SegmentIndex>& indices) {
+  std::vector<std::uint32_t> values;
+  values.reserve(indices.size());
+  for (const SegmentIndex index : indices) values.push_back(index.value());
+  return values;
+}
+
+trailcast_wire_RouteKey ToWire(const RouteKey& key) {
+  return {.route = Lend(key.route.value()), .revision = key.revision.value()};
+}
+
+trailcast_wire_RouteInfo ToWire(const RouteInfo& info) {
+  trailcast_wire_RouteInfo wire{};
+  wire.name = Lend(info.name);
+  wire.scout = Lend(info.scout.value());
+  wire.camera = Lend(info.camera);
+  wire.image_width_px = static_cast<std::uint32_t>(info.image_width_px);
+  wire.image_height_px = static_cast<std::uint32_t>(info.image_height_px);
+  wire.taught_unix_ms = info.taught_unix_ms;
+  wire.state = static_cast<std::uint8_t>(info.state);
+  wire.segment_count = info.segment_count;
+  wire.length_m = info.length_m;
+  wire.bytes = info.bytes;
+  std::copy(info.manifest_digest.begin(), info.manifest_digest.end(), wire.manifest_digest);
+  return wire;
+}
+
+Result<void> With(const RouteAnnouncement& message, const UseSample& use) {
+  const trailcast_wire_RouteAnnouncement sample{.holder = Lend(message.holder.value()),
+                                                .key = ToWire(message.info.key),
+                                                .info = ToWire(message.info)};
+  return use(&sample);
+}
+
+Result<void> With(const SegmentBatch& message, const UseSample& use) {
+  std::vector<trailcast_wire_SegmentPiece> pieces;
+  for (const route::SegmentPiece& piece : message.pieces) {
+    trailcast_wire_SegmentPiece wire{};
+    wire.key = ToWire(piece.key);
+    wire.index = piece.index.value();
+    std::copy(piece.digest.begin(), piece.digest.end(), wire.digest);
+    wire.bytes._buffer = const_cast<std::uint8_t*>(piece.bytes.data());
+    wire.bytes._length = wire.bytes._maximum = static_cast<std::uint32_t>(piece.bytes.size());
+    pieces.push_back(wire);
+  }
+  trailcast_wire_SegmentBatch sample{};
+  sample.sender = Lend(message.sender.value());
+  Lend(pieces, sample.pieces);
+  return use(&sample);
+}
+
+Result<void> With(const SegmentRequest& message, const UseSample& use) {
+  std::vector<std::uint32_t> lacking = Values(message.lacking);
+  trailcast_wire_SegmentRequest sample{};
+  sample.requester = Lend(message.requester.value());
+  sample.key = ToWire(message.key);
+  Lend(lacking, sample.lacking);
+  return use(&sample);
+}
+
+Result<void> With(const Receipt& message, const UseSample& use) {
+  std::vector<std::uint32_t> beyond = Values(message.durable_beyond);
+  trailcast_wire_Receipt sample{};
+  sample.server = Lend(message.server.value());
+  sample.key = ToWire(message.key);
+  sample.durable_prefix = message.durable_prefix;
+  Lend(beyond, sample.durable_beyond);
+  sample.durable_state = static_cast<std::uint8_t>(message.durable_state);
+  return use(&sample);
+}
+
+Result<void> With(const CatalogRequest& message, const UseSample& use) {
+  const trailcast_wire_CatalogRequest sample{.client = Lend(message.client.value()),
+                                             .request = message.request,
+                                             .name = Lend(message.name)};
+  return use(&sample);
+}
+
+Result<void> With(const CatalogReply& message, const UseSample& use) {
+  std::vector<trailcast_wire_CatalogRoute> routes;
+  for (const RouteInfo& info : message.routes) {
+    routes.push_back({.key = ToWire(info.key), .info = ToWire(info)});
+  }
+  std::vector<char*> names;
+  for (const std::string& name : message.similar_names) names.push_back(Lend(name));
+  trailcast_wire_CatalogReply sample{};
+  sample.server = Lend(message.server.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  Lend(routes, sample.routes);
+  Lend(names, sample.similar_names);
+  sample.error = Lend(message.error);
+  return use(&sample);
+}
+
+Result<void> With(const AgentStatus& message, const UseSample& use) {
+  trailcast_wire_AgentStatus sample{};
+  sample.agent = Lend(message.agent.value());
+  sample.instance = message.instance;
+  sample.role = static_cast<std::uint8_t>(message.role);
+  sample.mode = static_cast<std::uint8_t>(message.mode);
+  sample.route = Lend(message.route);
+  sample.segment = message.segment;
+  sample.segments = message.segments;
+  sample.progress = message.progress;
+  sample.speed_mps = message.speed_mps;
+  sample.features = message.features;
+  sample.found_share = message.found_share;
+  sample.backlog = message.backlog;
+  sample.detail = Lend(message.detail);
+  return use(&sample);
+}
+
+Result<void> With(const AgentGone& message, const UseSample&) {
+  return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
+              message.agent.value());
+}
+
+}  // namespace
+
+const dds_topic_descriptor_t& TypeOf(Topic topic) {
+  static constexpr const dds_topic_descriptor_t* kTypes[] = {
+      &trailcast_wire_RouteAnnouncement_desc, &trailcast_wire_SegmentBatch_desc,
+      &trailcast_wire_SegmentRequest_desc,    &trailcast_wire_Receipt_desc,
+      &trailcast_wire_CatalogRequest_desc,    &trailcast_wire_CatalogReply_desc,
+      &trailcast_wire_AgentStatus_desc};
+  return *kTypes[static_cast<std::size_t>(topic)];
+}
+
+Result<void> WithWire(const Message& message, const UseSample& use) {
+  return std::visit([&](const auto& value) { return With(value, use); }, message);
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,190 @@
+#include "services/exchange/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/exchange/text.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::SegmentPiece;
+
+Result<void> CheckName(const char* field, const std::string& name) {
+  if (IsValidName(name)) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "{} \"{}\" is not a name: 1 to 64 of letters, digits, '_', '.', '-'", field,
+              PlainText(name, 80));
+}
+
+Result<void> CheckText(const char* field, const std::string& text, std::size_t max_bytes) {
+  if (IsPlainText(text, max_bytes)) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "{} is not one line of UTF-8 of at most {} bytes without control characters", field,
+              max_bytes);
+}
+
+Result<void> CheckCount(const char* field, std::uint64_t count, std::uint64_t max) {
+  if (count <= max) return {};
+  return Fail(ErrorCode::kInvalidArgument, "{} is {}, at most {} is accepted", field, count, max);
+}
+
+Result<void> CheckAmount(const char* field, double value, double max) {
+  if (value >= 0.0 && value <= max) return {};  // false for NaN
+  return Fail(ErrorCode::kInvalidArgument, "{} is {}, expected 0 to {}", field, value, max);
+}
+
+Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& indices,
+                          std::size_t max) {
+  if (auto ok = CheckCount(field, indices.size(), max); !ok) return ok;
+  for (const SegmentIndex index : indices) {
+    if (auto ok = CheckCount(field, index.value(), kMaxSegmentsPerRoute - 1); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> CheckState(route::RouteState state) {
+  return CheckCount("route state", static_cast<std::uint8_t>(state),
+                    static_cast<std::uint8_t>(route::RouteState::kComplete));
+}
+
+Result<void> CheckKey(const RouteKey& key) {
+  const std::string& id = key.route.value();
+  const bool hex = std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+  });
+  if (id.size() != 32 || !hex) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route id \"{}\" is not 32 lower-case hexadecimal digits", PlainText(id, 80));
+  }
+  if (key.revision.value() == 0) {
+    return Fail(ErrorCode::kInvalidArgument, "revision of route {} is 0, they start at 1", id);
+  }
+  return {};
+}
+
+Result<void> CheckInfo(const RouteInfo& info) {
+  constexpr double kMaxLength_m = 1e7;
+  if (auto ok = CheckKey(info.key); !ok) return ok;
+  if (auto ok = CheckName("route name", info.name); !ok) return ok;
+  if (auto ok = CheckName("scout", info.scout.value()); !ok) return ok;
+  if (auto ok = CheckText("camera", info.camera, kMaxCameraBytes); !ok) return ok;
+  if (auto ok = CheckAmount("image width", info.image_width_px, kMaxImageSide_px); !ok) return ok;
+  if (auto ok = CheckAmount("image height", info.image_height_px, kMaxImageSide_px); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckState(info.state); !ok) return ok;
+  if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
+    return ok;
+  }
+  return CheckAmount("route length in metres", info.length_m, kMaxLength_m);
+}
+
+Result<void> CheckPiece(const SegmentPiece& piece) {
+  if (auto ok = CheckKey(piece.key); !ok) return ok;
+  if (auto ok = CheckCount("segment index", piece.index.value(), kMaxSegmentsPerRoute - 1); !ok) {
+    return ok;
+  }
+  if (piece.bytes.empty() || piece.digest == route::Digest{}) {
+    return Fail(ErrorCode::kInvalidArgument, "segment {} of route {} has no bytes or no digest",
+                piece.index.value(), piece.key.route.value());
+  }
+  return CheckCount("bytes in a segment", piece.bytes.size(), kMaxPieceBytes);
+}
+
+Result<void> Check(const RouteAnnouncement& message) {
+  if (auto ok = CheckName("holder", message.holder.value()); !ok) return ok;
+  return CheckInfo(message.info);
+}
+
+Result<void> Check(const SegmentBatch& message) {
+  if (auto ok = CheckName("sender", message.sender.value()); !ok) return ok;
+  if (message.pieces.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "segment batch without segments");
+  }
+  if (auto ok = CheckCount("segments in a batch", message.pieces.size(), kMaxPiecesPerBatch); !ok) {
+    return ok;
+  }
+  for (const SegmentPiece& piece : message.pieces) {
+    if (auto ok = CheckPiece(piece); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> Check(const SegmentRequest& message) {
+  if (auto ok = CheckName("requester", message.requester.value()); !ok) return ok;
+  if (auto ok = CheckKey(message.key); !ok) return ok;
+  return CheckIndices("lacking segments", message.lacking, kMaxIndicesPerRequest);
+}
+
+Result<void> Check(const Receipt& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckKey(message.key); !ok) return ok;
+  if (auto ok = CheckState(message.durable_state); !ok) return ok;
+  if (auto ok = CheckCount("durable prefix", message.durable_prefix, kMaxSegmentsPerRoute); !ok) {
+    return ok;
+  }
+  return CheckIndices("durable segments", message.durable_beyond, kMaxIndicesPerReceipt);
+}
+
+Result<void> Check(const CatalogRequest& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (message.name.empty()) return {};
+  return CheckName("route name asked for", message.name);
+}
+
+Result<void> Check(const CatalogReply& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckCount("routes in a reply", message.routes.size(), kMaxRoutesPerReply); !ok) {
+    return ok;
+  }
+  for (const RouteInfo& info : message.routes) {
+    if (auto ok = CheckInfo(info); !ok) return ok;
+  }
+  if (auto ok = CheckCount("similar names", message.similar_names.size(), kMaxSimilarNames); !ok) {
+    return ok;
+  }
+  for (const std::string& name : message.similar_names) {
+    if (auto ok = CheckName("similar name", name); !ok) return ok;
+  }
+  return CheckText("error", message.error, kMaxLineBytes);
+}
+
+Result<void> Check(const AgentStatus& message) {
+  constexpr double kMaxSpeed_mps = 1000.0;
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (!message.route.empty()) {
+    if (auto ok = CheckName("route name", message.route); !ok) return ok;
+  }
+  if (auto ok = CheckCount("agent role", static_cast<std::uint8_t>(message.role),
+                           static_cast<std::uint8_t>(AgentRole::kOperator));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckCount("agent mode", static_cast<std::uint8_t>(message.mode),
+                           static_cast<std::uint8_t>(AgentMode::kFault));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckAmount("progress", message.progress, 1.0); !ok) return ok;
+  if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
+  if (auto ok =
+          CheckAmount("speed, forward or backward", std::abs(message.speed_mps), kMaxSpeed_mps);
+      !ok) {
+    return ok;
+  }
+  return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
+Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
+
+}  // namespace
+
+Result<void> CheckBounds(const Message& message) {
+  return std::visit([](const auto& value) { return Check(value); }, message);
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+// What is accepted from a peer, and therefore published. Also in idl/README.md.
+inline constexpr std::size_t kMaxPieceBytes = 1U << 20U;        // = route::kMaxSegmentBytes
+inline constexpr std::size_t kMaxPiecesPerBatch = 4096;         // what one Publish may carry
+inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;  // 200 km at 2 m
+inline constexpr std::size_t kMaxIndicesPerRequest = 1024;
+inline constexpr std::size_t kMaxIndicesPerReceipt = 4096;
+inline constexpr std::size_t kMaxRoutesPerReply = 4096;
+inline constexpr std::size_t kMaxSimilarNames = 16;
+inline constexpr std::size_t kMaxCameraBytes = 128;
+inline constexpr std::size_t kMaxLineBytes = 512;  // AgentStatus::detail, CatalogReply::error
+inline constexpr int kMaxImageSide_px = 65535;
+
+// kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
+// not checked against its bytes here (route::CheckDigest), only that there is one.
+[[nodiscard]] Result<void> CheckBounds(const Message& message);
+
+}  // namespace trailcast::exchange

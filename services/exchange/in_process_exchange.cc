@@ -1,0 +1,159 @@
+#include "services/exchange/in_process_exchange.h"
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "services/exchange/batches.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/topics.h"
+
+namespace trailcast::exchange {
+namespace {
+
+bool Contains(const std::vector<Topic>& topics, Topic topic) {
+  return std::find(topics.begin(), topics.end(), topic) != topics.end();
+}
+
+// What an exchange has received and not yet taken: a queue for each topic, as DDS has readers.
+class Inbox {
+ public:
+  void Push(Topic topic, const std::string& instance, const Message& message) {
+    auto& queue = queues_[static_cast<std::size_t>(topic)];
+    if (!instance.empty()) {  // keep-last 1: the newer replaces what was not taken in time
+      std::erase_if(queue, [&](const Entry& entry) { return entry.instance == instance; });
+    }
+    queue.push_back({instance, message});
+  }
+
+  [[nodiscard]] bool empty() const {
+    return std::all_of(queues_.begin(), queues_.end(), [](const auto& q) { return q.empty(); });
+  }
+
+  std::vector<Message> TakeAll() {
+    std::vector<Message> messages;
+    for (auto& queue : queues_) {
+      for (Entry& entry : queue) messages.push_back(std::move(entry.message));
+      queue.clear();
+    }
+    return messages;
+  }
+
+ private:
+  struct Entry {
+    std::string instance;
+    Message message;
+  };
+  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kAgents) + 1;
+  std::array<std::deque<Entry>, kTopics> queues_;
+};
+
+struct Member {
+  TopicUse use;
+  Inbox inbox;
+  std::map<std::string, Message>
+      latest;  // what it published on transient-local topics, by instance
+};
+
+}  // namespace
+
+struct InProcessBus::State {
+  std::mutex mutex;
+  std::condition_variable arrived;
+  std::vector<Member*> members;  // each owned by its exchange
+
+  void Join(Member& member) {
+    const std::scoped_lock lock(mutex);
+    for (const Member* other : members) {
+      for (const auto& [instance, message] : other->latest) {
+        const Topic topic = *TopicOf(message);
+        if (Contains(member.use.read, topic)) member.inbox.Push(topic, instance, message);
+      }
+    }
+    members.push_back(&member);
+  }
+
+  void Leave(const Member& member) {
+    const std::scoped_lock lock(mutex);
+    std::erase(members, &member);
+    for (const auto& [instance, message] : member.latest) {
+      const auto* status = std::get_if<AgentStatus>(&message);
+      if (status == nullptr) continue;
+      const AgentGone gone{status->agent, status->instance};
+      // Not the status's instance: as over DDS, a last status not yet taken comes before the end.
+      Send(member, Topic::kAgents, "", gone);
+    }
+    arrived.notify_all();
+  }
+
+  // With the mutex held.
+  void Send(const Member& sender, Topic topic, const std::string& instance,
+            const Message& message) {
+    for (Member* member : members) {
+      if (member != &sender && Contains(member->use.read, topic)) {
+        member->inbox.Push(topic, instance, message);
+      }
+    }
+  }
+};
+
+namespace {
+
+class InProcessExchange : public RouteExchange {
+ public:
+  InProcessExchange(std::shared_ptr<InProcessBus::State> bus, const TopicUse& use)
+      : bus_(std::move(bus)), self_{.use = use, .inbox = {}, .latest = {}} {
+    bus_->Join(self_);
+  }
+  ~InProcessExchange() override { bus_->Leave(self_); }
+  InProcessExchange(const InProcessExchange&) = delete;
+  InProcessExchange& operator=(const InProcessExchange&) = delete;
+
+  Result<void> Publish(const Message& message) override {
+    const std::optional<Topic> topic = TopicOf(message);
+    if (!topic || !Contains(self_.use.write, *topic)) {
+      return Fail(ErrorCode::kInvalidArgument, "{} was not opened for writing",
+                  topic ? NameOf(*topic) : "AgentGone is no topic and");
+    }
+    if (auto ok = CheckBounds(message); !ok) return ok;
+    const std::string instance = InstanceOf(message);
+    const std::scoped_lock lock(bus_->mutex);
+    if (!instance.empty()) self_.latest.insert_or_assign(instance, message);
+    if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+      for (const SegmentBatch& part : SplitBatch(*batch)) bus_->Send(self_, *topic, "", part);
+    } else {
+      bus_->Send(self_, *topic, instance, message);
+    }
+    bus_->arrived.notify_all();
+    return {};
+  }
+
+  std::vector<Message> Take(std::chrono::milliseconds max_wait) override {
+    std::unique_lock lock(bus_->mutex);
+    bus_->arrived.wait_for(lock, max_wait, [this] { return !self_.inbox.empty(); });
+    return self_.inbox.TakeAll();
+  }
+
+  // Publish checks bounds, so nothing out of bounds ever arrives.
+  [[nodiscard]] std::uint64_t dropped() const override { return 0; }
+
+ private:
+  std::shared_ptr<InProcessBus::State> bus_;
+  Member self_;
+};
+
+}  // namespace
+
+InProcessBus::InProcessBus() : state_(std::make_shared<State>()) {}
+InProcessBus::~InProcessBus() = default;
+
+std::unique_ptr<RouteExchange> InProcessBus::Open(const TopicUse& use) {
+  return std::make_unique<InProcessExchange>(state_, use);
+}
+
+}  // namespace trailcast::exchange

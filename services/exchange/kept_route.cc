@@ -1,0 +1,91 @@
+#include "services/exchange/kept_route.h"
+
+#include "services/base/result.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::exchange {
+
+using route::RouteInfo;
+using route::RouteState;
+
+std::string Describe(const route::RouteKey& key) {
+  return fmt::format("route {} revision {}", key.route.value(), key.revision.value());
+}
+
+KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<SegmentIndex>& held,
+                     WantList::Options want_options)
+    : want(want_options), stored_(std::move(stored)), claim_(stored_) {
+  for (const SegmentIndex index : held) held_.emplace(index, std::nullopt);
+  AdvancePrefix();
+  if (!stored_) return;
+  // A store that lost segments which its info counts gets them again.
+  for (std::uint32_t i = prefix_; i < stored_->segment_count; ++i) {
+    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), Time{});
+  }
+}
+
+KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
+  if (complete()) {
+    const bool more = info.segment_count > stored_->segment_count;
+    const bool other = info.state == RouteState::kComplete && info != *stored_;
+    return more || other ? ClaimResult::kConflict : ClaimResult::kOldNews;
+  }
+  const bool was_complete = claim_ && claim_->state == RouteState::kComplete;
+  const bool completes = info.state == RouteState::kComplete && !was_complete;
+  const bool grows = !was_complete && (!claim_ || info.segment_count > claim_->segment_count);
+  if (!completes && !grows) return ClaimResult::kOldNews;
+  claim_ = info;
+  for (std::uint32_t i = prefix_; i < info.segment_count; ++i) {
+    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
+  }
+  return ClaimResult::kNews;
+}
+
+void KeptRoute::MarkHeld(SegmentIndex index, const route::Digest& digest) {
+  held_[index] = digest;
+  want.Remove(index);
+  AdvancePrefix();
+}
+
+std::optional<route::Digest> KeptRoute::DigestOf(SegmentIndex index) const {
+  const auto held = held_.find(index);
+  return held == held_.end() ? std::nullopt : held->second;
+}
+
+std::optional<RouteInfo> KeptRoute::DurableInfo() const {
+  if (!claim_) return std::nullopt;
+  if (prefix_ >= claim_->segment_count) return claim_;
+  if (prefix_ == 0) return std::nullopt;
+  RouteInfo durable = *claim_;
+  const double share = static_cast<double>(prefix_) / claim_->segment_count;
+  durable.state = RouteState::kTeaching;
+  durable.segment_count = prefix_;
+  durable.length_m *= share;
+  durable.bytes = static_cast<std::uint64_t>(static_cast<double>(claim_->bytes) * share);
+  durable.manifest_digest = {};
+  return durable;
+}
+
+void KeptRoute::ForgetClaim() {
+  claim_ = stored_;
+  want.Clear();
+}
+
+Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key) const {
+  Receipt receipt{.server = server,
+                  .key = key,
+                  .durable_prefix = prefix_,
+                  .durable_beyond = {},
+                  .durable_state = complete() ? RouteState::kComplete : RouteState::kTeaching};
+  for (auto at = held_.lower_bound(SegmentIndex(prefix_)); at != held_.end(); ++at) {
+    if (receipt.durable_beyond.size() == kMaxIndicesPerReceipt) break;
+    receipt.durable_beyond.push_back(at->first);
+  }
+  return receipt;
+}
+
+void KeptRoute::AdvancePrefix() {
+  while (held_.contains(SegmentIndex(prefix_))) ++prefix_;
+}
+
+}  // namespace trailcast::exchange

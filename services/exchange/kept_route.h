@@ -1,0 +1,73 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/exchange/messages.h"
+#include "services/exchange/want_list.h"
+
+namespace trailcast::exchange {
+
+// For people: "route 00ff.. revision 1".
+[[nodiscard]] std::string Describe(const route::RouteKey& key);
+
+// What a server knows of one route: what is durable, what was announced, what follows from the two.
+class KeptRoute {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  // As found in the store: `stored` may be empty when segments came before their route.
+  KeptRoute(std::optional<route::RouteInfo> stored, const std::vector<SegmentIndex>& held,
+            WantList::Options want);
+
+  enum class ClaimResult : std::uint8_t {
+    kNews,      // more is known than before
+    kOldNews,   // nothing new
+    kConflict,  // contradicts a complete route
+  };
+  // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.
+  ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
+
+  void MarkHeld(SegmentIndex index, const route::Digest& digest);
+  [[nodiscard]] bool Holds(SegmentIndex index) const { return held_.contains(index); }
+  // Known if the segment was received by this process, or LearnDigest was called.
+  [[nodiscard]] std::optional<route::Digest> DigestOf(SegmentIndex index) const;
+  void LearnDigest(SegmentIndex index, const route::Digest& digest) { held_[index] = digest; }
+
+  // The route as far as it is durable: the claim if all of it is held, else the durable prefix with
+  // length and bytes in proportion. Empty if nothing can be said, or nothing is held yet.
+  [[nodiscard]] std::optional<route::RouteInfo> DurableInfo() const;
+  // The store took `info`.
+  void MarkStored(const route::RouteInfo& info) { stored_ = info; }
+  // The claim does not fit the segments: forget it, and never announce it.
+  void ForgetClaim();
+  [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }
+  [[nodiscard]] bool complete() const {
+    return stored_ && stored_->state == route::RouteState::kComplete;
+  }
+
+  [[nodiscard]] std::uint32_t durable_prefix() const { return prefix_; }
+  [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key) const;
+
+  WantList want;
+  // What the keeper has to do for this route.
+  bool receipt_due = false;
+  bool announce_due = false;
+  bool resend_due = false;  // announce although nothing changed, as after a start
+  std::optional<Time> receipt_at;
+  std::optional<Time> announced_at;
+
+ private:
+  void AdvancePrefix();
+
+  std::optional<route::RouteInfo> stored_;
+  std::optional<route::RouteInfo> claim_;
+  std::map<SegmentIndex, std::optional<route::Digest>> held_;
+  std::uint32_t prefix_ = 0;  // all below are held
+};
+
+}  // namespace trailcast::exchange

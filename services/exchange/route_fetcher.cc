@@ -1,0 +1,135 @@
+#include "services/exchange/route_fetcher.h"
+
+#include <utility>
+
+#include "services/exchange/bounds.h"
+
+namespace trailcast::exchange {
+
+using route::RouteState;
+
+RouteFetcher::RouteFetcher(AgentId self, route::RouteKey key, const std::vector<Held>& held,
+                           Integrity integrity, Time now, RouteFetcherOptions options)
+    : self_(std::move(self)),
+      key_(std::move(key)),
+      integrity_(std::move(integrity)),
+      options_(options),
+      want_(options.want),
+      heard_at_(now) {
+  for (const Held& piece : held) held_.emplace(piece.index, piece.digest);
+}
+
+void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
+  if (info.key != key_) return;
+  const bool complete = info_ && info_->state == RouteState::kComplete;
+  if (complete) {
+    // Complete routes never change; a holder that has less of it is no contradiction.
+    const bool less = info.state == RouteState::kTeaching;
+    if (!less && (info.manifest_digest != info_->manifest_digest ||
+                  info.segment_count != info_->segment_count)) {
+      ++counts_.conflicting;
+      return;
+    }
+  } else if (!info_ || info.state == RouteState::kComplete ||
+             info.segment_count > info_->segment_count) {
+    info_ = info;
+    WantMissing(now + options_.fresh_grace);
+    Judge();
+  }
+  heard_at_ = now;
+}
+
+void RouteFetcher::Handle(const Message& message, Time now) {
+  if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
+    const bool known_before = info_.has_value();
+    Learn(announcement->info, now);
+    if (known_before && announcement->info.key == key_) want_.Hurry(now);
+  }
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) Handle(*batch, now);
+}
+
+void RouteFetcher::Handle(const SegmentBatch& batch, Time now) {
+  for (const route::SegmentPiece& piece : batch.pieces) {
+    if (piece.key == key_) Accept(piece, now);
+  }
+}
+
+void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
+  if (const auto held = held_.find(piece.index); held != held_.end()) {
+    ++(held->second == piece.digest ? counts_.duplicate_pieces : counts_.conflicting);
+    return;
+  }
+  const bool complete = info_ && info_->state == RouteState::kComplete;
+  if (complete && piece.index.value() >= info_->segment_count) {
+    ++counts_.conflicting;
+    return;
+  }
+  if (!integrity_.check_piece(piece)) {
+    ++counts_.bad_pieces;
+    want_.AskAgain(piece.index, now);
+    return;
+  }
+  heard_at_ = now;
+  held_.emplace(piece.index, piece.digest);
+  want_.Remove(piece.index);
+  arrived_.push_back(piece);
+  Judge();
+}
+
+// A complete route's count is final, so what was wanted beyond it is forgotten.
+void RouteFetcher::WantMissing(Time ask_at) {
+  if (info_->state == RouteState::kComplete) {
+    while (!want_.empty() && want_.last()->value() >= info_->segment_count) {
+      want_.Remove(*want_.last());
+    }
+  }
+  for (std::uint32_t i = 0; i < info_->segment_count; ++i) {
+    if (!held_.contains(SegmentIndex(i))) want_.Want(SegmentIndex(i), ask_at);
+  }
+}
+
+void RouteFetcher::Judge() {
+  if (verdict_ || !info_ || info_->state != RouteState::kComplete || !want_.empty()) return;
+  std::vector<route::Digest> digests;
+  for (const auto& [index, digest] : held_) {
+    if (index.value() < info_->segment_count) digests.push_back(digest);
+  }
+  const bool right = integrity_.manifest(digests) == info_->manifest_digest;
+  verdict_ = right ? FetchState::kComplete : FetchState::kWrong;
+}
+
+std::vector<Message> RouteFetcher::Tick(Time now) {
+  std::vector<SegmentIndex> due = want_.Due(now);
+  std::vector<Message> messages;
+  for (std::size_t at = 0; at < due.size(); at += kMaxIndicesPerRequest) {
+    const auto end =
+        due.begin() + static_cast<std::ptrdiff_t>(std::min(due.size(), at + kMaxIndicesPerRequest));
+    messages.emplace_back(
+        SegmentRequest{.requester = self_,
+                       .key = key_,
+                       .lacking = {due.begin() + static_cast<std::ptrdiff_t>(at), end}});
+  }
+  return messages;
+}
+
+std::vector<route::SegmentPiece> RouteFetcher::TakeArrived() { return std::exchange(arrived_, {}); }
+
+FetchProgress RouteFetcher::Progress(Time now) const {
+  FetchProgress progress = counts_;
+  progress.held = static_cast<std::uint32_t>(held_.size());
+  progress.known = info_ ? info_->segment_count : 0;
+  const bool quiet = now - heard_at_ >= options_.quiet_after;
+  if (verdict_) {
+    progress.state = *verdict_;
+  } else if (info_ && want_.empty()) {
+    progress.state = FetchState::kUpToDate;
+  } else if (info_ && !quiet) {
+    progress.state = FetchState::kFetching;
+  } else {
+    progress.state = FetchState::kWaiting;
+    progress.waiting_since = heard_at_;
+  }
+  return progress;
+}
+
+}  // namespace trailcast::exchange

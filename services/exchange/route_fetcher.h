@@ -1,0 +1,91 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "services/exchange/integrity.h"
+#include "services/exchange/messages.h"
+#include "services/exchange/want_list.h"
+
+namespace trailcast::exchange {
+
+struct RouteFetcherOptions {
+  WantList::Options want;
+  // Segments announced just now are probably on their way: not asked for before this has passed.
+  std::chrono::milliseconds fresh_grace{200};
+  // Above the scout's announce_every: a scout in range is never taken for nobody.
+  std::chrono::milliseconds quiet_after{5000};
+};
+
+enum class FetchState : std::uint8_t {
+  kWaiting = 0,   // nobody who holds the route is heard; see waiting_since
+  kFetching = 1,  // segments are missing and under way
+  kUpToDate = 2,  // all that is known is held; the route is still being taught
+  kComplete = 3,  // the whole route is held, its manifest digest is right
+  kWrong = 4,     // all is held but does not make up the announced manifest: not to be replayed
+};
+
+struct FetchProgress {
+  FetchState state = FetchState::kWaiting;
+  std::uint32_t held = 0;
+  std::uint32_t known = 0;                                             // segments announced
+  std::optional<std::chrono::steady_clock::time_point> waiting_since;  // only in kWaiting
+  std::uint64_t bad_pieces = 0;        // failed their digest; dropped, asked for again
+  std::uint64_t duplicate_pieces = 0;  // held already
+  std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held; dropped
+};
+
+// The follower's end of the protocol for one route. No clock, no I/O: messages in, messages and
+// verified pieces out. Tolerates loss, duplicates, any order, damage, and holders that come and go.
+class RouteFetcher {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  struct Held {
+    SegmentIndex index;
+    route::Digest digest;
+  };
+
+  // `held`: what the owner's store already has of this route (read, and so verified, from it).
+  RouteFetcher(AgentId self, route::RouteKey key, const std::vector<Held>& held,
+               Integrity integrity, Time now, RouteFetcherOptions options = {});
+
+  // What a catalog reply said of the route; an announcement does the same.
+  void Learn(const route::RouteInfo& info, Time now);
+
+  void Handle(const Message& message, Time now);
+  [[nodiscard]] std::vector<Message> Tick(Time now);
+
+  // Verified pieces that are new since the last call, in the order of their arrival.
+  [[nodiscard]] std::vector<route::SegmentPiece> TakeArrived();
+
+  // The lowest segment that is announced and not held.
+  [[nodiscard]] std::optional<SegmentIndex> NextMissing() const { return want_.first(); }
+  [[nodiscard]] FetchProgress Progress(Time now) const;
+  [[nodiscard]] bool Complete() const { return verdict_ == FetchState::kComplete; }
+  // The best announcement so far.
+  [[nodiscard]] const std::optional<route::RouteInfo>& info() const { return info_; }
+
+ private:
+  void Handle(const SegmentBatch& batch, Time now);
+  void Accept(const route::SegmentPiece& piece, Time now);
+  void WantMissing(Time ask_at);
+  void Judge();
+
+  AgentId self_;
+  route::RouteKey key_;
+  Integrity integrity_;
+  RouteFetcherOptions options_;
+
+  std::optional<route::RouteInfo> info_;
+  std::map<SegmentIndex, route::Digest> held_;
+  WantList want_;
+  std::vector<route::SegmentPiece> arrived_;
+  std::optional<FetchState> verdict_;  // kComplete or kWrong, once all is held
+  Time heard_at_;                      // of a holder of this route; at first: creation
+  FetchProgress counts_;
+};
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,124 @@
+#include "services/exchange/route_keeper.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trailcast::exchange {
+using route::RouteInfo;
+using route::SegmentPiece;
+
+RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, AnswerCatalog answer_catalog,
+                         Integrity integrity, RouteKeeperOptions options)
+    : self_(std::move(self)),
+      store_(store),
+      answer_catalog_(std::move(answer_catalog)),
+      integrity_(std::move(integrity)),
+      options_(options),
+      answers_(options.answer_window) {}
+
+Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::RouteStore& store,
+                                                       AnswerCatalog answer_catalog,
+                                                       Integrity integrity,
+                                                       RouteKeeperOptions options) {
+  std::unique_ptr<RouteKeeper> keeper(new RouteKeeper(
+      std::move(self), store, std::move(answer_catalog), std::move(integrity), options));
+  const auto infos = store.ListRoutes();
+  if (!infos) return Wrap(infos.error(), "listing the stored routes");
+  for (const RouteInfo& info : *infos) {
+    const auto held = store.HeldSegments(info.key);
+    if (!held) return Wrap(held.error(), "listing the segments of " + Describe(info.key));
+    auto [at, added] = keeper->routes_.try_emplace(info.key, info, *held, options.want);
+    at->second.announce_due = at->second.resend_due = at->second.receipt_due = true;
+  }
+  return keeper;
+}
+
+void RouteKeeper::Handle(const Message& message, Time now) {
+  if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
+    Handle(*announcement, now);
+  } else if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    Handle(*batch, now);
+  } else if (const auto* segment_request = std::get_if<SegmentRequest>(&message)) {
+    Handle(*segment_request, now);
+  } else if (const auto* catalog_request = std::get_if<CatalogRequest>(&message)) {
+    Handle(*catalog_request);
+  }
+}
+
+void RouteKeeper::Handle(const RouteAnnouncement& announcement, Time now) {
+  const RouteInfo& info = announcement.info;
+  KeptRoute* kept = Find(info.key, now);
+  if (kept == nullptr) return;
+  switch (kept->Claim(info, now + options_.fresh_grace)) {
+    case KeptRoute::ClaimResult::kNews:
+      kept->announce_due = true;
+      break;
+    case KeptRoute::ClaimResult::kConflict:
+      ++counters_.conflicting;
+      AddNote(Note::Severity::kWarning, "claim/" + Describe(info.key),
+              fmt::format("{} announces another {} than the complete one held here: ignored",
+                          announcement.holder.value(), Describe(info.key)),
+              now);
+      return;
+    case KeptRoute::ClaimResult::kOldNews:
+      break;
+  }
+  kept->want.Hurry(now);
+  // The scout is here and perhaps missed the last receipt.
+  if (announcement.holder == info.scout) kept->receipt_due = true;
+}
+
+void RouteKeeper::Handle(const SegmentBatch& batch, Time now) {
+  for (const SegmentPiece& piece : batch.pieces) {
+    if (const auto intact = integrity_.check_piece(piece); intact) {
+      arrived_.push_back(piece);
+    } else {
+      ++counters_.corrupt;
+      AddNote(Note::Severity::kWarning, "corrupt/" + batch.sender.value(),
+              fmt::format("from {}: {}", batch.sender.value(), intact.error().message), now);
+      if (KeptRoute* kept = Find(piece.key, now)) kept->want.AskAgain(piece.index, now);
+    }
+  }
+}
+
+void RouteKeeper::Handle(const SegmentRequest& request, Time now) {
+  const KeptRoute* kept = Find(request.key, now);
+  if (kept == nullptr) return;
+  std::vector<SegmentIndex> held;
+  std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
+               [&](SegmentIndex index) { return kept->Holds(index); });
+  answers_.Ask(request.key, held, now);
+}
+
+void RouteKeeper::Handle(const CatalogRequest& request) {
+  CatalogReply reply = answer_catalog_(request);
+  reply.server = self_;
+  reply.client = request.client;
+  reply.request = request.request;
+  replies_.emplace_back(std::move(reply));
+}
+
+std::vector<Message> RouteKeeper::Tick(Time now) {
+  Commit(now);
+  std::vector<Message> out = std::exchange(replies_, {});
+  for (auto& [key, kept] : routes_) {
+    Announce(key, kept, now, out);
+    const bool due =
+        kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
+    if (due && (kept.durable_prefix() > 0 || kept.complete())) {
+      out.emplace_back(kept.MakeReceipt(self_, key));
+      kept.receipt_at = now;
+      kept.receipt_due = false;
+    }
+    if (std::vector<SegmentIndex> lacking = kept.want.Due(now); !lacking.empty()) {
+      out.emplace_back(
+          SegmentRequest{.requester = self_, .key = key, .lacking = std::move(lacking)});
+    }
+  }
+  SendAnswers(now, out);
+  return out;
+}
+
+std::vector<Note> RouteKeeper::TakeNotes() { return std::exchange(notes_, {}); }
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/exchange/answer_queue.h"
+#include "services/exchange/integrity.h"
+#include "services/exchange/kept_route.h"
+#include "services/exchange/messages.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::exchange {
+
+struct RouteKeeperOptions {
+  WantList::Options want;
+  std::chrono::milliseconds fresh_grace{200};     // as in RouteFetcherOptions
+  std::chrono::milliseconds answer_window{50};    // who asks within it is answered once, together
+  std::chrono::milliseconds announce_every{250};  // at most so often while a route grows
+  std::chrono::milliseconds receipt_again{500};   // at most so often when nothing new is durable
+  std::chrono::milliseconds note_again{10'000};   // the same trouble is reported at most so often
+  std::size_t answer_bytes_per_tick = 1U << 20U;
+  std::size_t max_routes = 10'000;
+};
+
+// For the owner's log.
+struct Note {
+  enum class Severity : std::uint8_t { kInfo, kWarning, kError };
+  Severity severity = Severity::kInfo;
+  std::string text;
+};
+
+struct KeeperCounters {
+  std::uint64_t appended = 0;     // pieces made durable
+  std::uint64_t duplicates = 0;   // pieces held already
+  std::uint64_t corrupt = 0;      // pieces that failed their digest: dropped, asked for again
+  std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held: dropped
+  std::uint64_t store_failures = 0;
+  std::uint64_t answered = 0;  // pieces sent to whoever asked
+};
+
+// The server's end of the protocol for all routes: makes durable what arrives, says so only then,
+// asks for what it lacks, answers who asks. No clock, no socket: messages in, messages out; the
+// store is its only effect. Handle everything one Take returned, then Tick: the pieces of one Take
+// are one commit.
+class RouteKeeper {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using AnswerCatalog = std::function<CatalogReply(const CatalogRequest&)>;
+
+  // Loads what the store has, to be announced at the first Tick. `store` outlives the keeper.
+  [[nodiscard]] static Result<std::unique_ptr<RouteKeeper>> Open(AgentId self,
+                                                                 store::RouteStore& store,
+                                                                 AnswerCatalog answer_catalog,
+                                                                 Integrity integrity,
+                                                                 RouteKeeperOptions options = {});
+
+  void Handle(const Message& message, Time now);
+  [[nodiscard]] std::vector<Message> Tick(Time now);
+
+  [[nodiscard]] std::vector<Note> TakeNotes();
+  [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
+
+ private:
+  RouteKeeper(AgentId self, store::RouteStore& store, AnswerCatalog answer_catalog,
+              Integrity integrity, RouteKeeperOptions options);
+
+  void Handle(const RouteAnnouncement& announcement, Time now);
+  void Handle(const SegmentBatch& batch, Time now);
+  void Handle(const SegmentRequest& request, Time now);
+  void Handle(const CatalogRequest& request);
+
+  // The route's state, loaded from the store when first met; null (and a note) if that fails.
+  KeptRoute* Find(const route::RouteKey& key, Time now);
+  [[nodiscard]] Result<route::Digest> HeldDigest(const route::RouteKey& key, KeptRoute& kept,
+                                                 SegmentIndex index);
+
+  [[nodiscard]] bool IsNew(const route::SegmentPiece& piece, Time now);
+  void Commit(Time now);
+  void Append(std::span<const route::SegmentPiece> pieces, Time now);
+  void Refuse(const Error& error, const route::RouteKey& key, Time now);
+  // True if the announced manifest is that of the segments held.
+  [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, KeptRoute& kept, Time now);
+  // Stores and announces what has become durable of the route's info.
+  void Announce(const route::RouteKey& key, KeptRoute& kept, Time now, std::vector<Message>& out);
+  [[nodiscard]] bool StoreInfo(const route::RouteInfo& info, KeptRoute& kept, Time now);
+  void SendAnswers(Time now, std::vector<Message>& out);
+  void AddNote(Note::Severity severity, const std::string& about, std::string text, Time now);
+
+  AgentId self_;
+  store::RouteStore& store_;
+  AnswerCatalog answer_catalog_;
+  Integrity integrity_;
+  RouteKeeperOptions options_;
+
+  std::map<route::RouteKey, KeptRoute> routes_;
+  std::vector<route::SegmentPiece> arrived_;  // since the last Tick
+  std::vector<Message> replies_;              // to the catalog's clients
+  AnswerQueue answers_;
+  std::vector<Note> notes_;
+  std::map<std::string, Time> noted_at_;
+  KeeperCounters counters_;
+};
+
+}  // namespace trailcast::exchange

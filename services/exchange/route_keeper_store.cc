@@ -1,0 +1,200 @@
+// RouteKeeper's dealings with its store: what is durable, and what follows from that.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "services/exchange/batches.h"
+#include "services/exchange/route_keeper.h"
+
+namespace trailcast::exchange {
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::RouteState;
+using route::SegmentPiece;
+
+KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now) {
+  if (const auto found = routes_.find(key); found != routes_.end()) return &found->second;
+  if (routes_.size() >= options_.max_routes) {
+    AddNote(Note::Severity::kError, "max_routes",
+            fmt::format("{} refused: {} routes are known, the most this server keeps",
+                        Describe(key), routes_.size()),
+            now);
+    return nullptr;
+  }
+  const auto info = store_.FindRoute(key);
+  const auto held = store_.HeldSegments(key);
+  if (!info || !held) {
+    Refuse(info ? held.error() : info.error(), key, now);
+    return nullptr;
+  }
+  return &routes_.try_emplace(key, *info, *held, options_.want).first->second;
+}
+
+Result<route::Digest> RouteKeeper::HeldDigest(const RouteKey& key, KeptRoute& kept,
+                                              SegmentIndex index) {
+  if (const auto digest = kept.DigestOf(index)) return *digest;
+  const auto piece = store_.ReadSegment(key, index);
+  if (!piece) return tl::unexpected(piece.error());
+  kept.LearnDigest(index, piece->digest);
+  return piece->digest;
+}
+
+// Counts and reports what is not: held already, or in conflict with what is held.
+bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
+  KeptRoute* kept = Find(piece.key, now);
+  if (kept == nullptr) return false;
+  const bool beyond = kept->complete() && piece.index.value() >= kept->stored()->segment_count;
+  if (!kept->Holds(piece.index) && !beyond) return true;
+  if (!beyond) {
+    const auto held = HeldDigest(piece.key, *kept, piece.index);
+    if (!held) {
+      Refuse(held.error(), piece.key, now);
+      return false;
+    }
+    if (*held == piece.digest) {
+      ++counters_.duplicates;
+      kept->receipt_due = true;  // whoever sent it again missed the receipt
+      return false;
+    }
+  }
+  Refuse({ErrorCode::kConflict, fmt::format("segment {} of {} contradicts what is held",
+                                            piece.index.value(), Describe(piece.key))},
+         piece.key, now);
+  return false;
+}
+
+void RouteKeeper::Commit(Time now) {
+  std::vector<SegmentPiece> fresh;
+  std::map<std::pair<RouteKey, SegmentIndex>, route::Digest> seen;
+  for (SegmentPiece& piece : std::exchange(arrived_, {})) {
+    if (!IsNew(piece, now)) continue;
+    const auto [first, is_first] = seen.try_emplace({piece.key, piece.index}, piece.digest);
+    if (is_first) {
+      fresh.push_back(std::move(piece));
+    } else if (first->second == piece.digest) {
+      ++counters_.duplicates;
+    } else {
+      ++counters_.conflicting;
+    }
+  }
+  Append(fresh, now);
+}
+
+// One commit. When the store refuses the group for a piece in it, halves are tried, so that the
+// rest is kept all the same.
+void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
+  if (pieces.empty()) return;
+  if (const auto stored = store_.AppendSegments(pieces); !stored) {
+    const ErrorCode code = stored.error().code;
+    const bool one_is_bad = code == ErrorCode::kConflict || code == ErrorCode::kCorrupt;
+    if (!one_is_bad || pieces.size() == 1) {
+      Refuse(stored.error(), pieces.front().key, now);
+      return;
+    }
+    const std::size_t half = pieces.size() / 2;
+    Append(pieces.first(half), now);
+    Append(pieces.subspan(half), now);
+    return;
+  }
+  counters_.appended += pieces.size();
+  for (const SegmentPiece& piece : pieces) {
+    KeptRoute& kept = routes_.at(piece.key);
+    kept.MarkHeld(piece.index, piece.digest);
+    kept.announce_due = kept.receipt_due = true;
+    kept.receipt_at.reset();  // something new is durable: not held back
+  }
+}
+
+void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
+  const bool conflict = error.code == ErrorCode::kConflict;
+  const bool corrupt = error.code == ErrorCode::kCorrupt;
+  ++(conflict ? counters_.conflicting : corrupt ? counters_.corrupt : counters_.store_failures);
+  AddNote(conflict ? Note::Severity::kWarning : Note::Severity::kError,
+          fmt::format("{}/{}", static_cast<int>(error.code), Describe(key)),
+          conflict ? "refused: " + error.message : error.message, now);
+}
+
+bool RouteKeeper::ManifestIsRight(const RouteInfo& info, KeptRoute& kept, Time now) {
+  std::vector<route::Digest> digests;
+  for (std::uint32_t i = 0; i < info.segment_count; ++i) {
+    const auto digest = HeldDigest(info.key, kept, SegmentIndex(i));
+    if (!digest) {
+      Refuse(digest.error(), info.key, now);
+      return false;
+    }
+    digests.push_back(*digest);
+  }
+  if (integrity_.manifest(digests) == info.manifest_digest) return true;
+  Refuse({ErrorCode::kConflict,
+          fmt::format("{} \"{}\" was announced complete, but its {} segments held here are not "
+                      "those of its manifest; teach it again as a new revision",
+                      Describe(info.key), info.name, info.segment_count)},
+         info.key, now);
+  return false;
+}
+
+void RouteKeeper::Announce(const RouteKey& key, KeptRoute& kept, Time now,
+                           std::vector<Message>& out) {
+  const bool too_soon = kept.announced_at && now < *kept.announced_at + options_.announce_every;
+  if (!kept.announce_due || too_soon) return;
+  kept.announce_due = false;
+  const std::optional<RouteInfo> durable = kept.DurableInfo();
+  const bool stored_already = durable && durable == kept.stored();
+  if (!durable || (stored_already && !kept.resend_due)) return;
+  kept.announced_at = now;
+  if (!stored_already && !StoreInfo(*durable, kept, now)) return;
+  kept.resend_due = false;
+  out.emplace_back(RouteAnnouncement{.holder = self_, .info = *durable});
+  if (stored_already || durable->state != RouteState::kComplete) return;
+  kept.receipt_due = true;
+  kept.receipt_at.reset();
+  AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
+          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(key), durable->name,
+                      durable->segment_count, durable->length_m),
+          now);
+}
+
+bool RouteKeeper::StoreInfo(const RouteInfo& info, KeptRoute& kept, Time now) {
+  if (info.state == RouteState::kComplete && !ManifestIsRight(info, kept, now)) {
+    kept.ForgetClaim();
+    return false;
+  }
+  if (const auto stored = store_.PutRoute(info); !stored) {
+    Refuse(stored.error(), info.key, now);
+    if (stored.error().code == ErrorCode::kConflict) {
+      kept.ForgetClaim();
+    } else {
+      kept.announce_due = true;  // disk full: again when it may have been cleared
+    }
+    return false;
+  }
+  kept.MarkStored(info);
+  return true;
+}
+
+void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
+  AnswerQueue::Answers answers = answers_.Due(
+      now, options_.answer_bytes_per_tick,
+      [this](const RouteKey& key, SegmentIndex index) { return store_.ReadSegment(key, index); });
+  counters_.answered += answers.pieces.size();
+  for (SegmentBatch& batch : SplitBatch({.sender = self_, .pieces = std::move(answers.pieces)})) {
+    out.emplace_back(std::move(batch));
+  }
+  for (const Error& error : answers.unreadable) {
+    ++counters_.store_failures;
+    AddNote(Note::Severity::kError, "unreadable", error.message, now);
+  }
+}
+
+void RouteKeeper::AddNote(Note::Severity severity, const std::string& about, std::string text,
+                          Time now) {
+  constexpr std::size_t kMaxRemembered = 1000;  // strangers can make up routes to complain about
+  if (noted_at_.size() >= kMaxRemembered) noted_at_.clear();
+  const auto [at, is_first] = noted_at_.try_emplace(about, now);
+  if (!is_first && now < at->second + options_.note_again) return;
+  at->second = now;
+  notes_.push_back({severity, std::move(text)});
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,99 @@
+#include "services/exchange/route_sender.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "services/exchange/batches.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::exchange {
+
+RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
+                         const std::vector<SegmentIndex>& receipted, RouteSenderOptions options)
+    : self_(std::move(self)),
+      info_(std::move(info)),
+      read_(std::move(read)),
+      options_(options),
+      answers_(options.answer_window) {
+  for (std::uint32_t i = 0; i < info_.segment_count; ++i) unreceipted_.insert(SegmentIndex(i));
+  for (const SegmentIndex index : receipted) unreceipted_.erase(index);
+}
+
+void RouteSender::Add(route::SegmentPiece piece, route::RouteInfo info) {
+  assert(piece.key == info_.key && piece.index.value() < info.segment_count);
+  unreceipted_.insert(piece.index);
+  to_stream_.push_back(std::move(piece));
+  Update(std::move(info));
+}
+
+void RouteSender::Update(route::RouteInfo info) {
+  assert(info.key == info_.key && info.segment_count >= info_.segment_count);
+  info_ = std::move(info);
+  changed_ = true;
+}
+
+void RouteSender::Handle(const Message& message, Time now) {
+  if (const auto* request = std::get_if<SegmentRequest>(&message)) Handle(*request, now);
+  if (const auto* receipt = std::get_if<Receipt>(&message)) Handle(*receipt);
+}
+
+void RouteSender::Handle(const SegmentRequest& request, Time now) {
+  if (request.key != info_.key) return;
+  if (left_to_server_.size() > kMaxSegmentsPerRoute) left_to_server_.clear();
+  std::vector<SegmentIndex> wanted;
+  for (const SegmentIndex index : request.lacking) {
+    if (index.value() >= info_.segment_count) continue;
+    const bool only_here = unreceipted_.contains(index);
+    if (only_here || !left_to_server_.emplace(request.requester, index).second) {
+      left_to_server_.erase({request.requester, index});
+      wanted.push_back(index);
+    }
+  }
+  answers_.Ask(info_.key, wanted, now);
+}
+
+void RouteSender::Handle(const Receipt& receipt) {
+  if (receipt.key != info_.key) return;
+  while (!unreceipted_.empty() && unreceipted_.begin()->value() < receipt.durable_prefix) {
+    MarkReceipted(*unreceipted_.begin());
+  }
+  for (const SegmentIndex index : receipt.durable_beyond) MarkReceipted(index);
+  if (receipt.durable_state == route::RouteState::kComplete) complete_receipted_ = true;
+}
+
+void RouteSender::MarkReceipted(SegmentIndex index) {
+  if (unreceipted_.erase(index) > 0) newly_receipted_.push_back(index);
+}
+
+std::vector<Message> RouteSender::Tick(Time now) {
+  AnswerQueue::Answers answers =
+      answers_.Due(now, options_.answer_bytes_per_tick,
+                   [this](const route::RouteKey&, SegmentIndex index) { return read_(index); });
+  std::move(answers.unreadable.begin(), answers.unreadable.end(), std::back_inserter(read_errors_));
+  SegmentBatch batch{.sender = self_, .pieces = std::exchange(to_stream_, {})};
+  std::move(answers.pieces.begin(), answers.pieces.end(), std::back_inserter(batch.pieces));
+
+  // Segments before the announcement that counts them, so that few are asked for needlessly.
+  std::vector<Message> messages;
+  for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
+  const bool again =
+      !AllReceipted() && announced_at_ && now >= *announced_at_ + options_.announce_every;
+  if (changed_ || again) {
+    messages.emplace_back(RouteAnnouncement{.holder = self_, .info = info_});
+    changed_ = false;
+    announced_at_ = now;
+  }
+  return messages;
+}
+
+std::vector<SegmentIndex> RouteSender::TakeNewlyReceipted() {
+  return std::exchange(newly_receipted_, {});
+}
+
+std::vector<Error> RouteSender::TakeReadErrors() { return std::exchange(read_errors_, {}); }
+
+bool RouteSender::AllReceipted() const {
+  return info_.state == route::RouteState::kComplete && complete_receipted_ && unreceipted_.empty();
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/exchange/answer_queue.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+struct RouteSenderOptions {
+  // Servers answer each announcement with what they have and what they lack, so this is also how
+  // soon a returning server, or a scout returning into radio range, goes on.
+  std::chrono::milliseconds announce_every{2000};
+  std::chrono::milliseconds answer_window{50};
+  std::size_t answer_bytes_per_tick = 512U << 10U;  // so that one Tick never floods a radio link
+};
+
+// The scout's end of the protocol for one route: announces, streams, answers, and keeps count of
+// what some server has confirmed. No clock, no I/O: messages in, messages out. The owner stores
+// each piece before Add, publishes what Tick returns, and may ignore a failed Publish: what was
+// lost is asked for.
+class RouteSender {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  // Reads from the owner's store.
+  using ReadPiece = std::function<Result<route::SegmentPiece>(SegmentIndex)>;
+
+  // `receipted`: from the store after a restart; empty for a new route.
+  RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
+              const std::vector<SegmentIndex>& receipted, RouteSenderOptions options = {});
+
+  // A segment was taught and stored; `info` counts it. Streamed at the next Tick.
+  void Add(route::SegmentPiece piece, route::RouteInfo info);
+  // The route changed without a new segment: complete.
+  void Update(route::RouteInfo info);
+
+  void Handle(const Message& message, Time now);
+  [[nodiscard]] std::vector<Message> Tick(Time now);
+
+  // Receipted since the last call: for RouteStore::MarkReceipted.
+  [[nodiscard]] std::vector<SegmentIndex> TakeNewlyReceipted();
+  // Pieces that were to be sent but could not be read, since the last call.
+  [[nodiscard]] std::vector<Error> TakeReadErrors();
+
+  // Segments that no server has confirmed, rising.
+  [[nodiscard]] const std::set<SegmentIndex>& Unreceipted() const { return unreceipted_; }
+  // The route is complete, and a server has all of it on disk: segments and final info.
+  [[nodiscard]] bool AllReceipted() const;
+  [[nodiscard]] const route::RouteInfo& info() const { return info_; }
+
+ private:
+  void Handle(const SegmentRequest& request, Time now);
+  void Handle(const Receipt& receipt);
+  void MarkReceipted(SegmentIndex index);
+
+  AgentId self_;
+  route::RouteInfo info_;
+  ReadPiece read_;
+  RouteSenderOptions options_;
+
+  std::set<SegmentIndex> unreceipted_;
+  bool complete_receipted_ = false;
+  std::vector<SegmentIndex> newly_receipted_;
+  std::vector<Error> read_errors_;
+
+  std::vector<route::SegmentPiece> to_stream_;
+  AnswerQueue answers_;
+  // Asked once for what a server has: left to the server, unless the same agent asks again.
+  std::set<std::pair<AgentId, SegmentIndex>> left_to_server_;
+  bool changed_ = true;
+  std::optional<Time> announced_at_;
+};
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,73 @@
+#include "services/exchange/text.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace trailcast::exchange {
+namespace {
+
+// Length of the well-formed UTF-8 character at the beginning of `text`, 0 if there is none
+// (truncated, overlong, a surrogate, beyond U+10FFFF). The Unicode standard, table 3-7.
+std::size_t CharacterLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  std::size_t length = 0;
+  std::uint8_t second_min = 0x80;
+  std::uint8_t second_max = 0xBF;
+  if (lead >= 0xC2 && lead <= 0xDF) {
+    length = 2;
+  } else if (lead >= 0xE0 && lead <= 0xEF) {
+    length = 3;
+    if (lead == 0xE0) second_min = 0xA0;
+    if (lead == 0xED) second_max = 0x9F;
+  } else if (lead >= 0xF0 && lead <= 0xF4) {
+    length = 4;
+    if (lead == 0xF0) second_min = 0x90;
+    if (lead == 0xF4) second_max = 0x8F;
+  }
+  if (length == 0 || text.size() < length) return 0;
+  if (byte(1) < second_min || byte(1) > second_max) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+  }
+  return length;
+}
+
+// C0 controls and DEL, and the C1 controls (U+0080..U+009F), which some terminals obey as well.
+bool IsControl(std::string_view character) {
+  const auto lead = static_cast<std::uint8_t>(character[0]);
+  if (character.size() == 1) return lead < 0x20 || lead == 0x7F;
+  return character.size() == 2 && lead == 0xC2 && static_cast<std::uint8_t>(character[1]) < 0xA0;
+}
+
+}  // namespace
+
+bool IsPlainText(std::string_view text, std::size_t max_bytes) {
+  if (text.size() > max_bytes) return false;
+  while (!text.empty()) {
+    const std::size_t length = CharacterLength(text);
+    if (length == 0 || IsControl(text.substr(0, length))) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string PlainText(std::string_view text, std::size_t max_bytes) {
+  std::string plain;
+  while (!text.empty()) {
+    const std::size_t length = CharacterLength(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+    const bool keep = length > 0 && !IsControl(character);
+    if (plain.size() + (keep ? length : 1) > max_bytes) break;
+    if (keep) {
+      plain += character;
+    } else {
+      plain += ' ';
+    }
+    text.remove_prefix(character.size());
+  }
+  return plain;
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,74 @@
+#include "services/exchange/topics.h"
+
+#include <iterator>
+
+namespace trailcast::exchange {
+
+TopicUse ScoutTopics() {
+  return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kAgents},
+          .read = {Topic::kSegmentRequests, Topic::kReceipts}};
+}
+
+TopicUse FollowerTopics() {
+  return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kCatalogReplies}};
+}
+
+TopicUse ServerTopics() {
+  return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kReceipts,
+                    Topic::kCatalogReplies, Topic::kAgents},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
+                   Topic::kCatalogRequests, Topic::kAgents}};
+}
+
+TopicUse OperatorTopics() {
+  return {.write = {Topic::kCatalogRequests},
+          .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kAgents}};
+}
+
+std::optional<Topic> TopicOf(const Message& message) {
+  // In the order of the variant; AgentGone, the last, is not a topic.
+  static constexpr Topic kTopics[] = {
+      Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
+      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents};
+  if (message.index() >= std::size(kTopics)) return std::nullopt;
+  return kTopics[message.index()];
+}
+
+const char* NameOf(Topic topic) {
+  switch (topic) {
+    case Topic::kRoutes:
+      return "trailcast/routes";
+    case Topic::kSegments:
+      return "trailcast/segments";
+    case Topic::kSegmentRequests:
+      return "trailcast/segment_requests";
+    case Topic::kReceipts:
+      return "trailcast/receipts";
+    case Topic::kCatalogRequests:
+      return "trailcast/catalog_requests";
+    case Topic::kCatalogReplies:
+      return "trailcast/catalog_replies";
+    case Topic::kAgents:
+      return "trailcast/agents";
+  }
+  return "unknown topic";
+}
+
+std::string InstanceOf(const Message& message) {
+  const auto key_text = [](const route::RouteKey& key) {
+    return key.route.value() + "/" + std::to_string(key.revision.value());
+  };
+  if (const auto* route = std::get_if<RouteAnnouncement>(&message)) {
+    return "routes/" + route->holder.value() + "/" + key_text(route->info.key);
+  }
+  if (const auto* receipt = std::get_if<Receipt>(&message)) {
+    return "receipts/" + receipt->server.value() + "/" + key_text(receipt->key);
+  }
+  if (const auto* status = std::get_if<AgentStatus>(&message)) {
+    return "agents/" + status->agent.value() + "/" + std::to_string(status->instance);
+  }
+  return "";
+}
+
+}  // namespace trailcast::exchange

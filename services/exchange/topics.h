@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::exchange {
+
+// The topic a message travels on; empty for AgentGone, which no one publishes.
+[[nodiscard]] std::optional<Topic> TopicOf(const Message& message);
+
+// As on the wire: "trailcast/routes".
+[[nodiscard]] const char* NameOf(Topic topic);
+
+// Distinct for each instance of a transient-local topic (routes, receipts, agents), which keep the
+// latest sample per key; empty for messages of the other topics.
+[[nodiscard]] std::string InstanceOf(const Message& message);
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,128 @@
+#include "services/store/sqlite_database.h"
+
+#include <sqlite3.h>
+
+#include "services/store/store_file.h"
+
+namespace trailcast::store {
+namespace {
+
+// Bounds the wait for somebody's sqlite3 shell; our own processes exclude each other beforehand.
+constexpr int kBusyTimeoutMs = 2000;
+constexpr int kPageBytes = 4096;
+constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
+
+// Segments may arrive before their route does, so neither table refers to the other. `seal` is a
+// digest of what a row says (rows.cc): SQLite itself does not notice a changed byte.
+constexpr const char* kTables = R"(
+CREATE TABLE route (
+  route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
+  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
+  name TEXT NOT NULL CHECK (length(name) BETWEEN 1 AND 64),
+  scout TEXT NOT NULL CHECK (length(scout) <= 64),
+  camera TEXT NOT NULL CHECK (length(CAST(camera AS BLOB)) <= 128),
+  image_width_px INTEGER NOT NULL CHECK (image_width_px BETWEEN 0 AND 65536),
+  image_height_px INTEGER NOT NULL CHECK (image_height_px BETWEEN 0 AND 65536),
+  taught_unix_ms INTEGER NOT NULL,
+  state INTEGER NOT NULL CHECK (state IN (0, 1)),
+  segment_count INTEGER NOT NULL CHECK (segment_count BETWEEN 0 AND 4294967295),
+  length_m REAL NOT NULL,
+  bytes INTEGER NOT NULL CHECK (bytes >= 0),
+  manifest_digest BLOB NOT NULL CHECK (length(manifest_digest) = 32),
+  seal BLOB NOT NULL CHECK (length(seal) = 32),
+  PRIMARY KEY (route, revision)
+) STRICT;
+CREATE INDEX route_by_name ON route (name);
+CREATE TABLE segment (
+  route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
+  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
+  number INTEGER NOT NULL CHECK (number BETWEEN 0 AND 4294967295),
+  receipted INTEGER NOT NULL DEFAULT 0 CHECK (receipted IN (0, 1)),
+  digest BLOB NOT NULL CHECK (length(digest) = 32),
+  seal BLOB NOT NULL CHECK (length(seal) = 32),
+  bytes BLOB NOT NULL CHECK (length(bytes) <= 1048576),
+  PRIMARY KEY (route, revision, number)
+) STRICT;
+CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
+)";
+
+// All in one transaction with the marks in the header: an interrupted making leaves an empty file.
+void CreateTables(SQLite::Database& db) {
+  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
+  db.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
+  db.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+  db.exec(kTables);
+  transaction.commit();
+}
+
+void Configure(SQLite::Database& db, const SqliteOptions& options) {
+  // Exclusive before the first use of the log, which then needs no shared memory file (a full disk
+  // under one would kill the process).
+  db.exec(kExclusive);
+  if (db.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
+    throw SQLite::Exception("the file system does not support a write-ahead log", SQLITE_CANTOPEN);
+  }
+  db.exec("PRAGMA synchronous = FULL");  // on the disk when a commit returns, not soon after
+  db.exec("PRAGMA journal_size_limit = 4194304");
+  db.exec("PRAGMA cache_size = -2048");  // KiB
+  db.exec("PRAGMA cell_size_check = ON");
+  db.exec("PRAGMA trusted_schema = OFF");
+  if (options.max_bytes > 0) {
+    const std::uint64_t pages = std::max<std::uint64_t>(options.max_bytes / kPageBytes, 1);
+    db.exec(fmt::format("PRAGMA max_page_count = {}", pages));
+  }
+}
+
+// Cheap: reads the first page and the tables' roots.
+void CheckTables(SQLite::Database& db) {
+  SQLite::Statement(db, "SELECT seal FROM route LIMIT 1").executeStep();
+  SQLite::Statement(db, "SELECT number FROM segment WHERE receipted = 0 LIMIT 1").executeStep();
+}
+
+}  // namespace
+
+Error ToError(const SQLite::Exception& exception, const std::filesystem::path& file,
+              const std::string& doing) {
+  const auto error = [&](ErrorCode code, std::string_view advice) {
+    return Error{code, fmt::format("route store {}: {}: {}{}", file.string(), doing,
+                                   exception.what(), advice)};
+  };
+  switch (exception.getErrorCode() & 0xFF) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return error(ErrorCode::kCorrupt,
+                   "; verify the store, and restore a copy or move it away to begin a new one");
+    case SQLITE_FULL:
+      return error(ErrorCode::kUnavailable,
+                   "; nothing of this was stored: free disk space or raise the store's limit");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return error(ErrorCode::kConflict, "; close the other program that has the file open");
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_NOMEM:
+      return error(ErrorCode::kUnavailable,
+                   "; is the disk full, or the file or its folder not writable?");
+    default:
+      return error(ErrorCode::kInternal, "");
+  }
+}
+
+Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::path& file,
+                                                       const SqliteOptions& options) {
+  try {
+    auto db =
+        std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
+    sqlite3_extended_result_codes(db->getHandle(), 1);
+    if (db->execAndGet("PRAGMA page_count").getInt64() == 0) CreateTables(*db);
+    Configure(*db, options);
+    CheckTables(*db);
+    return db;
+  } catch (const SQLite::Exception& exception) {
+    return tl::unexpected(ToError(exception, file, "opening it"));
+  }
+}
+
+}  // namespace trailcast::store

@@ -1,0 +1,193 @@
+#include "services/store/sqlite_store.h"
+
+#include "services/route/digest.h"
+#include "services/store/rows.h"
+
+namespace trailcast::store {
+namespace {
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::RouteState;
+using route::SegmentPiece;
+
+// Announcements of one route can overtake each other.
+bool IsOldNews(const RouteInfo& info, const RouteInfo& known) {
+  if (known.state == RouteState::kComplete) {
+    return info.state == RouteState::kTeaching && info.segment_count <= known.segment_count;
+  }
+  return info.segment_count < known.segment_count;
+}
+
+}  // namespace
+
+Result<void> SqliteRouteStore::PutRoute(const RouteInfo& info) {
+  if (Result<void> possible = CheckRoute(info); !possible) return possible;
+  const Result<std::optional<RouteInfo>> known = FindRoute(info.key);
+  if (!known && known.error().code != ErrorCode::kCorrupt) return tl::unexpected(known.error());
+  if (known && known->has_value()) {
+    if (info == **known || IsOldNews(info, **known)) return {};
+    if ((*known)->state == RouteState::kComplete) {
+      return Fail(ErrorCode::kConflict,
+                  "route store {}: {} is complete with {} segments and cannot change; teach it "
+                  "again as a new revision",
+                  file_.path().string(), Describe(info.key), (*known)->segment_count);
+    }
+  }
+  return Guarded("storing " + Describe(info.key), [&]() -> Result<void> {
+    SQLite::Statement put(*db_, fmt::format("INSERT OR REPLACE INTO route ({}) VALUES "
+                                            "(?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                                            kRouteColumns));
+    BindRoute(put, info);
+    put.exec();
+    return {};
+  });
+}
+
+Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {
+  for (const SegmentPiece& piece : pieces) {
+    if (Result<void> whole = CheckSegment(piece); !whole) return whole;
+  }
+  if (pieces.empty()) return {};
+  return Guarded(
+      fmt::format("storing {} segments of {}", pieces.size(), Describe(pieces.front().key)),
+      [&]() -> Result<void> {
+        SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+        for (const SegmentPiece& piece : pieces) {
+          if (Result<void> stored = Append(piece); !stored) return stored;
+        }
+        transaction.commit();
+        return {};
+      });
+}
+
+Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
+  const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
+  if (held) {
+    if (held->digest == piece.digest) return {};
+    return Fail(ErrorCode::kConflict,
+                "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
+                "two scouts may be teaching under one route id",
+                file_.path().string(), Describe(piece.key, piece.index), route::ToHex(held->digest),
+                route::ToHex(piece.digest));
+  }
+  if (held.error().code != ErrorCode::kNotFound && held.error().code != ErrorCode::kCorrupt) {
+    return tl::unexpected(held.error());
+  }
+  SQLite::Statement insert(
+      *db_,
+      fmt::format("INSERT INTO segment ({}) VALUES (?,?,?,?,?,?) ON CONFLICT DO UPDATE "
+                  "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes",
+                  kSegmentColumns));
+  BindSegment(insert, piece);
+  insert.exec();
+  return {};
+}
+
+Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {
+  const std::string which = Describe(key, index);
+  return Guarded("reading " + which, [&]() -> Result<SegmentPiece> {
+    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM segment WHERE route = ? AND "
+                                               "revision = ? AND number = ?",
+                                               kSegmentContent));
+    BindKey(select, key);
+    select.bind(3, index.value());
+    if (!select.executeStep()) {
+      return Fail(ErrorCode::kNotFound, "route store {} has no {}", file_.path().string(), which);
+    }
+    Result<SegmentPiece> piece = ReadSegmentRow(select, key, index);
+    if (!piece) return Wrap(piece.error(), "route store " + file_.path().string());
+    return piece;
+  });
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::SelectIndices(const RouteKey& key,
+                                                                  bool unreceipted) {
+  return Guarded(
+      "listing the segments of " + Describe(key), [&]() -> Result<std::vector<SegmentIndex>> {
+        SQLite::Statement select(*db_, fmt::format("SELECT number FROM segment WHERE route = ? AND "
+                                                   "revision = ? {} ORDER BY number",
+                                                   unreceipted ? "AND receipted = 0" : ""));
+        BindKey(select, key);
+        std::vector<SegmentIndex> indices;
+        while (select.executeStep()) {
+          indices.emplace_back(select.getColumn(0).getUInt());
+        }
+        return indices;
+      });
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::HeldSegments(const RouteKey& key) {
+  return SelectIndices(key, false);
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::UnreceiptedSegments(const RouteKey& key) {
+  return SelectIndices(key, true);
+}
+
+Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key) {
+  return Guarded("looking up " + Describe(key), [&]() -> Result<std::optional<RouteInfo>> {
+    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM route WHERE route = ? AND "
+                                               "revision = ?",
+                                               kRouteColumns));
+    BindKey(select, key);
+    if (!select.executeStep()) return std::nullopt;
+    Result<RouteInfo> info = ReadRoute(select);
+    if (!info) return Wrap(info.error(), "route store " + file_.path().string());
+    return std::move(*info);
+  });
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(const std::string& name) {
+  return Guarded("listing routes", [&]() -> Result<std::vector<RouteInfo>> {
+    SQLite::Statement select(
+        *db_, fmt::format("SELECT {} FROM route {} ORDER BY taught_unix_ms DESC, route DESC, "
+                          "revision DESC",
+                          kRouteColumns, name.empty() ? "" : "WHERE name = ?"));
+    if (!name.empty()) select.bind(1, name);
+    std::vector<RouteInfo> routes;
+    while (select.executeStep()) {
+      Result<RouteInfo> info = ReadRoute(select);
+      if (!info) return Wrap(info.error(), "route store " + file_.path().string());
+      routes.push_back(std::move(*info));
+    }
+    return routes;
+  });
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() { return SelectRoutes(""); }
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::FindRoutesByName(const std::string& name) {
+  if (name.empty()) return std::vector<RouteInfo>{};  // no route is called nothing
+  return SelectRoutes(name);
+}
+
+Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
+                                             std::span<const SegmentIndex> indices) {
+  if (indices.empty()) return {};
+  return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement update(*db_,
+                             "UPDATE segment SET receipted = 1 WHERE route = ? AND revision = ? "
+                             "AND number = ? AND receipted = 0");
+    BindKey(update, key);
+    for (const SegmentIndex index : indices) {
+      update.bind(3, index.value());
+      update.exec();
+      update.reset();
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<std::unique_ptr<RouteStore>> OpenSqliteStore(const std::filesystem::path& file,
+                                                    const SqliteOptions& options) {
+  Result<StoreFile> locked = StoreFile::Acquire(file);
+  if (!locked) return tl::unexpected(locked.error());
+  auto db = OpenDatabase(file, options);
+  if (!db) return tl::unexpected(db.error());
+  return std::make_unique<SqliteRouteStore>(std::move(*locked), std::move(*db));
+}
+
+}  // namespace trailcast::store

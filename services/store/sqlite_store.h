@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/store/route_store.h"
+#include "services/store/sqlite_database.h"
+#include "services/store/store_file.h"
+
+namespace trailcast::store {
+
+// RouteStore in one SQLite file; made by OpenSqliteStore.
+class SqliteRouteStore final : public RouteStore {
+ public:
+  SqliteRouteStore(StoreFile file, std::unique_ptr<SQLite::Database> db)
+      : file_(std::move(file)), db_(std::move(db)) {}
+
+  Result<void> PutRoute(const route::RouteInfo& info) override;
+  Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
+  Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
+  Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
+  Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
+  Result<std::vector<route::RouteInfo>> ListRoutes() override;
+  Result<std::vector<route::RouteInfo>> FindRoutesByName(const std::string& name) override;
+  Result<void> MarkReceipted(const route::RouteKey& key,
+                             std::span<const SegmentIndex> indices) override;
+  Result<std::vector<SegmentIndex>> UnreceiptedSegments(const route::RouteKey& key) override;
+  Result<std::vector<std::string>> Verify() override;
+
+ private:
+  // Runs `work`, which may throw SQLite's exceptions, and says what was being done if it does.
+  template <typename Work>
+  auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
+    try {
+      return work();
+    } catch (const SQLite::Exception& exception) {
+      return tl::unexpected(ToError(exception, file_.path(), doing));
+    }
+  }
+
+  // Stores a piece within the caller's transaction.
+  Result<void> Append(const route::SegmentPiece& piece);
+  Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
+  Result<std::vector<route::RouteInfo>> SelectRoutes(const std::string& name);
+
+  // Parts of Verify (sqlite_verify.cc); each adds a line for whatever is damaged.
+  Result<void> VerifyPages(std::vector<std::string>& damage);
+  Result<void> VerifyRoutes(std::vector<std::string>& damage);
+  Result<void> VerifyRoute(const route::RouteKey& key, std::vector<std::string>& damage);
+
+  StoreFile file_;  // outlives db_: see ~StoreFile
+  std::unique_ptr<SQLite::Database> db_;
+};
+
+}  // namespace trailcast::store

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <utility>
+
+#include "services/base/result.h"
+
+namespace trailcast::store {
+
+// In SQLite's header, so that `file` and we can tell a route store from any other database: "TRCT".
+inline constexpr std::uint32_t kApplicationId = 0x54524354;
+// Version of the tables, in SQLite's user_version.
+inline constexpr std::uint32_t kSchemaVersion = 1;
+
+// The file of a store, locked for this process and looked at before SQLite touches it (which would
+// create files beside it, or roll back a stranger's journal). The lock is the kernel's: it goes
+// when the process does, however that dies.
+class StoreFile {
+ public:
+  // Creates the file if there is none. Errors as for OpenSqliteStore; a file that is refused is
+  // left as it was.
+  [[nodiscard]] static Result<StoreFile> Acquire(const std::filesystem::path& path);
+
+  ~StoreFile();
+  StoreFile(StoreFile&& other) noexcept
+      : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+  StoreFile& operator=(StoreFile&&) = delete;
+  StoreFile(const StoreFile&) = delete;
+  StoreFile& operator=(const StoreFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  StoreFile(std::filesystem::path path, int descriptor)
+      : path_(std::move(path)), descriptor_(descriptor) {}
+  [[nodiscard]] Result<void> Lock() const;
+  [[nodiscard]] Result<void> Inspect() const;
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace trailcast::store

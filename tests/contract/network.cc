@@ -1,0 +1,138 @@
+#include "tests/contract/network.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+
+#include "services/exchange/in_process_exchange.h"
+#include "tests/support/pieces.h"
+
+namespace trailcast::test {
+namespace {
+
+using exchange::Message;
+using exchange::RouteExchange;
+using exchange::Topic;
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPatience = std::chrono::seconds(20);
+const AgentId kProbe("probe");
+
+class InProcessNetwork : public Network {
+ public:
+  std::unique_ptr<RouteExchange> Open(const exchange::TopicUse& use) override {
+    return bus_.Open(use);
+  }
+
+ private:
+  exchange::InProcessBus bus_;
+};
+
+class DdsNetwork : public Network {
+ public:
+  std::unique_ptr<RouteExchange> Open(const exchange::TopicUse& use) override {
+    auto opened = dds::OpenDdsExchange(LoopbackOptions(tag_), use);
+    if (!opened) throw std::runtime_error(opened.error().message);
+    return *std::move(opened);
+  }
+
+ private:
+  std::string tag_ = UniqueTag();
+};
+
+Message ProbeFor(Topic topic) {
+  const route::RouteKey key = KeyNumber(0xABCDEF);
+  switch (topic) {
+    case Topic::kRoutes:
+      return exchange::RouteAnnouncement{kProbe, InfoOf(key, {}, route::RouteState::kTeaching)};
+    case Topic::kSegments:
+      return exchange::SegmentBatch{kProbe, {PieceOf(key, 0)}};
+    case Topic::kSegmentRequests:
+      return exchange::SegmentRequest{kProbe, key, {}};
+    case Topic::kReceipts:
+      return exchange::Receipt{.server = kProbe, .key = key};
+    case Topic::kCatalogRequests:
+      return exchange::CatalogRequest{.client = kProbe};
+    case Topic::kCatalogReplies:
+      return exchange::CatalogReply{.server = kProbe, .client = kProbe};
+    case Topic::kAgents:
+      break;
+  }
+  return exchange::AgentStatus{.agent = kProbe};
+}
+
+}  // namespace
+
+bool IsProbe(const Message& message) {
+  struct Sender {
+    AgentId operator()(const exchange::RouteAnnouncement& m) { return m.holder; }
+    AgentId operator()(const exchange::SegmentBatch& m) { return m.sender; }
+    AgentId operator()(const exchange::SegmentRequest& m) { return m.requester; }
+    AgentId operator()(const exchange::Receipt& m) { return m.server; }
+    AgentId operator()(const exchange::CatalogRequest& m) { return m.client; }
+    AgentId operator()(const exchange::CatalogReply& m) { return m.server; }
+    AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }
+    AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
+  };
+  return std::visit(Sender(), message) == kProbe;
+}
+
+std::unique_ptr<Network> MakeNetwork(NetworkKind kind) {
+  if (kind == NetworkKind::kInProcess) return std::make_unique<InProcessNetwork>();
+  return std::make_unique<DdsNetwork>();
+}
+
+std::string NameOf(NetworkKind kind) {
+  return kind == NetworkKind::kInProcess ? "InProcess" : "Dds";
+}
+
+std::string UniqueTag() {
+  static std::atomic<int> count = 0;
+  const auto ticks = Clock::now().time_since_epoch().count();
+  return fmt::format("test-{}-{}-{}", getpid(), ticks, ++count);
+}
+
+dds::DdsOptions LoopbackOptions(const std::string& tag) {
+  dds::DdsOptions options;
+  options.discovery_tag = tag;
+  options.network_interface = "lo";
+  options.self = AgentId("tester");
+  return options;
+}
+
+exchange::TopicUse EveryTopic() {
+  const std::vector<Topic> all = {
+      Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
+      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents};
+  return {.write = all, .read = all};
+}
+
+bool TakeUntil(RouteExchange& exchange, const std::function<void(const Message&)>& use,
+               const std::function<bool()>& done) {
+  for (const auto deadline = Clock::now() + kPatience; !done();) {
+    if (Clock::now() > deadline) return false;
+    for (const Message& message : exchange.Take(milliseconds(20))) {
+      if (!IsProbe(message)) use(message);
+    }
+  }
+  return true;
+}
+
+bool Connect(RouteExchange& writer, Topic topic, const std::vector<RouteExchange*>& readers) {
+  std::vector<bool> connected(readers.size(), false);
+  for (const auto deadline = Clock::now() + kPatience; Clock::now() < deadline;) {
+    if (!writer.Publish(ProbeFor(topic))) return false;
+    for (std::size_t i = 0; i < readers.size(); ++i) {
+      const std::vector<Message> taken = readers[i]->Take(milliseconds(connected[i] ? 0 : 20));
+      if (std::any_of(taken.begin(), taken.end(), IsProbe)) connected[i] = true;
+    }
+    if (std::find(connected.begin(), connected.end(), false) == connected.end()) return true;
+  }
+  return false;
+}
+
+}  // namespace trailcast::test

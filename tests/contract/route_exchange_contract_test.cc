@@ -1,0 +1,274 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "services/exchange/bounds.h"
+#include "tests/contract/network.h"
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteState;
+using test::Connect;
+using test::EveryTopic;
+using test::KeyNumber;
+using test::TakeUntil;
+
+class RouteExchangeContract : public testing::TestWithParam<test::NetworkKind> {
+ protected:
+  std::unique_ptr<RouteExchange> Open(const TopicUse& use) { return network_->Open(use); }
+  std::unique_ptr<RouteExchange> Open() { return Open(EveryTopic()); }
+
+  // What `reader` gets when `writer`, known to it, publishes `message`.
+  static std::vector<Message> Carry(const Message& message, RouteExchange& writer,
+                                    RouteExchange& reader, Topic topic) {
+    EXPECT_TRUE(Connect(writer, topic, {&reader}));
+    const auto published = writer.Publish(message);
+    EXPECT_TRUE(published) << published.error().message;
+    std::vector<Message> got;
+    EXPECT_TRUE(TakeUntil(
+        reader, [&](const Message& one) { got.push_back(one); }, [&] { return !got.empty(); }));
+    return got;
+  }
+
+  void ExpectRoundTrip(const Message& message, Topic topic) {
+    const auto writer = Open({.write = {topic}, .read = {}});
+    const auto reader = Open({.write = {}, .read = {topic}});
+    EXPECT_EQ(Carry(message, *writer, *reader, topic), std::vector<Message>{message});
+    EXPECT_EQ(reader->dropped(), 0U);
+  }
+
+  static AgentStatus Status(const std::string& agent, std::uint64_t instance) {
+    return {.agent = AgentId(agent), .instance = instance, .role = AgentRole::kScout};
+  }
+
+ private:
+  std::unique_ptr<test::Network> network_ = test::MakeNetwork(GetParam());
+};
+
+route::RouteInfo ExtremeInfo() {
+  route::RouteInfo info = test::InfoOf(KeyNumber(7, 0xFFFFFFFF), {}, RouteState::kComplete);
+  info.name = std::string(64, 'x');
+  info.scout = AgentId(std::string(64, 'Z'));
+  info.camera = "f\xC3\xA4hre \xF0\x9F\x9A\xA2" + std::string(kMaxCameraBytes - 11, '.');
+  info.image_width_px = info.image_height_px = kMaxImageSide_px;
+  info.taught_unix_ms = std::numeric_limits<std::int64_t>::min();
+  info.segment_count = kMaxSegmentsPerRoute;
+  info.length_m = 1e7;
+  info.bytes = std::numeric_limits<std::uint64_t>::max();
+  info.manifest_digest.fill(0xFF);
+  return info;
+}
+
+TEST_P(RouteExchangeContract, CarriesAnAnnouncementOfExtremes) {
+  ExpectRoundTrip(RouteAnnouncement{AgentId("a"), ExtremeInfo()}, Topic::kRoutes);
+}
+
+TEST_P(RouteExchangeContract, CarriesASegmentOfOneByte) {
+  ExpectRoundTrip(SegmentBatch{AgentId("s"), {test::PieceOf(KeyNumber(1), 0, 1)}},
+                  Topic::kSegments);
+}
+
+TEST_P(RouteExchangeContract, CarriesTheLargestSegmentOfTheLongestRoute) {
+  const auto piece = test::PieceOf(KeyNumber(1), kMaxSegmentsPerRoute - 1, kMaxPieceBytes);
+  ExpectRoundTrip(SegmentBatch{AgentId("s"), {piece}}, Topic::kSegments);
+}
+
+TEST_P(RouteExchangeContract, CarriesTheLongestRequest) {
+  ExpectRoundTrip(
+      SegmentRequest{AgentId("f"), KeyNumber(1), test::Indices(0, kMaxIndicesPerRequest)},
+      Topic::kSegmentRequests);
+}
+
+TEST_P(RouteExchangeContract, CarriesTheLongestReceipt) {
+  const auto beyond = test::Indices(2, 2 + kMaxIndicesPerReceipt);
+  ExpectRoundTrip(Receipt{AgentId("s"), KeyNumber(1), 1, beyond, RouteState::kComplete},
+                  Topic::kReceipts);
+}
+
+TEST_P(RouteExchangeContract, CarriesCatalogRequests) {
+  ExpectRoundTrip(CatalogRequest{AgentId("f"), ~0ULL, ""}, Topic::kCatalogRequests);
+  ExpectRoundTrip(CatalogRequest{AgentId("f"), 0, "corridor"}, Topic::kCatalogRequests);
+}
+
+TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
+  CatalogReply reply{AgentId("s"), AgentId("f"), ~0ULL, {}, {}, std::string(kMaxLineBytes, 'e')};
+  reply.routes.assign(kMaxRoutesPerReply, ExtremeInfo());
+  reply.similar_names.assign(kMaxSimilarNames, std::string(64, 'n'));
+  ExpectRoundTrip(reply, Topic::kCatalogReplies);
+}
+
+TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
+  const AgentStatus status{.agent = AgentId("a"),
+                           .instance = ~0ULL,
+                           .role = AgentRole::kOperator,
+                           .mode = AgentMode::kFault,
+                           .route = "corridor",
+                           .segment = ~0U,
+                           .segments = ~0U,
+                           .progress = 1.0,
+                           .speed_mps = -1000.0,
+                           .features = ~0U,
+                           .found_share = 1.0,
+                           .backlog = ~0U,
+                           .detail = std::string(kMaxLineBytes, 'd')};
+  ExpectRoundTrip(status, Topic::kAgents);
+}
+
+TEST_P(RouteExchangeContract, DeliversFiveHundredSegmentsToTwoReadersInOrder) {
+  const auto scout = Open(ScoutTopics());
+  const auto server = Open(ServerTopics());
+  const auto follower = Open(FollowerTopics());
+  ASSERT_TRUE(Connect(*scout, Topic::kSegments, {server.get(), follower.get()}));
+  const auto sent = test::PiecesOf(KeyNumber(1), 500, 4096);
+  ASSERT_TRUE(scout->Publish(SegmentBatch{AgentId("scout-1"), sent}));
+  for (RouteExchange* reader : {server.get(), follower.get()}) {
+    std::vector<route::SegmentPiece> got;
+    const auto keep = [&](const Message& message) {
+      const auto& pieces = std::get<SegmentBatch>(message).pieces;
+      got.insert(got.end(), pieces.begin(), pieces.end());
+    };
+    ASSERT_TRUE(TakeUntil(*reader, keep, [&] { return got.size() >= sent.size(); }));
+    EXPECT_TRUE(got == sent);
+  }
+}
+
+TEST_P(RouteExchangeContract, SplitsALargeBatchIntoSamplesOfModestSize) {
+  const auto writer = Open();
+  const auto reader = Open();
+  ASSERT_TRUE(Connect(*writer, Topic::kSegments, {reader.get()}));
+  ASSERT_TRUE(writer->Publish(SegmentBatch{AgentId("s"), test::PiecesOf(KeyNumber(1), 64, 4096)}));
+  std::size_t count = 0;
+  const auto check = [&](const Message& message) {
+    std::size_t bytes = 0;
+    for (const auto& piece : std::get<SegmentBatch>(message).pieces) bytes += piece.bytes.size();
+    EXPECT_LE(bytes, 64U << 10U);
+    count += std::get<SegmentBatch>(message).pieces.size();
+  };
+  EXPECT_TRUE(TakeUntil(*reader, check, [&] { return count == 64; }));
+}
+
+TEST_P(RouteExchangeContract, GivesALateJoinerTheLatestPerKey) {
+  const auto writer = Open();
+  const auto pieces = test::PiecesOf(KeyNumber(1), 3);
+  const std::span all(pieces);
+  const RouteAnnouncement old{AgentId("s"),
+                              test::InfoOf(KeyNumber(1), all.first(2), RouteState::kTeaching)};
+  const RouteAnnouncement latest{AgentId("s"),
+                                 test::InfoOf(KeyNumber(1), all, RouteState::kComplete)};
+  const RouteAnnouncement other{AgentId("s"),
+                                test::InfoOf(KeyNumber(2), {}, RouteState::kTeaching)};
+  const RouteAnnouncement elsewhere{AgentId("t"), old.info};
+  const Receipt receipt{AgentId("s"), KeyNumber(1), 3, {}, RouteState::kComplete};
+  for (const Message& message : std::vector<Message>{old, other, elsewhere, latest, receipt,
+                                                     Status("s", 1), Status("s", 2)}) {
+    ASSERT_TRUE(writer->Publish(message));
+  }
+  const auto late = Open();
+  std::vector<Message> got;
+  ASSERT_TRUE(TakeUntil(
+      *late, [&](const Message& message) { got.push_back(message); },
+      [&] { return got.size() >= 6; }));
+  EXPECT_THAT(got, testing::UnorderedElementsAre(Message(other), Message(elsewhere),
+                                                 Message(latest), Message(receipt),
+                                                 Message(Status("s", 1)), Message(Status("s", 2))));
+}
+
+TEST_P(RouteExchangeContract, NeverReturnsOwnMessages) {
+  const auto self = Open();
+  const auto other = Open();
+  ASSERT_TRUE(Connect(*self, Topic::kAgents, {other.get()}));
+  ASSERT_TRUE(Connect(*other, Topic::kAgents, {self.get()}));
+  ASSERT_TRUE(self->Publish(Status("self", 1)));
+  ASSERT_TRUE(other->Publish(Status("other", 1)));
+  std::vector<Message> got;
+  ASSERT_TRUE(TakeUntil(
+      *self, [&](const Message& message) { got.push_back(message); },
+      [&] { return !got.empty(); }));
+  EXPECT_EQ(got, std::vector<Message>{Status("other", 1)});
+}
+
+TEST_P(RouteExchangeContract, KeepsTheOrderOfRequestsOfSeveralAgents) {
+  const auto writer = Open();
+  const auto reader = Open();
+  ASSERT_TRUE(Connect(*writer, Topic::kCatalogRequests, {reader.get()}));
+  std::vector<std::uint64_t> got;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    ASSERT_TRUE(writer->Publish(CatalogRequest{AgentId(i % 2 == 0 ? "even" : "odd"), i, ""}));
+  }
+  ASSERT_TRUE(TakeUntil(
+      *reader,
+      [&](const Message& message) { got.push_back(std::get<CatalogRequest>(message).request); },
+      [&] { return got.size() >= 12; }));
+  EXPECT_TRUE(std::is_sorted(got.begin(), got.end())) << testing::PrintToString(got);
+}
+
+TEST_P(RouteExchangeContract, RefusesATopicNotOpenedForWriting) {
+  const auto follower = Open(FollowerTopics());
+  const auto result =
+      follower->Publish(SegmentBatch{AgentId("f"), {test::PieceOf(KeyNumber(1), 0)}});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_THAT(result.error().message, testing::HasSubstr("trailcast/segments"));
+}
+
+TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
+  const auto writer = Open();
+  AgentStatus bad_text = Status("a", 1);
+  bad_text.detail = "\x1B[2J";
+  AgentStatus bad_number = Status("a", 1);
+  bad_number.progress = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Message> refused = {
+      AgentGone{AgentId("a"), 1},
+      Status("not a name", 1),
+      bad_text,
+      bad_number,
+      SegmentBatch{AgentId("a"), {}},
+      SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
+      SegmentRequest{AgentId("a"), {RouteId("short"), RevisionNumber(1)}, {}},
+      CatalogRequest{AgentId("a"), 0, "no name"}};
+  for (const Message& message : refused) {
+    const auto result = writer->Publish(message);
+    ASSERT_FALSE(result) << message.index();
+    EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
+  }
+}
+
+TEST_P(RouteExchangeContract, TellsWhenAnAgentIsGone) {
+  const auto watcher = Open(OperatorTopics());
+  auto first = Open();
+  auto second = Open();
+  ASSERT_TRUE(first->Publish(Status("twin", 1)));
+  ASSERT_TRUE(second->Publish(Status("twin", 2)));
+  std::vector<Message> got;
+  const auto keep = [&](const Message& message) { got.push_back(message); };
+  ASSERT_TRUE(TakeUntil(*watcher, keep, [&] { return got.size() >= 2; }));
+  EXPECT_THAT(
+      got, testing::UnorderedElementsAre(Message(Status("twin", 1)), Message(Status("twin", 2))));
+  got.clear();
+  first.reset();
+  ASSERT_TRUE(TakeUntil(*watcher, keep, [&] { return !got.empty(); }));
+  EXPECT_EQ(got, std::vector<Message>({AgentGone{AgentId("twin"), 1}}));
+}
+
+TEST_P(RouteExchangeContract, DeliversTheLastWordsOfWhoLeaves) {
+  const auto reader = Open();
+  auto writer = Open();
+  ASSERT_TRUE(Connect(*writer, Topic::kSegments, {reader.get()}));
+  const auto sent = test::PiecesOf(KeyNumber(1), 200, 4096);
+  ASSERT_TRUE(writer->Publish(SegmentBatch{AgentId("s"), sent}));
+  writer.reset();
+  std::size_t got = 0;
+  EXPECT_TRUE(TakeUntil(
+      *reader, [&](const Message& message) { got += test::PiecesIn({message}).size(); },
+      [&] { return got == sent.size(); }));
+}
+
+INSTANTIATE_TEST_SUITE_P(On, RouteExchangeContract,
+                         testing::Values(test::NetworkKind::kInProcess, test::NetworkKind::kDds),
+                         [](const auto& param) { return test::NameOf(param.param); });
+
+}  // namespace
+}  // namespace trailcast::exchange

@@ -1,0 +1,202 @@
+#pragma once
+
+// What every RouteStore promises. Include it in one source file per kind of store, and there
+// INSTANTIATE_TEST_SUITE_P(<kind>, RouteStoreContract, testing::Values(&Make<kind>Home)).
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "services/store/route_store.h"
+#include "tests/unit/store/pieces.h"
+
+namespace trailcast::store {
+
+// Where a store lives: opened, closed and opened again it is the same store.
+class StoreHome {
+ public:
+  StoreHome() = default;
+  virtual ~StoreHome() = default;
+  StoreHome(const StoreHome&) = delete;
+  StoreHome& operator=(const StoreHome&) = delete;
+  [[nodiscard]] virtual Result<std::unique_ptr<RouteStore>> Open() = 0;
+};
+
+class RouteStoreContract : public testing::TestWithParam<std::unique_ptr<StoreHome> (*)()> {
+ protected:
+  void SetUp() override { Reopen(); }
+  void Reopen() {
+    store_.reset();
+    auto opened = home_->Open();
+    ASSERT_TRUE(opened) << opened.error().message;
+    store_ = std::move(*opened);
+  }
+
+  static ErrorCode CodeOf(const Result<void>& result) {
+    EXPECT_FALSE(result) << "expected an error";
+    return result ? ErrorCode::kInternal : result.error().code;
+  }
+
+  std::unique_ptr<StoreHome> home_ = GetParam()();
+  std::unique_ptr<RouteStore> store_;
+};
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST_P(RouteStoreContract, NewStoreIsEmptyAndWhole) {
+  EXPECT_THAT(store_->ListRoutes().value(), IsEmpty());
+  EXPECT_THAT(store_->HeldSegments(kYard).value(), IsEmpty());
+  EXPECT_THAT(store_->UnreceiptedSegments(kYard).value(), IsEmpty());
+  EXPECT_EQ(store_->FindRoute(kYard).value(), std::nullopt);
+  EXPECT_THAT(store_->Verify().value(), IsEmpty());
+}
+
+TEST_P(RouteStoreContract, SegmentsComeBackByteForByteAlsoAfterReopening) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1, 4})));
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(4)).value(), Piece(4));
+    EXPECT_EQ(store_->HeldSegments(kYard).value(), Indices({0, 1, 4}));
+    Reopen();
+  }
+}
+
+TEST_P(RouteStoreContract, LargestAndSmallestPiecesAreHeld) {
+  const std::vector pieces{Piece(0, 0, 1), Piece(4294967295U, 0, 1U << 20U)};
+  ASSERT_TRUE(store_->AppendSegments(pieces));
+  EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(0)).value(), pieces[0]);
+  EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(4294967295U)).value(), pieces[1]);
+}
+
+TEST_P(RouteStoreContract, RevisionsOfARouteAreApart) {
+  route::SegmentPiece other = Piece(0, 99);
+  other.key.revision = RevisionNumber(2);
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0})));
+  ASSERT_TRUE(store_->AppendSegments({&other, 1}));
+  EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(0)).value(), Piece(0));
+  EXPECT_EQ(store_->ReadSegment(other.key, SegmentIndex(0)).value(), other);
+}
+
+TEST_P(RouteStoreContract, SegmentNotHeldIsNotFound) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0})));
+  const auto read = store_->ReadSegment(kYard, SegmentIndex(1));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(read.error().message, HasSubstr("segment 1 of route " + kYard.route.value()));
+}
+
+TEST_P(RouteStoreContract, AppendingWhatIsHeldIsFine) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1})));
+  EXPECT_TRUE(store_->AppendSegments(Pieces({1, 2, 2})));
+  EXPECT_EQ(store_->HeldSegments(kYard).value(), Indices({0, 1, 2}));
+}
+
+TEST_P(RouteStoreContract, OtherBytesForAHeldSegmentAreAConflictAndNothingOfTheBatchIsKept) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({1})));
+  EXPECT_EQ(CodeOf(store_->AppendSegments(std::vector{Piece(0), Piece(1, 7)})),
+            ErrorCode::kConflict);
+  EXPECT_EQ(store_->HeldSegments(kYard).value(), Indices({1}));
+  EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(1)).value(), Piece(1));
+}
+
+TEST_P(RouteStoreContract, PieceThatFailsItsDigestIsRefusedWithItsBatch) {
+  std::vector pieces = Pieces({0, 1});
+  pieces[1].bytes[17] ^= 4U;
+  EXPECT_EQ(CodeOf(store_->AppendSegments(pieces)), ErrorCode::kCorrupt);
+  EXPECT_THAT(store_->HeldSegments(kYard).value(), IsEmpty());
+}
+
+TEST_P(RouteStoreContract, PieceThatNoSegmentCanBeIsRefused) {
+  EXPECT_EQ(CodeOf(store_->AppendSegments(std::vector{Piece(0, 0, 0)})), ErrorCode::kCorrupt);
+  EXPECT_EQ(CodeOf(store_->AppendSegments(std::vector{Piece(0, 0, (1U << 20U) + 1)})),
+            ErrorCode::kCorrupt);
+  route::SegmentPiece nameless = Piece(0);
+  nameless.key.route = RouteId("");
+  EXPECT_EQ(CodeOf(store_->AppendSegments({&nameless, 1})), ErrorCode::kInvalidArgument);
+}
+
+TEST_P(RouteStoreContract, RouteComesBackWithEveryFieldAlsoAfterReopening) {
+  ASSERT_TRUE(store_->PutRoute(Complete(3)));
+  Reopen();
+  EXPECT_EQ(store_->FindRoute(kYard).value(), Complete(3));
+  EXPECT_THAT(store_->ListRoutes().value(), ElementsAre(Complete(3)));
+}
+
+TEST_P(RouteStoreContract, NewsReplacesWhatWasKnownAndOldNewsIsIgnored) {
+  ASSERT_TRUE(store_->PutRoute(Teaching(2)));
+  ASSERT_TRUE(store_->PutRoute(Teaching(5)));
+  ASSERT_TRUE(store_->PutRoute(Teaching(3)));
+  EXPECT_EQ(store_->FindRoute(kYard).value(), Teaching(5));
+  ASSERT_TRUE(store_->PutRoute(Complete(5)));
+  EXPECT_EQ(store_->FindRoute(kYard).value(), Complete(5));
+}
+
+TEST_P(RouteStoreContract, CompleteRouteNeverChanges) {
+  ASSERT_TRUE(store_->PutRoute(Complete(5)));
+  EXPECT_TRUE(store_->PutRoute(Complete(5)));
+  EXPECT_TRUE(store_->PutRoute(Teaching(5))) << "overtaken by its own completion";
+  EXPECT_EQ(CodeOf(store_->PutRoute(Complete(6))), ErrorCode::kConflict);
+  EXPECT_EQ(CodeOf(store_->PutRoute(Complete(4))), ErrorCode::kConflict);
+  EXPECT_EQ(CodeOf(store_->PutRoute(Teaching(6))), ErrorCode::kConflict);
+  route::RouteInfo renamed = Complete(5);
+  renamed.name = "garden";
+  EXPECT_EQ(CodeOf(store_->PutRoute(renamed)), ErrorCode::kConflict);
+  EXPECT_EQ(store_->FindRoute(kYard).value(), Complete(5));
+}
+
+TEST_P(RouteStoreContract, ImpossibleRoutesAreRefusedNamingTheField) {
+  const auto message = [this](auto&& spoil) {
+    route::RouteInfo info = Complete(1);
+    spoil(info);
+    const Result<void> put = store_->PutRoute(info);
+    EXPECT_EQ(CodeOf(put), ErrorCode::kInvalidArgument);
+    return put ? "" : put.error().message;
+  };
+  EXPECT_THAT(message([](auto& i) { i.name = "my yard"; }), HasSubstr("its name must be"));
+  EXPECT_THAT(message([](auto& i) { i.key.route = RouteId("'"); }), HasSubstr("its id must be"));
+  EXPECT_THAT(message([](auto& i) { i.scout = AgentId(""); }), HasSubstr("its scout must be"));
+  EXPECT_THAT(message([](auto& i) { i.camera.assign(129, 'x'); }), HasSubstr("its camera must"));
+  EXPECT_THAT(message([](auto& i) { i.image_width_px = -1; }), HasSubstr("its image size must"));
+  EXPECT_THAT(message([](auto& i) { i.length_m = 0.0 / (i.length_m - 2.5); }),
+              HasSubstr("its length must be finite"));
+  EXPECT_THAT(store_->ListRoutes().value(), IsEmpty());
+}
+
+TEST_P(RouteStoreContract, RoutesAreListedNewestFirstAndFoundByExactName) {
+  const auto put = [this](char digit, const std::string& name, std::int64_t taught_unix_ms) {
+    route::RouteInfo info = Complete(1);
+    info.key.route = RouteId(std::string(32, digit));
+    info.name = name;
+    info.taught_unix_ms = taught_unix_ms;
+    EXPECT_TRUE(store_->PutRoute(info));
+    return info;
+  };
+  const auto old = put('c', "yard", 1000);
+  const auto recent = put('a', "yard", 3000);
+  const auto other = put('b', "Yard", 2000);
+  EXPECT_THAT(store_->ListRoutes().value(), ElementsAre(recent, other, old));
+  EXPECT_THAT(store_->FindRoutesByName("yard").value(), ElementsAre(recent, old));
+  EXPECT_THAT(store_->FindRoutesByName("yar%").value(), IsEmpty());
+  EXPECT_THAT(store_->FindRoutesByName("").value(), IsEmpty());
+}
+
+TEST_P(RouteStoreContract, ReceiptsAreRememberedPerSegmentAlsoAfterReopening) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1, 2, 3})));
+  EXPECT_EQ(store_->UnreceiptedSegments(kYard).value(), Indices({0, 1, 2, 3}));
+  ASSERT_TRUE(store_->MarkReceipted(kYard, Indices({2, 0, 77})));  // 77 is not held: no matter
+  ASSERT_TRUE(store_->MarkReceipted(kYard, Indices({0})));
+  Reopen();
+  EXPECT_EQ(store_->UnreceiptedSegments(kYard).value(), Indices({1, 3}));
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 4})));
+  EXPECT_EQ(store_->UnreceiptedSegments(kYard).value(), Indices({1, 3, 4}));
+}
+
+TEST_P(RouteStoreContract, VerifyFindsACompleteRouteOfOtherSegments) {
+  ASSERT_TRUE(store_->AppendSegments(std::vector{Piece(0), Piece(1, 5)}));
+  ASSERT_TRUE(store_->PutRoute(Complete(2)));
+  EXPECT_THAT(store_->Verify().value(), ElementsAre(HasSubstr("not those its scout announced")));
+}
+
+}  // namespace trailcast::store
