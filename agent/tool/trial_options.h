@@ -1,11 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
-
-#include "agent/replay_session.h"
 
 namespace trailcast::tool {
 
@@ -21,7 +20,7 @@ struct TrialOptions {
   std::string method = "default";
   std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
   std::string follower_camera = "webcam";  // the same
-  double speed_mps = 0.0;                  // 0: the scenario's own, 0.5 in other worlds
+  double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
   int trials = 10;
   std::uint64_t seed = 1;  // trial i of n is drawn from seed + i - 1 alone
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

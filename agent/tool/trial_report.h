@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "agent/tool/judge.h"
+#include "agent/tool/path_judge.h"
 #include "services/base/result.h"
 
 namespace trailcast::tool {

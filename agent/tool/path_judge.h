@@ -8,7 +8,7 @@
 namespace trailcast::tool {
 
 // A driven path in the world's plane, metres; points at least a centimetre apart.
-class DrivenPath {
+class TruePath {
  public:
   // Ignored when less than a centimetre from the last point added.
   void Add(const Eigen::Vector2d& point_m);
@@ -41,20 +41,20 @@ inline constexpr double kStrayLimit_m = 5.0;
 
 // Compares a follower's true positions, given in order, with the path that was taught. A short
 // drive, not yet settled, is judged by its last position.
-class Judge {
+class PathJudge {
  public:
-  explicit Judge(DrivenPath taught) : taught_(std::move(taught)) {}
+  explicit PathJudge(TruePath taught) : taught_(std::move(taught)) {}
 
   // Returns the distance from the taught path.
   double Observe(const Eigen::Vector2d& position_m);
 
   [[nodiscard]] Verdict verdict() const;
-  [[nodiscard]] const DrivenPath& taught() const { return taught_; }
-  [[nodiscard]] const DrivenPath& replayed() const { return replayed_; }
+  [[nodiscard]] const TruePath& taught() const { return taught_; }
+  [[nodiscard]] const TruePath& replayed() const { return replayed_; }
 
  private:
-  DrivenPath taught_;
-  DrivenPath replayed_;
+  TruePath taught_;
+  TruePath replayed_;
   std::optional<Eigen::Vector2d> last_m_;
   double last_error_m_ = 0.0;
   double driven_m_ = 0.0;

@@ -1,41 +1,31 @@
-#include "agent/tool/judge.h"
+#include "agent/tool/path_judge.h"
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+
+#include "services/sim/path.h"
 
 namespace trailcast::tool {
 namespace {
 
 constexpr double kMinStep_m = 0.01;
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
-                         const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - (a + t * along)).norm();
-}
-
 }  // namespace
 
-void DrivenPath::Add(const Eigen::Vector2d& point_m) {
+void TruePath::Add(const Eigen::Vector2d& point_m) {
   end_m_ = point_m;
   if (points_m_.empty() || (point_m - points_m_.back()).norm() >= kMinStep_m) {
     points_m_.push_back(point_m);
   }
 }
 
-double DrivenPath::DistanceTo(const Eigen::Vector2d& point_m) const {
+double TruePath::DistanceTo(const Eigen::Vector2d& point_m) const {
   assert(!empty());
-  double nearest = (point_m - points_m_.front()).norm();
-  for (std::size_t i = 1; i < points_m_.size(); ++i) {
-    nearest = std::min(nearest, DistanceToSegment(point_m, points_m_[i - 1], points_m_[i]));
-  }
-  return nearest;
+  if (points_m_.size() == 1) return (point_m - points_m_.front()).norm();
+  return sim::Nearest(points_m_, point_m).distance_m;
 }
 
-double Judge::Observe(const Eigen::Vector2d& position_m) {
+double PathJudge::Observe(const Eigen::Vector2d& position_m) {
   const double error_m = taught_.DistanceTo(position_m);
   if (last_m_) {
     const double step_m = (position_m - *last_m_).norm();
@@ -52,7 +42,7 @@ double Judge::Observe(const Eigen::Vector2d& position_m) {
   return error_m;
 }
 
-Verdict Judge::verdict() const {
+Verdict PathJudge::verdict() const {
   Verdict verdict;
   if (!last_m_) return verdict;
   verdict.final_m = *last_m_;
