@@ -59,13 +59,12 @@ bool IsTruncatedJpeg(const std::vector<std::uint8_t>& bytes) {
   return std::search(scan, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
 }
 
-Result<cv::Mat> Decode(const fs::path& file, int flags) {
-  auto bytes = ReadBytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                            int flags) {
   cv::Mat picture;
-  if (!bytes->empty() && !IsTruncatedJpeg(*bytes)) {
+  if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
     try {
-      picture = cv::imdecode(*bytes, flags);
+      picture = cv::imdecode(bytes, flags);
     } catch (const cv::Exception&) {
       picture.release();
     }
@@ -74,15 +73,27 @@ Result<cv::Mat> Decode(const fs::path& file, int flags) {
     return Fail(ErrorCode::kCorrupt,
                 "cannot decode the picture {} ({} bytes): it is truncated, damaged or no picture; "
                 "expected PNG, JPEG or another format OpenCV reads",
-                file.string(), bytes->size());
+                name, bytes.size());
   }
   return picture;
+}
+
+Result<cv::Mat> Decode(const fs::path& file, int flags) {
+  return ReadBytes(file).and_then([&](const std::vector<std::uint8_t>& bytes) {
+    return DecodeBytes(bytes, file.string(), flags);
+  });
 }
 
 template <typename Image>
 Image FromMat(const cv::Mat& picture) {
   const cv::Mat packed = picture.isContinuous() ? picture : picture.clone();
   return {packed.cols, packed.rows, {packed.datastart, packed.dataend}};
+}
+
+RgbImage FromBgr(const cv::Mat& bgr) {
+  cv::Mat rgb;
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return FromMat<RgbImage>(rgb);
 }
 
 Result<void> Write(const cv::Mat& picture, const fs::path& file) {
@@ -232,10 +243,11 @@ Result<GrayImage> ReadGray(const fs::path& file) {
 }
 
 Result<RgbImage> ReadRgb(const fs::path& file) {
-  return Decode(file, cv::IMREAD_COLOR).map([](cv::Mat picture) {
-    cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
-    return FromMat<RgbImage>(picture);
-  });
+  return Decode(file, cv::IMREAD_COLOR).map(FromBgr);
+}
+
+Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes, const std::string& name) {
+  return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_COLOR).map(FromBgr);
 }
 
 Result<void> WritePng(const RgbImage& picture, const fs::path& file) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "services/base/result.h"
@@ -13,6 +14,9 @@ namespace trailcast::image {
 // Reads any still picture OpenCV knows (PNG, JPEG, ...). Errors name the file and what is wrong.
 [[nodiscard]] Result<GrayImage> ReadGray(const std::filesystem::path& file);
 [[nodiscard]] Result<RgbImage> ReadRgb(const std::filesystem::path& file);
+// Decodes an encoded picture held in memory; `name` stands for the file in errors.
+[[nodiscard]] Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes,
+                                         const std::string& name);
 [[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 

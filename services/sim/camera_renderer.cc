@@ -1,0 +1,136 @@
+#include "services/sim/camera_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace trailcast::sim {
+namespace {
+
+// Blocks of 4 x 2 pixels keep the eight rays of a packet together.
+constexpr int kBlockWidth = 4;
+constexpr int kBlockHeight = 2;
+// Neighbours on different triangles that differ by less (grey levels) need no finer sampling.
+constexpr float kVisibleEdge = 8.0F;
+// Places inside an edge pixel, a grid turned so that near-level edges get four grey steps.
+constexpr std::array<std::array<float, 2>, 4> kSubPixels = {
+    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
+
+}  // namespace
+
+CameraRenderer::CameraRenderer(std::shared_ptr<const World> world, const CameraModel& camera,
+                               const Lighting& lighting)
+    : world_(std::move(world)), lens_(camera), tracer_(*world_, lighting) {
+  view_.width = camera.width;
+  view_.height = camera.height;
+  const std::size_t pixels = Index(0, camera.height);
+  view_.gray.resize(pixels);
+  view_.depth_m.resize(pixels);
+  surface_.resize(pixels);
+  rays_.reserve(pixels);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) rays_.push_back(MakeRay(x, y));
+  }
+}
+
+CameraRenderer::PixelRay CameraRenderer::MakeRay(int x, int y) const {
+  PixelRay ray;
+  const Eigen::Vector2d pixel(x, y);
+  const auto direction = lens_.Direction(pixel);
+  if (!direction) return ray;
+  ray.valid = true;
+  ray.direction = direction->cast<float>();
+  // One-sided at the rim of the lens's picture.
+  const auto change = [&](const Eigen::Vector2d& step) -> Eigen::Vector3f {
+    if (const auto next = lens_.Direction(pixel + step)) {
+      return (*next - *direction).cast<float>();
+    }
+    if (const auto last = lens_.Direction(pixel - step)) {
+      return (*direction - *last).cast<float>();
+    }
+    return Eigen::Vector3f::Zero();
+  };
+  ray.to_right = change({1.0, 0.0});
+  ray.to_below = change({0.0, 1.0});
+  ray.spread = std::sqrt(ray.to_right.norm() * ray.to_below.norm());
+  return ray;
+}
+
+void CameraRenderer::RenderBlock(int x0, int y0) {
+  std::array<std::size_t, RayPacket::kSize> pixels{};
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    const int x = x0 + static_cast<int>(i) % kBlockWidth;
+    const int y = y0 + static_cast<int>(i) / kBlockWidth;
+    const bool inside = x < view_.width && y < view_.height;
+    pixels[i] = Index(std::min(x, view_.width - 1), std::min(y, view_.height - 1));
+    const PixelRay& ray = rays_[pixels[i]];
+    packet_.valid[i] = inside && ray.valid;
+    packet_.directions[i] = rotation_ * ray.direction;
+    packet_.spreads[i] = ray.spread;
+  }
+  const auto seen = tracer_.Trace(packet_);
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    if (!packet_.valid[i]) continue;
+    view_.gray[pixels[i]] = seen[i].gray;
+    view_.depth_m[pixels[i]] = seen[i].depth_m;
+    // A shadow's edge is an edge as well: lit and shaded parts count as different surfaces.
+    surface_[pixels[i]] = seen[i].in_shadow ? ~seen[i].surface : seen[i].surface;
+  }
+}
+
+void CameraRenderer::FindEdges() {
+  edges_.clear();
+  const auto width = static_cast<std::size_t>(view_.width);
+  const auto differ = [&](std::size_t a, std::size_t b) {
+    return surface_[a] != surface_[b] && rays_[a].valid && rays_[b].valid &&
+           std::abs(view_.gray[a] - view_.gray[b]) > kVisibleEdge;
+  };
+  for (int y = 0; y < view_.height; ++y) {
+    for (int x = 0; x < view_.width; ++x) {
+      const std::size_t i = Index(x, y);
+      const bool edge = (x > 0 && differ(i, i - 1)) || (x + 1 < view_.width && differ(i, i + 1)) ||
+                        (y > 0 && differ(i, i - width)) ||
+                        (y + 1 < view_.height && differ(i, i + width));
+      if (edge) edges_.push_back(i);
+    }
+  }
+}
+
+void CameraRenderer::SmoothEdges() {
+  constexpr std::size_t kPerPixel = kSubPixels.size();
+  constexpr std::size_t kPixels = RayPacket::kSize / kPerPixel;
+  for (std::size_t first = 0; first < edges_.size(); first += kPixels) {
+    for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+      const std::size_t which = first + i / kPerPixel;
+      packet_.valid[i] = which < edges_.size();
+      const PixelRay& ray = rays_[edges_[std::min(which, edges_.size() - 1)]];
+      const auto& place = kSubPixels[i % kPerPixel];
+      packet_.directions[i] =
+          rotation_ *
+          (ray.direction + place[0] * ray.to_right + place[1] * ray.to_below).normalized();
+      packet_.spreads[i] = 0.5F * ray.spread;
+    }
+    const auto seen = tracer_.Trace(packet_);
+    for (std::size_t p = 0; p < kPixels && first + p < edges_.size(); ++p) {
+      float sum = 0.0F;
+      for (std::size_t s = 0; s < kPerPixel; ++s) {
+        sum += std::min(seen[p * kPerPixel + s].gray, 255.0F);
+      }
+      view_.gray[edges_[first + p]] = sum / static_cast<float>(kPerPixel);
+    }
+  }
+}
+
+const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_camera) {
+  rotation_ = world_from_camera.linear().cast<float>();
+  packet_.origin = world_from_camera.translation().cast<float>();
+  for (int y = 0; y < view_.height; y += kBlockHeight) {
+    for (int x = 0; x < view_.width; x += kBlockWidth) RenderBlock(x, y);
+  }
+  FindEdges();
+  SmoothEdges();
+  return view_;
+}
+
+}  // namespace trailcast::sim

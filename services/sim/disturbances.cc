@@ -1,0 +1,43 @@
+#include "services/sim/disturbances.h"
+
+#include <cmath>
+
+namespace trailcast::sim {
+
+Disturbances Disturbances::ForScout() {
+  Disturbances scout;
+  scout.start_sideways_m = scout.start_along_m = scout.start_heading_rad = 0.0;
+  scout.gain_low = scout.gain_high = 1.0;
+  return scout;
+}
+
+Disturbances Disturbances::None() {
+  Disturbances none = ForScout();
+  none.odometry_scale = none.heading_bias_rad_per_m = none.wheel_base = none.slip = 0.0;
+  none.camera_yaw_rad = none.camera_pitch_rad = none.camera_height_m = 0.0;
+  return none;
+}
+
+RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed) {
+  Random body(seed, "robot");
+  RobotErrors robot;
+  robot.odometry_scale = 1.0 + disturbances.odometry_scale * body.Normal();
+  robot.heading_bias_rad_per_m = disturbances.heading_bias_rad_per_m * body.Normal();
+  robot.wheel_base = 1.0 + disturbances.wheel_base * body.Normal();
+  robot.slip = disturbances.slip;
+
+  Random camera(seed, "camera");
+  robot.camera_yaw_rad = disturbances.camera_yaw_rad * camera.Normal();
+  robot.camera_pitch_rad = disturbances.camera_pitch_rad * camera.Normal();
+  robot.camera_height_m = disturbances.camera_height_m * camera.Normal();
+  robot.gain = disturbances.gain_low *
+               std::pow(disturbances.gain_high / disturbances.gain_low, camera.Uniform());
+
+  Random start(seed, "start");
+  robot.start_left_m = disturbances.start_sideways_m * start.Normal();
+  robot.start_ahead_m = disturbances.start_along_m * start.Normal();
+  robot.start_heading_rad = disturbances.start_heading_rad * start.Normal();
+  return robot;
+}
+
+}  // namespace trailcast::sim

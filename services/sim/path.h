@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/motion/motion.h"
+
+namespace trailcast::sim {
+
+// Way-points on the world's level plane, metres.
+using Polyline = std::vector<Eigen::Vector2d>;
+
+struct DrivenPath {
+  Polyline points;  // at least two, no two neighbours the same
+  // The robot starts on the highest surface below this, if it is given.
+  std::optional<double> z_max_m;
+};
+
+// Reads `x_m,y_m[,z_m]` with that header line and at least two rows; errors name file and line.
+[[nodiscard]] Result<DrivenPath> ReadPath(const std::filesystem::path& file);
+
+// At the first way-point, heading for the second. `points` has at least two.
+[[nodiscard]] motion::Pose2 StartPose(const Polyline& points);
+[[nodiscard]] double Length(const Polyline& points);
+// The corners replaced by arcs of about `radius_m` (smaller where a leg is short), sampled every
+// `spacing_m`; the ends stay.
+[[nodiscard]] Polyline RoundCorners(const Polyline& points, double radius_m, double spacing_m);
+
+struct PlaceOnPath {
+  double distance_m = 0.0;  // off the path
+  double along_m = 0.0;     // from its beginning
+  double left_m = 0.0;      // the same distance, signed: above 0 left of the path
+};
+// The nearest place on a poly-line of at least two points, between the two distances along it.
+[[nodiscard]] PlaceOnPath Nearest(const Polyline& points, const Eigen::Vector2d& place,
+                                  double from_along_m = 0.0, double to_along_m = 1e18);
+// The point that far along, cut to the ends.
+[[nodiscard]] Eigen::Vector2d PointAlong(const Polyline& points, double along_m);
+
+}  // namespace trailcast::sim
