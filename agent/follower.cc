@@ -52,7 +52,8 @@ class Loop {
 
   // Ends when there is no more to do; the error is final.
   [[nodiscard]] Result<void> Run();
-  [[nodiscard]] ReplayOutcome Outcome(const std::optional<route::RouteInfo>& route) &&;
+  [[nodiscard]] ReplayOutcome Outcome(const Result<void>& ran,
+                                      const std::optional<route::RouteInfo>& route) &&;
 
  private:
   [[nodiscard]] Result<void> TakeFeed();
@@ -179,10 +180,15 @@ bool Loop::End(std::string state, std::string reason) {
   return false;
 }
 
-ReplayOutcome Loop::Outcome(const std::optional<route::RouteInfo>& route) && {
+ReplayOutcome Loop::Outcome(const Result<void>& ran,
+                            const std::optional<route::RouteInfo>& route) && {
   ReplayOutcome outcome;
+  if (!ran) {
+    End("FAILED", ran.error().message);
+    outcome.error = ran.error();
+  }
   const bool arrived = state_ == ToString(ReplayState::kArrived);
-  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" &&
+  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" && !outcome.error &&
                           state_ != ToString(ReplayState::kLost);
   outcome.success = arrived || to_its_end;
   outcome.state = state_;
@@ -210,10 +216,9 @@ ReplayOutcome Loop::Outcome(const std::optional<route::RouteInfo>& route) && {
   return outcome;
 }
 
-exchange::AgentMode LastMode(const Result<void>& ran, const ReplayOutcome& outcome,
-                             bool open_loop) {
+exchange::AgentMode LastMode(const ReplayOutcome& outcome, bool open_loop) {
   using exchange::AgentMode;
-  if (!ran) return AgentMode::kFault;
+  if (outcome.error) return AgentMode::kFault;
   if (outcome.state == ToString(ReplayState::kArrived)) return AgentMode::kArrived;
   if (outcome.state == "STOPPED" || (open_loop && outcome.success)) return AgentMode::kStopped;
   return AgentMode::kFault;
@@ -230,10 +235,8 @@ Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options
   Loop loop(device, options, link);
   const auto ran = loop.Run();
   link.Finish();
-  ReplayOutcome outcome = std::move(loop).Outcome(link.route());
-  link.Close(LastMode(ran, outcome, options.open_loop),
-             ran ? outcome.reason : ran.error().message);
-  if (!ran) return tl::unexpected(ran.error());
+  ReplayOutcome outcome = std::move(loop).Outcome(ran, link.route());
+  link.Close(LastMode(outcome, options.open_loop), outcome.reason);
   return outcome;
 }
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "agent/device.h"
 #include "agent/follower_link.h"
@@ -23,13 +25,14 @@ struct ReplayOutcome {
   bool success = false;  // arrived; or a recording was replayed to its end and not lost there
   std::string state;     // the last: ARRIVED, LOST, STUCK, WAITING, ...
   std::string reason;    // one line for people
+  std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;
   ReplayLog log;
 };
 
 // Follows a route with `device` until it arrives, is lost, or `options.link.stop` says so. Frames
 // are asked of the device only while there is something to follow. `exchange` may be null: then the
-// route comes from `store` alone. Errors: the route cannot be had, or camera, store or base failed.
+// route comes from `store` alone. The error: another agent has the name.
 [[nodiscard]] Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
                                            std::unique_ptr<store::RouteStore> store,
                                            std::unique_ptr<exchange::RouteExchange> exchange);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/base/time.h"
 #include "services/route/digest.h"
 
 namespace trailcast::agent {

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "agent/mailbox.h"
-#include "agent/presence.h"
+#include "agent/cli/presence.h"
 #include "agent/replay_session.h"
 #include "agent/route_finder.h"
 #include "services/exchange/route_fetcher.h"
@@ -83,7 +83,7 @@ class FollowerLink {
   FollowerLinkOptions options_;
   std::unique_ptr<store::RouteStore> store_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
-  std::optional<Presence> presence_;
+  std::optional<cli::Presence> presence_;
   RouteFinder finder_;
   std::optional<route::RouteInfo> route_;
   std::optional<exchange::RouteFetcher> fetcher_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/base/time.h"
+
 namespace trailcast::agent {
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "agent/mailbox.h"
 #include "agent/outbox.h"
-#include "agent/presence.h"
+#include "agent/cli/presence.h"
 
 namespace trailcast::agent {
 
@@ -79,7 +79,7 @@ class ScoutLink {
   std::unique_ptr<store::RouteStore> store_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   Outbox outbox_;
-  std::optional<Presence> presence_;
+  std::optional<cli::Presence> presence_;
   std::optional<route::RouteInfo> planned_;
   std::optional<route::RouteKey> key_;  // of the route taught, once it has a segment
   std::chrono::steady_clock::time_point opened_{};

@@ -35,8 +35,11 @@ std::string AcceptedKeys(const CLI::App& app) {
   return text;
 }
 
+// CLI11 looks for what is missing before it looks at what is too much; a misspelt option is both.
 std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::string message = error.what();
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (!unknown.empty()) return fmt::format("not understood: {}", fmt::join(unknown, " "));
   if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;
   const std::string prefix = "INI was not able to parse ";
   if (message.rfind(prefix, 0) != 0) return message;

@@ -14,9 +14,10 @@ constexpr double kMinStep_m = 0.01;
 
 void TruePath::Add(const Eigen::Vector2d& point_m) {
   end_m_ = point_m;
-  if (points_m_.empty() || (point_m - points_m_.back()).norm() >= kMinStep_m) {
-    points_m_.push_back(point_m);
-  }
+  const double step_m = points_m_.empty() ? 0.0 : (point_m - points_m_.back()).norm();
+  if (!points_m_.empty() && step_m < kMinStep_m) return;
+  points_m_.push_back(point_m);
+  length_m_ += step_m;
 }
 
 double TruePath::DistanceTo(const Eigen::Vector2d& point_m) const {

@@ -17,12 +17,14 @@ class TruePath {
   [[nodiscard]] const std::vector<Eigen::Vector2d>& points_m() const { return points_m_; }
   // Where the drive ended: the last point given to Add, even one that was too close to keep.
   [[nodiscard]] const Eigen::Vector2d& end_m() const { return end_m_; }
+  [[nodiscard]] double length_m() const { return length_m_; }
   // Distance from `point_m` to the nearest place on the path; the path must not be empty.
   [[nodiscard]] double DistanceTo(const Eigen::Vector2d& point_m) const;
 
  private:
   std::vector<Eigen::Vector2d> points_m_;
   Eigen::Vector2d end_m_ = Eigen::Vector2d::Zero();
+  double length_m_ = 0.0;
 };
 
 // What truth says of one robot's following.

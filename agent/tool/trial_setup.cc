@@ -1,12 +1,10 @@
 #include "agent/tool/trial_setup.h"
 
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "services/sim/load_world.h"
+#include "services/sim/path_follow_driver.h"
 
 namespace trailcast::tool {
 namespace {
@@ -26,5 +24,65 @@ Result<agent::ReplayMethod> FindMethod(const std::string& name) {
               fmt::join(MethodNames(), ", "));
 }
 
+// A world and a path of the user's own.
+Result<void> LoadOwnWorld(const TrialOptions& options, TrialSetup& setup) {
+  if (options.path_file.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "a world needs a path through it: --path FILE with the header x_m,y_m");
+  }
+  sim::WorldFileOptions file;
+  file.file = options.world_file;
+  file.scale = options.scale;
+  const auto up = sim::ParseUpAxis(options.up);
+  if (!up) return tl::unexpected(up.error());
+  file.up = *up;
+  const auto ground = sim::ParseGroundMode(options.ground);
+  if (!ground) return tl::unexpected(ground.error());
+  file.ground = *ground;
+  auto world = sim::LoadWorld(file);
+  if (!world) return tl::unexpected(world.error());
+  auto path = sim::ReadPath(options.path_file);
+  if (!path) return tl::unexpected(path.error());
+  setup.scenario = options.world_file.stem().string();
+  setup.world = std::move(*world);
+  setup.path = std::move(*path);
+  setup.speed_mps = sim::DriverOptions{}.speed_mps;
+  return {};
+}
+
+Result<void> LoadScenario(const TrialOptions& options, TrialSetup& setup) {
+  (void)setup;
+  return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}", options.scenario,
+              fmt::join(ScenarioNames(), ", "));
+}
+
 }  // namespace
+
+Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
+  TrialSetup setup;
+  const auto method = FindMethod(options.method);
+  if (!method) return tl::unexpected(method.error());
+  setup.method = options.method;
+  setup.session.method = *method;
+  auto scout_camera = sim::FindCamera(options.scout_camera);
+  if (!scout_camera) return tl::unexpected(scout_camera.error());
+  setup.scout_camera = std::move(*scout_camera);
+  auto follower_camera = sim::FindCamera(options.follower_camera);
+  if (!follower_camera) return tl::unexpected(follower_camera.error());
+  setup.follower_camera = std::move(*follower_camera);
+  const auto loaded =
+      options.world_file.empty() ? LoadScenario(options, setup) : LoadOwnWorld(options, setup);
+  if (!loaded) return tl::unexpected(loaded.error());
+  if (options.speed_mps > 0.0) setup.speed_mps = options.speed_mps;
+  return setup;
+}
+
+std::vector<std::string> ScenarioNames() { return {"indoor"}; }
+
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names;
+  for (const NamedMethod& each : kMethods) names.emplace_back(each.name);
+  return names;
+}
+
 }  // namespace trailcast::tool

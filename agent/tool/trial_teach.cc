@@ -48,7 +48,7 @@ class Teaching {
     const auto step = session_.Observe({seen.stamp, std::move(seen.image), seen.odometry});
     if (!step) return tl::unexpected(step.error());
     Keep(step->finished);
-    time_s_ = Seconds(seen.stamp);
+    taught_.duration_s = Seconds(seen.stamp);
     const bool over = driver_.arrived() && truth_.true_velocity() == motion::VelocityCommand{};
     command_ = driver_.Command(truth_.true_pose());
     return !over;
@@ -64,7 +64,7 @@ class Teaching {
     return std::move(taught_);
   }
 
-  [[nodiscard]] double time_s() const { return time_s_; }
+  [[nodiscard]] double time_s() const { return taught_.duration_s; }
   [[nodiscard]] const motion::Pose2& true_pose() const { return truth_.true_pose(); }
   [[nodiscard]] double path_m() const { return sim::Length(driver_.path()); }
   // Of the path, by the nearest place on it.
@@ -86,7 +86,6 @@ class Teaching {
   sim::PathFollowDriver driver_;
   agent::TeachSession session_;
   motion::VelocityCommand command_;
-  double time_s_ = 0.0;
   Taught taught_;
 };
 

@@ -16,6 +16,7 @@ struct Taught {
   route::RouteInfo info;
   std::vector<route::SegmentPiece> pieces;
   TruePath path;
+  double duration_s = 0.0;
 };
 
 // Drives a scout drawn from `seed` along the setup's path. `on_progress` gets the share of the path

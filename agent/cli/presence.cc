@@ -1,4 +1,4 @@
-#include "agent/presence.h"
+#include "agent/cli/presence.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,23 +6,27 @@
 
 #include "services/exchange/text.h"
 
-namespace trailcast::agent {
+namespace trailcast::cli {
 namespace {
 
 exchange::AgentStatus Starting(exchange::AgentStatus status) {
-  status.instance = cli::MakeInstance();
+  status.instance = MakeInstance();
   status.mode = exchange::AgentMode::kStarting;
   return status;
 }
 
 }  // namespace
 
-Presence::Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status)
-    : exchange_(exchange), status_(Starting(std::move(status))), claim_(status_) {}
+Presence::Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
+                   std::chrono::milliseconds interval)
+    : exchange_(exchange),
+      status_(Starting(std::move(status))),
+      claim_(status_),
+      interval_(interval) {}
 
 Result<void> Presence::Claim(const Handler& handle, const std::function<bool()>& stop) {
   Publish();
-  const auto deadline = Clock::now() + cli::NameClaim::kListening;
+  const auto deadline = Clock::now() + NameClaim::kListening;
   while (Clock::now() < deadline && !stop()) {
     for (const exchange::Message& message : exchange_.Take(std::chrono::milliseconds(50))) {
       Handle(message);
@@ -65,7 +69,7 @@ void Presence::Tick(Clock::time_point now) {
 void Presence::Publish() {
   // A status that cannot be handed over is followed by the next one.
   if (exchange_.Publish(status_)) published_mode_ = status_.mode;
-  next_ = Clock::now() + kInterval;
+  next_ = Clock::now() + interval_;
 }
 
 exchange::TopicUse WithAgents(exchange::TopicUse use) {
@@ -79,4 +83,4 @@ exchange::TopicUse WithAgents(exchange::TopicUse use) {
   return use;
 }
 
-}  // namespace trailcast::agent
+}  // namespace trailcast::cli

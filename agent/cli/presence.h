@@ -8,7 +8,7 @@
 #include "agent/cli/name_claim.h"
 #include "services/exchange/route_exchange.h"
 
-namespace trailcast::agent {
+namespace trailcast::cli {
 
 // An agent as its peers see it: claims its name, publishes its status, and notes whether a server
 // is heard. Owned by the thread that owns the exchange.
@@ -16,10 +16,10 @@ class Presence {
  public:
   using Clock = std::chrono::steady_clock;
   using Handler = std::function<void(const exchange::Message&)>;
-  static constexpr std::chrono::milliseconds kInterval{200};
-
-  // `exchange` outlives this. `status` names agent and role; instance and mode are set here.
-  Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status);
+  // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
+  // status is published every `interval`, and when the mode changes.
+  Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
+           std::chrono::milliseconds interval = std::chrono::milliseconds(200));
 
   // Publishes kStarting and listens; everything heard goes to `handle` too. kConflict when another
   // running process has the name. Ends early, without error, when `stop` says so.
@@ -42,7 +42,8 @@ class Presence {
  private:
   exchange::RouteExchange& exchange_;
   exchange::AgentStatus status_;
-  cli::NameClaim claim_;
+  NameClaim claim_;
+  std::chrono::milliseconds interval_;
   std::optional<exchange::AgentMode> published_mode_;
   Clock::time_point next_{};
   std::optional<AgentId> server_;
@@ -51,4 +52,4 @@ class Presence {
 // Topics of a role, and the statuses of all agents: a process must see whether its name is taken.
 [[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
 
-}  // namespace trailcast::agent
+}  // namespace trailcast::cli

@@ -1,0 +1,108 @@
+#include "route_server/journal.h"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+namespace trailcast::server {
+namespace {
+
+const char* ToString(exchange::AgentRole role) {
+  switch (role) {
+    case exchange::AgentRole::kServer:
+      return "server";
+    case exchange::AgentRole::kScout:
+      return "scout";
+    case exchange::AgentRole::kFollower:
+      return "follower";
+    case exchange::AgentRole::kOperator:
+      return "operator";
+  }
+  return "agent";
+}
+
+}  // namespace
+
+std::string Journal::NameOf(const route::RouteKey& key) const {
+  const auto known = routes_.find(key);
+  if (known == routes_.end() || known->second.name.empty()) return key.route.value();
+  return fmt::format("'{}' revision {}", known->second.name, key.revision.value());
+}
+
+std::optional<std::string> Journal::Received(const exchange::Message& message) {
+  if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    return On(*announcement);
+  }
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) return On(*status);
+  if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) return On(*gone);
+  if (const auto* request = std::get_if<exchange::SegmentRequest>(&message)) {
+    return fmt::format("'{}' asks for {} segments of {}, from {} on", request->requester.value(),
+                       request->lacking.size(), NameOf(request->key),
+                       request->lacking.empty() ? 0U : request->lacking.front().value());
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Journal::Sent(const exchange::Message& message) {
+  if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) return On(*receipt);
+  // What the server announces from its own store tells the journal the names.
+  if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    Known& known = routes_[announcement->info.key];
+    known.name = announcement->info.name;
+    known.scout = announcement->info.scout.value();
+  }
+  if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
+    if (!reply->error.empty()) {
+      return fmt::format("could not answer '{}': {}", reply->client.value(), reply->error);
+    }
+    // A client asks anew every second until its route is there: once is enough in the log.
+    if (reply->request != 1) return std::nullopt;
+    return reply->routes.empty()
+               ? fmt::format("'{}' asks for a route that is not here", reply->client.value())
+               : fmt::format("'{}' asks the catalog: {} routes, the first '{}'",
+                             reply->client.value(), reply->routes.size(),
+                             reply->routes.front().name);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announcement) {
+  const route::RouteInfo& info = announcement.info;
+  const bool is_new = !routes_.contains(info.key);
+  Known& known = routes_[info.key];
+  known.name = info.name;
+  known.scout = info.scout.value();
+  if (!is_new) return std::nullopt;
+  return fmt::format("scout '{}' {} route {} with camera {}: {} segments so far", known.scout,
+                     info.state == route::RouteState::kComplete ? "offers" : "teaches",
+                     NameOf(info.key), info.camera, info.segment_count);
+}
+
+std::optional<std::string> Journal::On(const exchange::AgentStatus& status) {
+  const auto [agent, is_new] = agents_.try_emplace(status.agent, status.instance);
+  const bool again = !is_new && agent->second != status.instance;
+  agent->second = status.instance;
+  if (!is_new && !again) return std::nullopt;
+  return fmt::format("{} '{}' is there{}", ToString(status.role), status.agent.value(),
+                     again ? " again" : "");
+}
+
+std::optional<std::string> Journal::On(const exchange::AgentGone& gone) {
+  const auto agent = agents_.find(gone.agent);
+  if (agent == agents_.end() || agent->second != gone.instance) return std::nullopt;
+  agents_.erase(agent);
+  return fmt::format("'{}' is gone", gone.agent.value());
+}
+
+std::optional<std::string> Journal::On(const exchange::Receipt& receipt) {
+  Known& known = routes_[receipt.key];
+  const auto durable =
+      receipt.durable_prefix + static_cast<std::uint32_t>(receipt.durable_beyond.size());
+  const bool grown = durable > known.durable.value_or(0);
+  known.durable = durable;
+  if (!grown) return std::nullopt;
+  return fmt::format("route {}: {} segments stored and receipted{}", NameOf(receipt.key), durable,
+                     receipt.durable_state == route::RouteState::kComplete ? ", complete" : "");
+}
+
+}  // namespace trailcast::server

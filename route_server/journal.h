@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/exchange/messages.h"
+
+namespace trailcast::server {
+
+// Puts the traffic of a route server into words for its log: what is new, not every message.
+class Journal {
+ public:
+  // A message that came in, or one that goes out: a line, or nothing worth one.
+  [[nodiscard]] std::optional<std::string> Received(const exchange::Message& message);
+  [[nodiscard]] std::optional<std::string> Sent(const exchange::Message& message);
+
+ private:
+  struct Known {
+    std::string name;
+    std::string scout;
+    std::optional<std::uint32_t> durable;  // segments receipted
+  };
+  [[nodiscard]] std::string NameOf(const route::RouteKey& key) const;
+
+  std::optional<std::string> On(const exchange::RouteAnnouncement& announcement);
+  std::optional<std::string> On(const exchange::AgentStatus& status);
+  std::optional<std::string> On(const exchange::AgentGone& gone);
+  std::optional<std::string> On(const exchange::Receipt& receipt);
+
+  std::map<route::RouteKey, Known> routes_;
+  std::map<AgentId, std::uint64_t> agents_;  // present, with their instances
+};
+
+}  // namespace trailcast::server

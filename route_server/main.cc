@@ -1,0 +1,59 @@
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+#include "agent/cli/command_line.h"
+#include "agent/cli/open_exchange.h"
+#include "agent/cli/stop_signal.h"
+#include "route_server/server.h"
+
+namespace {
+
+using trailcast::AgentId;
+namespace cli = trailcast::cli;
+
+constexpr const char* kFooter = R"(Examples:
+  trailcast-server --store routes.db
+  trailcast-server --store routes.db --domain 7 --network-interface wlan0
+  trailcast-server --config server.toml
+
+Runs until SIGINT or SIGTERM. A server killed at any instant comes back with everything it ever
+confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
+
+int Run(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file) {
+  cli::SetUpLog(common);
+  const cli::StopSignal stop;
+  auto store = trailcast::store::OpenSqliteStore(store_file);
+  if (!store) return cli::Complain(app, store.error());
+  auto exchange =
+      cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
+  if (!exchange) return cli::Complain(app, exchange.error());
+  auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
+                                                std::move(*exchange));
+  if (!server) return cli::Complain(app, server.error());
+  if (auto ran = (*server)->Run([] { return cli::StopSignal::requested(); }); !ran) {
+    return cli::Complain(app, ran.error());
+  }
+  return cli::kExitOk;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Keeps the routes of a swarm: stores what scouts teach, serves it to followers.",
+               "trailcast-server");
+  app.footer(kFooter);
+  cli::CommonOptions common;
+  common.name = "server";
+  std::string store_file;
+  cli::AddCommonOptions(app, common);
+  app.add_option("--store", store_file, "SQLite file that holds the routes; created if missing")
+      ->required()
+      ->envname("TRAILCAST_STORE");
+  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  try {
+    return Run(app, common, store_file);
+  } catch (const std::exception& exception) {
+    return cli::Complain(app, {trailcast::ErrorCode::kInternal, exception.what()});
+  }
+}

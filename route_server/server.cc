@@ -1,0 +1,109 @@
+#include "route_server/server.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "services/catalog/catalog.h"
+#include "services/route/digest.h"
+
+namespace trailcast::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{50};
+constexpr milliseconds kStatusEvery{1000};
+
+exchange::AgentStatus ServerStatus(const AgentId& name) {
+  exchange::AgentStatus status;
+  status.agent = name;
+  status.role = exchange::AgentRole::kServer;
+  return status;
+}
+
+spdlog::level::level_enum LevelOf(exchange::Note::Severity severity) {
+  switch (severity) {
+    case exchange::Note::Severity::kInfo:
+      return spdlog::level::info;
+    case exchange::Note::Severity::kWarning:
+      return spdlog::level::warn;
+    case exchange::Note::Severity::kError:
+      return spdlog::level::err;
+  }
+  return spdlog::level::err;
+}
+
+}  // namespace
+
+Server::Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
+               std::unique_ptr<exchange::RouteExchange> exchange)
+    : store_(std::move(store)),
+      exchange_(std::move(exchange)),
+      presence_(*exchange_, ServerStatus(name), kStatusEvery) {}
+
+Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
+                                             std::unique_ptr<store::RouteStore> store,
+                                             std::unique_ptr<exchange::RouteExchange> exchange) {
+  std::unique_ptr<Server> server(new Server(name, std::move(store), std::move(exchange)));
+  auto answer = [name, held = server->store_.get()](const exchange::CatalogRequest& request) {
+    return catalog::Answer(request, name, *held);
+  };
+  auto keeper = exchange::RouteKeeper::Open(
+      name, *server->store_, std::move(answer),
+      exchange::Integrity{route::CheckDigest, route::ManifestDigest});
+  if (!keeper) return tl::unexpected(keeper.error());
+  server->keeper_ = std::move(*keeper);
+  return server;
+}
+
+Result<void> Server::Run(const std::function<bool()>& stop) {
+  const auto receive = [this](const exchange::Message& message) { Receive(message); };
+  if (auto claimed = presence_.Claim(receive, stop); !claimed) return claimed;
+  const auto routes = store_->ListRoutes();
+  if (!routes) return tl::unexpected(routes.error());
+  spdlog::info("ready: {} routes in the store", routes->size());
+  while (!stop()) Serve();
+  ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
+  presence_.Publish();
+  spdlog::info("stopped by a signal; {} segments stored since the start, {} sent to followers",
+               keeper_->counters().appended, keeper_->counters().answered);
+  return {};
+}
+
+void Server::Receive(const exchange::Message& message) {
+  presence_.Handle(message);
+  if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
+  keeper_->Handle(message, steady_clock::now());
+}
+
+void Server::Serve() {
+  for (const exchange::Message& message : exchange_->Take(kWait)) Receive(message);
+  const auto now = steady_clock::now();
+  for (const exchange::Message& message : keeper_->Tick(now)) {
+    if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
+    // What cannot be handed over is asked for again by whoever lacks it.
+    if (auto sent = exchange_->Publish(message); !sent) spdlog::debug("{}", sent.error().message);
+  }
+  for (const exchange::Note& note : keeper_->TakeNotes()) {
+    spdlog::log(LevelOf(note.severity), "{}", note.text);
+  }
+  if (exchange_->dropped() > told_dropped_) {
+    told_dropped_ = exchange_->dropped();
+    spdlog::warn("{} messages so far were out of bounds or unreadable, and dropped", told_dropped_);
+  }
+  ShowStatus(exchange::AgentMode::kWaiting,
+             fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
+                         keeper_->counters().answered));
+  presence_.Tick(now);
+}
+
+void Server::ShowStatus(exchange::AgentMode mode, const std::string& detail) {
+  exchange::AgentStatus status;
+  status.mode = mode;
+  status.detail = detail;
+  presence_.Set(std::move(status));
+}
+
+}  // namespace trailcast::server

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "agent/cli/presence.h"
+#include "route_server/journal.h"
+#include "services/exchange/route_keeper.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::server {
+
+// Keeps the routes of a swarm: stores what scouts send, confirms it once it is on disk, answers the
+// catalog and whoever lacks segments. One thread, the caller's.
+class Server {
+ public:
+  // Loads what the store holds. Errors name the store.
+  [[nodiscard]] static Result<std::unique_ptr<Server>> Open(
+      const AgentId& name, std::unique_ptr<store::RouteStore> store,
+      std::unique_ptr<exchange::RouteExchange> exchange);
+
+  // Claims the name, then serves until `stop` says so. kConflict when another running process has
+  // the name.
+  [[nodiscard]] Result<void> Run(const std::function<bool()>& stop);
+
+ private:
+  Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
+         std::unique_ptr<exchange::RouteExchange> exchange);
+
+  void Receive(const exchange::Message& message);
+  void Serve();
+  void ShowStatus(exchange::AgentMode mode, const std::string& detail);
+
+  std::unique_ptr<store::RouteStore> store_;
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  std::unique_ptr<exchange::RouteKeeper> keeper_;
+  cli::Presence presence_;
+  Journal journal_;
+  std::uint64_t told_dropped_ = 0;
+};
+
+}  // namespace trailcast::server
