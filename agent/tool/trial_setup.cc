@@ -85,4 +85,10 @@ std::vector<std::string> MethodNames() {
   return names;
 }
 
+std::vector<std::string> CameraNames() {
+  std::vector<std::string> names;
+  for (const sim::CameraModel& each : sim::BuiltInCameras()) names.push_back(each.name);
+  return names;
+}
+
 }  // namespace trailcast::tool

@@ -32,5 +32,7 @@ struct TrialSetup {
 
 [[nodiscard]] std::vector<std::string> ScenarioNames();
 [[nodiscard]] std::vector<std::string> MethodNames();
+// The built-in ones.
+[[nodiscard]] std::vector<std::string> CameraNames();
 
 }  // namespace trailcast::tool
