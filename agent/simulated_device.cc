@@ -51,6 +51,7 @@ struct SimulatedDevice::State {
   std::unique_ptr<sim::SimulatedRobot> robot;
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
   sim::Polyline path;
+  double along_m = 0.0;  // the scout's place on it
   motion::VelocityCommand command;
   std::vector<TruePose> truth;
 
@@ -93,6 +94,10 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
   }
   sim::Observation seen = s.robot->Step(s.command);
   s.truth.push_back({seen.stamp, s.Pose()});
+  // Looked for near where it was: a loop passes some places twice.
+  s.along_m = sim::Nearest(s.path, motion::Position(s.truth.back().pose), s.along_m - 1.0,
+                           s.along_m + 2.0)
+                  .along_m;
   return Observation{seen.stamp, std::move(seen.image), seen.odometry};
 }
 
@@ -104,9 +109,8 @@ Result<void> SimulatedDevice::Drive(const motion::VelocityCommand& command) {
 std::string SimulatedDevice::camera() const { return state_->camera; }
 
 std::optional<double> SimulatedDevice::drive_progress() const {
-  if (!state_->operator_ || state_->truth.empty()) return std::nullopt;
-  const auto place = motion::Position(state_->truth.back().pose);
-  return sim::Nearest(state_->path, place).along_m / sim::Length(state_->path);
+  if (!state_->operator_) return std::nullopt;
+  return state_->along_m / sim::Length(state_->path);
 }
 
 Result<void> SimulatedDevice::WriteTruth(const std::filesystem::path& file) const {

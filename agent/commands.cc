@@ -1,0 +1,165 @@
+#include "agent/commands.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "agent/cli/open_exchange.h"
+#include "agent/cli/stop_signal.h"
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+
+// Longest time that can be asked for: a week.
+constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
+
+void AddRoute(CLI::App& command, std::string& route) {
+  command.add_option("--route", route, "The route's name")->required()->check(cli::NameValidator());
+}
+
+void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
+  command
+      .add_option("--delivery-timeout", teach.delivery_timeout_s,
+                  "Seconds to wait at the end for a server's receipts")
+      ->check(CLI::Range(0.0, kLongest_s));
+}
+
+milliseconds Milliseconds(double seconds) {
+  return duration_cast<milliseconds>(FromSeconds(seconds));
+}
+
+Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
+                                                      const exchange::TopicUse& use) {
+  if (!options.server) return nullptr;
+  return cli::OpenExchange(options.common, cli::WithAgents(use));
+}
+
+ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& teach) {
+  ScoutLinkOptions link;
+  link.agent = AgentId(options.common.name);
+  link.store_file = options.store_file;
+  link.delivery_timeout = Milliseconds(teach.delivery_timeout_s);
+  link.stop = [] { return cli::StopSignal::requested(); };
+  return link;
+}
+
+Result<void> Tell(const Summary& summary, const CommandOptions& options) {
+  fmt::print("{}", summary.Text());
+  std::fflush(stdout);
+  if (options.report.empty()) return {};
+  return summary.Write(options.report);
+}
+
+Result<int> Ended(const Result<Summary>& summary, const CommandOptions& options) {
+  if (!summary) return tl::unexpected(summary.error());
+  if (auto told = Tell(*summary, options); !told) return tl::unexpected(told.error());
+  return cli::kExitOk;
+}
+
+FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayCommand& replay) {
+  FollowerOptions follower;
+  follower.link.agent = AgentId(options.common.name);
+  follower.link.route = replay.route;
+  follower.link.store_file = options.store_file;
+  follower.link.wait_for_route = replay.wait_for_route;
+  follower.link.wait = Milliseconds(replay.wait_s);
+  follower.link.stop = [] { return cli::StopSignal::requested(); };
+  follower.session.method =
+      replay.method == "paper" ? ReplayMethod::kPaper : ReplayMethod::kDefault;
+  follower.session.speed_factor = replay.speed_factor;
+  follower.open_loop = !replay.device.is_simulated();
+  return follower;
+}
+
+}  // namespace
+
+void AddSharedOptions(CLI::App& app, CommandOptions& options) {
+  cli::AddCommonOptions(app, options.common);
+  app.add_option("--store", options.store_file,
+                 "This agent's routes: a SQLite file, created if missing")
+      ->required()
+      ->envname("TRAILCAST_STORE");
+  app.add_flag("--server", options.server,
+               "Join the network: send segments to a route server while teaching, or fetch the "
+               "route from there")
+      ->envname("TRAILCAST_SERVER");
+  app.add_option("--report", options.report, "Writes the summary here too, as key=value lines");
+}
+
+void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
+  AddRoute(command, teach.route);
+  AddDeliveryTimeout(command, teach);
+  AddDeviceOptions(command, teach.device, true);
+}
+
+void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
+  AddRoute(command, replay.route);
+  command.add_option("--csv", replay.csv, "Writes one row a frame here");
+  command.add_option("--method", replay.method, "The 2009 method as printed, or the project's best")
+      ->check(CLI::IsMember({"paper", "default"}));
+  command
+      .add_option("--wait", replay.wait_s,
+                  "Seconds to wait for a server, the route or the next segment while none comes")
+      ->check(CLI::Range(0.0, kLongest_s));
+  command.add_flag("--wait-for-route", replay.wait_for_route,
+                   "With --server: also wait for a route that no server knows yet");
+  command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
+      ->check(CLI::Range(0.1, 3.0));
+  AddDeviceOptions(command, replay.device, false);
+}
+
+void AddDeliverOptions(CLI::App& command, TeachCommand& deliver) {
+  AddDeliveryTimeout(command, deliver);
+}
+
+Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
+  auto opened = OpenDevice(teach.device);
+  if (!opened) return tl::unexpected(opened.error());
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return tl::unexpected(store.error());
+  auto exchange = Join(options, exchange::ScoutTopics());
+  if (!exchange) return tl::unexpected(exchange.error());
+  const ScoutOptions scout{teach.route, LinkOptions(options, teach)};
+  const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
+  if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
+  return Ended(summary, options);
+}
+
+Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver) {
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return tl::unexpected(store.error());
+  auto exchange =
+      cli::OpenExchange(options.common, cli::WithAgents(exchange::ScoutTopics()));
+  if (!exchange) return tl::unexpected(exchange.error());
+  return Ended(
+      DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),
+      options);
+}
+
+Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay) {
+  auto opened = OpenDevice(replay.device);
+  if (!opened) return tl::unexpected(opened.error());
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return tl::unexpected(store.error());
+  auto exchange = Join(options, exchange::FollowerTopics());
+  if (!exchange) return tl::unexpected(exchange.error());
+  const auto outcome = Replay(*opened->device, MakeFollowerOptions(options, replay),
+                              std::move(*store), std::move(*exchange));
+  if (!outcome) return tl::unexpected(outcome.error());
+  auto written = Tell(outcome->summary, options);
+  if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);
+  if (written) written = opened->WriteTruth(replay.device);
+  if (outcome->error) return tl::unexpected(*outcome->error);
+  if (!written) return tl::unexpected(written.error());
+  if (outcome->success) return cli::kExitOk;
+  spdlog::warn("not arrived: {} ({})", outcome->state, outcome->reason);
+  return cli::kExitNotArrived;
+}
+
+}  // namespace trailcast::agent

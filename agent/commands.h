@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "agent/cli/command_line.h"
+#include "agent/device_options.h"
+#include "agent/follower.h"
+#include "agent/scout.h"
+
+namespace trailcast::agent {
+
+// What all commands of trailcast-agent are told.
+struct CommandOptions {
+  cli::CommonOptions common;
+  std::string store_file;
+  bool server = false;  // join the network
+  std::filesystem::path report;
+};
+
+struct TeachCommand {
+  DeviceOptions device;
+  std::string route;
+  double delivery_timeout_s = 30.0;
+};
+
+struct ReplayCommand {
+  DeviceOptions device;
+  std::string route;
+  std::filesystem::path csv;
+  std::string method = "default";
+  double wait_s = 30.0;
+  bool wait_for_route = false;
+  double speed_factor = 1.0;
+};
+
+// Flags of the program and of its commands, which fill the structs.
+void AddSharedOptions(CLI::App& app, CommandOptions& options);
+void AddTeachOptions(CLI::App& command, TeachCommand& teach);
+void AddReplayOptions(CLI::App& command, ReplayCommand& replay);
+void AddDeliverOptions(CLI::App& command, TeachCommand& deliver);
+
+// Each runs one command to its end and returns the process's exit status; an error is one too.
+[[nodiscard]] Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach);
+[[nodiscard]] Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay);
+[[nodiscard]] Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver);
+
+}  // namespace trailcast::agent

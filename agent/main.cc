@@ -1,0 +1,63 @@
+#include <exception>
+
+#include "agent/commands.h"
+#include "agent/cli/stop_signal.h"
+
+namespace {
+
+namespace cli = trailcast::cli;
+namespace agent = trailcast::agent;
+
+constexpr const char* kFooter = R"(Examples:
+  trailcast-agent teach  --frames drive1/ --odometry drive1.csv --route hall --store scout.db
+  trailcast-agent replay --frames drive2/ --route hall --store scout.db --csv steps.csv
+  trailcast-agent teach  --sim shop.obj --path path.csv --route shop --store scout.db --server
+  trailcast-agent replay --sim shop.obj --path path.csv --camera wide --seed 7 --name robot2
+                         --route shop --store robot2.db --server --wait-for-route
+  trailcast-agent deliver --store scout.db
+
+Exit status: 0 taught and delivered, arrived, or recording replayed to its end; 3 the follower did
+not arrive; 2 wrong usage; 1 anything else. 'trailcast-agent COMMAND --help' tells more.)";
+
+// A command's help shows what all commands share too.
+void ShareHelp(const CLI::App& app, CLI::App& command) {
+  command.footer([&app] {
+    return "Options of all commands" +
+           CLI::Formatter().make_groups(&app, CLI::AppFormatMode::Normal);
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("A robot's agent: teaches a route, or follows one that was taught.",
+               "trailcast-agent");
+  app.footer(kFooter);
+  agent::CommandOptions options;
+  agent::AddSharedOptions(app, options);
+  app.require_subcommand(1);
+  app.fallthrough();
+  agent::TeachCommand teach;
+  agent::ReplayCommand replay;
+  agent::TeachCommand deliver;
+  CLI::App* teach_app = app.add_subcommand("teach", "Drive a path once: makes a route of it");
+  CLI::App* replay_app = app.add_subcommand("replay", "Follow a route");
+  CLI::App* deliver_app =
+      app.add_subcommand("deliver", "Send a server what earlier runs taught and could not deliver");
+  agent::AddTeachOptions(*teach_app, teach);
+  agent::AddReplayOptions(*replay_app, replay);
+  agent::AddDeliverOptions(*deliver_app, deliver);
+  for (CLI::App* command : {teach_app, replay_app, deliver_app}) ShareHelp(app, *command);
+  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  try {
+    if (options.common.name.empty()) options.common.name = replay_app->parsed() ? "follower" : "scout";
+    cli::SetUpLog(options.common);
+    const cli::StopSignal stop;
+    const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
+                        : replay_app->parsed() ? agent::RunReplay(options, replay)
+                                               : agent::RunDeliver(options, deliver);
+    return status ? *status : cli::Complain(app, status.error());
+  } catch (const std::exception& exception) {
+    return cli::Complain(app, {trailcast::ErrorCode::kInternal, exception.what()});
+  }
+}
