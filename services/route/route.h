@@ -13,7 +13,7 @@ namespace trailcast::route {
 // kPatchSize x kPatchSize samples one pixel apart, row-major, 0..15 (4 bits are what a correlation
 // needs, and what travels), 8 about the patch's mean.
 inline constexpr int kPatchSize = 11;
-using Patch = std::array<std::uint8_t, kPatchSize * kPatchSize>;
+using Patch = std::array<std::uint8_t, std::size_t{kPatchSize} * kPatchSize>;
 
 // Upright (unrotated) ORB descriptor at the scale of the segment's first image.
 using Descriptor = std::array<std::uint8_t, 32>;

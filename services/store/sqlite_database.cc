@@ -10,6 +10,8 @@ namespace {
 // Bounds the wait for somebody's sqlite3 shell; our own processes exclude each other beforehand.
 constexpr int kBusyTimeoutMs = 2000;
 constexpr int kPageBytes = 4096;
+// Set before the first use of the log, which then needs no file of shared memory (a full disk under
+// one would kill the process).
 constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
 
 // Segments may arrive before their route does, so neither table refers to the other. `seal` is a
@@ -56,9 +58,6 @@ void CreateTables(SQLite::Database& db) {
 }
 
 void Configure(SQLite::Database& db, const SqliteOptions& options) {
-  // Exclusive before the first use of the log, which then needs no shared memory file (a full disk
-  // under one would kill the process).
-  db.exec(kExclusive);
   if (db.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
     throw SQLite::Exception("the file system does not support a write-ahead log", SQLITE_CANTOPEN);
   }
@@ -73,10 +72,22 @@ void Configure(SQLite::Database& db, const SqliteOptions& options) {
   }
 }
 
-// Cheap: reads the first page and the tables' roots.
+std::string DescribeTables(SQLite::Database& db) {
+  SQLite::Statement select(db, "SELECT type, name, sql FROM sqlite_schema ORDER BY type, name");
+  std::string description;
+  while (select.executeStep()) {
+    for (int i = 0; i < 3; ++i) description += select.getColumn(i).getString() + "\n";
+  }
+  return description;
+}
+
+// Cheap: reads the first pages. A byte changed in a table's definition changes what it means.
 void CheckTables(SQLite::Database& db) {
-  SQLite::Statement(db, "SELECT seal FROM route LIMIT 1").executeStep();
-  SQLite::Statement(db, "SELECT number FROM segment WHERE receipted = 0 LIMIT 1").executeStep();
+  SQLite::Database fresh(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  fresh.exec(kTables);
+  if (DescribeTables(db) != DescribeTables(fresh)) {
+    throw SQLite::Exception("the definitions of its tables are damaged", SQLITE_CORRUPT);
+  }
 }
 
 }  // namespace
@@ -116,9 +127,10 @@ Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::pa
     auto db =
         std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
     sqlite3_extended_result_codes(db->getHandle(), 1);
+    db->exec(kExclusive);
     if (db->execAndGet("PRAGMA page_count").getInt64() == 0) CreateTables(*db);
-    Configure(*db, options);
     CheckTables(*db);
+    Configure(*db, options);
     return db;
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(ToError(exception, file, "opening it"));

@@ -34,7 +34,7 @@ Result<void> SqliteRouteStore::VerifyPages(std::vector<std::string>& damage) {
 
 Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
   std::vector<route::RouteKey> keys;
-  const Result<void> listed = Guarded("listing what it holds", [&]() -> Result<void> {
+  Result<void> listed = Guarded("listing what it holds", [&]() -> Result<void> {
     SQLite::Statement select(*db_,
                              "SELECT route, revision FROM route UNION "
                              "SELECT route, revision FROM segment ORDER BY 1, 2");
@@ -46,7 +46,7 @@ Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
   });
   if (!listed) return listed;
   for (const route::RouteKey& key : keys) {
-    const Result<void> verified = VerifyRoute(key, damage);
+    Result<void> verified = VerifyRoute(key, damage);
     if (verified) continue;
     if (verified.error().code != ErrorCode::kCorrupt) return verified;
     damage.push_back(verified.error().message);
