@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
   trailcast::cli::CommonOptions common;
   common.name = "operator";
   trailcast::cli::AddCommonOptions(app, common);
-  const std::vector<Command> commands{trailcast::tool::AddTrialCommand(app),
+  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
+                                      trailcast::tool::AddTrialCommand(app),
                                       trailcast::tool::AddRoutesCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "agent/cli/open_exchange.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
-#include "services/dds/dds_exchange.h"
 
 namespace trailcast::tool {
 namespace {
@@ -42,16 +42,14 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
 }
 
 int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptions& options) {
-  dds::DdsOptions network;
-  network.domain_id = static_cast<std::uint32_t>(common.domain);
-  network.discovery_tag = common.dds_tag;
-  network.network_interface = common.network_interface;
-  network.self = AgentId(fmt::format("{}-{}", common.name, getpid()));
-  auto exchange = dds::OpenDdsExchange(network, exchange::OperatorTopics());
+  // Two operators may ask at the same time.
+  cli::CommonOptions network = common;
+  network.name = fmt::format("{}-{}", common.name, getpid());
+  auto exchange = cli::OpenExchange(network, exchange::OperatorTopics());
   if (!exchange) return cli::Complain(app, exchange.error());
   const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(options.timeout_s));
-  const auto reply = AskCatalog(**exchange, network.self, options.name, timeout);
+  const auto reply = AskCatalog(**exchange, AgentId(network.name), options.name, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   if (!options.name.empty() && reply->routes.empty()) return ShowNone(app, options.name, *reply);
   const std::string text =

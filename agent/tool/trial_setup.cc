@@ -3,11 +3,15 @@
 #include <array>
 #include <utility>
 
+#include "agent/camera_file.h"
+#include "services/sim/indoor_world.h"
 #include "services/sim/load_world.h"
 #include "services/sim/path_follow_driver.h"
 
 namespace trailcast::tool {
 namespace {
+
+constexpr const char* kIndoor = "indoor";
 
 struct NamedMethod {
   const char* name;
@@ -51,9 +55,17 @@ Result<void> LoadOwnWorld(const TrialOptions& options, TrialSetup& setup) {
 }
 
 Result<void> LoadScenario(const TrialOptions& options, TrialSetup& setup) {
-  (void)setup;
-  return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}", options.scenario,
-              fmt::join(ScenarioNames(), ", "));
+  if (options.scenario != kIndoor) {
+    return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}", options.scenario,
+                fmt::join(ScenarioNames(), ", "));
+  }
+  auto built = sim::MakeIndoorWorld();
+  if (!built) return tl::unexpected(built.error());
+  setup.scenario = options.scenario;
+  setup.world = std::move(built->world);
+  setup.path = std::move(built->path);
+  setup.speed_mps = sim::DriverOptions{}.speed_mps;
+  return {};
 }
 
 }  // namespace
@@ -64,10 +76,10 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (!method) return tl::unexpected(method.error());
   setup.method = options.method;
   setup.session.method = *method;
-  auto scout_camera = sim::FindCamera(options.scout_camera);
+  auto scout_camera = agent::CameraFromWord(options.scout_camera);
   if (!scout_camera) return tl::unexpected(scout_camera.error());
   setup.scout_camera = std::move(*scout_camera);
-  auto follower_camera = sim::FindCamera(options.follower_camera);
+  auto follower_camera = agent::CameraFromWord(options.follower_camera);
   if (!follower_camera) return tl::unexpected(follower_camera.error());
   setup.follower_camera = std::move(*follower_camera);
   const auto loaded =
@@ -77,7 +89,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   return setup;
 }
 
-std::vector<std::string> ScenarioNames() { return {"indoor"}; }
+std::vector<std::string> ScenarioNames() { return {kIndoor}; }
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
