@@ -5,9 +5,9 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr std::size_t kEnoughToLearn = 10;    // a magnification from fewer is too noisy
+constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too noisy
 constexpr std::size_t kMagnificationsKept = 15;
-constexpr double kEnoughShare = 0.4;          // found near by: the wide search is not needed
+constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
 
 }  // namespace
@@ -20,7 +20,8 @@ vision::FindResult HandOver::Find(const image::GrayImage& frame,
                                   std::span<const route::Feature> sought, double s,
                                   bool wide) const {
   vision::FindResult near = finder_.FindNear(frame, sought, s, {magnification_, 0.0, 0.0});
-  const double share = static_cast<double>(near.features.size()) / static_cast<double>(sought.size());
+  const double share =
+      static_cast<double>(near.features.size()) / static_cast<double>(sought.size());
   if (!wide || share >= kEnoughShare) return near;
   const vision::FindResult coarse = finder_.FindWide(frame, sought, s);
   if (coarse.features.empty()) return near;
@@ -39,6 +40,11 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
   return std::move(found.features);
 }
 
+std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame,
+                                                   const route::Segment& segment, double s) const {
+  return Find(frame, segment.features, s, /*wide=*/false).features;
+}
+
 // The magnification as a running median: one bad fit does no harm.
 void HandOver::Learn(const vision::ViewFit& fit, std::size_t features) {
   if (!any_camera_ || features < kEnoughToLearn) return;
@@ -50,8 +56,8 @@ void HandOver::Learn(const vision::ViewFit& fit, std::size_t features) {
   magnification_ = *middle;
 }
 
-std::optional<HandOver::Recovered> HandOver::Recover(
-    const image::GrayImage& frame, std::span<const route::Segment> ahead) const {
+std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
+                                                     std::span<const route::Segment> ahead) const {
   Recovered best;
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     for (const double s : {0.0, 0.5, 1.0}) {

@@ -12,8 +12,8 @@
 
 namespace trailcast::agent {
 
-// Where a segment's stored features are in the follower's picture, whatever its camera: finds them at
-// each segment's start and learns how the two cameras' magnifications compare.
+// Where a segment's stored features are in the follower's picture, whatever its camera: finds them
+// at each segment's start and learns how the two cameras' magnifications compare.
 class HandOver {
  public:
   HandOver(ReplayMethod method, int scout_width_px, int width_px);
@@ -21,6 +21,11 @@ class HandOver {
   // The segment's features as found in the frame that begins it, in the follower's own pixels.
   [[nodiscard]] std::vector<route::TrackedFeature> ToSegment(const image::GrayImage& frame,
                                                              const route::Segment& segment);
+
+  // The same features once more, at fraction `s` of the segment, when tracking has lost many.
+  [[nodiscard]] std::vector<route::TrackedFeature> Again(const image::GrayImage& frame,
+                                                         const route::Segment& segment,
+                                                         double s) const;
 
   struct Recovered {
     std::size_t segment = 0;  // position in `ahead`

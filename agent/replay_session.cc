@@ -24,6 +24,9 @@ constexpr int kBlindLimit_frames = 90;
 constexpr double kBlindSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
 constexpr int kLookAgain_frames = 5;
+// With a smaller share of the segment's features than this they are sought again, every so often.
+constexpr double kEnoughShare = 0.5;
+constexpr int kRefresh_frames = 6;
 // Segments whose milestone was not noticed: gone on by odometry so far past the taught length.
 constexpr double kOverrunShare = 0.25;
 constexpr double kOverrun_m = 0.3;
@@ -59,12 +62,14 @@ struct ReplaySession::State {
   std::optional<motion::Pose2> last_odometry;
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
+  int frames_since_find = 0;
   // Since features were last enough.
   double blind_m = 0.0;
   int blind_frames = 0;
 
   [[nodiscard]] replay::SegmentFollowerOptions FollowerOptions() const;
-  [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(const Observation& observation);
+  [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
+      const Observation& observation);
   void Begin(std::size_t index, const image::GrayImage& frame,
              const motion::OdometryIncrement& start);
   [[nodiscard]] replay::FollowStep Follow(const std::vector<route::TrackedFeature>& tracked,
@@ -72,6 +77,7 @@ struct ReplaySession::State {
   [[nodiscard]] bool Overrun() const;
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
+  void Refresh(double fraction, const image::GrayImage& frame);
   void JudgeSight(std::size_t features, const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
@@ -102,6 +108,7 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   const route::Segment& segment = segments[index];
   follower.emplace(segment, scout_width_px, FollowerOptions(), start);
   tracker.Follow(hand_over->ToSegment(frame, segment));
+  frames_since_find = 0;
   state = ReplayState::kFollowing;
   reason.clear();
 }
@@ -115,8 +122,7 @@ replay::FollowStep ReplaySession::State::Follow(
 bool ReplaySession::State::Overrun() const {
   const route::Segment& segment = follower->segment();
   return last_odometry && segment.has_odometry &&
-         follower->driven().distance_m >
-             segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
+         follower->driven().distance_m > segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -149,6 +155,18 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   tracker.Follow(seen->features);
 }
 
+// Features once lost (blur, a passer-by) come back into view: look for them again.
+void ReplaySession::State::Refresh(double fraction, const image::GrayImage& frame) {
+  const route::Segment& segment = follower->segment();
+  if (options.method == ReplayMethod::kPaper || ++frames_since_find < kRefresh_frames ||
+      tracker.count() >= kEnoughShare * static_cast<double>(segment.features.size())) {
+    return;
+  }
+  frames_since_find = 0;
+  std::vector<route::TrackedFeature> found = hand_over->Again(frame, segment, fraction);
+  if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(std::move(found));
+}
+
 // Too few features: on by odometry alone for a while, slowly, looking for the route; then lost.
 void ReplaySession::State::JudgeSight(std::size_t features,
                                       const std::optional<motion::OdometryIncrement>& odometry,
@@ -164,12 +182,11 @@ void ReplaySession::State::JudgeSight(std::size_t features,
   ++blind_frames;
   const bool lost = odometry ? blind_m > kBlindLimit_m : blind_frames > kBlindLimit_frames;
   state = lost ? ReplayState::kLost : ReplayState::kBlind;
-  reason = fmt::format("{} of segment {}'s {} features in view for {}; at least {} are needed",
-                       features, follower->segment().index.value(),
-                       follower->segment().features.size(),
-                       odometry ? fmt::format("{:.1f} m", blind_m)
-                                : fmt::format("{} frames", blind_frames),
-                       kMinFeatures);
+  reason = fmt::format(
+      "{} of segment {}'s {} features in view for {}; at least {} are needed", features,
+      follower->segment().index.value(), follower->segment().features.size(),
+      odometry ? fmt::format("{:.1f} m", blind_m) : fmt::format("{} frames", blind_frames),
+      kMinFeatures);
   LookAgain(frame);
 }
 
@@ -236,6 +253,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   }
   const replay::FollowStep step = s.Follow(tracked, odometry);
   s.JudgeSight(tracked.size(), odometry, frame);
+  s.Refresh(step.fraction, frame);
   if (s.state != ReplayState::kLost && (step.ended || s.Overrun())) s.EndSegment(frame);
   return s.Report(step);
 }

@@ -35,11 +35,11 @@ struct ReplaySessionOptions {
 struct ReplayStep {
   motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
   ReplayState state = ReplayState::kWaiting;
-  SegmentIndex segment;     // the one being followed
-  double fraction = 0.0;    // of that segment, 0..1
-  double progress = 0.0;    // of the route as far as it is known, 0..1, by segment count
-  int features = 0;         // matched and tracked
-  double turn_rad = 0.0;    // desired heading change theta_d, positive to the right
+  SegmentIndex segment;      // the one being followed
+  double fraction = 0.0;     // of that segment, 0..1
+  double progress = 0.0;     // of the route as far as it is known, 0..1, by segment count
+  int features = 0;          // matched and tracked
+  double turn_rad = 0.0;     // desired heading change theta_d, positive to the right
   double found_share = 0.0;  // of stored features found, mean over hand-overs so far
   int hand_overs = 0;
   std::string reason;  // kLost, kBlind, kWaiting: one line for people

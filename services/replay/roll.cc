@@ -51,12 +51,11 @@ Roll EstimateRoll(std::span<const ImagePair> pairs, const RollOptions& options) 
     if (current.norm() < kShortestBase_px || stored.norm() < kShortestBase_px) continue;
     const double angle_rad = WrapAngle(Direction(stored) - Direction(current));
     if (std::abs(angle_rad) > options.largest_rad) continue;
-    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix() *
-                                 (stored.norm() / current.norm());
+    const Eigen::Matrix2d turn =
+        Eigen::Rotation2Dd(angle_rad).toRotationMatrix() * (stored.norm() / current.norm());
     int count = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Eigen::Vector2d predicted =
-          a.stored_px + turn * (pairs[i].current_px - a.current_px);
+      const Eigen::Vector2d predicted = a.stored_px + turn * (pairs[i].current_px - a.current_px);
       inlier[i] = (predicted - pairs[i].stored_px).norm() <= options.tolerance_px;
       count += inlier[i] ? 1 : 0;
     }

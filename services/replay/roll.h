@@ -24,9 +24,9 @@ struct Roll {
   int inliers = 0;         // 0: not enough agree, the angle is then 0
 };
 
-// In-plane rotation from the current image to the stored one by RANSAC over random pairs of features
-// (Chen & Birchfield 2009, III): the one place where y-coordinates count. Each draw gives a rotation,
-// a magnification and a shift. Repeatable for equal input.
+// In-plane rotation from the current image to the stored one by RANSAC over random pairs of
+// features (Chen & Birchfield 2009, III): the one place where y-coordinates count. Each draw gives
+// a rotation, a magnification and a shift. Repeatable for equal input.
 [[nodiscard]] Roll EstimateRoll(std::span<const ImagePair> pairs, const RollOptions& options = {});
 
 // The current point as it would be without that rotation.

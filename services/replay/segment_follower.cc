@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/replay/track_progress.h"
 #include "services/route/heading.h"
 
 namespace trailcast::replay {
@@ -25,12 +26,17 @@ double MeanSquared(const std::vector<Eigen::Vector2d>& a, const std::vector<Eige
 
 // The features in view beside their stored places, one position in each list for a feature.
 struct SegmentFollower::Matched {
+  std::vector<route::TrackedFeature> features;  // as given, roll undone
   std::vector<Eigen::Vector2d> current;
   std::vector<Eigen::Vector2d> first;
   std::vector<Eigen::Vector2d> milestone;
 
   void UndoRoll(double angle_rad) {
-    for (Eigen::Vector2d& point : current) point = Unroll(point, angle_rad);
+    for (std::size_t i = 0; i < current.size(); ++i) {
+      current[i] = Unroll(current[i], angle_rad);
+      features[i].u_px = current[i].x();
+      features[i].v_px = current[i].y();
+    }
   }
   [[nodiscard]] std::vector<ImagePair> AgainstMilestone() const {
     std::vector<ImagePair> pairs;
@@ -58,6 +64,7 @@ SegmentFollower::SegmentFollower(route::Segment segment, int image_width_px,
 SegmentFollower::Matched SegmentFollower::Match(
     const std::vector<route::TrackedFeature>& features) const {
   Matched matched;
+  matched.features = features;
   for (const route::TrackedFeature& feature : features) {
     const route::Feature& stored = segment_.features.at(static_cast<std::size_t>(feature.id));
     matched.current.emplace_back(feature.u_px, feature.v_px);
@@ -80,8 +87,8 @@ FollowStep SegmentFollower::Step(const FollowInput& input) {
   step.roll_rad = EstimateRoll(matched.AgainstMilestone(), options_.roll).angle_rad;
   matched.UndoRoll(step.roll_rad);
 
-  // The funnel lane, fused with the taught heading: equation (1). Each half alone where the other is
-  // missing.
+  // The funnel lane, fused with the taught heading: equation (1). Each half alone where the other
+  // is missing.
   step.vision_turn_rad = MeanFeatureTurn(matched.FunnelPairs(), gain_rad_per_px_);
   step.odometry_turn_rad = by_odometry ? OdometryTurn(speed_mps) : 0.0;
   const double eta = !by_odometry ? 1.0 : matched.current.empty() ? 0.0 : options_.eta;
@@ -98,7 +105,8 @@ FollowStep SegmentFollower::Step(const FollowInput& input) {
   step.ended = transition_.Add(delta, delta_minus, driven_.distance_m);
   step.delta = transition_.delta();
   step.delta_minus = transition_.delta_minus();
-  step.fraction = Fraction(errors.feature_px2, errors.feature_sigma_px);
+  step.fraction = Fraction(matched, by_odometry);
+  step.ended |= !by_odometry && step.fraction >= options_.end_fraction_without_odometry;
 
   step.command = motion::Limit({speed_mps, -step.turn_rad / options_.turn_time_s}, options_.limits);
   return step;
@@ -121,12 +129,14 @@ TransitionErrors SegmentFollower::OdometryErrors() const {
   return errors;
 }
 
-double SegmentFollower::Fraction(double feature_px2, double feature_sigma_px) const {
-  if (segment_.has_odometry && segment_.length_m > 0.0) {
-    return std::clamp(driven_.distance_m / segment_.length_m, 0.0, 1.0);
+double SegmentFollower::Fraction(const Matched& matched, bool by_odometry) {
+  if (by_odometry) {
+    return segment_.length_m > 0.0 ? std::clamp(driven_.distance_m / segment_.length_m, 0.0, 1.0)
+                                   : 1.0;
   }
-  if (feature_sigma_px <= 0.0) return 0.0;
-  return std::clamp(1.0 - std::sqrt(feature_px2) / feature_sigma_px, 0.0, 1.0);
+  if (matched.features.empty()) return 0.0;
+  const double seen = EstimateProgress(segment_, matched.features).fraction;
+  return std::min(1.0, visual_fraction_.Add(seen));
 }
 
 double SegmentFollower::overshoot_m() const {

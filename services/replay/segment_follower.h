@@ -21,6 +21,10 @@ struct SegmentFollowerOptions {
   motion::VelocityLimits limits{1.0, 0.8};
   RollOptions roll;
   TransitionOptions transition;
+  // Without odometry delta has one term of three left and rises too flat for its peak to be caught:
+  // the segment then also ends at this much of the taught tracks, a little early, because past the
+  // milestone its features ask for the wrong turn.
+  double end_fraction_without_odometry = 0.85;
   // Floors under equation (2)'s sigmas: a straight or very short segment would otherwise let the
   // odometry's noise decide.
   double min_distance_sigma_m = 0.2;
@@ -70,13 +74,14 @@ class SegmentFollower {
   [[nodiscard]] Matched Match(const std::vector<route::TrackedFeature>& features) const;
   [[nodiscard]] double OdometryTurn(double speed_mps) const;
   [[nodiscard]] TransitionErrors OdometryErrors() const;
-  [[nodiscard]] double Fraction(double feature_px2, double feature_sigma_px) const;
+  [[nodiscard]] double Fraction(const Matched& matched, bool by_odometry);
 
   route::Segment segment_;
   SegmentFollowerOptions options_;
   double gain_rad_per_px_;
   motion::OdometryIncrement driven_;
   TransitionDetector transition_;
+  MedianFilter visual_fraction_{3};
 };
 
 }  // namespace trailcast::replay

@@ -10,12 +10,12 @@ namespace trailcast::replay {
 // Squared errors, and the scales that make them comparable. A term whose sigma is zero is left out
 // (no odometry; no feature).
 struct TransitionErrors {
-  double feature_px2 = 0.0;         // e_f: mean squared distance of features to the milestone's
-  double feature_sigma_px = 0.0;    // sigma_f: the same at the segment's start, its root
-  double distance_m2 = 0.0;         // e_l: squared difference of distance driven and length
-  double distance_sigma_m = 0.0;    // sigma_l: the segment's length
-  double heading_rad2 = 0.0;        // e_h: squared difference to the segment's final heading
-  double heading_sigma_rad = 0.0;   // sigma_h: the largest heading variation in the segment
+  double feature_px2 = 0.0;        // e_f: mean squared distance of features to the milestone's
+  double feature_sigma_px = 0.0;   // sigma_f: the same at the segment's start, its root
+  double distance_m2 = 0.0;        // e_l: squared difference of distance driven and length
+  double distance_sigma_m = 0.0;   // sigma_l: the segment's length
+  double heading_rad2 = 0.0;       // e_h: squared difference to the segment's final heading
+  double heading_sigma_rad = 0.0;  // sigma_h: the largest heading variation in the segment
 };
 
 // delta, in [0, 1].
@@ -33,7 +33,7 @@ class MedianFilter {
 };
 
 struct TransitionOptions {
-  double tau = 0.05;           // the paper's figure
+  double tau = 0.05;              // the paper's figure
   std::size_t median_length = 5;  // frames; at 30 Hz shorter than any segment
 };
 

@@ -7,7 +7,7 @@
 namespace trailcast::teach {
 
 struct HeadingSample {
-  double distance_m = 0.0;  // driven since the segment's start
+  double distance_m = 0.0;   // driven since the segment's start
   double heading_rad = 0.0;  // counter-clockwise since the segment's start, not wrapped
 };
 

@@ -10,8 +10,8 @@
 
 namespace trailcast::vision {
 
-// The pattern around `centre` (OpenCV pixel coordinates) as the route stores it; nothing within half
-// a patch of the edge.
+// The pattern around `centre` (OpenCV pixel coordinates) as the route stores it; nothing within
+// half a patch of the edge.
 [[nodiscard]] std::optional<route::Patch> CutPatch(const cv::Mat& frame, cv::Point2f centre);
 
 // A key point for an upright ORB descriptor at the frame's own scale.

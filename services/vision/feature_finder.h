@@ -20,8 +20,8 @@ struct FeatureFinderOptions {
   // Wide search, over the whole frame and all these magnifications (camera at hand / scout's).
   double min_magnification = 0.35;
   double max_magnification = 2.9;
-  int wide_corners = 350;      // looked at for each magnification
-  int max_hamming_bits = 64;   // of 256
+  int wide_corners = 350;       // looked at for each magnification
+  int max_hamming_bits = 64;    // of 256
   double hamming_ratio = 0.85;  // best to second best
   int min_wide_inliers = 7;
 };
@@ -49,8 +49,5 @@ class FeatureFinder {
  private:
   FeatureFinderOptions options_;
 };
-
-// A feature's taught place at fraction `s` of its segment, between its knots.
-[[nodiscard]] route::TrackKnot TaughtPlace(const route::Feature& feature, double s);
 
 }  // namespace trailcast::vision

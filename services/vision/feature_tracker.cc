@@ -17,7 +17,8 @@ const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS,
 constexpr double kFlowMinEigenvalue = 1e-4;
 constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
 
-// A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once smoothed).
+// A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once
+// smoothed).
 constexpr double kMinContrast_grey = 4.0;
 
 struct Flow {
@@ -27,10 +28,9 @@ struct Flow {
 
 // Whether there is more around the point than noise.
 bool StandsOut(const cv::Mat& smoothed, cv::Point2f point, int window_px) {
-  const cv::Rect around =
-      cv::Rect(cvRound(point.x) - window_px / 2, cvRound(point.y) - window_px / 2, window_px,
-               window_px) &
-      cv::Rect({0, 0}, smoothed.size());
+  const cv::Rect around = cv::Rect(cvRound(point.x) - window_px / 2,
+                                   cvRound(point.y) - window_px / 2, window_px, window_px) &
+                          cv::Rect({0, 0}, smoothed.size());
   cv::Scalar mean;
   cv::Scalar sigma;
   cv::meanStdDev(smoothed(around), mean, sigma);
@@ -103,8 +103,8 @@ FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame) {
   State& s = *state_;
   cv::buildOpticalFlowPyramid(View(frame), s.next, s.window(), s.options.pyramid_levels,
-                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101,
-                              cv::BORDER_CONSTANT, /*tryReuseInputImage=*/false);
+                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                              /*tryReuseInputImage=*/false);
   if (!s.points.empty()) {
     const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
     const Flow backward = s.FlowTo(s.next, s.last, forward.points, s.points);

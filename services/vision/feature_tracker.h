@@ -15,7 +15,7 @@ struct FeatureTrackerOptions {
   // Features are spread over the image: no two closer than this share of the distance that
   // max_features on a regular grid would have.
   double min_spacing_share = 0.35;
-  int window_px = 7;      // the paper's figure
+  int window_px = 7;       // the paper's figure
   int pyramid_levels = 3;  // beyond the full image: motions up to about 40 px between frames
   // A feature tracked forward and back again must return to where it came from this closely.
   double forward_backward_px = 0.7;

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "services/route/track.h"
 #include "services/vision/feature_finder.h"
 #include "services/vision/frame.h"
 
@@ -20,21 +21,19 @@ struct Peak {
 // Vertex of the parabola through three equidistant samples, as an offset from the middle one.
 float ParabolaVertex(float left, float middle, float right) {
   const float curvature = left - 2.0F * middle + right;
-  return std::abs(curvature) < 1e-6F
-             ? 0.0F
-             : std::clamp(0.5F * (left - right) / curvature, -0.5F, 0.5F);
+  return std::abs(curvature) < 1e-6F ? 0.0F
+                                     : std::clamp(0.5F * (left - right) / curvature, -0.5F, 0.5F);
 }
 
 // Best place of the patch in the window of `picture` around `expected`.
 std::optional<Peak> BestPlace(const cv::Mat& picture, const route::Patch& patch,
                               cv::Point2f expected, cv::Point2f radius) {
   const int half = route::kPatchSize / 2;
-  const cv::Rect window =
-      cv::Rect(cv::Point(cvRound(expected.x - radius.x) - half,
-                         cvRound(expected.y - radius.y) - half),
-               cv::Point(cvRound(expected.x + radius.x) + half + 1,
-                         cvRound(expected.y + radius.y) + half + 1)) &
-      cv::Rect({0, 0}, picture.size());
+  const cv::Rect window = cv::Rect(cv::Point(cvRound(expected.x - radius.x) - half,
+                                             cvRound(expected.y - radius.y) - half),
+                                   cv::Point(cvRound(expected.x + radius.x) + half + 1,
+                                             cvRound(expected.y + radius.y) + half + 1)) &
+                          cv::Rect({0, 0}, picture.size());
   if (window.width < route::kPatchSize || window.height < route::kPatchSize) return std::nullopt;
   const cv::Mat pattern(route::kPatchSize, route::kPatchSize, CV_8UC1,
                         const_cast<std::uint8_t*>(patch.data()));
@@ -67,17 +66,6 @@ cv::Mat AtScoutScale(const cv::Mat& frame, double scale) {
 
 }  // namespace
 
-route::TrackKnot TaughtPlace(const route::Feature& feature, double s) {
-  const auto after = std::find_if(feature.track.begin(), feature.track.end(),
-                                  [s](const route::TrackKnot& knot) { return knot.s >= s; });
-  if (after == feature.track.begin()) return feature.track.front();
-  if (after == feature.track.end()) return feature.track.back();
-  const auto before = std::prev(after);
-  const float w = (static_cast<float>(s) - before->s) / std::max(1e-6F, after->s - before->s);
-  return {static_cast<float>(s), before->u_px + w * (after->u_px - before->u_px),
-          before->v_px + w * (after->v_px - before->v_px)};
-}
-
 FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
                                    std::span<const route::Feature> sought, double s,
                                    const ViewFit& expected) const {
@@ -89,10 +77,9 @@ FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
   std::vector<ViewPair> pairs;  // all in pixels of the scout's magnification
   std::vector<int> index;
   for (std::size_t i = 0; i < sought.size(); ++i) {
-    const route::TrackKnot taught = TaughtPlace(sought[i], s);
-    const cv::Point2f place(
-        centre.x + static_cast<float>(expected.MapU(taught.u_px) / scale),
-        centre.y + static_cast<float>(expected.MapV(taught.v_px) / scale));
+    const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
+    const cv::Point2f place(centre.x + static_cast<float>(expected.MapU(taught.u_px) / scale),
+                            centre.y + static_cast<float>(expected.MapV(taught.v_px) / scale));
     const auto peak = BestPlace(picture, sought[i].patch, place, radius);
     if (!peak || peak->correlation < options_.min_correlation) continue;
     pairs.push_back({taught.u_px, taught.v_px, peak->at.x - centre.x, peak->at.y - centre.y});

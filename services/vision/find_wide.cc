@@ -3,6 +3,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "services/route/track.h"
 #include "services/vision/appearance.h"
 #include "services/vision/feature_finder.h"
 #include "services/vision/frame.h"
@@ -58,8 +59,9 @@ FindResult FeatureFinder::FindWide(const image::GrayImage& frame,
           second = std::min(second, bits);
         }
       }
-      if (nearest > options_.max_hamming_bits || nearest > options_.hamming_ratio * second) continue;
-      const route::TrackKnot taught = TaughtPlace(sought[i], s);
+      if (nearest > options_.max_hamming_bits || nearest > options_.hamming_ratio * second)
+        continue;
+      const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
       const cv::Point2f at = corners[static_cast<std::size_t>(row_of_nearest)].pt - centre;
       candidates.push_back({static_cast<int>(i), {taught.u_px, taught.v_px, at.x, at.y}});
     }
@@ -79,8 +81,7 @@ FindResult FeatureFinder::FindWide(const image::GrayImage& frame,
     best.fit = {agreed.fit.scale * scale, agreed.fit.du_px * scale, agreed.fit.dv_px * scale};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!agreed.inlier[i]) continue;
-      best.features.push_back(
-          {candidates[i].index, pairs[i].u_px * scale, pairs[i].v_px * scale});
+      best.features.push_back({candidates[i].index, pairs[i].u_px * scale, pairs[i].v_px * scale});
     }
   }
   return best;

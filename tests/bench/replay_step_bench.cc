@@ -1,0 +1,136 @@
+// One replay step at 320x240 with 60 features, beside the bare OpenCV calls that it cannot do without,
+// and the hand-over. See README.md.
+
+#include <benchmark/benchmark.h>
+
+#include <opencv2/video/tracking.hpp>
+#include <vector>
+
+#include "agent/hand_over.h"
+#include "services/replay/segment_follower.h"
+#include "services/teach/segment_recorder.h"
+#include "services/vision/feature_tracker.h"
+#include "services/vision/frame.h"
+#include "tests/support/painted_wall.h"
+
+namespace trailcast {
+namespace {
+
+constexpr int kFrames = 16;  // there and back again, so that features are never lost for good
+
+// A camera that closes in on a wall and backs off again.
+const std::vector<image::GrayImage>& Frames() {
+  static const std::vector<image::GrayImage> frames = [] {
+    const test::PaintedWall wall(3);
+    std::vector<image::GrayImage> made;
+    for (unsigned i = 0; i < kFrames; ++i) {
+      const double phase = i < kFrames / 2 ? i : kFrames - i;
+      made.push_back(wall.Photograph(
+          {.scale = 1.0 + 0.01 * phase, .du_px = 0.8 * phase, .noise_grey = 2.0, .noise_seed = i}));
+    }
+    return made;
+  }();
+  return frames;
+}
+
+route::Segment TaughtSegment() {
+  vision::FeatureTracker tracker;
+  teach::SegmentRecorder recorder;
+  tracker.Track(Frames().front());
+  tracker.Detect();
+  recorder.Begin(SensorTime{0}, tracker.Describe(), motion::Pose2{});
+  for (std::size_t i = 1; i < kFrames / 2; ++i) {
+    const double x_m = 0.01 * static_cast<double>(i);
+    if (recorder.Add(FromSeconds(x_m), tracker.Track(Frames()[i]), motion::Pose2{x_m, 0.0, 0.0})) {
+      break;
+    }
+  }
+  return *recorder.Finish();
+}
+
+void BareOpenCv(benchmark::State& state) {
+  vision::FeatureTracker detector;
+  detector.Track(Frames().front());
+  const cv::Point2f centre = vision::Centre({320, 240});
+  std::vector<cv::Point2f> start;
+  for (const auto& feature : detector.Detect()) {
+    start.emplace_back(static_cast<float>(feature.u_px) + centre.x,
+                       static_cast<float>(feature.v_px) + centre.y);
+  }
+  const cv::Size window(7, 7);
+  const cv::TermCriteria end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
+  std::vector<cv::Mat> last;
+  std::vector<cv::Mat> next;
+  cv::buildOpticalFlowPyramid(vision::View(Frames().back()), last, window, 3, true,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    cv::buildOpticalFlowPyramid(vision::View(Frames()[i++ % kFrames]), next, window, 3, true,
+                                cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+    std::vector<cv::Point2f> there = start;
+    std::vector<cv::Point2f> back = start;
+    std::vector<std::uint8_t> found;
+    cv::calcOpticalFlowPyrLK(last, next, start, there, found, cv::noArray(), window, 3, end,
+                             cv::OPTFLOW_USE_INITIAL_FLOW);
+    cv::calcOpticalFlowPyrLK(next, last, there, back, found, cv::noArray(), window, 3, end,
+                             cv::OPTFLOW_USE_INITIAL_FLOW);
+    benchmark::DoNotOptimize(back);
+    std::swap(last, next);
+  }
+  state.counters["features"] = static_cast<double>(start.size());
+}
+BENCHMARK(BareOpenCv)->Unit(benchmark::kMillisecond);
+
+void ReplayStep(benchmark::State& state) {
+  vision::FeatureTracker tracker;
+  tracker.Track(Frames().front());
+  std::vector<route::TrackedFeature> features = tracker.Detect();
+  // A segment that holds all sixty, so that every one of them is tracked, unrolled and asked.
+  route::Segment segment;
+  segment.has_odometry = true;
+  segment.length_m = 1000.0;
+  segment.duration_s = 2000.0;
+  for (const auto& feature : features) {
+    const auto u = static_cast<float>(feature.u_px);
+    const auto v = static_cast<float>(feature.v_px);
+    segment.features.push_back({{}, {}, {{0.0F, u, v}, {1.0F, 1.1F * u, 1.1F * v}}});
+  }
+  replay::SegmentFollower follower(segment, 320, {});
+  agent::HandOver hand_over(agent::ReplayMethod::kDefault, 320, 320);
+  std::size_t i = 0;
+  double tracked = 0.0;
+  for (auto _ : state) {
+    if (i % kFrames == 0) tracker.Follow(features);
+    const auto now = tracker.Track(Frames()[i++ % kFrames]);
+    tracked += static_cast<double>(now.size());
+    benchmark::DoNotOptimize(
+        follower.Step({hand_over.InScoutPixels(now), motion::OdometryIncrement{0.001, 0.0}}));
+  }
+  state.counters["features"] = tracked / static_cast<double>(state.iterations());
+}
+BENCHMARK(ReplayStep)->Unit(benchmark::kMillisecond);
+
+void HandOverNear(benchmark::State& state) {
+  const route::Segment segment = TaughtSegment();
+  agent::HandOver hand_over(agent::ReplayMethod::kDefault, 320, 320);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(hand_over.ToSegment(Frames()[3], segment));
+  }
+  state.counters["found_share"] = hand_over.found_share();
+  state.counters["sought"] = static_cast<double>(segment.features.size());
+}
+BENCHMARK(HandOverNear)->Unit(benchmark::kMillisecond);
+
+void SearchAtEveryMagnification(benchmark::State& state) {
+  const route::Segment segment = TaughtSegment();
+  const vision::FeatureFinder finder;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(finder.FindWide(Frames()[3], segment.features, 0.0));
+  }
+}
+BENCHMARK(SearchAtEveryMagnification)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace trailcast
+
+BENCHMARK_MAIN();

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <random>
+#include <vector>
+
+#include "services/motion/motion.h"
+#include "services/route/tracked_feature.h"
+
+namespace trailcast::test {
+
+// Landmarks in space seen by an ideal camera on a robot in the plane: features without images.
+class LandmarkScene {
+ public:
+  static constexpr double kFocal_px = 280.0;
+  static constexpr double kHalfWidth_px = 160.0;
+  static constexpr double kHalfHeight_px = 120.0;
+
+  explicit LandmarkScene(std::vector<Eigen::Vector3d> landmarks)
+      : landmarks_(std::move(landmarks)) {}
+
+  // Landmarks scattered on both sides of the x axis, 1 to 4 m off it.
+  static LandmarkScene Corridor(double from_m, double to_m, int count, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double low, double high) {
+      return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+    };
+    std::vector<Eigen::Vector3d> landmarks;
+    for (int i = 0; i < count; ++i) {
+      const double side = i % 2 == 0 ? 1.0 : -1.0;
+      landmarks.emplace_back(uniform(from_m, to_m), side * uniform(1.0, 4.0), uniform(-1.0, 1.5));
+    }
+    return LandmarkScene(landmarks);
+  }
+
+  // Landmarks in view from a robot at `pose_world`, rolled by `roll_rad` (clockwise as it sees the
+  // world turning counter-clockwise); id is the landmark's number.
+  [[nodiscard]] std::vector<route::TrackedFeature> Look(const motion::Pose2& pose_world,
+                                                        double roll_rad = 0.0,
+                                                        double focal_px = kFocal_px) const {
+    std::vector<route::TrackedFeature> features;
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+      const motion::Pose2 seen =
+          motion::Between(pose_world, {landmarks_[i].x(), landmarks_[i].y(), 0.0});
+      if (seen.x_m < 0.3) continue;
+      const Eigen::Vector2d upright(-focal_px * seen.y_m / seen.x_m,
+                                    -focal_px * landmarks_[i].z() / seen.x_m);
+      const Eigen::Vector2d at = Eigen::Rotation2Dd(roll_rad) * upright;
+      if (std::abs(at.x()) > kHalfWidth_px || std::abs(at.y()) > kHalfHeight_px) continue;
+      features.push_back({static_cast<int>(i), at.x(), at.y()});
+    }
+    return features;
+  }
+
+ private:
+  std::vector<Eigen::Vector3d> landmarks_;
+};
+
+}  // namespace trailcast::test

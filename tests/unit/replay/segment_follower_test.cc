@@ -1,0 +1,123 @@
+#include "services/replay/segment_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/taught_segment.h"
+
+namespace trailcast::replay {
+namespace {
+
+const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 80, 5);
+constexpr double kDt_s = 1.0 / 30.0;
+
+// Drives a perfect robot by the follower's commands until the segment ends.
+struct Outcome {
+  motion::Pose2 end;
+  double driven_m = 0.0;
+  bool ended = false;
+};
+
+Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, double roll_rad = 0.0,
+              bool with_odometry = true) {
+  SegmentFollower follower(run.segment, 320, {});
+  Outcome outcome;
+  motion::OdometryIncrement moved;
+  for (int i = 0; i < 600 && !outcome.ended; ++i) {
+    FollowInput input{test::Matched(kScene, run, robot, roll_rad), std::nullopt};
+    if (with_odometry) input.odometry = moved;
+    const FollowStep step = follower.Step(input);
+    moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
+    robot = motion::Advance(robot, moved);
+    outcome.driven_m += moved.distance_m;
+    outcome.ended = step.ended;
+  }
+  outcome.end = robot;
+  return outcome;
+}
+
+TEST(SegmentFollower, ExactStartEndsNearTheMilestone) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const Outcome outcome = Drive(run, {});
+  ASSERT_TRUE(outcome.ended);
+  EXPECT_NEAR(outcome.driven_m, 2.0, 0.5);  // tau makes it fire a little late
+  EXPECT_NEAR(outcome.end.y_m, 0.0, 0.02);
+}
+
+TEST(SegmentFollower, HeadingErrorIsTakenBack) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  for (const double error_rad : {-0.1, 0.1}) {
+    const Outcome outcome = Drive(run, {0.0, 0.0, error_rad});
+    ASSERT_TRUE(outcome.ended);
+    EXPECT_LT(std::abs(outcome.end.heading_rad), 0.75 * std::abs(error_rad));
+  }
+}
+
+TEST(SegmentFollower, TaughtTurnIsDriven) {
+  const auto run = test::TeachArcs(kScene, {}, {{0.5, 0.0}, {1.0, 0.3}});
+  const Outcome outcome = Drive(run, {});
+  ASSERT_TRUE(outcome.ended);
+  EXPECT_NEAR(outcome.end.heading_rad, 0.3, 0.12);
+}
+
+TEST(SegmentFollower, DrivesAtTheTaughtSpeed) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  SegmentFollower follower(run.segment, 320, {});
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {}), motion::OdometryIncrement{}});
+  EXPECT_NEAR(step.command.linear_mps, 0.3, 0.01);
+}
+
+TEST(SegmentFollower, RollIsUndoneBeforeComparing) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  SegmentFollower follower(run.segment, 320, {});
+  const FollowStep step = follower.Step(
+      {test::Matched(kScene, run, {1.9, 0.0, 0.0}, 0.08), motion::OdometryIncrement{}});
+  EXPECT_NEAR(step.roll_rad, -0.08, 0.02);
+  EXPECT_NEAR(step.vision_turn_rad, 0.0, 0.01);
+}
+
+TEST(SegmentFollower, VisionAloneSteersWithoutOdometry) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  SegmentFollower follower(run.segment, 320, {});
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {1.0, 0.0, 0.1}), std::nullopt});
+  EXPECT_GT(step.turn_rad, 0.0);
+  EXPECT_EQ(step.turn_rad, step.vision_turn_rad);
+  EXPECT_LT(step.command.angular_radps, 0.0);  // right is clockwise
+}
+
+TEST(SegmentFollower, WithoutOdometryTheTracksSayWhereItEnds) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const Outcome outcome = Drive(run, {}, 0.0, /*with_odometry=*/false);
+  ASSERT_TRUE(outcome.ended);
+  EXPECT_NEAR(outcome.driven_m, 1.7, 0.25);
+}
+
+TEST(SegmentFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
+  const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.4}});
+  SegmentFollower follower(run.segment, 320, {});
+  motion::Pose2 robot;
+  motion::OdometryIncrement moved;
+  while (follower.driven().distance_m < 0.99) {
+    const FollowStep step = follower.Step({{}, moved});
+    moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
+    robot = motion::Advance(robot, moved);
+  }
+  EXPECT_NEAR(robot.heading_rad, 0.4, 0.06);
+}
+
+TEST(SegmentFollower, CommandStaysWithinTheLimits) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  SegmentFollowerOptions options;
+  options.limits = {0.1, 0.05};
+  SegmentFollower follower(run.segment, 320, options);
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {0.0, 0.0, 0.3}), motion::OdometryIncrement{}});
+  EXPECT_LE(std::abs(step.command.linear_mps), 0.1);
+  EXPECT_LE(std::abs(step.command.angular_radps), 0.05);
+}
+
+}  // namespace
+}  // namespace trailcast::replay

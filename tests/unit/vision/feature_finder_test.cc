@@ -1,0 +1,96 @@
+#include "services/vision/feature_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "services/vision/feature_tracker.h"
+#include "tests/support/painted_wall.h"
+
+namespace trailcast::vision {
+namespace {
+
+const test::PaintedWall kWall(3);
+
+std::vector<route::Feature> Stored() {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({.noise_grey = 2.0}));
+  tracker.Detect();
+  std::vector<route::Feature> stored;
+  for (const auto& described : tracker.Describe()) {
+    const auto u = static_cast<float>(described.at.u_px);
+    const auto v = static_cast<float>(described.at.v_px);
+    stored.push_back({described.patch, described.descriptor, {{0.0F, u, v}, {1.0F, u, v}}});
+  }
+  return stored;
+}
+
+// How many of those found are where they should be, and whether nearly all are.
+std::size_t CountRight(const std::vector<route::Feature>& stored, const FindResult& found,
+                       const test::PaintedWall::View& view) {
+  std::size_t right = 0;
+  for (const auto& feature : found.features) {
+    const auto& taught = stored[static_cast<std::size_t>(feature.id)].first();
+    right += std::hypot(feature.u_px - (view.scale * taught.u_px + view.du_px),
+                        feature.v_px - (view.scale * taught.v_px + view.dv_px)) <
+             2.0 * std::max(1.0, view.scale);
+  }
+  EXPECT_GE(right * 10, found.features.size() * 9) << "more than a tenth is misplaced";
+  return right;
+}
+
+TEST(FindNear, FindsNearlyAllAfterASmallMoveUnderAnotherGain) {
+  const auto stored = Stored();
+  ASSERT_GE(stored.size(), 40U);
+  for (const double gain : {0.7, 1.0, 1.3}) {
+    const test::PaintedWall::View view{
+        .du_px = 9.0, .dv_px = -4.0, .gain = gain, .noise_grey = 2.5, .noise_seed = 5};
+    const auto found = FeatureFinder().FindNear(kWall.Photograph(view), stored, 0.0, {});
+    EXPECT_GE(CountRight(stored, found, view) * 10, stored.size() * 7) << "gain " << gain;
+    EXPECT_NEAR(found.fit.du_px, 9.0, 1.0);
+  }
+}
+
+TEST(FindNear, FindsThemThroughAnotherMagnificationThatIsKnown) {
+  const auto stored = Stored();
+  for (const double scale : {0.6, 0.8, 1.5}) {
+    const test::PaintedWall::View view{.scale = scale, .du_px = 3.0, .noise_grey = 2.0};
+    const auto found =
+        FeatureFinder().FindNear(kWall.Photograph(view), stored, 0.0, {scale, 0.0, 0.0});
+    EXPECT_GE(CountRight(stored, found, view), 15U) << "scale " << scale;
+    EXPECT_NEAR(found.fit.scale, scale, 0.02 * scale);
+  }
+}
+
+TEST(FindNear, FindsNothingOnAnotherWall) {
+  const auto stored = Stored();
+  const auto found =
+      FeatureFinder().FindNear(test::PaintedWall(77).Photograph({}), stored, 0.0, {});
+  EXPECT_LE(found.features.size(), stored.size() / 3);
+}
+
+TEST(FindWide, FindsTheMagnificationWithoutBeingTold) {
+  const auto stored = Stored();
+  for (const double scale : {0.5, 0.7, 1.0, 1.4, 1.9}) {
+    const test::PaintedWall::View view{
+        .scale = scale, .du_px = -12.0, .dv_px = 6.0, .noise_grey = 2.0};
+    const auto found = FeatureFinder().FindWide(kWall.Photograph(view), stored, 0.0);
+    ASSERT_FALSE(found.features.empty()) << "scale " << scale;
+    EXPECT_NEAR(found.fit.scale, scale, 0.06 * scale);
+    EXPECT_NEAR(found.fit.du_px, -12.0, 4.0);
+  }
+}
+
+TEST(FindWide, SaysNothingRatherThanSomethingWrong) {
+  const auto stored = Stored();
+  EXPECT_TRUE(
+      FeatureFinder().FindWide(test::PaintedWall(77).Photograph({}), stored, 0.0).features.empty());
+  EXPECT_TRUE(FeatureFinder()
+                  .FindWide(test::PaintedWall(1, 0).Photograph({.noise_grey = 3.0}), stored, 0.0)
+                  .features.empty());
+}
+
+}  // namespace
+}  // namespace trailcast::vision

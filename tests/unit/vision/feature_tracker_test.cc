@@ -1,0 +1,128 @@
+#include "services/vision/feature_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tests/support/painted_wall.h"
+
+namespace trailcast::vision {
+namespace {
+
+const test::PaintedWall kWall(3);
+
+std::map<int, route::TrackedFeature> ById(const std::vector<route::TrackedFeature>& features) {
+  std::map<int, route::TrackedFeature> by_id;
+  for (const auto& feature : features) by_id[feature.id] = feature;
+  return by_id;
+}
+
+TEST(FeatureTracker, DetectsAtMostSixtyFeaturesSpreadOverTheImage) {
+  FeatureTracker tracker;
+  EXPECT_TRUE(tracker.Track(kWall.Photograph({})).empty());
+  const auto features = tracker.Detect();
+  EXPECT_LE(features.size(), 60U);
+  EXPECT_GE(features.size(), 40U);
+  EXPECT_GT(std::count_if(features.begin(), features.end(), [](auto& f) { return f.u_px < -40; }),
+            5);
+  EXPECT_GT(std::count_if(features.begin(), features.end(), [](auto& f) { return f.u_px > 40; }),
+            5);
+}
+
+TEST(FeatureTracker, FollowsAKnownShiftToATenthOfAPixel) {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({}));
+  const auto before = ById(tracker.Detect());
+  const auto after = tracker.Track(kWall.Photograph({.du_px = 7.3, .dv_px = -2.6}));
+  EXPECT_GE(after.size(), before.size() * 8 / 10);
+  for (const auto& feature : after) {
+    EXPECT_NEAR(feature.u_px - before.at(feature.id).u_px, 7.3, 0.15);
+    EXPECT_NEAR(feature.v_px - before.at(feature.id).v_px, -2.6, 0.15);
+  }
+}
+
+TEST(FeatureTracker, FollowsMagnificationNoiseAndGainOverManyFrames) {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({.noise_grey = 2.5}));
+  const auto before = ById(tracker.Detect());
+  std::vector<route::TrackedFeature> now;
+  double scale = 1.0;
+  for (unsigned frame = 1; frame <= 20; ++frame) {
+    scale *= 1.01;
+    now = tracker.Track(kWall.Photograph(
+        {.scale = scale, .gain = 1.0 - 0.005 * frame, .noise_grey = 2.5, .noise_seed = frame + 1}));
+  }
+  EXPECT_GE(now.size(), before.size() / 2);
+  std::size_t close = 0;
+  for (const auto& feature : now) {
+    const auto& start = before.at(feature.id);
+    close += std::hypot(feature.u_px - scale * start.u_px, feature.v_px - scale * start.v_px) < 1.5;
+  }
+  EXPECT_GE(close, now.size() * 9 / 10);
+}
+
+TEST(FeatureTracker, LosesEverythingWhenTheViewChangesAltogether) {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({}));
+  const auto before = tracker.Detect();
+  const auto after = tracker.Track(test::PaintedWall(99).Photograph({}));
+  EXPECT_LE(after.size(), before.size() / 4);
+}
+
+TEST(FeatureTracker, FindsNothingInANoisyBlankOrDarkImage) {
+  for (const double gain : {0.0, 1.0}) {
+    FeatureTracker tracker;
+    tracker.Track(test::PaintedWall(1, 0).Photograph({.gain = gain, .noise_grey = 3.0}));
+    EXPECT_TRUE(tracker.Detect().empty());
+    EXPECT_TRUE(tracker.Describe().empty());
+  }
+}
+
+TEST(FeatureTracker, KeepsOffTheBlackSurroundOfAFisheye) {
+  image::GrayImage frame = kWall.Photograph({});
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (std::hypot(x - 159.5, y - 119.5) > 115.0) {
+        frame.pixels[static_cast<std::size_t>(y * frame.width + x)] = 5;
+      }
+    }
+  }
+  FeatureTracker tracker;
+  tracker.Track(frame);
+  const auto features = tracker.Detect();
+  ASSERT_GE(features.size(), 15U);
+  for (const auto& feature : features) EXPECT_LT(std::hypot(feature.u_px, feature.v_px), 110.0);
+}
+
+TEST(FeatureTracker, GoesOnWithTheFeaturesItIsGiven) {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({}));
+  auto detected = tracker.Detect();
+  detected.resize(5);
+  for (auto& feature : detected) feature.id += 100;
+  tracker.Follow(detected);
+  const auto after = tracker.Track(kWall.Photograph({.du_px = 2.0}));
+  ASSERT_EQ(after.size(), 5U);
+  EXPECT_EQ(after.front().id, detected.front().id);
+}
+
+TEST(FeatureTracker, EqualFramesGiveEqualResults) {
+  const auto run = [] {
+    FeatureTracker tracker;
+    tracker.Track(kWall.Photograph({.noise_grey = 2.0}));
+    tracker.Detect();
+    return tracker.Track(kWall.Photograph({.du_px = 3.0, .noise_grey = 2.0, .noise_seed = 9}));
+  };
+  const auto first = run();
+  const auto second = run();
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].u_px, second[i].u_px);
+    EXPECT_EQ(first[i].v_px, second[i].v_px);
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::vision
