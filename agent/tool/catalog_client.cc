@@ -1,0 +1,126 @@
+#include "agent/tool/catalog_client.h"
+
+#include <algorithm>
+#include <random>
+#include <variant>
+
+#include "services/route/digest.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr auto kAskAgain = std::chrono::milliseconds(500);
+constexpr auto kTakeWait = std::chrono::milliseconds(100);
+
+double BytesPerMeter(const route::RouteInfo& info) {
+  return info.length_m > 0.0 ? static_cast<double>(info.bytes) / info.length_m : 0.0;
+}
+
+const char* StateName(route::RouteState state) {
+  return state == route::RouteState::kComplete ? "complete" : "teaching";
+}
+
+std::string JsonText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  quoted += '"';
+  return quoted;
+}
+
+}  // namespace
+
+Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
+                                          const std::string& name,
+                                          std::chrono::milliseconds timeout) {
+  using Clock = std::chrono::steady_clock;
+  std::random_device random;
+  const exchange::CatalogRequest question{client, random(), name};
+  const auto deadline = Clock::now() + timeout;
+  auto ask_at = Clock::now();
+  while (Clock::now() < deadline) {
+    if (Clock::now() >= ask_at) {
+      // A question that could not be handed over is asked again like one that was not answered.
+      const Result<void> asked = exchange.Publish(question);
+      if (!asked && asked.error().code != ErrorCode::kUnavailable) {
+        return tl::unexpected(asked.error());
+      }
+      ask_at = Clock::now() + kAskAgain;
+    }
+    for (exchange::Message& message : exchange.Take(kTakeWait)) {
+      auto* reply = std::get_if<exchange::CatalogReply>(&message);
+      if (reply == nullptr || reply->client != client || reply->request != question.request) {
+        continue;
+      }
+      if (!reply->error.empty()) {
+        return Fail(ErrorCode::kUnavailable, "server {} could not answer: {}",
+                    reply->server.value(), reply->error);
+      }
+      return std::move(*reply);
+    }
+  }
+  return Fail(
+      ErrorCode::kUnavailable,
+      "no route server answered within {:.1f} s: is trailcast-server running, with the same "
+      "domain, tag and network interface?",
+      std::chrono::duration<double>(timeout).count());
+}
+
+std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_t now_unix_ms) {
+  if (routes.empty()) return "no routes\n";
+  std::size_t name_width = 5;
+  std::size_t scout_width = 5;
+  std::size_t camera_width = 6;
+  for (const route::RouteInfo& info : routes) {
+    name_width = std::max(name_width, info.name.size());
+    scout_width = std::max(scout_width, info.scout.value().size());
+    camera_width = std::max(camera_width, info.camera.size());
+  }
+  std::string text =
+      fmt::format("{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}\n",
+                  "route", name_width, "revision", "state", "segments", "metres", "kB", "B/m",
+                  "scout", scout_width, "camera", camera_width, "age");
+  for (const route::RouteInfo& info : routes) {
+    text += fmt::format(
+        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8.1f}  {:>8.1f}  {:>6.0f}  {:<{}}  {:<{}}  {:>6}\n",
+        info.name, name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
+        info.length_m, static_cast<double>(info.bytes) / 1000.0, BytesPerMeter(info),
+        info.scout.value(), scout_width, info.camera, camera_width,
+        Age(now_unix_ms - info.taught_unix_ms));
+  }
+  return text;
+}
+
+std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
+  std::string text = "[";
+  for (const route::RouteInfo& info : routes) {
+    if (text.size() > 1) text += ',';
+    text += fmt::format(
+        "\n  {{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
+        "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
+        "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\"}}",
+        JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
+        StateName(info.state), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
+        JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
+        route::ToHex(info.manifest_digest));
+  }
+  return text + "\n]\n";
+}
+
+std::string Age(std::int64_t milliseconds) {
+  const std::int64_t seconds = std::max<std::int64_t>(0, milliseconds / 1000);
+  if (seconds < 120) return fmt::format("{} s", seconds);
+  if (seconds < 2 * 3600) return fmt::format("{} min", seconds / 60);
+  if (seconds < 2 * 86400) return fmt::format("{} h", seconds / 3600);
+  return fmt::format("{} d", seconds / 86400);
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::tool {
+
+// Asks every server in reach for its routes, by exact name or all (empty name), and gives the first
+// reply. The question is repeated until then, for a server that joins late. Errors: kUnavailable
+// when no server answers within `timeout` (and how to look further); what a server says it could
+// not do.
+[[nodiscard]] Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange,
+                                                        const AgentId& client,
+                                                        const std::string& name,
+                                                        std::chrono::milliseconds timeout);
+
+// For people: one line a route, `now_unix_ms` for their ages.
+[[nodiscard]] std::string RoutesTable(const std::vector<route::RouteInfo>& routes,
+                                      std::int64_t now_unix_ms);
+// For programs: an array of objects.
+[[nodiscard]] std::string RoutesJson(const std::vector<route::RouteInfo>& routes);
+
+// "12 s", "5 min", "3 h", "2 d".
+[[nodiscard]] std::string Age(std::int64_t milliseconds);
+
+}  // namespace trailcast::tool

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "agent/cli/command_line.h"
+
+namespace trailcast::tool {
+
+// A subcommand of `trailcast`: what its flags are, and what it does once they are parsed. `Run`
+// returns the process's exit status.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int()> run;
+};
+
+// Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
+// it.
+[[nodiscard]] Command AddDemoCommand(CLI::App& parent, const cli::CommonOptions& common);
+[[nodiscard]] Command AddTrialCommand(CLI::App& parent);
+[[nodiscard]] Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common);
+
+}  // namespace trailcast::tool

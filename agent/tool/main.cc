@@ -1,0 +1,34 @@
+#include <vector>
+
+#include "agent/tool/command.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  trailcast demo                         # a scout teaches three robots with other cameras\n"
+    "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
+    "  trailcast routes                       # what the route server keeps\n"
+    "Each subcommand has its own --help.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using trailcast::tool::Command;
+  CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
+               "trailcast");
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.fallthrough();
+  trailcast::cli::CommonOptions common;
+  common.name = "operator";
+  trailcast::cli::AddCommonOptions(app, common);
+  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
+                                      trailcast::tool::AddTrialCommand(app),
+                                      trailcast::tool::AddRoutesCommand(app, common)};
+  if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return trailcast::cli::kExitUsage;
+}

@@ -1,0 +1,58 @@
+#include "agent/tool/path_judge.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "services/sim/path.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr double kMinStep_m = 0.01;
+
+}  // namespace
+
+void TruePath::Add(const Eigen::Vector2d& point_m) {
+  end_m_ = point_m;
+  const double step_m = points_m_.empty() ? 0.0 : (point_m - points_m_.back()).norm();
+  if (!points_m_.empty() && step_m < kMinStep_m) return;
+  points_m_.push_back(point_m);
+  length_m_ += step_m;
+}
+
+double TruePath::DistanceTo(const Eigen::Vector2d& point_m) const {
+  assert(!empty());
+  if (points_m_.size() == 1) return (point_m - points_m_.front()).norm();
+  return sim::Nearest(points_m_, point_m).distance_m;
+}
+
+double PathJudge::Observe(const Eigen::Vector2d& position_m) {
+  const double error_m = taught_.DistanceTo(position_m);
+  if (last_m_) {
+    const double step_m = (position_m - *last_m_).norm();
+    driven_m_ += step_m;
+    error_integral_ += 0.5 * (error_m + last_error_m_) * step_m;
+  }
+  if (driven_m_ >= kSettlingDistance_m) {
+    max_settled_m_ = std::max(max_settled_m_.value_or(0.0), error_m);
+  }
+  worst_m_ = std::max(worst_m_, error_m);
+  last_m_ = position_m;
+  last_error_m_ = error_m;
+  replayed_.Add(position_m);
+  return error_m;
+}
+
+Verdict PathJudge::verdict() const {
+  Verdict verdict;
+  if (!last_m_) return verdict;
+  verdict.final_m = *last_m_;
+  verdict.final_error_m = (*last_m_ - taught_.end_m()).norm();
+  verdict.mean_path_error_m = driven_m_ > 0.0 ? error_integral_ / driven_m_ : last_error_m_;
+  verdict.max_path_error_m = max_settled_m_.value_or(last_error_m_);
+  verdict.worst_path_error_m = worst_m_;
+  verdict.driven_m = driven_m_;
+  return verdict;
+}
+
+}  // namespace trailcast::tool

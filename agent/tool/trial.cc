@@ -1,0 +1,195 @@
+#include "agent/tool/trial.h"
+
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "agent/tool/trial_teach.h"
+#include "services/route/digest.h"
+#include "services/sim/judge.h"
+#include "services/sim/random.h"
+#include "services/sim/simulated_robot.h"
+
+namespace trailcast::tool {
+namespace {
+
+using agent::ReplayState;
+using agent::ReplayStep;
+
+constexpr double kStandstill_s = 20.0;  // without getting kStandstill_m further: stuck
+constexpr double kStandstill_m = 0.2;
+constexpr double kPatience = 4.0;  // times what teaching took: going round in circles
+constexpr double kPatience_s = 60.0;
+constexpr int kProgressEvery = 15;   // frames
+constexpr double kTeachShare = 0.4;  // of a trial's work
+
+double ThreadCpuMs() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+sim::SimulatedRobotOptions FollowerOptions(const TrialSetup& setup, std::uint64_t seed) {
+  sim::SimulatedRobotOptions options;
+  options.camera = setup.follower_camera;
+  options.start = sim::StartPose(setup.path.points);
+  options.start_z_max_m = setup.path.z_max_m;
+  options.disturbances = setup.follower;
+  options.seed = seed;
+  return options;
+}
+
+// Notices a robot that gets nowhere.
+class StandstillWatch {
+ public:
+  bool Stuck(const Eigen::Vector2d& position_m, double time_s) {
+    if (!since_s_ || (position_m - anchor_m_).norm() > kStandstill_m) {
+      anchor_m_ = position_m;
+      since_s_ = time_s;
+    }
+    return time_s - *since_s_ > kStandstill_s;
+  }
+
+ private:
+  Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Zero();
+  std::optional<double> since_s_;
+};
+
+// A follower in closed loop, frame by frame, until it has ended one way or the other.
+class Replaying {
+ public:
+  Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session)
+      : robot_(robot),
+        truth_(robot),
+        judge_(taught.path),
+        session_(std::move(session)),
+        limit_s_(kPatience * taught.duration_s + kPatience_s) {}
+
+  // One frame. False when the replay is over; `state` and `reason` then say how.
+  Result<bool> Step() {
+    sim::Observation seen = robot_.Step(last_.command);
+    const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
+    const double off_m = judge_.Observe(position_m);
+    const double began_ms = ThreadCpuMs();
+    auto step = session_.Observe({seen.stamp, std::move(seen.image), seen.odometry});
+    cpu_ms_ += ThreadCpuMs() - began_ms;
+    ++frames_;
+    if (!step) return tl::unexpected(step.error());
+    last_ = std::move(*step);
+    return !Ended(position_m, off_m, Seconds(seen.stamp));
+  }
+
+  [[nodiscard]] const ReplayStep& last() const { return last_; }
+  // Everything of the row that the replay decides.
+  void Fill(TrialRow& row) const {
+    row.verdict = judge_.verdict();
+    row.found_share = last_.found_share;
+    row.hand_overs = last_.hand_overs;
+    row.frames = frames_;
+    row.ms_per_frame = frames_ > 0 ? cpu_ms_ / frames_ : 0.0;
+    row.state = state_;
+    row.reason = reason_;
+    row.arrived = state_ == "arrived";
+  }
+  [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
+
+ private:
+  bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
+    const std::string where = fmt::format("at segment {}, {:.0f} % of the way",
+                                          last_.segment.value(), 100.0 * last_.progress);
+    if (last_.state == ReplayState::kArrived) {
+      const double error_m = judge_.verdict().final_error_m;
+      if (error_m <= kArrivalRadius_m) return End("arrived", "");
+      return End("misplaced", fmt::format("says it arrived {:.1f} m from the end", error_m));
+    }
+    if (last_.state == ReplayState::kLost) {
+      return End("lost", fmt::format("{}: {}", where, last_.reason));
+    }
+    if (off_m > kStrayLimit_m) {
+      return End("strayed", fmt::format("{}: over {:.0f} m off the path", where, kStrayLimit_m));
+    }
+    if (standstill_.Stuck(position_m, time_s)) {
+      return End("stuck", fmt::format("{}: no further for {:.0f} s{}{}", where, kStandstill_s,
+                                      last_.reason.empty() ? "" : ": ", last_.reason));
+    }
+    if (time_s > limit_s_) {
+      return End("timeout", fmt::format("{}: still under way after {:.0f} s", where, limit_s_));
+    }
+    return false;
+  }
+  bool End(const char* state, std::string reason) {
+    state_ = state;
+    reason_ = std::move(reason);
+    return true;
+  }
+
+  sim::SimulatedRobot& robot_;
+  sim::Judge truth_;
+  PathJudge judge_;
+  agent::ReplaySession session_;
+  double limit_s_;
+  StandstillWatch standstill_;
+  ReplayStep last_;  // a first Step of the robot with no command is a look at the start
+  double cpu_ms_ = 0.0;
+  int frames_ = 0;
+  std::string state_;
+  std::string reason_;
+};
+
+// What a follower gets: the bytes that the scout made, opened again.
+Result<agent::ReplaySession> LoadRoute(const TrialSetup& setup, const Taught& taught) {
+  agent::ReplaySession session(setup.session, taught.info);
+  for (const route::SegmentPiece& piece : taught.pieces) {
+    auto segment = route::Open(piece);
+    if (!segment) return tl::unexpected(segment.error());
+    const auto added = session.AddSegment(std::move(*segment));
+    if (!added) return tl::unexpected(added.error());
+  }
+  session.MarkComplete();
+  return session;
+}
+
+TrialRow BeginRow(const TrialSetup& setup, std::uint64_t seed, int trial, const Taught& taught) {
+  TrialRow row;
+  row.scenario = setup.scenario;
+  row.method = setup.method;
+  row.scout_camera = setup.scout_camera.name;
+  row.follower_camera = setup.follower_camera.name;
+  row.trial = trial;
+  row.seed = seed;
+  row.end_m = taught.path.end_m();
+  row.segments = static_cast<int>(taught.pieces.size());
+  row.taught_m = taught.path.length_m();
+  row.bytes_per_m = static_cast<double>(taught.info.bytes) / row.taught_m;
+  return row;
+}
+
+}  // namespace
+
+Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialOptions& options, int trial,
+                              const TrialProgress& on_progress) {
+  const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(trial - 1);
+  auto taught = TeachOnce(setup, sim::Random(seed, "scout").Bits(),
+                          [&](double share) { return on_progress(kTeachShare * share); });
+  if (!taught) return tl::unexpected(taught.error());
+  const auto robot = sim::SimulatedRobot::Create(
+      setup.world, FollowerOptions(setup, sim::Random(seed, "follower").Bits()));
+  if (!robot) return Wrap(robot.error(), "the follower");
+  auto session = LoadRoute(setup, *taught);
+  if (!session) return tl::unexpected(session.error());
+  Replaying replaying(**robot, *taught, std::move(*session));
+  for (int frame = 0;; ++frame) {
+    const Result<bool> more = replaying.Step();
+    if (!more) return Wrap(more.error(), "the follower");
+    if (!*more) break;
+    const double share = kTeachShare + (1.0 - kTeachShare) * replaying.last().progress;
+    if (frame % kProgressEvery == 0 && !on_progress(share)) {
+      return Fail(ErrorCode::kUnavailable, "interrupted");
+    }
+  }
+  TrialOutcome outcome{BeginRow(setup, seed, trial, *taught), taught->path, replaying.path()};
+  replaying.Fill(outcome.row);
+  return outcome;
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,85 @@
+#include "agent/tool/trial_batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace trailcast::tool {
+namespace {
+
+// What the threads share: which trial is next, what has come of the others.
+class Batch {
+ public:
+  Batch(const TrialSetup& setup, const TrialOptions& options, const BatchProgress& on_progress)
+      : setup_(setup),
+        options_(options),
+        on_progress_(on_progress),
+        outcomes_(static_cast<std::size_t>(options.trials)),
+        shares_(static_cast<std::size_t>(options.trials), 0.0) {}
+
+  // A thread's work: trials, until none is left or one failed to run at all.
+  void Work() {
+    while (!broken_) {
+      const int index = next_.fetch_add(1);
+      if (index >= options_.trials) return;
+      Result<TrialOutcome> outcome = RunTrial(setup_, options_, index + 1, [&](double share) {
+        Note(static_cast<std::size_t>(index), share, nullptr);
+        return !broken_;
+      });
+      if (!outcome) broken_ = true;
+      Note(static_cast<std::size_t>(index), 1.0, &outcome);
+    }
+  }
+
+  Result<std::vector<TrialOutcome>> Take() {
+    std::vector<TrialOutcome> outcomes;
+    for (std::optional<Result<TrialOutcome>>& outcome : outcomes_) {
+      if (!outcome) continue;  // never begun, after another one's error
+      if (!*outcome) return tl::unexpected(outcome->error());
+      outcomes.push_back(std::move(**outcome));
+    }
+    return outcomes;
+  }
+
+ private:
+  void Note(std::size_t index, double share, Result<TrialOutcome>* outcome) {
+    const std::scoped_lock lock(mutex_);
+    shares_[index] = share;
+    if (outcome != nullptr) {
+      ++ended_;
+      arrived_ += *outcome && (*outcome)->row.arrived ? 1 : 0;
+      outcomes_[index].emplace(std::move(*outcome));
+    }
+    double sum = 0.0;
+    for (const double each : shares_) sum += each;
+    if (on_progress_) on_progress_(sum / static_cast<double>(shares_.size()), ended_, arrived_);
+  }
+
+  const TrialSetup& setup_;
+  const TrialOptions& options_;
+  const BatchProgress& on_progress_;
+  std::atomic<int> next_{0};
+  std::atomic<bool> broken_{false};
+  std::mutex mutex_;  // guards what follows
+  std::vector<std::optional<Result<TrialOutcome>>> outcomes_;
+  std::vector<double> shares_;
+  int ended_ = 0;
+  int arrived_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<TrialOutcome>> RunTrials(const TrialSetup& setup, const TrialOptions& options,
+                                            const BatchProgress& on_progress) {
+  Batch batch(setup, options, on_progress);
+  {
+    std::vector<std::jthread> threads;
+    const int jobs = std::clamp(options.jobs, 1, options.trials);
+    for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { batch.Work(); });
+  }
+  return batch.Take();
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "agent/tool/command.h"
+#include "agent/tool/live_lines.h"
+#include "agent/tool/trial_batch.h"
+#include "agent/tool/trial_plot.h"
+
+namespace trailcast::tool {
+namespace {
+
+struct TrialFiles {
+  std::string csv;
+  std::string plot;
+};
+
+constexpr int kBarWidth = 40;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
+    "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
+    "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
+    "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
+
+void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
+  app.option_defaults()->always_capture_default();
+  CLI::Option* scenario =
+      app.add_option("--scenario", options.scenario,
+                     fmt::format("A built-in one: {}", fmt::join(ScenarioNames(), ", ")));
+  CLI::Option* world =
+      app.add_option("--world", options.world_file, "A world of your own: glTF, OBJ, ...")
+          ->check(CLI::ExistingFile)
+          ->excludes(scenario);
+  app.add_option("--up", options.up, "Which axis of the world file is up")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->needs(world);
+  app.add_option("--scale", options.scale, "Metres per unit of the world file")
+      ->check(CLI::PositiveNumber)
+      ->needs(world);
+  app.add_option("--path", options.path_file, "Way-points: CSV with the header x_m,y_m[,z_m]")
+      ->check(CLI::ExistingFile)
+      ->needs(world);
+  app.add_option("--ground", options.ground, "What robots stand on: the world's surfaces, or z = 0")
+      ->check(CLI::IsMember({"mesh", "flat"}))
+      ->needs(world);
+  app.add_option("--method", options.method,
+                 fmt::format("How to follow: {}", fmt::join(MethodNames(), ", ")));
+  app.add_option("--scout-camera", options.scout_camera,
+                 fmt::format("{}, or a camera file (.toml)", fmt::join(CameraNames(), ", ")));
+  app.add_option("--follower-camera", options.follower_camera, "The same");
+  app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));
+  app.add_option("--seed", options.seed, "Trial i is drawn from this plus i - 1");
+  app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--csv", files.csv, "Where one row a trial goes");
+  app.add_option("--plot", files.plot, "Where a picture (PNG) of the paths goes");
+}
+
+std::string ProgressLine(double share, int ended, int arrived, int trials) {
+  return fmt::format("{} {:>3.0f} %  {} of {} trials ended, {} arrived",
+                     ProgressBar(share, kBarWidth), 100.0 * share, ended, trials, arrived);
+}
+
+int Run(const CLI::App& app, const TrialOptions& options, const TrialFiles& files) {
+  const auto setup = PrepareTrials(options);
+  if (!setup) return cli::Complain(app, setup.error());
+  for (const std::string& warning : setup->world->warnings()) {
+    fmt::print(stderr, "{}: {}\n", app.get_name(), warning);
+  }
+  LiveLines live(stderr);
+  const auto outcomes = RunTrials(*setup, options, [&](double share, int ended, int arrived) {
+    live.Show({ProgressLine(share, ended, arrived, options.trials)}, ended == options.trials);
+  });
+  if (!outcomes) return cli::Complain(app, outcomes.error());
+  std::vector<TrialRow> rows;
+  for (const TrialOutcome& outcome : *outcomes) rows.push_back(outcome.row);
+  std::fputs(TrialTable(rows).c_str(), stdout);
+  if (!files.csv.empty()) {
+    const auto written = WriteTrialCsv(rows, files.csv);
+    if (!written) return cli::Complain(app, written.error());
+  }
+  if (!files.plot.empty()) {
+    const auto written = WriteTrialPlot(*setup, *outcomes, files.plot);
+    if (!written) return cli::Complain(app, written.error());
+  }
+  return cli::kExitOk;
+}
+
+}  // namespace
+
+Command AddTrialCommand(CLI::App& parent) {
+  auto options = std::make_shared<TrialOptions>();
+  auto files = std::make_shared<TrialFiles>();
+  CLI::App* app = parent.add_subcommand(
+      "trial", "Teach and follow in a simulated world, and measure how well it went");
+  app->footer(kExamples);
+  AddOptions(*app, *options, *files);
+  return {app, [app, options, files] { return Run(*app, *options, *files); }};
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+namespace trailcast::tool {
+
+// What `trailcast trial` is told. Either a built-in scenario, or a world and a path of one's own.
+struct TrialOptions {
+  std::string scenario = "indoor";
+  std::filesystem::path world_file;  // not empty: in place of the scenario, with path_file
+  std::string up = "z";              // of the world file: y, z
+  double scale = 1.0;                // metres per unit of the world file
+  std::filesystem::path path_file;
+  std::string ground = "mesh";  // mesh, flat
+
+  std::string method = "default";
+  std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
+  std::string follower_camera = "webcam";  // the same
+  double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
+  int trials = 10;
+  std::uint64_t seed = 1;  // trial i of n is drawn from seed + i - 1 alone
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+}  // namespace trailcast::tool

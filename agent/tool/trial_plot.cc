@@ -1,0 +1,80 @@
+#include "agent/tool/trial_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "services/image/files.h"
+#include "services/sim/plan_view.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr double kMargin_m = 1.5;
+constexpr int kPaleness = 150;          // of 255: how far towards white the world is drawn
+constexpr double kPlanCut_m = 1.6;      // above the floor
+constexpr std::size_t kMaxLegend = 12;  // replays named one by one
+
+std::uint8_t Pale(std::uint8_t value) {
+  return static_cast<std::uint8_t>(value + (255 - value) * kPaleness / 255);
+}
+
+// The pixels of `plan` that show `area`; white where the plan ends.
+image::RgbImage Crop(const sim::PlanView& plan, const PlanArea& area) {
+  image::RgbImage crop;
+  crop.width = std::max(1, static_cast<int>(area.size_m().x() / plan.metres_per_pixel));
+  crop.height = std::max(1, static_cast<int>(area.size_m().y() / plan.metres_per_pixel));
+  crop.pixels.reserve(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height) *
+                      3);
+  const Eigen::Vector2d corner = plan.PixelOf(area.min_m.x(), area.max_m.y());
+  for (int y = 0; y < crop.height; ++y) {
+    for (int x = 0; x < crop.width; ++x) {
+      const int column = static_cast<int>(std::floor(corner.x())) + x;
+      const int row = static_cast<int>(std::floor(corner.y())) + y;
+      const bool inside =
+          column >= 0 && row >= 0 && column < plan.picture.width && row < plan.picture.height;
+      const std::size_t at =
+          inside
+              ? 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(plan.picture.width) +
+                     static_cast<std::size_t>(column))
+              : 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        crop.pixels.push_back(inside ? Pale(plan.picture.pixels[at + c]) : 255);
+      }
+    }
+  }
+  return crop;
+}
+
+}  // namespace
+
+Backdrop WorldBackdrop(const sim::World& world, const std::vector<PlottedPath>& paths) {
+  const PlanArea area = AreaAround(paths, kMargin_m);
+  sim::PlanOptions options;
+  const bool somewhere = !paths.empty() && !paths.front().points_m.empty();
+  const Eigen::Vector2d start_m =
+      somewhere ? paths.front().points_m.front() : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  options.cut_z_m = world.FloorHeight(start_m.x(), start_m.y()).value_or(0.0) + kPlanCut_m;
+  return {Crop(sim::RenderPlan(world, options), area), area};
+}
+
+Result<void> WriteTrialPlot(const TrialSetup& setup, const std::vector<TrialOutcome>& outcomes,
+                            const std::filesystem::path& file) {
+  Plan plan;
+  plan.title = fmt::format("{}, method {}: taught by {}, followed by {}", setup.scenario,
+                           setup.method, setup.scout_camera.name, setup.follower_camera.name);
+  plan.paths.push_back(
+      {"taught (first trial)", PathColor(0), outcomes.front().taught.points_m(), true, false});
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const TrialRow& row = outcomes[i].row;
+    const std::string label =
+        fmt::format("trial {}: {}, {:.2f} m from the end, {:.2f} m from the path in the mean",
+                    row.trial, row.state, row.verdict.final_error_m, row.verdict.mean_path_error_m);
+    plan.paths.push_back({i < kMaxLegend ? label : "", PathColor(i + 1),
+                          outcomes[i].replayed.points_m(), false, !row.arrived});
+  }
+  plan.backdrop = WorldBackdrop(*setup.world, plan.paths);
+  return image::WritePng(DrawPlan(plan), file);
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "agent/tool/plan_plot.h"
+#include "agent/tool/trial.h"
+#include "services/base/result.h"
+#include "services/sim/world.h"
+
+namespace trailcast::tool {
+
+// The part of the world that lies around the paths, seen from above and made pale.
+[[nodiscard]] Backdrop WorldBackdrop(const sim::World& world,
+                                     const std::vector<PlottedPath>& paths);
+
+// Taught and replayed paths of a batch over the world's plan, as PNG.
+[[nodiscard]] Result<void> WriteTrialPlot(const TrialSetup& setup,
+                                          const std::vector<TrialOutcome>& outcomes,
+                                          const std::filesystem::path& file);
+
+}  // namespace trailcast::tool

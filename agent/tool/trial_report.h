@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "agent/tool/path_judge.h"
+#include "services/base/result.h"
+
+namespace trailcast::tool {
+
+// One trial: who, under which conditions, and what truth says of it.
+struct TrialRow {
+  std::string scenario;
+  std::string method;
+  std::string scout_camera;
+  std::string follower_camera;
+  int trial = 0;           // from 1
+  std::uint64_t seed = 0;  // `--trials 1 --seed <this>` repeats this trial alone
+  bool arrived = false;    // by itself, within 2 m, never more than 5 m off
+  Verdict verdict;
+  Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  // of the taught path
+  double found_share = 0.0;
+  int segments = 0;
+  double bytes_per_m = 0.0;
+  double ms_per_frame = 0.0;  // CPU time of the replay session; the one figure that varies by run
+  std::string state;          // arrived, lost, stuck, strayed, misplaced (arrived elsewhere)
+  double taught_m = 0.0;
+  int frames = 0;
+  int hand_overs = 0;
+  std::string reason;  // why it ended, if it did not arrive
+};
+
+// Over all trials; a failed one counts with the distance at which it ended.
+struct TrialSummary {
+  int trials = 0;
+  int arrived = 0;
+  double accuracy_m = 0.0;       // RMS distance of the final positions to the taught end
+  double repeatability_m = 0.0;  // RMS distance of the final positions to their mean
+  double largest_final_error_m = 0.0;
+  double mean_path_error_m = 0.0;
+  double max_path_error_m = 0.0;
+  double found_share = 0.0;
+  double segments = 0.0;
+  double bytes_per_m = 0.0;
+  double ms_per_frame = 0.0;
+};
+
+[[nodiscard]] TrialSummary Summarize(const std::vector<TrialRow>& rows);
+
+// Header and one line a row; the first columns are a contract, in this order (TrialCsvHeader).
+[[nodiscard]] std::string TrialCsvHeader();
+[[nodiscard]] std::string TrialCsvLine(const TrialRow& row);
+[[nodiscard]] Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows,
+                                         const std::filesystem::path& file);
+
+// For people: one line a trial, then the summary with the paper's figures beside it where the
+// scenario is one of the paper's.
+[[nodiscard]] std::string TrialTable(const std::vector<TrialRow>& rows);
+
+}  // namespace trailcast::tool

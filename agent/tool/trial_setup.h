@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/replay_session.h"
+#include "agent/tool/trial_options.h"
+#include "services/base/result.h"
+#include "services/sim/camera.h"
+#include "services/sim/disturbances.h"
+#include "services/sim/path.h"
+#include "services/sim/world.h"
+
+namespace trailcast::tool {
+
+// Everything that the trials of one command have in common, read and checked.
+struct TrialSetup {
+  std::string scenario;  // its name, or the world file's without its extension
+  std::shared_ptr<const sim::World> world;
+  sim::DrivenPath path;
+  double speed_mps = 0.0;
+  sim::Disturbances follower;
+  sim::CameraModel scout_camera;
+  sim::CameraModel follower_camera;
+  std::string method;
+  agent::ReplaySessionOptions session;
+};
+
+// Loads the world and looks up the names. Errors say which of them there are.
+[[nodiscard]] Result<TrialSetup> PrepareTrials(const TrialOptions& options);
+
+[[nodiscard]] std::vector<std::string> ScenarioNames();
+[[nodiscard]] std::vector<std::string> MethodNames();
+// The built-in ones.
+[[nodiscard]] std::vector<std::string> CameraNames();
+
+}  // namespace trailcast::tool

@@ -1,0 +1,118 @@
+#include "agent/tool/trial_teach.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "agent/teach_session.h"
+#include "services/route/digest.h"
+#include "services/sim/judge.h"
+#include "services/sim/path_follow_driver.h"
+#include "services/sim/simulated_robot.h"
+
+namespace trailcast::tool {
+namespace {
+
+// An operator who is this much slower than planned does not get along.
+constexpr double kPatience = 5.0;
+constexpr double kPatience_s = 60.0;
+constexpr int kProgressEvery = 15;  // frames
+
+sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, std::uint64_t seed) {
+  sim::SimulatedRobotOptions options;
+  options.camera = setup.scout_camera;
+  options.start = sim::StartPose(setup.path.points);
+  options.start_z_max_m = setup.path.z_max_m;
+  options.disturbances = sim::Disturbances::ForScout();
+  options.disturbances.slip = setup.follower.slip;  // it is the same ground
+  options.seed = seed;
+  return options;
+}
+
+class Teaching {
+ public:
+  Teaching(const TrialSetup& setup, sim::SimulatedRobot& robot)
+      : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
+    // A trial's route is never stored or sent, so it needs no id that differs from others'.
+    taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
+    taught_.info.name = setup.scenario;
+    taught_.info.camera = setup.scout_camera.name;
+    taught_.info.image_width_px = setup.scout_camera.width;
+    taught_.info.image_height_px = setup.scout_camera.height;
+  }
+
+  // One frame. False when the drive is over.
+  Result<bool> Step() {
+    sim::Observation seen = robot_.Step(command_);
+    taught_.path.Add(motion::Position(truth_.true_pose()));
+    const auto step = session_.Observe({seen.stamp, std::move(seen.image), seen.odometry});
+    if (!step) return tl::unexpected(step.error());
+    Keep(step->finished);
+    taught_.duration_s = Seconds(seen.stamp);
+    const bool over = driver_.arrived() && truth_.true_velocity() == motion::VelocityCommand{};
+    command_ = driver_.Command(truth_.true_pose());
+    return !over;
+  }
+
+  Result<Taught> Finish() {
+    Keep(session_.Finish());
+    if (taught_.pieces.empty()) {
+      return Fail(ErrorCode::kUnavailable,
+                  "teaching gave no segment: the scout's camera saw nothing to hold on to");
+    }
+    taught_.info.state = route::RouteState::kComplete;
+    return std::move(taught_);
+  }
+
+  [[nodiscard]] double time_s() const { return taught_.duration_s; }
+  [[nodiscard]] const motion::Pose2& true_pose() const { return truth_.true_pose(); }
+  [[nodiscard]] double path_m() const { return sim::Length(driver_.path()); }
+  // Of the path, by the nearest place on it.
+  [[nodiscard]] double share() const {
+    return sim::Nearest(driver_.path(), motion::Position(true_pose())).along_m / path_m();
+  }
+
+ private:
+  void Keep(const std::optional<route::Segment>& segment) {
+    if (!segment) return;
+    taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
+    taught_.info.segment_count += 1;
+    taught_.info.length_m += segment->length_m;
+    taught_.info.bytes += taught_.pieces.back().bytes.size();
+  }
+
+  sim::SimulatedRobot& robot_;
+  sim::Judge truth_;
+  sim::PathFollowDriver driver_;
+  agent::TeachSession session_;
+  motion::VelocityCommand command_;
+  Taught taught_;
+};
+
+}  // namespace
+
+Result<Taught> TeachOnce(const TrialSetup& setup, std::uint64_t seed,
+                         const std::function<bool(double share)>& on_progress) {
+  const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, seed));
+  if (!robot) return Wrap(robot.error(), "the scout");
+  Teaching teaching(setup, **robot);
+  const double limit_s = kPatience * teaching.path_m() / setup.speed_mps + kPatience_s;
+  for (int frame = 0;; ++frame) {
+    const Result<bool> more = teaching.Step();
+    if (!more) return Wrap(more.error(), "the scout");
+    if (!*more) return teaching.Finish();
+    if (teaching.time_s() > limit_s) {
+      const motion::Pose2& pose = teaching.true_pose();
+      return Fail(
+          ErrorCode::kUnavailable,
+          "the scout gets no further than ({:.2f}, {:.2f}) along the path, at {:.0f} % of it: "
+          "does something stand in the way?",
+          pose.x_m, pose.y_m, 100.0 * teaching.share());
+    }
+    if (frame % kProgressEvery == 0 && !on_progress(teaching.share())) {
+      return Fail(ErrorCode::kUnavailable, "interrupted");
+    }
+  }
+}
+
+}  // namespace trailcast::tool

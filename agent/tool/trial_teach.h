@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "agent/tool/path_judge.h"
+#include "agent/tool/trial_setup.h"
+#include "services/base/result.h"
+#include "services/route/route.h"
+
+namespace trailcast::tool {
+
+// What a scout left behind, as it travels, and where it truly drove.
+struct Taught {
+  route::RouteInfo info;
+  std::vector<route::SegmentPiece> pieces;
+  TruePath path;
+  double duration_s = 0.0;
+};
+
+// Drives a scout drawn from `seed` along the setup's path. `on_progress` gets the share of the path
+// driven; false ends the drive. kUnavailable when the robot cannot get along the path.
+[[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, std::uint64_t seed,
+                                       const std::function<bool(double share)>& on_progress);
+
+}  // namespace trailcast::tool

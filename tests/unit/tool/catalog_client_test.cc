@@ -1,0 +1,120 @@
+#include "agent/tool/catalog_client.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+#include <variant>
+
+#include "services/exchange/in_process_exchange.h"
+
+namespace trailcast::tool {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+route::RouteInfo Aisle() {
+  route::RouteInfo info;
+  info.key = {RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(3)};
+  info.name = "aisle-3";
+  info.scout = AgentId("scout");
+  info.camera = "webcam 320x240";
+  info.state = route::RouteState::kComplete;
+  info.segment_count = 8;
+  info.length_m = 16.0;
+  info.bytes = 64000;
+  info.taught_unix_ms = 1'000'000;
+  return info;
+}
+
+// A server that lets the first `deaf_to` questions pass and answers each later one twice: first to
+// somebody else, then to who asked.
+class CatalogClientTest : public ::testing::Test {
+ protected:
+  void Serve(int deaf_to, exchange::CatalogReply reply) {
+    server_ = std::jthread([this, deaf_to, reply](const std::stop_token& stop) mutable {
+      const auto exchange = bus_.Open(exchange::ServerTopics());
+      while (!stop.stop_requested()) {
+        for (const exchange::Message& message : exchange->Take(milliseconds(20))) {
+          const auto* request = std::get_if<exchange::CatalogRequest>(&message);
+          if (request == nullptr || deaf_to-- > 0) continue;
+          reply.server = AgentId("server");
+          reply.request = request->request;
+          reply.client = AgentId("another");
+          ASSERT_TRUE(exchange->Publish(reply).has_value());
+          reply.client = request->client;
+          ASSERT_TRUE(exchange->Publish(reply).has_value());
+        }
+      }
+    });
+  }
+  Result<exchange::CatalogReply> Ask(const std::string& name, milliseconds timeout) {
+    const auto exchange = bus_.Open(exchange::OperatorTopics());
+    return AskCatalog(*exchange, AgentId("operator"), name, timeout);
+  }
+
+ private:
+  exchange::InProcessBus bus_;
+  std::jthread server_;
+};
+
+TEST_F(CatalogClientTest, TakesTheReplyThatIsMeantForIt) {
+  exchange::CatalogReply reply;
+  reply.routes = {Aisle()};
+  Serve(0, reply);
+  const auto answer = Ask("", milliseconds(20'000));
+  ASSERT_TRUE(answer.has_value()) << answer.error().message;
+  EXPECT_EQ(answer->client, AgentId("operator"));
+  ASSERT_EQ(answer->routes.size(), 1U);
+  EXPECT_EQ(answer->routes.front(), Aisle());
+}
+
+TEST_F(CatalogClientTest, AsksAgainWhenAQuestionWasNotHeard) {
+  Serve(1, {});
+  EXPECT_TRUE(Ask("", milliseconds(20'000)).has_value());
+}
+
+TEST_F(CatalogClientTest, SaysThatNoServerAnswered) {
+  const auto answer = Ask("", milliseconds(150));
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(answer.error().message, HasSubstr("no route server answered within 0.1"));
+}
+
+TEST_F(CatalogClientTest, PassesOnWhatTheServerCouldNotDo) {
+  exchange::CatalogReply reply;
+  reply.error = "the disk is gone";
+  Serve(0, reply);
+  const auto answer = Ask("", milliseconds(20'000));
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_THAT(answer.error().message, HasSubstr("the disk is gone"));
+}
+
+TEST(RoutesTable, ShowsWhatARouteWeighsAMetre) {
+  const std::string table = RoutesTable({Aisle()}, 1'000'000 + 300'000);
+  EXPECT_THAT(table, HasSubstr("aisle-3"));
+  EXPECT_THAT(table, HasSubstr("4000"));  // B/m
+  EXPECT_THAT(table, HasSubstr("64.0"));  // kB
+  EXPECT_THAT(table, HasSubstr("5 min"));
+}
+
+TEST(RoutesTable, SaysThatThereAreNone) { EXPECT_EQ(RoutesTable({}, 0), "no routes\n"); }
+
+TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {
+  route::RouteInfo info = Aisle();
+  info.camera = "8\" \\ lens\n";
+  const std::string json = RoutesJson({info, Aisle()});
+  EXPECT_THAT(json, HasSubstr(R"("camera": "8\" \\ lens\u000a")"));
+  EXPECT_THAT(json, HasSubstr("},\n  {"));
+  EXPECT_THAT(json, HasSubstr("\"bytes_per_m\": 4000.0"));
+}
+
+TEST(Age, IsGivenInAUnitThatFits) {
+  EXPECT_EQ(Age(-5), "0 s");
+  EXPECT_EQ(Age(119'000), "119 s");
+  EXPECT_EQ(Age(3 * 3'600'000), "3 h");
+  EXPECT_EQ(Age(50LL * 3'600'000), "2 d");
+}
+
+}  // namespace
+}  // namespace trailcast::tool
