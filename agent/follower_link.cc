@@ -186,6 +186,11 @@ Result<void> FollowerLink::StartFetching() {
     fetcher_.emplace(options_.agent, key, held,
                      exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now);
     fetcher_->Learn(*route_, now);
+    // What the own store knows may be more than what the finder heard.
+    auto own = store_->FindRoute(key);
+    if (!own) return tl::unexpected(own.error());
+    stored_ = *own;
+    if (stored_) fetcher_->Learn(*stored_, now);
   } else if (route_->state == route::RouteState::kTeaching) {
     spdlog::warn("'{}' is unfinished in {}: following what is there", route_->name,
                  options_.store_file);
@@ -247,12 +252,17 @@ Result<void> FollowerLink::StoreArrived() {
   waiting_for_ = progress.state == exchange::FetchState::kWaiting
                      ? "nobody who holds the route is heard"
                      : fmt::format("{} of {} segments here", progress.held, progress.known);
-  if (!fetcher_->info() || *fetcher_->info() == *route_) return {};
-  route::RouteInfo news = *fetcher_->info();
+  return StoreNews();
+}
+
+Result<void> FollowerLink::StoreNews() {
+  if (!fetcher_->info()) return {};
+  route_ = *fetcher_->info();
+  route::RouteInfo news = *route_;
   // Complete in the own store only when all of it is there and right.
   if (!fetcher_->Complete()) news.state = route::RouteState::kTeaching;
-  if (news == *route_) return {};
-  route_ = news;
+  if (news == stored_) return {};
+  stored_ = news;
   return store_->PutRoute(news);
 }
 

@@ -72,6 +72,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> Follow();
   void Trade();
   [[nodiscard]] Result<void> StoreArrived();
+  [[nodiscard]] Result<void> StoreNews();
   [[nodiscard]] Result<void> CountHeld();
   [[nodiscard]] Result<void> FeedAll();
   [[nodiscard]] bool all_known() const;
@@ -85,7 +86,8 @@ class FollowerLink {
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::optional<cli::Presence> presence_;
   RouteFinder finder_;
-  std::optional<route::RouteInfo> route_;
+  std::optional<route::RouteInfo> route_;   // the newest that is known of it
+  std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
   std::uint32_t held_ = 0;      // segments in the own store without a gap
   std::uint32_t next_feed_ = 0;

@@ -1,6 +1,9 @@
 #include "agent/hand_over.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "services/route/track.h"
 
 namespace trailcast::agent {
 namespace {
@@ -9,74 +12,89 @@ constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too
 constexpr std::size_t kMagnificationsKept = 15;
 constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
+// The first hand-over does not know yet how the robot stands and how its camera is mounted: 4
+// degrees of yaw and of pitch, and a few centimetres beside near features.
+constexpr vision::SearchRadius kStartRadius{45.0, 22.0};
+constexpr vision::SearchRadius kRadius{28.0, 14.0};
+constexpr vision::SearchRadius kAfterWide{16.0, 10.0};
+
+// Where a fit puts the segment's features, at fraction `s` of their tracks.
+std::vector<route::TrackedFeature> Places(const route::Segment& segment, double s,
+                                          const vision::ViewFit& fit) {
+  std::vector<route::TrackedFeature> places;
+  for (std::size_t i = 0; i < segment.features.size(); ++i) {
+    const route::TrackKnot taught = route::TaughtPlace(segment.features[i], s);
+    places.push_back({static_cast<int>(i), fit.MapU(taught.u_px), fit.MapV(taught.v_px)});
+  }
+  return places;
+}
 
 }  // namespace
 
-HandOver::HandOver(ReplayMethod method, int scout_width_px, int width_px)
-    : any_camera_(method != ReplayMethod::kPaper),
-      magnification_(static_cast<double>(width_px) / scout_width_px) {}
-
-vision::FindResult HandOver::Find(const image::GrayImage& frame,
-                                  std::span<const route::Feature> sought, double s,
-                                  bool wide) const {
-  vision::FindResult near = finder_.FindNear(frame, sought, s, {magnification_, 0.0, 0.0});
-  const double share =
-      static_cast<double>(near.features.size()) / static_cast<double>(sought.size());
-  if (!wide || share >= kEnoughShare) return near;
-  const vision::FindResult coarse = finder_.FindWide(frame, sought, s);
-  if (coarse.features.empty()) return near;
-  vision::FindResult refined = finder_.FindNear(frame, sought, s, coarse.fit);
-  return refined.features.size() > near.features.size() ? refined : near;
+vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
+                                          const route::Segment& segment, double s) const {
+  const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
+  if (coarse.matches == 0) return {};
+  return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit),
+                          coarse.fit.scale, kAfterWide);
 }
 
 std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& frame,
-                                                       const route::Segment& segment) {
+                                                       replay::Follower& follower) {
+  const route::Segment& segment = follower.segment();
   if (segment.features.empty()) return {};
-  vision::FindResult found = Find(frame, segment.features, 0.0, any_camera_);
-  Learn(found.fit, found.features.size());
-  share_sum_ +=
-      static_cast<double>(found.features.size()) / static_cast<double>(segment.features.size());
+  const auto stored = static_cast<double>(segment.features.size());
+  vision::FindResult found =
+      finder_.FindNear(frame, segment.features, follower.Expect(), follower.magnification(),
+                       count_ == 0 ? kStartRadius : kRadius);
+  if (any_camera_ && static_cast<double>(found.features.size()) < kEnoughShare * stored) {
+    vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0);
+    if (elsewhere.features.size() > found.features.size()) found = std::move(elsewhere);
+  }
+  if (any_camera_) Learn(found, follower);
+  share_sum_ += static_cast<double>(found.features.size()) / stored;
   ++count_;
   return std::move(found.features);
 }
 
 std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame,
-                                                   const route::Segment& segment, double s) const {
-  return Find(frame, segment.features, s, /*wide=*/false).features;
+                                                   const replay::Follower& follower) const {
+  return finder_
+      .FindNear(frame, follower.segment().features, follower.Expect(), follower.magnification(),
+                kRadius)
+      .features;
 }
 
 // The magnification as a running median: one bad fit does no harm.
-void HandOver::Learn(const vision::ViewFit& fit, std::size_t features) {
-  if (!any_camera_ || features < kEnoughToLearn) return;
-  seen_magnifications_.push_back(fit.scale);
+void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower) {
+  if (found.features.size() < kEnoughToLearn) return;
+  seen_magnifications_.push_back(found.magnification);
   if (seen_magnifications_.size() > kMagnificationsKept) seen_magnifications_.pop_front();
   std::vector<double> sorted(seen_magnifications_.begin(), seen_magnifications_.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  magnification_ = *middle;
+  follower.SetMagnification(*middle);
 }
 
-std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
-                                                     std::span<const route::Segment> ahead) const {
+std::optional<HandOver::Recovered> HandOver::Recover(
+    const image::GrayImage& frame, double magnification,
+    std::span<const route::Segment> ahead) const {
   Recovered best;
+  const auto keep_better = [&](std::size_t segment, vision::FindResult found) {
+    if (found.features.size() > best.features.size()) best = {segment, std::move(found.features)};
+  };
   for (std::size_t i = 0; i < ahead.size(); ++i) {
+    if (ahead[i].features.empty()) continue;
     for (const double s : {0.0, 0.5, 1.0}) {
-      if (ahead[i].features.empty() || (i > 0 && s > 0.0)) continue;
-      vision::FindResult found = Find(frame, ahead[i].features, s, any_camera_);
-      if (found.features.size() > best.features.size()) best = {i, std::move(found.features)};
+      if (i > 0 && s > 0.0) continue;
+      keep_better(i, finder_.FindNear(frame, ahead[i].features,
+                                      Places(ahead[i], s, {magnification, 0.0, 0.0}),
+                                      magnification, kRadius));
+      if (any_camera_) keep_better(i, FindAnywhere(frame, ahead[i], s));
     }
   }
   if (best.features.size() < kEnoughToRecover) return std::nullopt;
   return best;
-}
-
-std::vector<route::TrackedFeature> HandOver::InScoutPixels(
-    std::vector<route::TrackedFeature> features) const {
-  for (route::TrackedFeature& feature : features) {
-    feature.u_px /= magnification_;
-    feature.v_px /= magnification_;
-  }
-  return features;
 }
 
 }  // namespace trailcast::agent

@@ -6,26 +6,29 @@
 #include <span>
 #include <vector>
 
-#include "agent/replay_session.h"
+#include "services/image/image.h"
+#include "services/replay/follower.h"
 #include "services/route/tracked_feature.h"
 #include "services/vision/feature_finder.h"
 
 namespace trailcast::agent {
 
-// Where a segment's stored features are in the follower's picture, whatever its camera: finds them
-// at each segment's start and learns how the two cameras' magnifications compare.
+// Finds a segment's stored features in the follower's picture, whatever its camera, and learns how the
+// two cameras' magnifications compare.
 class HandOver {
  public:
-  HandOver(ReplayMethod method, int scout_width_px, int width_px);
+  // `any_camera`: look for other magnifications too; false for the paper's method, which takes the
+  // cameras to be alike.
+  explicit HandOver(bool any_camera) : any_camera_(any_camera) {}
 
-  // The segment's features as found in the frame that begins it, in the follower's own pixels.
+  // The features of the segment that `follower` has just begun, in the follower's pixels. Tells the
+  // follower the magnification it saw.
   [[nodiscard]] std::vector<route::TrackedFeature> ToSegment(const image::GrayImage& frame,
-                                                             const route::Segment& segment);
+                                                             replay::Follower& follower);
 
-  // The same features once more, at fraction `s` of the segment, when tracking has lost many.
+  // The same features once more, when tracking has lost many.
   [[nodiscard]] std::vector<route::TrackedFeature> Again(const image::GrayImage& frame,
-                                                         const route::Segment& segment,
-                                                         double s) const;
+                                                         const replay::Follower& follower) const;
 
   struct Recovered {
     std::size_t segment = 0;  // position in `ahead`
@@ -33,26 +36,20 @@ class HandOver {
   };
   // Anywhere in the segments `ahead`, for a robot that lost its features.
   [[nodiscard]] std::optional<Recovered> Recover(const image::GrayImage& frame,
+                                                 double magnification,
                                                  std::span<const route::Segment> ahead) const;
 
-  // The follower's pixels at the scout's magnification.
-  [[nodiscard]] std::vector<route::TrackedFeature> InScoutPixels(
-      std::vector<route::TrackedFeature> features) const;
-
-  [[nodiscard]] double magnification() const { return magnification_; }
   // Share of stored features found, mean over the hand-overs so far.
   [[nodiscard]] double found_share() const { return count_ > 0 ? share_sum_ / count_ : 0.0; }
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  [[nodiscard]] vision::FindResult Find(const image::GrayImage& frame,
-                                        std::span<const route::Feature> sought, double s,
-                                        bool wide) const;
-  void Learn(const vision::ViewFit& fit, std::size_t features);
+  [[nodiscard]] vision::FindResult FindAnywhere(const image::GrayImage& frame,
+                                                const route::Segment& segment, double s) const;
+  void Learn(const vision::FindResult& found, replay::Follower& follower);
 
   vision::FeatureFinder finder_;
   bool any_camera_;
-  double magnification_;  // follower's pixels per scout's pixel
   std::deque<double> seen_magnifications_;
   double share_sum_ = 0.0;
   int count_ = 0;

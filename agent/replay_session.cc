@@ -9,7 +9,8 @@
 
 #include "agent/frame_check.h"
 #include "agent/hand_over.h"
-#include "services/replay/segment_follower.h"
+#include "services/replay/funnel_follower.h"
+#include "services/replay/path_follower.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -30,6 +31,21 @@ constexpr int kRefresh_frames = 6;
 // Segments whose milestone was not noticed: gone on by odometry so far past the taught length.
 constexpr double kOverrunShare = 0.25;
 constexpr double kOverrun_m = 0.3;
+
+std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& options,
+                                               bool by_odometry, int scout_width_px,
+                                               double magnification) {
+  if (options.method == ReplayMethod::kDefault && by_odometry) {
+    replay::PathFollowerOptions path;
+    path.limits = options.limits;
+    path.speed_factor = options.speed_factor;
+    return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
+  }
+  replay::FunnelFollowerOptions funnel;
+  funnel.limits = options.limits;
+  funnel.speed_factor = options.speed_factor;
+  return std::make_unique<replay::FunnelFollower>(scout_width_px, magnification, funnel);
+}
 
 }  // namespace
 
@@ -57,8 +73,9 @@ struct ReplaySession::State {
 
   FrameCheck check;
   vision::FeatureTracker tracker;
-  std::optional<HandOver> hand_over;  // made with the first frame
-  std::optional<replay::SegmentFollower> follower;
+  std::optional<HandOver> hand_over;
+  std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
+  double driven_in_segment_m = 0.0;
   std::optional<motion::Pose2> last_odometry;
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
@@ -67,28 +84,17 @@ struct ReplaySession::State {
   double blind_m = 0.0;
   int blind_frames = 0;
 
-  [[nodiscard]] replay::SegmentFollowerOptions FollowerOptions() const;
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
-  void Begin(std::size_t index, const image::GrayImage& frame,
-             const motion::OdometryIncrement& start);
-  [[nodiscard]] replay::FollowStep Follow(const std::vector<route::TrackedFeature>& tracked,
-                                          const std::optional<motion::OdometryIncrement>& odometry);
+  void Begin(std::size_t index, const image::GrayImage& frame);
   [[nodiscard]] bool Overrun() const;
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
-  void Refresh(double fraction, const image::GrayImage& frame);
+  void Refresh(const image::GrayImage& frame);
   void JudgeSight(std::size_t features, const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
 };
-
-replay::SegmentFollowerOptions ReplaySession::State::FollowerOptions() const {
-  replay::SegmentFollowerOptions chosen;
-  chosen.limits = options.limits;
-  chosen.speed_factor = options.speed_factor;
-  return chosen;
-}
 
 std::optional<motion::OdometryIncrement> ReplaySession::State::OdometryStep(
     const Observation& observation) {
@@ -103,35 +109,30 @@ std::optional<motion::OdometryIncrement> ReplaySession::State::OdometryStep(
 }
 
 // Hand-over: the segment's stored features are found in this frame and followed from here.
-void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& frame,
-                                 const motion::OdometryIncrement& start) {
+void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& frame) {
   const route::Segment& segment = segments[index];
-  follower.emplace(segment, scout_width_px, FollowerOptions(), start);
-  tracker.Follow(hand_over->ToSegment(frame, segment));
+  if (!follower) {
+    follower = MakeFollower(options, last_odometry.has_value() && segment.has_odometry,
+                            scout_width_px, static_cast<double>(frame.width) / scout_width_px);
+  }
+  follower->Begin(segment);
+  tracker.Follow(hand_over->ToSegment(frame, *follower));
   frames_since_find = 0;
+  driven_in_segment_m = 0.0;
   state = ReplayState::kFollowing;
   reason.clear();
-}
-
-replay::FollowStep ReplaySession::State::Follow(
-    const std::vector<route::TrackedFeature>& tracked,
-    const std::optional<motion::OdometryIncrement>& odometry) {
-  return follower->Step({hand_over->InScoutPixels(tracked), odometry});
 }
 
 bool ReplaySession::State::Overrun() const {
   const route::Segment& segment = follower->segment();
   return last_odometry && segment.has_odometry &&
-         follower->driven().distance_m > segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
+         driven_in_segment_m > segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
   const std::size_t next = follower->segment().index.value() + 1;
   if (next < segments.size()) {
-    // What was driven past the milestone belongs to the next segment.
-    const double overshoot_m =
-        options.method == ReplayMethod::kPaper ? 0.0 : follower->overshoot_m();
-    Begin(next, frame, {overshoot_m, 0.0});
+    Begin(next, frame);
   } else if (complete) {
     state = ReplayState::kArrived;
     reason = "arrived at the end of the route";
@@ -146,24 +147,24 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   const std::size_t here = follower->segment().index.value();
   const std::span<const route::Segment> ahead(segments.data() + here,
                                               std::min<std::size_t>(3, segments.size() - here));
-  const auto seen = hand_over->Recover(frame, ahead);
+  const auto seen = hand_over->Recover(frame, follower->magnification(), ahead);
   if (!seen) return;
   if (seen->segment != 0) {
-    follower.emplace(ahead[seen->segment], scout_width_px, FollowerOptions(),
-                     motion::OdometryIncrement{});
+    follower->Begin(ahead[seen->segment]);
+    driven_in_segment_m = 0.0;
   }
   tracker.Follow(seen->features);
 }
 
 // Features once lost (blur, a passer-by) come back into view: look for them again.
-void ReplaySession::State::Refresh(double fraction, const image::GrayImage& frame) {
+void ReplaySession::State::Refresh(const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
   if (options.method == ReplayMethod::kPaper || ++frames_since_find < kRefresh_frames ||
       tracker.count() >= kEnoughShare * static_cast<double>(segment.features.size())) {
     return;
   }
   frames_since_find = 0;
-  std::vector<route::TrackedFeature> found = hand_over->Again(frame, segment, fraction);
+  std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
   if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(std::move(found));
 }
 
@@ -245,15 +246,14 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
       if (s.complete && s.follower) s.state = ReplayState::kArrived;
       return s.Report({});
     }
-    if (!s.hand_over) {
-      s.hand_over.emplace(s.options.method, s.scout_width_px, frame.width);
-    }
-    s.Begin(next, frame, {});
-    return s.Report(s.Follow(s.tracker.Current(), odometry));
+    if (!s.hand_over) s.hand_over.emplace(s.options.method != ReplayMethod::kPaper);
+    s.Begin(next, frame);
+    return s.Report(s.follower->Step({s.tracker.Current(), odometry}));
   }
-  const replay::FollowStep step = s.Follow(tracked, odometry);
+  s.driven_in_segment_m += odometry ? odometry->distance_m : 0.0;
+  const replay::FollowStep step = s.follower->Step({tracked, odometry});
   s.JudgeSight(tracked.size(), odometry, frame);
-  s.Refresh(step.fraction, frame);
+  s.Refresh(frame);
   if (s.state != ReplayState::kLost && (step.ended || s.Overrun())) s.EndSegment(frame);
   return s.Report(step);
 }

@@ -21,13 +21,13 @@ std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>&
 void RouteFinder::Handle(const exchange::Message& message) {
   if (found_) return;
   if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
-    Handle(*reply);
+    Learn(*reply);
   } else if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
-    Handle(*announcement);
+    Learn(*announcement);
   }
 }
 
-void RouteFinder::Handle(const exchange::RouteAnnouncement& announcement) {
+void RouteFinder::Learn(const exchange::RouteAnnouncement& announcement) {
   if (announcement.info.name != name_) return;
   const auto known =
       std::find_if(announced_.begin(), announced_.end(), [&](const route::RouteInfo& info) {
@@ -40,7 +40,7 @@ void RouteFinder::Handle(const exchange::RouteAnnouncement& announcement) {
   }
 }
 
-void RouteFinder::Handle(const exchange::CatalogReply& reply) {
+void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (reply.client != self_ || reply.request == 0 || reply.request > asked_) return;
   error_ = reply.error;
   if (!reply.error.empty()) return;

@@ -43,8 +43,8 @@ class RouteFinder {
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
-  void Handle(const exchange::CatalogReply& reply);
-  void Handle(const exchange::RouteAnnouncement& announcement);
+  void Learn(const exchange::CatalogReply& reply);
+  void Learn(const exchange::RouteAnnouncement& announcement);
 
   AgentId self_;
   std::string name_;

@@ -168,13 +168,17 @@ void DdsExchange::SayGoodBye() {
 
 Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(const DdsOptions& options,
                                                                  const exchange::TopicUse& use) {
+  if (!IsValidName(options.self.value())) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the agent's name is not 1 to 64 of letters, digits, '_', '.', '-'");
+  }
   // Read once at start-up, before any thread of ours exists.
   const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
   const auto config = DomainConfig(options, uri == nullptr ? "" : uri);
   if (!config) return tl::unexpected(config.error());
   auto domain = Domain::Create(*config);
   if (!domain) return tl::unexpected(domain.error());
-  auto participant = Participant::Create(*domain);
+  auto participant = Participant::Create(*domain, options.self.value());
   if (!participant) return tl::unexpected(participant.error());
   auto wait_set = WaitSet::Create(*participant);
   if (!wait_set) return tl::unexpected(wait_set.error());

@@ -18,7 +18,7 @@ struct DdsOptions {
   std::string discovery_tag;
   // "" lets Cyclone choose; "lo" works where there is nothing else.
   std::string network_interface;
-  AgentId self;
+  AgentId self;                  // shown by DDS tools as the participant's user data
   std::string extra_config_xml;  // Cyclone's XML, has the last word (security, peers)
 
   // How long Publish waits for slow readers, and closing for the last messages to arrive.

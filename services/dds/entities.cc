@@ -46,8 +46,10 @@ Result<Domain> Domain::Create(const std::string& config_xml) {
   return Fail(ErrorCode::kInternal, "DDS: this process has {} domains open already", kMaxDomains);
 }
 
-Result<Participant> Participant::Create(const Domain& domain) {
-  const dds_entity_t handle = dds_create_participant(domain.id(), nullptr, nullptr);
+Result<Participant> Participant::Create(const Domain& domain, const std::string& name) {
+  const Qos qos = MakeQos();
+  dds_qset_userdata(qos.get(), name.data(), name.size());
+  const dds_entity_t handle = dds_create_participant(domain.id(), qos.get(), nullptr);
   if (handle < 0) return tl::unexpected(DdsError(handle, "creating a participant"));
   return Participant(handle);
 }

@@ -62,7 +62,8 @@ class Domain : public Entity {
 
 class Participant : public Entity {
  public:
-  [[nodiscard]] static Result<Participant> Create(const Domain& domain);
+  // `name` is shown by DDS tools, as the participant's user data.
+  [[nodiscard]] static Result<Participant> Create(const Domain& domain, const std::string& name);
 
  private:
   using Entity::Entity;

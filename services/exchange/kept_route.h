@@ -50,7 +50,7 @@ class KeptRoute {
     return stored_ && stored_->state == route::RouteState::kComplete;
   }
 
-  [[nodiscard]] std::uint32_t durable_prefix() const { return prefix_; }
+  [[nodiscard]] bool holds_any() const { return !held_.empty(); }
   [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key) const;
 
   WantList want;

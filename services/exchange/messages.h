@@ -30,7 +30,8 @@ struct SegmentBatch {
   bool operator==(const SegmentBatch&) const = default;
 };
 
-// trailcast/segment_requests: "of this route I lack these".
+// trailcast/segment_requests: "of this route I lack these". Without indices: "who has this route?",
+// which its holders answer by announcing it again.
 struct SegmentRequest {
   AgentId requester{};
   route::RouteKey key{};

@@ -15,7 +15,8 @@ RouteFetcher::RouteFetcher(AgentId self, route::RouteKey key, const std::vector<
       integrity_(std::move(integrity)),
       options_(options),
       want_(options.want),
-      heard_at_(now) {
+      heard_at_(now),
+      inquire_at_(now + options.fresh_grace) {
   for (const Held& piece : held) held_.emplace(piece.index, piece.digest);
 }
 
@@ -45,10 +46,10 @@ void RouteFetcher::Handle(const Message& message, Time now) {
     Learn(announcement->info, now);
     if (known_before && announcement->info.key == key_) want_.Hurry(now);
   }
-  if (const auto* batch = std::get_if<SegmentBatch>(&message)) Handle(*batch, now);
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) HandleBatch(*batch, now);
 }
 
-void RouteFetcher::Handle(const SegmentBatch& batch, Time now) {
+void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key == key_) Accept(piece, now);
   }
@@ -101,6 +102,9 @@ void RouteFetcher::Judge() {
 std::vector<Message> RouteFetcher::Tick(Time now) {
   std::vector<SegmentIndex> due = want_.Due(now);
   std::vector<Message> messages;
+  if (IsInquiryDue(now)) {
+    messages.emplace_back(SegmentRequest{.requester = self_, .key = key_, .lacking = {}});
+  }
   for (std::size_t at = 0; at < due.size(); at += kMaxIndicesPerRequest) {
     const auto end =
         due.begin() + static_cast<std::ptrdiff_t>(std::min(due.size(), at + kMaxIndicesPerRequest));
@@ -110,6 +114,16 @@ std::vector<Message> RouteFetcher::Tick(Time now) {
                        .lacking = {due.begin() + static_cast<std::ptrdiff_t>(at), end}});
   }
   return messages;
+}
+
+// An announcement was missed or nobody is there: soon at first, then after each silence.
+bool RouteFetcher::IsInquiryDue(Time now) {
+  const bool known = info_.has_value();
+  if (verdict_ || now < inquire_at_ || (known && now < heard_at_ + options_.quiet_after)) {
+    return false;
+  }
+  inquire_at_ = now + options_.quiet_after;
+  return true;
 }
 
 std::vector<route::SegmentPiece> RouteFetcher::TakeArrived() { return std::exchange(arrived_, {}); }

@@ -12,10 +12,11 @@
 namespace trailcast::exchange {
 
 struct RouteFetcherOptions {
-  WantList::Options want;
+  WantList::Options want{};
   // Segments announced just now are probably on their way: not asked for before this has passed.
   std::chrono::milliseconds fresh_grace{200};
-  // Above the scout's announce_every: a scout in range is never taken for nobody.
+  // Above the scout's announce_every: a scout in range is never taken for nobody. After so long a
+  // silence the fetcher asks who has the route, and again each time it has passed.
   std::chrono::milliseconds quiet_after{5000};
 };
 
@@ -69,10 +70,11 @@ class RouteFetcher {
   [[nodiscard]] const std::optional<route::RouteInfo>& info() const { return info_; }
 
  private:
-  void Handle(const SegmentBatch& batch, Time now);
+  void HandleBatch(const SegmentBatch& batch, Time now);
   void Accept(const route::SegmentPiece& piece, Time now);
   void WantMissing(Time ask_at);
   void Judge();
+  [[nodiscard]] bool IsInquiryDue(Time now);
 
   AgentId self_;
   route::RouteKey key_;
@@ -85,6 +87,7 @@ class RouteFetcher {
   std::vector<route::SegmentPiece> arrived_;
   std::optional<FetchState> verdict_;  // kComplete or kWrong, once all is held
   Time heard_at_;                      // of a holder of this route; at first: creation
+  Time inquire_at_;                    // when to ask who has it
   FetchProgress counts_;
 };
 

@@ -35,17 +35,17 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
 
 void RouteKeeper::Handle(const Message& message, Time now) {
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
-    Handle(*announcement, now);
+    HandleAnnouncement(*announcement, now);
   } else if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
-    Handle(*batch, now);
+    HandleBatch(*batch, now);
   } else if (const auto* segment_request = std::get_if<SegmentRequest>(&message)) {
-    Handle(*segment_request, now);
+    HandleRequest(*segment_request, now);
   } else if (const auto* catalog_request = std::get_if<CatalogRequest>(&message)) {
-    Handle(*catalog_request);
+    HandleCatalogRequest(*catalog_request);
   }
 }
 
-void RouteKeeper::Handle(const RouteAnnouncement& announcement, Time now) {
+void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time now) {
   const RouteInfo& info = announcement.info;
   KeptRoute* kept = Find(info.key, now);
   if (kept == nullptr) return;
@@ -68,7 +68,7 @@ void RouteKeeper::Handle(const RouteAnnouncement& announcement, Time now) {
   if (announcement.holder == info.scout) kept->receipt_due = true;
 }
 
-void RouteKeeper::Handle(const SegmentBatch& batch, Time now) {
+void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const SegmentPiece& piece : batch.pieces) {
     if (const auto intact = integrity_.check_piece(piece); intact) {
       arrived_.push_back(piece);
@@ -81,16 +81,19 @@ void RouteKeeper::Handle(const SegmentBatch& batch, Time now) {
   }
 }
 
-void RouteKeeper::Handle(const SegmentRequest& request, Time now) {
-  const KeptRoute* kept = Find(request.key, now);
-  if (kept == nullptr) return;
+void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
+  // Not Find: asking for routes that nobody has must not fill the memory.
+  const auto found = routes_.find(request.key);
+  if (found == routes_.end()) return;
+  KeptRoute& kept = found->second;
+  if (request.lacking.empty()) kept.announce_due = kept.resend_due = true;
   std::vector<SegmentIndex> held;
   std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
-               [&](SegmentIndex index) { return kept->Holds(index); });
+               [&](SegmentIndex index) { return kept.Holds(index); });
   answers_.Ask(request.key, held, now);
 }
 
-void RouteKeeper::Handle(const CatalogRequest& request) {
+void RouteKeeper::HandleCatalogRequest(const CatalogRequest& request) {
   CatalogReply reply = answer_catalog_(request);
   reply.server = self_;
   reply.client = request.client;
@@ -105,7 +108,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
     Announce(key, kept, now, out);
     const bool due =
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
-    if (due && (kept.durable_prefix() > 0 || kept.complete())) {
+    if (due && (kept.holds_any() || kept.complete())) {
       out.emplace_back(kept.MakeReceipt(self_, key));
       kept.receipt_at = now;
       kept.receipt_due = false;

@@ -16,7 +16,7 @@
 namespace trailcast::exchange {
 
 struct RouteKeeperOptions {
-  WantList::Options want;
+  WantList::Options want{};
   std::chrono::milliseconds fresh_grace{200};     // as in RouteFetcherOptions
   std::chrono::milliseconds answer_window{50};    // who asks within it is answered once, together
   std::chrono::milliseconds announce_every{250};  // at most so often while a route grows
@@ -68,10 +68,10 @@ class RouteKeeper {
   RouteKeeper(AgentId self, store::RouteStore& store, AnswerCatalog answer_catalog,
               Integrity integrity, RouteKeeperOptions options);
 
-  void Handle(const RouteAnnouncement& announcement, Time now);
-  void Handle(const SegmentBatch& batch, Time now);
-  void Handle(const SegmentRequest& request, Time now);
-  void Handle(const CatalogRequest& request);
+  void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
+  void HandleBatch(const SegmentBatch& batch, Time now);
+  void HandleRequest(const SegmentRequest& request, Time now);
+  void HandleCatalogRequest(const CatalogRequest& request);
 
   // The route's state, loaded from the store when first met; null (and a note) if that fails.
   KeptRoute* Find(const route::RouteKey& key, Time now);

@@ -33,12 +33,13 @@ void RouteSender::Update(route::RouteInfo info) {
 }
 
 void RouteSender::Handle(const Message& message, Time now) {
-  if (const auto* request = std::get_if<SegmentRequest>(&message)) Handle(*request, now);
-  if (const auto* receipt = std::get_if<Receipt>(&message)) Handle(*receipt);
+  if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
+  if (const auto* receipt = std::get_if<Receipt>(&message)) HandleReceipt(*receipt);
 }
 
-void RouteSender::Handle(const SegmentRequest& request, Time now) {
+void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
   if (request.key != info_.key) return;
+  if (request.lacking.empty()) changed_ = true;
   if (left_to_server_.size() > kMaxSegmentsPerRoute) left_to_server_.clear();
   std::vector<SegmentIndex> wanted;
   for (const SegmentIndex index : request.lacking) {
@@ -52,7 +53,7 @@ void RouteSender::Handle(const SegmentRequest& request, Time now) {
   answers_.Ask(info_.key, wanted, now);
 }
 
-void RouteSender::Handle(const Receipt& receipt) {
+void RouteSender::HandleReceipt(const Receipt& receipt) {
   if (receipt.key != info_.key) return;
   while (!unreceipted_.empty() && unreceipted_.begin()->value() < receipt.durable_prefix) {
     MarkReceipted(*unreceipted_.begin());

@@ -55,8 +55,8 @@ class RouteSender {
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
 
  private:
-  void Handle(const SegmentRequest& request, Time now);
-  void Handle(const Receipt& receipt);
+  void HandleRequest(const SegmentRequest& request, Time now);
+  void HandleReceipt(const Receipt& receipt);
   void MarkReceipted(SegmentIndex index);
 
   AgentId self_;

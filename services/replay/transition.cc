@@ -33,10 +33,9 @@ TransitionDetector::TransitionDetector(const TransitionOptions& options)
       current_{MedianFilter(options.median_length)},
       previous_{MedianFilter(options.median_length)} {}
 
-bool TransitionDetector::Add(double delta, double delta_minus, double distance_m) {
+bool TransitionDetector::Add(double delta, double delta_minus) {
   current_.value = current_.filter.Add(delta);
   previous_.value = previous_.filter.Add(delta_minus);
-  if (current_.value >= current_.peak) distance_at_peak_m_ = distance_m;
   current_.peak = std::max(current_.peak, current_.value);
   previous_.peak = std::max(previous_.peak, previous_.value);
   return current_.peak - current_.value > options_.tau &&

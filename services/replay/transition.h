@@ -43,14 +43,14 @@ class TransitionDetector {
  public:
   explicit TransitionDetector(const TransitionOptions& options = {});
 
-  // True: the segment's end has been passed. `distance_m`: driven in the segment so far.
-  [[nodiscard]] bool Add(double delta, double delta_minus, double distance_m);
+  // True: the segment's end has been passed.
+  [[nodiscard]] bool Add(double delta, double delta_minus);
 
   // Smoothed, as of the last Add.
   [[nodiscard]] double delta() const { return current_.value; }
   [[nodiscard]] double delta_minus() const { return previous_.value; }
-  // Where delta was highest: the best guess of where the milestone was.
-  [[nodiscard]] double distance_at_peak_m() const { return distance_at_peak_m_; }
+  // delta has never been higher than at the last Add: the best guess yet of where the milestone is.
+  [[nodiscard]] bool at_peak() const { return current_.value >= current_.peak; }
 
  private:
   struct Signal {
@@ -62,7 +62,6 @@ class TransitionDetector {
   TransitionOptions options_;
   Signal current_;
   Signal previous_;
-  double distance_at_peak_m_ = 0.0;
 };
 
 }  // namespace trailcast::replay

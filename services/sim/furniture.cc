@@ -107,6 +107,9 @@ void Furniture::LabBench(float width, float depth) {
   for (int i = 0; i < doors; ++i) {
     const float x = 0.05F + door * static_cast<float>(i);
     b_.Box(dark_, {x - 0.004F, 0.096F, 0.10F}, {x + 0.004F, 0.10F, 0.84F});
+    if (random_.Uniform() < 0.4) {
+      b_.Panel(page_, {x + 0.3F * door, 0.097F, 0.62F}, {0.21F, 0, 0}, {0, 0, -0.297F});
+    }
     b_.Box(metal_, {x + 0.40F * door, 0.07F, 0.74F}, {x + 0.60F * door, 0.10F, 0.76F});
   }
   for (float x = 0.15F; x + 0.45F < width; x += Between(random_, 0.55, 0.85)) {

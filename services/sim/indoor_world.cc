@@ -1,6 +1,7 @@
 #include "services/sim/indoor_world.h"
 
 #include <numbers>
+#include <utility>
 
 #include "services/sim/furniture.h"
 #include "services/sim/indoor_textures.h"
@@ -56,6 +57,10 @@ void AddShell(SceneBuilder& b) {
   b.Box(green, {0, kPartition_m, 0}, {kDoorFrom_m, kPartition_m + 0.12F, kHeight_m}, 3);
   b.Box(green, {kDoorTo_m, kPartition_m, 0}, {kLength_m, kPartition_m + 0.12F, kHeight_m}, 3);
   b.Box(green, {kDoorFrom_m, kPartition_m, 2.2F}, {kDoorTo_m, kPartition_m + 0.12F, kHeight_m}, 3);
+  // The wall's inside, seen only where a plan cuts it open.
+  for (const auto& [from, to] : {std::pair{0.0F, kDoorFrom_m}, std::pair{kDoorTo_m, kLength_m}}) {
+    b.Panel(skirting, {from, kPartition_m + 0.12F, 1.5F}, {to - from, 0, 0}, {0, -0.12F, 0});
+  }
   b.Box(skirting, {0, 0, 0}, {kLength_m, 0.015F, 0.08F});
   b.Box(skirting, {0, kWidth_m - 0.015F, 0}, {kLength_m, kWidth_m, 0.08F});
   b.Box(skirting, {kLength_m - 0.015F, 0, 0}, {kLength_m, kWidth_m, 0.08F});
@@ -76,11 +81,11 @@ std::vector<Lamp> AddLamps(SceneBuilder& b) {
       const float z = kHeight_m - 0.06F;
       b.Box(frame, {x - 0.62F, y - 0.17F, z}, {x + 0.62F, y + 0.17F, kHeight_m});
       b.Panel(glow, {x - 0.6F, y - 0.15F, z - 0.004F}, {1.2F, 0, 0}, {0, 0.3F, 0});
-      lamps.push_back({{x, y, z - 0.06F}, -Eigen::Vector3f::UnitZ(), 0.62F});
+      lamps.push_back({{x, y, z - 0.06F}, -Eigen::Vector3f::UnitZ(), 1.15F});
     }
   }
   for (const float x : {2.0F, 5.6F, 9.2F}) {
-    lamps.push_back({{x, 0.2F, 1.6F}, Eigen::Vector3f::UnitY(), 0.9F});
+    lamps.push_back({{x, 0.2F, 1.6F}, Eigen::Vector3f::UnitY(), 1.3F});
   }
   return lamps;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSkyRays = 20;
 constexpr float kOpen_m = 1.5F;      // what is further away no longer darkens a corner
-constexpr float kAmbient = 0.42F;    // light that has bounced about the room, where all is open
+constexpr float kAmbient = 0.55F;    // light that has bounced about the room, where all is open
 constexpr float kLift_m = 0.012F;    // keeps samples off the surface and out of its neighbours
 constexpr float kBrightest = 1.25F;  // next to a lamp
 

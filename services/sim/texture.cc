@@ -8,42 +8,36 @@
 namespace trailcast::sim {
 namespace {
 
-// The four texels round a place and the weights of the right and lower ones.
-struct Taps {
-  std::size_t upper_left, upper_right, lower_left, lower_right;
-  float right, lower;
-};
+// std::floor is a call on processors before SSE4.1, and this is the innermost loop of rendering.
+inline int FloorOf(float x) {
+  const int cut = static_cast<int>(x);
+  return cut - (static_cast<float>(cut) > x ? 1 : 0);
+}
 
-// Position along one repeating axis: the two neighbouring texels and the second one's weight.
-struct AxisTaps {
-  int first, second;
+// Where a lookup falls along one repeating axis: the texel before it and the next one's weight.
+struct AxisTap {
+  int texel;
   float weight;
 };
-AxisTaps AlongAxis(float coordinate, int size) {
-  const float at = (coordinate - std::floor(coordinate)) * static_cast<float>(size) - 0.5F;
-  const float below = std::floor(at);
-  const int first = static_cast<int>(below);
-  const int second = first + 1 >= size ? 0 : first + 1;
-  return {first < 0 ? size - 1 : std::min(first, size - 1), second, at - below};
+inline AxisTap AlongAxis(float coordinate, int size) {
+  constexpr float kFarthest = 1e6F;  // repeats; beyond, a float has no digits left for the texel
+  const float bounded = std::min(std::max(coordinate, -kFarthest), kFarthest);
+  const float share = bounded - static_cast<float>(FloorOf(bounded));
+  // One picture further on, so that the half texel taken off leaves it above 0.
+  const float at = (share + 1.0F) * static_cast<float>(size) - 0.5F;
+  const int texel = static_cast<int>(at);
+  return {texel >= size ? texel - size : texel, at - static_cast<float>(texel)};
 }
 
-Taps TapsAt(float u, float v, int width, int height) {
-  const AxisTaps x = AlongAxis(u, width);
-  const AxisTaps y = AlongAxis(v, height);
-  const auto row = [&](int r) {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(width);
-  };
-  const std::size_t upper = row(y.first);
-  const std::size_t lower = row(y.second);
-  const auto left = static_cast<std::size_t>(x.first);
-  const auto right = static_cast<std::size_t>(x.second);
-  return {upper + left, upper + right, lower + left, lower + right, x.weight, y.weight};
+inline float Blend(const AxisTap& x, const AxisTap& y, float a, float b, float c, float d) {
+  const float upper = a + x.weight * (b - a);
+  const float lower = c + x.weight * (d - c);
+  return upper + y.weight * (lower - upper);
 }
 
-float Blend(const Taps& taps, float a, float b, float c, float d) {
-  const float upper = a + taps.right * (b - a);
-  const float lower = c + taps.right * (d - c);
-  return upper + taps.lower * (lower - upper);
+std::size_t IndexOf(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(x);
 }
 
 }  // namespace
@@ -58,10 +52,16 @@ Texture::Texture(const image::RgbImage& picture) {
 }
 
 void Texture::FillGray(Level& level) {
-  level.gray.resize(level.rgb.size() / 3);
-  for (std::size_t i = 0; i < level.gray.size(); ++i) {
+  const auto gray = [&](int x, int y) {
+    const std::size_t i = IndexOf(x % level.width, y % level.height, level.width);
     const std::uint8_t* p = &level.rgb[3 * i];
-    level.gray[i] = static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2] + 128) >> 8);
+    return static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2] + 128) >> 8);
+  };
+  level.gray.reserve(level.rgb.size() / 3);
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) {
+      level.gray.push_back({gray(x, y), gray(x + 1, y), gray(x, y + 1), gray(x + 1, y + 1)});
+    }
   }
 }
 
@@ -92,32 +92,39 @@ Texture::Level Texture::Halve(const Level& level) {
   return half;
 }
 
+float Texture::GrayOnLevel(float u, float v, int level) const {
+  const int top = static_cast<int>(levels_.size()) - 1;
+  const Level& l = levels_[static_cast<std::size_t>(std::clamp(level, 0, top))];
+  const AxisTap x = AlongAxis(u, l.width);
+  const AxisTap y = AlongAxis(v, l.height);
+  const auto& texels = l.gray[IndexOf(x.texel, y.texel, l.width)];
+  return Blend(x, y, texels[0], texels[1], texels[2], texels[3]);
+}
+
 float Texture::Gray(float u, float v, float level) const {
-  const float top = static_cast<float>(levels_.size() - 1);
-  const float clamped = std::clamp(level, 0.0F, top);
-  const auto fine = static_cast<std::size_t>(clamped);
+  const float clamped = std::clamp(level, 0.0F, static_cast<float>(levels_.size() - 1));
+  const int fine = static_cast<int>(clamped);
   const float share = clamped - static_cast<float>(fine);
-  const auto at = [&](const Level& l) {
-    const Taps taps = TapsAt(u, v, l.width, l.height);
-    return Blend(taps, l.gray[taps.upper_left], l.gray[taps.upper_right], l.gray[taps.lower_left],
-                 l.gray[taps.lower_right]);
-  };
-  const float value = at(levels_[fine]);
+  const float value = GrayOnLevel(u, v, fine);
   if (share < 0.02F) return value;
-  return value + share * (at(levels_[fine + 1]) - value);
+  return value + share * (GrayOnLevel(u, v, fine + 1) - value);
 }
 
 Eigen::Vector3f Texture::Rgb(float u, float v, float level) const {
   const float top = static_cast<float>(levels_.size() - 1);
   const Level& l = levels_[static_cast<std::size_t>(std::clamp(level + 0.5F, 0.0F, top))];
-  const Taps taps = TapsAt(u, v, l.width, l.height);
+  const AxisTap x = AlongAxis(u, l.width);
+  const AxisTap y = AlongAxis(v, l.height);
+  const int next_x = x.texel + 1 == l.width ? 0 : x.texel + 1;
+  const int next_y = y.texel + 1 == l.height ? 0 : y.texel + 1;
   Eigen::Vector3f color;
   for (int channel = 0; channel < 3; ++channel) {
-    const auto texel = [&](std::size_t i) {
-      return static_cast<float>(l.rgb[3 * i + static_cast<std::size_t>(channel)]);
+    const auto texel = [&](int column, int row) {
+      const std::size_t i = 3 * IndexOf(column, row, l.width) + static_cast<std::size_t>(channel);
+      return static_cast<float>(l.rgb[i]);
     };
-    color[channel] = Blend(taps, texel(taps.upper_left), texel(taps.upper_right),
-                           texel(taps.lower_left), texel(taps.lower_right));
+    color[channel] = Blend(x, y, texel(x.texel, y.texel), texel(next_x, y.texel),
+                           texel(x.texel, next_y), texel(next_x, next_y));
   }
   return color;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,7 @@ class Texture {
   // `picture` must not be empty.
   explicit Texture(const image::RgbImage& picture);
 
+  [[nodiscard]] float GrayOnLevel(float u, float v, int level) const;
   [[nodiscard]] float Gray(float u, float v, float level) const;
   [[nodiscard]] Eigen::Vector3f Rgb(float u, float v, float level) const;
   [[nodiscard]] int width() const { return levels_.front().width; }
@@ -25,7 +27,9 @@ class Texture {
   struct Level {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> gray;
+    // Each texel with its right, lower and lower right neighbours (round the picture's edges):
+    // what one lookup needs, in one place.
+    std::vector<std::array<std::uint8_t, 4>> gray;
     std::vector<std::uint8_t> rgb;
   };
   static Level Halve(const Level& level);

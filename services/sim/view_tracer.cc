@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kSize = RayPacket::kSize;
 // Texture lookups along the long side of a slanted pixel's footprint, at most.
-constexpr float kMostLookups = 6.0F;
+constexpr int kMostLookups = 6;
+constexpr float kMostStretch = 2.0F * kMostLookups;
 constexpr float kShadowOffset_m = 2e-3F;
 
 // log2 to within 0.01: enough to choose between mip-map levels.
@@ -28,19 +29,23 @@ float FastLog2(float x) {
 float TextureGray(const Texture& texture, const Surface& surface, const Eigen::Vector3f& direction,
                   const Eigen::Vector2f& uv, float width_m, float cosine) {
   const float stretch = 1.0F / std::max(cosine, 1e-3F);
-  const float lookups = std::clamp(std::ceil(stretch * 0.8F), 1.0F, kMostLookups);
-  const float covered_m = width_m * std::max(1.0F, stretch / (2.0F * kMostLookups));
+  const int lookups = std::clamp(static_cast<int>(stretch * 0.8F + 1.0F), 1, kMostLookups);
+  const float covered_m = width_m * std::max(1.0F, stretch / kMostStretch);
   const float level = FastLog2(std::max(covered_m * surface.texels_per_m, 1e-6F));
-  if (lookups <= 1.0F) return texture.Gray(uv.x(), uv.y(), level);
+  if (lookups == 1) return texture.Gray(uv.x(), uv.y(), level);
   const Eigen::Vector3f along = direction - direction.dot(surface.normal) * surface.normal;
-  const float length_m = width_m * std::min(stretch, 2.0F * kMostLookups);
-  const Eigen::Vector3f step = along * (length_m / (lookups * std::max(along.norm(), 1e-6F)));
+  const float length_m = width_m * std::min(stretch, kMostStretch);
+  const float share = 1.0F / static_cast<float>(lookups);
+  const Eigen::Vector3f step = along * (length_m * share / std::max(along.norm(), 1e-6F));
   const Eigen::Vector2f uv_step(surface.grad_u.dot(step), surface.grad_v.dot(step));
-  Eigen::Vector2f at = uv - 0.5F * (lookups - 1.0F) * uv_step;
+  Eigen::Vector2f at = uv - 0.5F * static_cast<float>(lookups - 1) * uv_step;
+  // The lookups are shared out between the two mip-map levels instead of blending each of them.
+  float lookup_level = std::max(level, 0.0F) + 0.5F * share;
   float sum = 0.0F;
-  const int count = static_cast<int>(lookups);
-  for (int i = 0; i < count; ++i, at += uv_step) sum += texture.Gray(at.x(), at.y(), level);
-  return sum / lookups;
+  for (int i = 0; i < lookups; ++i, at += uv_step, lookup_level += share) {
+    sum += texture.GrayOnLevel(at.x(), at.y(), static_cast<int>(lookup_level));
+  }
+  return sum * share;
 }
 
 }  // namespace

@@ -11,8 +11,6 @@ namespace trailcast::vision {
 
 struct FeatureFinderOptions {
   // Near search: correlation of the stored pattern around the place where it is expected.
-  double search_u_px = 28.0;  // scout pixels to either side; 5 cm and 3 degrees off move a near
-  double search_v_px = 14.0;  // feature so far at 320x240
   double min_correlation = 0.70;
   // What the found ones must agree on, scout pixels (see ViewFitOptions).
   double agree_u_px = 16.0;
@@ -26,9 +24,21 @@ struct FeatureFinderOptions {
   int min_wide_inliers = 7;
 };
 
+// How far from the expected places to look, in pixels of the scout's magnification.
+struct SearchRadius {
+  double u_px = 28.0;
+  double v_px = 14.0;
+};
+
 struct FindResult {
-  std::vector<route::TrackedFeature> features;  // id: position in the list that was sought
-  ViewFit fit;                                  // of those
+  // In pixels of the frame from its centre; id: position in the list that was sought.
+  std::vector<route::TrackedFeature> features;
+  double magnification = 1.0;  // pixels of the frame per scout's pixel, as these features say
+};
+
+struct WideResult {
+  ViewFit fit;      // from the scout's picture to this one
+  int matches = 0;  // that agree on it; 0: the segment is not in view
 };
 
 // Finds a segment's stored features in a frame of whatever camera. Deterministic, stateless.
@@ -36,14 +46,16 @@ class FeatureFinder {
  public:
   explicit FeatureFinder(const FeatureFinderOptions& options = {}) : options_(options) {}
 
-  // Where they are expected: at fraction `s` of their taught tracks, seen through `expected`.
+  // By their patterns, around where each is expected (pixels of the frame from its centre; ids are
+  // positions in `sought`). `magnification`: how much larger they are here than in the scout's.
   [[nodiscard]] FindResult FindNear(const image::GrayImage& frame,
-                                    std::span<const route::Feature> sought, double s,
-                                    const ViewFit& expected) const;
+                                    std::span<const route::Feature> sought,
+                                    std::span<const route::TrackedFeature> expected,
+                                    double magnification, const SearchRadius& radius) const;
 
-  // Anywhere and at any magnification, by descriptors. No features in the result: not found. What
-  // it finds is coarse: follow it with FindNear.
-  [[nodiscard]] FindResult FindWide(const image::GrayImage& frame,
+  // By descriptors, anywhere and at any magnification. `s`: the fraction of the segment at which
+  // the picture is thought to be. Coarse: follow it with FindNear.
+  [[nodiscard]] WideResult FindWide(const image::GrayImage& frame,
                                     std::span<const route::Feature> sought, double s) const;
 
  private:

@@ -3,7 +3,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "services/route/track.h"
 #include "services/vision/feature_finder.h"
 #include "services/vision/frame.h"
 
@@ -67,23 +66,24 @@ cv::Mat AtScoutScale(const cv::Mat& frame, double scale) {
 }  // namespace
 
 FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
-                                   std::span<const route::Feature> sought, double s,
-                                   const ViewFit& expected) const {
-  const cv::Mat picture = AtScoutScale(View(frame), expected.scale);
+                                   std::span<const route::Feature> sought,
+                                   std::span<const route::TrackedFeature> expected,
+                                   double magnification, const SearchRadius& radius) const {
+  const cv::Mat picture = AtScoutScale(View(frame), magnification);
   const double scale = static_cast<double>(frame.width) / picture.cols;  // exact, after rounding
   const cv::Point2f centre = Centre(picture.size());
-  const cv::Point2f radius(static_cast<float>(options_.search_u_px),
-                           static_cast<float>(options_.search_v_px));
-  std::vector<ViewPair> pairs;  // all in pixels of the scout's magnification
+  const cv::Point2f reach(static_cast<float>(radius.u_px), static_cast<float>(radius.v_px));
+  std::vector<ViewPair> pairs;  // expected and found, in pixels of the scout's magnification
   std::vector<int> index;
-  for (std::size_t i = 0; i < sought.size(); ++i) {
-    const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
-    const cv::Point2f place(centre.x + static_cast<float>(expected.MapU(taught.u_px) / scale),
-                            centre.y + static_cast<float>(expected.MapV(taught.v_px) / scale));
-    const auto peak = BestPlace(picture, sought[i].patch, place, radius);
+  for (const route::TrackedFeature& feature : expected) {
+    const double u = feature.u_px / scale;
+    const double v = feature.v_px / scale;
+    const cv::Point2f place(centre.x + static_cast<float>(u), centre.y + static_cast<float>(v));
+    const auto peak = BestPlace(picture, sought[static_cast<std::size_t>(feature.id)].patch, place,
+                                reach);
     if (!peak || peak->correlation < options_.min_correlation) continue;
-    pairs.push_back({taught.u_px, taught.v_px, peak->at.x - centre.x, peak->at.y - centre.y});
-    index.push_back(static_cast<int>(i));
+    pairs.push_back({u, v, peak->at.x - centre.x, peak->at.y - centre.y});
+    index.push_back(feature.id);
   }
   ViewFitOptions agree;
   agree.min_scale = 0.7;
@@ -92,7 +92,7 @@ FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
   agree.tolerance_v_px = options_.agree_v_px;
   const ViewFitResult agreed = FitView(pairs, agree);
   FindResult result;
-  result.fit = {agreed.fit.scale * scale, agreed.fit.du_px * scale, agreed.fit.dv_px * scale};
+  result.magnification = agreed.fit.scale * magnification;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!agreed.inlier[i]) continue;
     result.features.push_back({index[i], pairs[i].u_px * scale, pairs[i].v_px * scale});

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "agent/hand_over.h"
-#include "services/replay/segment_follower.h"
+#include "services/replay/funnel_follower.h"
 #include "services/teach/segment_recorder.h"
 #include "services/vision/feature_tracker.h"
 #include "services/vision/frame.h"

@@ -15,7 +15,7 @@ Result<int> Half(int number) {
 Result<int> Quarter(int number) {
   const Result<int> half = Half(number);
   if (!half) return Wrap(half.error(), "halving");
-  const Result<int> quarter = Half(*half);
+  Result<int> quarter = Half(*half);
   if (!quarter) return Wrap(quarter.error(), "halving again");
   return quarter;
 }

@@ -12,6 +12,8 @@ namespace {
 
 using testing::HasSubstr;
 
+constexpr std::uint64_t kKiB = 1024;
+
 // Appends until the store refuses; returns how many segments it took, and the refusal.
 std::pair<std::uint32_t, Error> Fill(RouteStore& store, std::uint32_t from = 0) {
   for (std::uint32_t i = from; i < 10000; ++i) {
@@ -33,7 +35,7 @@ TEST(StoreQuota, FullStoreRefusesMoreKeepsWhatItHasAndGoesOnWhenTheLimitIsRaised
   test::TempDir dir;
   std::uint32_t taken = 0;
   {
-    auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 256 * 1024}).value();
+    auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 256 * kKiB}).value();
     const auto [count, error] = Fill(*store);
     taken = count;
     EXPECT_EQ(error.code, ErrorCode::kUnavailable);
@@ -42,15 +44,15 @@ TEST(StoreQuota, FullStoreRefusesMoreKeepsWhatItHasAndGoesOnWhenTheLimitIsRaised
     EXPECT_LT(taken, 52U) << "256 KiB of 5000-byte segments";
     ExpectHoldsExactly(*store, taken);
   }
-  EXPECT_LE(std::filesystem::file_size(dir / "routes.db"), 256U * 1024U);
-  auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 1024 * 1024}).value();
+  EXPECT_LE(std::filesystem::file_size(dir / "routes.db"), 256 * kKiB);
+  auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 1024 * kKiB}).value();
   EXPECT_TRUE(store->AppendSegments(Pieces({taken})));
   ExpectHoldsExactly(*store, taken + 1);
 }
 
 TEST(StoreQuota, BatchThatDoesNotFitIsRefusedWhole) {
   test::TempDir dir;
-  auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 128 * 1024}).value();
+  auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 128 * kKiB}).value();
   std::vector<route::SegmentPiece> batch;
   for (std::uint32_t i = 0; i < 40; ++i) batch.push_back(Piece(i));
   const Result<void> appended = store->AppendSegments(batch);
@@ -85,7 +87,7 @@ TEST(StoreQuota, WriteThatTheKernelRefusesIsUnavailableAndTheStoreGoesOnAfterwar
   auto store = OpenSqliteStore(dir / "routes.db").value();
   std::uint32_t taken = 0;
   {
-    const FileSizeLimit limit(200 * 1024);
+    const FileSizeLimit limit(200 * kKiB);
     const auto [count, error] = Fill(*store);
     taken = count;
     EXPECT_EQ(error.code, ErrorCode::kUnavailable);

@@ -1,4 +1,4 @@
-#include "services/replay/segment_follower.h"
+#include "services/replay/funnel_follower.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,14 @@
 
 #include "services/replay/track_progress.h"
 #include "services/route/heading.h"
+#include "services/route/track.h"
 
 namespace trailcast::replay {
 namespace {
 
 // Robots without odometry are told a speed all the same: a walking pace that any of them can do.
 constexpr double kSpeedWithoutOdometry_mps = 0.3;
+constexpr std::size_t kFractionMedian = 3;
 
 Eigen::Vector2d Place(const route::TrackKnot& knot) { return {knot.u_px, knot.v_px}; }
 
@@ -25,18 +27,21 @@ double MeanSquared(const std::vector<Eigen::Vector2d>& a, const std::vector<Eige
 }  // namespace
 
 // The features in view beside their stored places, one position in each list for a feature.
-struct SegmentFollower::Matched {
-  std::vector<route::TrackedFeature> features;  // as given, roll undone
-  std::vector<Eigen::Vector2d> current;
+struct FunnelFollower::Matched {
+  std::vector<int> id;
+  std::vector<Eigen::Vector2d> current;  // in pixels of the scout's magnification
   std::vector<Eigen::Vector2d> first;
   std::vector<Eigen::Vector2d> milestone;
 
   void UndoRoll(double angle_rad) {
+    for (Eigen::Vector2d& point : current) point = Unroll(point, angle_rad);
+  }
+  [[nodiscard]] std::vector<route::TrackedFeature> Features() const {
+    std::vector<route::TrackedFeature> features;
     for (std::size_t i = 0; i < current.size(); ++i) {
-      current[i] = Unroll(current[i], angle_rad);
-      features[i].u_px = current[i].x();
-      features[i].v_px = current[i].y();
+      features.push_back({id[i], current[i].x(), current[i].y()});
     }
+    return features;
   }
   [[nodiscard]] std::vector<ImagePair> AgainstMilestone() const {
     std::vector<ImagePair> pairs;
@@ -52,29 +57,53 @@ struct SegmentFollower::Matched {
   }
 };
 
-SegmentFollower::SegmentFollower(route::Segment segment, int image_width_px,
-                                 const SegmentFollowerOptions& options,
-                                 const motion::OdometryIncrement& start)
-    : segment_(std::move(segment)),
-      options_(options),
-      gain_rad_per_px_(options.gain_rad_per_px_at_320 * 320.0 / image_width_px),
-      driven_(start),
-      transition_(options.transition) {}
+FunnelFollower::FunnelFollower(int scout_width_px, double magnification,
+                               const FunnelFollowerOptions& options)
+    : options_(options),
+      gain_rad_per_px_(options.gain_rad_per_px_at_320 * 320.0 / scout_width_px),
+      magnification_(magnification),
+      transition_(options.transition),
+      visual_fraction_(kFractionMedian) {}
 
-SegmentFollower::Matched SegmentFollower::Match(
+void FunnelFollower::Begin(const route::Segment& segment) {
+  // The last segment ended where delta was highest; what was driven since belongs to this one.
+  if (segment.index.value() == segment_.index.value() + 1) {
+    driven_.distance_m -= driven_at_peak_.distance_m;
+    driven_.heading_change_rad -= driven_at_peak_.heading_change_rad;
+  } else {
+    driven_ = {};
+  }
+  driven_at_peak_ = {};
+  segment_ = segment;
+  transition_ = TransitionDetector(options_.transition);
+  visual_fraction_ = MedianFilter(kFractionMedian);
+  fraction_ = 0.0;
+}
+
+std::vector<route::TrackedFeature> FunnelFollower::Expect() const {
+  std::vector<route::TrackedFeature> places;
+  for (std::size_t i = 0; i < segment_.features.size(); ++i) {
+    const route::TrackKnot taught = route::TaughtPlace(segment_.features[i], fraction_);
+    places.push_back({static_cast<int>(i), magnification_ * taught.u_px,
+                      magnification_ * taught.v_px});
+  }
+  return places;
+}
+
+FunnelFollower::Matched FunnelFollower::Match(
     const std::vector<route::TrackedFeature>& features) const {
   Matched matched;
-  matched.features = features;
   for (const route::TrackedFeature& feature : features) {
     const route::Feature& stored = segment_.features.at(static_cast<std::size_t>(feature.id));
-    matched.current.emplace_back(feature.u_px, feature.v_px);
+    matched.id.push_back(feature.id);
+    matched.current.emplace_back(feature.u_px / magnification_, feature.v_px / magnification_);
     matched.first.push_back(Place(stored.first()));
     matched.milestone.push_back(Place(stored.milestone()));
   }
   return matched;
 }
 
-FollowStep SegmentFollower::Step(const FollowInput& input) {
+FollowStep FunnelFollower::Step(const FollowInput& input) {
   if (input.odometry) {
     driven_.distance_m += input.odometry->distance_m;
     driven_.heading_change_rad += input.odometry->heading_change_rad;
@@ -94,32 +123,37 @@ FollowStep SegmentFollower::Step(const FollowInput& input) {
   const double eta = !by_odometry ? 1.0 : matched.current.empty() ? 0.0 : options_.eta;
   step.turn_rad = FuseTurns(step.vision_turn_rad, step.odometry_turn_rad, eta);
 
-  // At the segment's end? Equation (2), against this milestone and against the previous one, which
-  // is the image that the segment began with.
+  step.agreeing = static_cast<int>(matched.current.size());
+  step.ended = Ended(matched, by_odometry, step);
+  step.command = motion::Limit({speed_mps, -step.turn_rad / options_.turn_time_s}, options_.limits);
+  return step;
+}
+
+// At the segment's end? Equation (2), against this milestone and against the previous one, which is
+// the image that the segment began with.
+bool FunnelFollower::Ended(const Matched& matched, bool by_odometry, FollowStep& step) {
   TransitionErrors errors = by_odometry ? OdometryErrors() : TransitionErrors{};
   errors.feature_sigma_px = std::sqrt(MeanSquared(matched.first, matched.milestone));
   errors.feature_px2 = MeanSquared(matched.current, matched.first);
   const double delta_minus = EndProbability(errors);
   errors.feature_px2 = MeanSquared(matched.current, matched.milestone);
   const double delta = EndProbability(errors);
-  step.ended = transition_.Add(delta, delta_minus, driven_.distance_m);
+  const bool fallen = transition_.Add(delta, delta_minus);
+  if (transition_.at_peak()) driven_at_peak_ = driven_;
   step.delta = transition_.delta();
   step.delta_minus = transition_.delta_minus();
-  step.fraction = Fraction(matched, by_odometry);
-  step.ended |= !by_odometry && step.fraction >= options_.end_fraction_without_odometry;
-
-  step.command = motion::Limit({speed_mps, -step.turn_rad / options_.turn_time_s}, options_.limits);
-  return step;
+  step.fraction = fraction_ = Fraction(matched, by_odometry);
+  return fallen || (!by_odometry && fraction_ >= options_.end_fraction_without_odometry);
 }
 
-double SegmentFollower::OdometryTurn(double speed_mps) const {
+double FunnelFollower::OdometryTurn(double speed_mps) const {
   const double ahead_m = driven_.distance_m + speed_mps * options_.turn_time_s;
   const double asked_rad =
       route::HeadingAt(segment_.heading, std::clamp(ahead_m, 0.0, segment_.length_m));
   return driven_.heading_change_rad - asked_rad;  // too far left asks for a turn to the right
 }
 
-TransitionErrors SegmentFollower::OdometryErrors() const {
+TransitionErrors FunnelFollower::OdometryErrors() const {
   TransitionErrors errors;
   errors.distance_m2 = std::pow(driven_.distance_m - segment_.length_m, 2);
   errors.distance_sigma_m = std::max(options_.min_distance_sigma_m, segment_.length_m);
@@ -129,18 +163,14 @@ TransitionErrors SegmentFollower::OdometryErrors() const {
   return errors;
 }
 
-double SegmentFollower::Fraction(const Matched& matched, bool by_odometry) {
+double FunnelFollower::Fraction(const Matched& matched, bool by_odometry) {
   if (by_odometry) {
     return segment_.length_m > 0.0 ? std::clamp(driven_.distance_m / segment_.length_m, 0.0, 1.0)
                                    : 1.0;
   }
-  if (matched.features.empty()) return 0.0;
-  const double seen = EstimateProgress(segment_, matched.features).fraction;
+  if (matched.current.empty()) return fraction_;
+  const double seen = EstimateProgress(segment_, matched.Features()).fraction;
   return std::min(1.0, visual_fraction_.Add(seen));
-}
-
-double SegmentFollower::overshoot_m() const {
-  return std::max(0.0, driven_.distance_m - transition_.distance_at_peak_m());
 }
 
 }  // namespace trailcast::replay

@@ -1,4 +1,4 @@
-#include "services/replay/segment_follower.h"
+#include "services/replay/funnel_follower.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ struct Outcome {
 
 Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, double roll_rad = 0.0,
               bool with_odometry = true) {
-  SegmentFollower follower(run.segment, 320, {});
+  FunnelFollower follower(320, 1.0);
+  follower.Begin(run.segment);
   Outcome outcome;
   motion::OdometryIncrement moved;
   for (int i = 0; i < 600 && !outcome.ended; ++i) {
@@ -37,7 +38,7 @@ Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, double roll_rad =
   return outcome;
 }
 
-TEST(SegmentFollower, ExactStartEndsNearTheMilestone) {
+TEST(FunnelFollower, ExactStartEndsNearTheMilestone) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   const Outcome outcome = Drive(run, {});
   ASSERT_TRUE(outcome.ended);
@@ -45,7 +46,7 @@ TEST(SegmentFollower, ExactStartEndsNearTheMilestone) {
   EXPECT_NEAR(outcome.end.y_m, 0.0, 0.02);
 }
 
-TEST(SegmentFollower, HeadingErrorIsTakenBack) {
+TEST(FunnelFollower, HeadingErrorIsTakenBack) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   for (const double error_rad : {-0.1, 0.1}) {
     const Outcome outcome = Drive(run, {0.0, 0.0, error_rad});
@@ -54,33 +55,36 @@ TEST(SegmentFollower, HeadingErrorIsTakenBack) {
   }
 }
 
-TEST(SegmentFollower, TaughtTurnIsDriven) {
+TEST(FunnelFollower, TaughtTurnIsDriven) {
   const auto run = test::TeachArcs(kScene, {}, {{0.5, 0.0}, {1.0, 0.3}});
   const Outcome outcome = Drive(run, {});
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.end.heading_rad, 0.3, 0.12);
 }
 
-TEST(SegmentFollower, DrivesAtTheTaughtSpeed) {
+TEST(FunnelFollower, DrivesAtTheTaughtSpeed) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  SegmentFollower follower(run.segment, 320, {});
+  FunnelFollower follower(320, 1.0);
+  follower.Begin(run.segment);
   const FollowStep step =
       follower.Step({test::Matched(kScene, run, {}), motion::OdometryIncrement{}});
   EXPECT_NEAR(step.command.linear_mps, 0.3, 0.01);
 }
 
-TEST(SegmentFollower, RollIsUndoneBeforeComparing) {
+TEST(FunnelFollower, RollIsUndoneBeforeComparing) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  SegmentFollower follower(run.segment, 320, {});
+  FunnelFollower follower(320, 1.0);
+  follower.Begin(run.segment);
   const FollowStep step = follower.Step(
       {test::Matched(kScene, run, {1.9, 0.0, 0.0}, 0.08), motion::OdometryIncrement{}});
   EXPECT_NEAR(step.roll_rad, -0.08, 0.02);
   EXPECT_NEAR(step.vision_turn_rad, 0.0, 0.01);
 }
 
-TEST(SegmentFollower, VisionAloneSteersWithoutOdometry) {
+TEST(FunnelFollower, VisionAloneSteersWithoutOdometry) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  SegmentFollower follower(run.segment, 320, {});
+  FunnelFollower follower(320, 1.0);
+  follower.Begin(run.segment);
   const FollowStep step =
       follower.Step({test::Matched(kScene, run, {1.0, 0.0, 0.1}), std::nullopt});
   EXPECT_GT(step.turn_rad, 0.0);
@@ -88,19 +92,20 @@ TEST(SegmentFollower, VisionAloneSteersWithoutOdometry) {
   EXPECT_LT(step.command.angular_radps, 0.0);  // right is clockwise
 }
 
-TEST(SegmentFollower, WithoutOdometryTheTracksSayWhereItEnds) {
+TEST(FunnelFollower, WithoutOdometryTheTracksSayWhereItEnds) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   const Outcome outcome = Drive(run, {}, 0.0, /*with_odometry=*/false);
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.driven_m, 1.7, 0.25);
 }
 
-TEST(SegmentFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
+TEST(FunnelFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
   const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.4}});
-  SegmentFollower follower(run.segment, 320, {});
+  FunnelFollower follower(320, 1.0);
+  follower.Begin(run.segment);
   motion::Pose2 robot;
   motion::OdometryIncrement moved;
-  while (follower.driven().distance_m < 0.99) {
+  for (double driven_m = 0.0; driven_m < 0.99; driven_m += moved.distance_m) {
     const FollowStep step = follower.Step({{}, moved});
     moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
     robot = motion::Advance(robot, moved);
@@ -108,11 +113,12 @@ TEST(SegmentFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
   EXPECT_NEAR(robot.heading_rad, 0.4, 0.06);
 }
 
-TEST(SegmentFollower, CommandStaysWithinTheLimits) {
+TEST(FunnelFollower, CommandStaysWithinTheLimits) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  SegmentFollowerOptions options;
+  FunnelFollowerOptions options;
   options.limits = {0.1, 0.05};
-  SegmentFollower follower(run.segment, 320, options);
+  FunnelFollower follower(320, 1.0, options);
+  follower.Begin(run.segment);
   const FollowStep step =
       follower.Step({test::Matched(kScene, run, {0.0, 0.0, 0.3}), motion::OdometryIncrement{}});
   EXPECT_LE(std::abs(step.command.linear_mps), 0.1);

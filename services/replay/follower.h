@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "services/motion/motion.h"
+#include "services/route/tracked_feature.h"
+
+namespace trailcast::replay {
+
+struct FollowInput {
+  // Where the segment's features are now: pixels of the follower's own camera from its image
+  // centre; id is the position in Segment::features.
+  std::vector<route::TrackedFeature> features;
+  // Since the last step; nothing on robots without odometry.
+  std::optional<motion::OdometryIncrement> odometry;
+};
+
+struct FollowStep {
+  motion::VelocityCommand command;
+  // Desired heading change, radians, positive to the right; the two halves that the paper's method
+  // fuses, where the method has them.
+  double turn_rad = 0.0;
+  double vision_turn_rad = 0.0;
+  double odometry_turn_rad = 0.0;
+  double roll_rad = 0.0;
+  double delta = 0.0;        // equation (2), where the method has it
+  double delta_minus = 0.0;
+  int agreeing = 0;       // features that fit what the route says
+  double fraction = 0.0;  // of the segment, 0..1
+  bool ended = false;     // the milestone has been passed
+};
+
+// Follows a route segment by segment. No clock, no camera, no thread.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
+  // The first segment, the next one after Step said `ended`, or, for a robot that found itself
+  // again, any.
+  virtual void Begin(const route::Segment& segment) = 0;
+  // Where the segment's features should be in the picture now (FollowInput's coordinates).
+  [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
+  // The follower's pixels per scout's pixel, and what the matches at a hand-over say it is.
+  [[nodiscard]] virtual double magnification() const = 0;
+  virtual void SetMagnification(double magnification) = 0;
+
+  [[nodiscard]] virtual FollowStep Step(const FollowInput& input) = 0;
+
+  [[nodiscard]] virtual const route::Segment& segment() const = 0;
+
+ protected:
+  Follower() = default;
+};
+
+}  // namespace trailcast::replay

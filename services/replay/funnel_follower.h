@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "services/motion/motion.h"
+#include "services/replay/follower.h"
+#include "services/replay/funnel_lane.h"
+#include "services/replay/roll.h"
+#include "services/replay/transition.h"
+#include "services/route/tracked_feature.h"
+
+namespace trailcast::replay {
+
+struct FunnelFollowerOptions {
+  // gamma, radians per pixel of the scout's picture: about one over the focal length of a usual
+  // webcam at 320 px width, so that a pure rotation is undone at once. Scaled with the width.
+  double gain_rad_per_px_at_320 = 0.006;
+  double eta = 0.5;          // share of vision in the turn where there is odometry
+  double turn_time_s = 0.2;  // in which a desired turn is carried out
+  double speed_factor = 1.0;
+  motion::VelocityLimits limits{1.0, 0.8};
+  RollOptions roll;
+  TransitionOptions transition;
+  // Without odometry delta has one term of three left and rises too flat for its peak to be caught:
+  // the segment then also ends at this much of the taught tracks, a little early, because past the
+  // milestone its features ask for the wrong turn.
+  double end_fraction_without_odometry = 0.85;
+  // Floors under equation (2)'s sigmas: a straight or very short segment would otherwise let the
+  // odometry's noise decide.
+  double min_distance_sigma_m = 0.2;
+  double min_heading_sigma_rad = 0.1;
+};
+
+// The paper's control step: the funnel lane fused with the taught heading, and its test for a
+// segment's end. Works without odometry too, by vision alone.
+class FunnelFollower final : public Follower {
+ public:
+  // `scout_width_px`: of the scout's frames; `magnification`: the follower's pixels per scout's.
+  FunnelFollower(int scout_width_px, double magnification,
+                 const FunnelFollowerOptions& options = {});
+
+  void Begin(const route::Segment& segment) override;
+  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override;
+  [[nodiscard]] double magnification() const override { return magnification_; }
+  void SetMagnification(double magnification) override { magnification_ = magnification; }
+  [[nodiscard]] FollowStep Step(const FollowInput& input) override;
+  [[nodiscard]] const route::Segment& segment() const override { return segment_; }
+
+ private:
+  struct Matched;
+
+  [[nodiscard]] Matched Match(const std::vector<route::TrackedFeature>& features) const;
+  [[nodiscard]] double OdometryTurn(double speed_mps) const;
+  [[nodiscard]] TransitionErrors OdometryErrors() const;
+  [[nodiscard]] double Fraction(const Matched& matched, bool by_odometry);
+  [[nodiscard]] bool Ended(const Matched& matched, bool by_odometry, FollowStep& step);
+
+  FunnelFollowerOptions options_;
+  double gain_rad_per_px_;
+  double magnification_;
+  route::Segment segment_;
+  motion::OdometryIncrement driven_;          // since the segment's start
+  motion::OdometryIncrement driven_at_peak_;  // when delta was highest: there the milestone was
+  TransitionDetector transition_;
+  MedianFilter visual_fraction_;
+  double fraction_ = 0.0;
+};
+
+}  // namespace trailcast::replay

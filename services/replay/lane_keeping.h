@@ -1,0 +1,18 @@
+#pragma once
+
+#include "services/replay/path_estimator.h"
+
+namespace trailcast::replay {
+
+struct LaneKeepingOptions {
+  // The path is met again along a curve of about this length, without swinging over.
+  double convergence_m = 0.5;
+  double steepest_rad = 0.6;  // towards the path, from however far
+};
+
+// Steers back onto the taught path and along its bends: omega = kappa v - c1 alpha - c2 e with both
+// gains from one length, e no larger than what the steepest approach asks for.
+[[nodiscard]] double LaneKeepingTurnRate(const PathOffset& offset, double curvature_per_m,
+                                         double speed_mps, const LaneKeepingOptions& options = {});
+
+}  // namespace trailcast::replay

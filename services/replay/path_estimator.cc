@@ -1,0 +1,167 @@
+#include "services/replay/path_estimator.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "services/route/heading.h"
+#include "services/route/track.h"
+
+namespace trailcast::replay {
+namespace {
+
+constexpr int kIterations = 4;
+constexpr double kSlopeStep = 0.02;  // of a segment, for a track's flow
+
+double Square(double x) { return x * x; }
+
+}  // namespace
+
+PathEstimator::PathEstimator(int scout_width_px, double magnification,
+                             const PathEstimatorOptions& options)
+    : options_(options), focal_px_(options.focal_share * scout_width_px) {
+  state_[kMagnification] = magnification;
+  BeUnsure();
+}
+
+void PathEstimator::Begin(const route::Segment& segment) {
+  state_[kAlong] -= segment_.length_m;
+  segment_ = segment;
+  depths_.clear();
+  for (const route::Feature& feature : segment_.features) {
+    depths_.push_back(TaughtDepth(segment_, feature, focal_px_));
+  }
+}
+
+void PathEstimator::Restart(const route::Segment& segment) {
+  state_[kLeft] = state_[kHeading] = 0.0;
+  BeUnsure();
+  state_[kAlong] = segment_.length_m;
+  Begin(segment);
+}
+
+void PathEstimator::BeUnsure() {
+  covariance_.setZero();
+  covariance_(kLeft, kLeft) = Square(options_.start_left_m);
+  covariance_(kHeading, kHeading) = Square(options_.start_heading_rad);
+  covariance_(kAlong, kAlong) = Square(options_.start_along_m);
+  covariance_(kMagnification, kMagnification) = Square(options_.start_magnification * state_[kMagnification]);
+  covariance_(kMountYaw, kMountYaw) = Square(options_.mount_yaw_rad);
+  covariance_(kRoll, kRoll) = Square(options_.roll_rad);
+  covariance_(kPitch, kPitch) = Square(options_.pitch_rad);
+}
+
+void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
+  const double before_m = state_[kAlong];
+  const double alpha = state_[kHeading];
+  // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
+  const double curvature = (route::HeadingAt(segment_.heading, before_m + 0.05) -
+                            route::HeadingAt(segment_.heading, before_m - 0.05)) / 0.1;
+  const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
+  const double along_m = moved.distance_m * std::cos(alpha) / stretch;
+  const double turned = route::HeadingAt(segment_.heading, before_m + along_m) -
+                        route::HeadingAt(segment_.heading, before_m);
+  state_[kAlong] += along_m;
+  state_[kLeft] += moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned);
+  state_[kHeading] += moved.heading_change_rad - turned;
+
+  Covariance f = Covariance::Identity();
+  f(kLeft, kHeading) = moved.distance_m;
+  f(kHeading, kAlong) = 0.0;
+  covariance_ = f * covariance_ * f.transpose();
+  const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
+  covariance_(kAlong, kAlong) += driven * Square(options_.along_noise);
+  covariance_(kLeft, kLeft) += driven * Square(options_.left_noise_m);
+  covariance_(kHeading, kHeading) += driven * Square(options_.heading_noise_rad);
+  covariance_(kMagnification, kMagnification) +=
+      driven * Square(options_.magnification_noise * state_[kMagnification]);
+  // Roll and pitch are each frame's own.
+  covariance_.middleRows<2>(kRoll).setZero();
+  covariance_.middleCols<2>(kRoll).setZero();
+  covariance_(kRoll, kRoll) = Square(options_.roll_rad);
+  covariance_(kPitch, kPitch) = Square(options_.pitch_rad);
+  state_[kRoll] = 0.0;
+  state_[kPitch] = 0.0;
+}
+
+PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
+                                                        const State& state) const {
+  const route::Feature& feature = segment_.features[index];
+  const double length_m = std::max(1e-3, segment_.length_m);
+  const double s = state[kAlong] / length_m;
+  const route::TrackKnot taught = route::TaughtPlace(feature, s);
+  const route::TrackKnot ahead = route::TaughtPlace(feature, s + kSlopeStep);
+  const double u = taught.u_px;
+  const double v = taught.v_px;
+  const double f = focal_px_;
+  const double k = state[kMagnification];
+  const double rho = depths_[index].At(std::clamp(state[kAlong], 0.0, length_m));
+  const double alpha = state[kHeading] + state[kMountYaw];
+  const double widened = f * (1.0 + u * u / (f * f));
+  const double scout_u = u + widened * alpha + f * rho * state[kLeft] - v * state[kRoll];
+  const double scout_v = v + alpha * u * v / f + u * state[kRoll] + f * state[kPitch];
+  Prediction p;
+  p.u_px = k * scout_u;
+  p.v_px = k * scout_v;
+  p.du[kLeft] = k * f * rho;
+  p.du[kHeading] = k * widened;
+  p.du[kMountYaw] = k * widened;
+  p.du[kAlong] = k * (ahead.u_px - taught.u_px) / (kSlopeStep * length_m);
+  p.du[kMagnification] = scout_u;
+  p.du[kRoll] = -k * v;
+  p.dv[kHeading] = k * u * v / f;
+  p.dv[kMountYaw] = p.dv[kHeading];
+  p.dv[kAlong] = k * (ahead.v_px - taught.v_px) / (kSlopeStep * length_m);
+  p.dv[kMagnification] = scout_v;
+  p.dv[kRoll] = k * u;
+  p.dv[kPitch] = k * f;
+  p.depth_sigma_px = k * f * std::min(depths_[index].sigma_per_m, 0.5) * std::abs(state[kLeft]);
+  return p;
+}
+
+int PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
+  const Covariance prior_information = covariance_.inverse();
+  const State prior = state_;
+  const double scale = state_[kMagnification];
+  int agreeing = 0;
+  Covariance information = prior_information;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    information = prior_information;
+    State gradient = prior_information * (prior - state_);
+    agreeing = 0;
+    for (const route::TrackedFeature& feature : seen) {
+      const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state_);
+      const double ru = feature.u_px - p.u_px;
+      const double rv = feature.v_px - p.v_px;
+      const double residual_px = std::hypot(ru, rv) / scale;
+      agreeing += residual_px < options_.outlier_px ? 1 : 0;
+      // Cauchy's weight: a mismatch counts for little, wherever it is.
+      const double robust = 1.0 / (1.0 + Square(residual_px / options_.cauchy_px));
+      const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
+      const double noise_v = Square(scale * options_.feature_noise_px);
+      information += robust * (p.du.transpose() * p.du / noise_u + p.dv.transpose() * p.dv / noise_v);
+      gradient += robust * (p.du.transpose() * ru / noise_u + p.dv.transpose() * rv / noise_v);
+    }
+    state_ += information.ldlt().solve(gradient);
+  }
+  covariance_ = information.inverse();
+  roll_rad_ = state_[kRoll];
+  return agreeing;
+}
+
+PathOffset PathEstimator::offset() const {
+  return {state_[kLeft], state_[kHeading], state_[kAlong]};
+}
+
+double PathEstimator::offset_sigma_m() const { return std::sqrt(covariance_(kLeft, kLeft)); }
+
+std::vector<route::TrackedFeature> PathEstimator::Expect() const {
+  std::vector<route::TrackedFeature> places;
+  for (std::size_t i = 0; i < segment_.features.size(); ++i) {
+    const Prediction p = PredictFeature(i, state_);
+    places.push_back({static_cast<int>(i), p.u_px, p.v_px});
+  }
+  return places;
+}
+
+}  // namespace trailcast::replay

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "services/motion/motion.h"
+#include "services/replay/taught_depth.h"
+#include "services/route/tracked_feature.h"
+
+namespace trailcast::replay {
+
+// Where the robot is beside the path as it was taught.
+struct PathOffset {
+  double left_m = 0.0;       // e: to the left of the path
+  double heading_rad = 0.0;  // alpha: to the left of the taught heading
+  double along_m = 0.0;      // s: driven of the segment
+};
+
+struct PathEstimatorOptions {
+  // The scout's focal length as a share of its picture's width: a usual webcam's. Off by a third, it
+  // changes the estimate little, because a taught track is its own measure.
+  double focal_share = 0.87;
+  // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
+  // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
+  double feature_noise_px = 3.0;
+  double cauchy_px = 3.0;  // beyond this a residual counts less and less
+  double outlier_px = 12.0;
+  // At the route's start.
+  double start_left_m = 0.10;
+  double start_heading_rad = 0.08;
+  double start_along_m = 0.15;
+  double start_magnification = 0.05;  // relative
+  double mount_yaw_rad = 0.035;       // between the scout's camera mount and this robot's
+  // Of the odometry, per root metre, and what may change besides.
+  double along_noise = 0.05;
+  double left_noise_m = 0.01;
+  double heading_noise_rad = 0.02;
+  double magnification_noise = 0.01;
+  double roll_rad = 0.05;  // of each frame alone, as pitch
+  double pitch_rad = 0.05;
+};
+
+// The widened funnel: the funnel lane's inequality made an equation. With its taught flow known, each
+// feature says not only on which side the robot is but how far: near ones speak of the offset, far
+// ones of the heading. An iterated Kalman filter over (offset, heading, progress, magnification,
+// mount yaw), and each frame's own roll and pitch. Pixels are those of the follower's own camera,
+// from its image centre.
+class PathEstimator {
+ public:
+  PathEstimator(int scout_width_px, double magnification, const PathEstimatorOptions& options = {});
+
+  // The next segment begins where the last one ended; its features are seen from here on.
+  void Begin(const route::Segment& segment);
+  // Begins a segment at its start, wherever the robot was thought to be before.
+  void Restart(const route::Segment& segment);
+
+  // The robot moved.
+  void Predict(const motion::OdometryIncrement& moved);
+
+  // What it sees; returns how many features agree with the taught path.
+  int Update(const std::vector<route::TrackedFeature>& seen);
+
+  [[nodiscard]] PathOffset offset() const;
+  [[nodiscard]] double offset_sigma_m() const;
+  [[nodiscard]] double magnification() const { return state_[kMagnification]; }
+  void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
+  [[nodiscard]] double roll_rad() const { return roll_rad_; }
+  // Where each of the segment's features should be now.
+  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const;
+
+ private:
+  enum Index { kLeft, kHeading, kAlong, kMagnification, kMountYaw, kCarried, kRoll = kCarried, kPitch, kSize };
+  using State = Eigen::Matrix<double, kSize, 1>;
+  using Covariance = Eigen::Matrix<double, kSize, kSize>;
+  using Row = Eigen::Matrix<double, 1, kSize>;
+
+  struct Prediction {
+    double u_px = 0.0;
+    double v_px = 0.0;
+    Row du = Row::Zero();
+    Row dv = Row::Zero();
+    double depth_sigma_px = 0.0;  // what not knowing the depth makes of it
+  };
+  void BeUnsure();
+  [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;
+
+  PathEstimatorOptions options_;
+  double focal_px_;  // the scout's
+  route::Segment segment_;
+  std::vector<InverseDepth> depths_;
+  State state_ = State::Zero();
+  Covariance covariance_ = Covariance::Zero();
+  double roll_rad_ = 0.0;
+};
+
+}  // namespace trailcast::replay

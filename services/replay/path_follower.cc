@@ -1,0 +1,56 @@
+#include "services/replay/path_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/route/heading.h"
+
+namespace trailcast::replay {
+namespace {
+
+constexpr double kCurvatureStep_m = 0.05;
+constexpr double kTurnTime_s = 0.5;  // over which turn_rad is the heading change asked for
+
+}  // namespace
+
+PathFollower::PathFollower(int scout_width_px, double magnification,
+                           const PathFollowerOptions& options)
+    : options_(options), estimator_(scout_width_px, magnification, options.estimator) {}
+
+void PathFollower::Begin(const route::Segment& segment) {
+  const bool next = begun_ && segment.index.value() == segment_.index.value() + 1;
+  if (next) {
+    estimator_.Begin(segment);
+  } else {
+    estimator_.Restart(segment);
+  }
+  segment_ = segment;
+  begun_ = true;
+}
+
+double PathFollower::TaughtCurvature(double along_m) const {
+  const double at_m = std::clamp(along_m, 0.0, segment_.length_m);
+  return (route::HeadingAt(segment_.heading, at_m + 0.5 * kCurvatureStep_m) -
+          route::HeadingAt(segment_.heading, at_m - 0.5 * kCurvatureStep_m)) /
+         kCurvatureStep_m;
+}
+
+FollowStep PathFollower::Step(const FollowInput& input) {
+  FollowStep step;
+  if (input.odometry) estimator_.Predict(*input.odometry);
+  step.agreeing = estimator_.Update(input.features);
+  step.roll_rad = estimator_.roll_rad();
+  const PathOffset offset = estimator_.offset();
+  const double speed_mps = options_.speed_factor * segment_.speed_mps();
+  const double curvature = TaughtCurvature(offset.along_m + speed_mps * options_.base_delay_s);
+  const double turn_rate =
+      LaneKeepingTurnRate(offset, curvature, speed_mps, options_.lane_keeping);
+  step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
+  step.turn_rad = -turn_rate * kTurnTime_s;
+  step.fraction =
+      segment_.length_m > 0.0 ? std::clamp(offset.along_m / segment_.length_m, 0.0, 1.0) : 1.0;
+  step.ended = offset.along_m >= segment_.length_m;
+  return step;
+}
+
+}  // namespace trailcast::replay

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "services/replay/follower.h"
+#include "services/replay/lane_keeping.h"
+#include "services/replay/path_estimator.h"
+
+namespace trailcast::replay {
+
+struct PathFollowerOptions {
+  PathEstimatorOptions estimator;
+  LaneKeepingOptions lane_keeping;
+  motion::VelocityLimits limits{1.0, 0.8};
+  double speed_factor = 1.0;
+  double base_delay_s = 0.15;  // from a command to the motion it asks for
+};
+
+// Follows by the widened funnel: estimates where the robot is beside the taught path and steers back
+// onto it. Needs odometry, in the route and on the robot.
+class PathFollower final : public Follower {
+ public:
+  PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
+
+  void Begin(const route::Segment& segment) override;
+  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
+    return estimator_.Expect();
+  }
+  [[nodiscard]] double magnification() const override { return estimator_.magnification(); }
+  void SetMagnification(double magnification) override {
+    estimator_.SetMagnification(magnification);
+  }
+  [[nodiscard]] FollowStep Step(const FollowInput& input) override;
+  [[nodiscard]] const route::Segment& segment() const override { return segment_; }
+
+  [[nodiscard]] PathOffset offset() const { return estimator_.offset(); }
+
+ private:
+  [[nodiscard]] double TaughtCurvature(double along_m) const;
+
+  PathFollowerOptions options_;
+  PathEstimator estimator_;
+  route::Segment segment_;
+  bool begun_ = false;
+};
+
+}  // namespace trailcast::replay

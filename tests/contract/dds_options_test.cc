@@ -1,0 +1,65 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/dds/domain_config.h"
+#include "tests/contract/network.h"
+
+namespace trailcast::dds {
+namespace {
+
+using exchange::AgentStatus;
+using exchange::Message;
+using testing::HasSubstr;
+
+TEST(DomainConfig, GivesTheLastWordToTheExtraConfiguration) {
+  DdsOptions options;
+  options.domain_id = 17;
+  options.network_interface = "lo";
+  options.extra_config_xml = "<extra/>";
+  const std::string config = DomainConfig(options, "<environment/>").value();
+  const auto environment = config.find("<environment/>");
+  const auto domain = config.find("<ExternalDomainId>17</ExternalDomainId>");
+  const auto extra = config.find("<extra/>");
+  EXPECT_LT(config.find("NackDelay"), environment);
+  EXPECT_LT(environment, domain);
+  EXPECT_LT(domain, extra);
+  EXPECT_NE(extra, std::string::npos);
+}
+
+TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
+  DdsOptions options;
+  options.domain_id = 231;
+  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("231"));
+  options = {};
+  options.discovery_tag = "</Tag>";
+  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("tag"));
+  options = {};
+  options.network_interface = "eth0\"/>";
+  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("interface"));
+}
+
+TEST(OpenDdsExchange, FailsWithAHintWhenTheInterfaceDoesNotExist) {
+  DdsOptions options = test::LoopbackOptions(test::UniqueTag());
+  options.network_interface = "nosuch0";
+  const auto opened = OpenDdsExchange(options, exchange::OperatorTopics());
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().message, HasSubstr("network interface"));
+}
+
+TEST(OpenDdsExchange, KeepsSwarmsOfDifferentTagsApart) {
+  const auto open = [](const std::string& tag) {
+    return OpenDdsExchange(test::LoopbackOptions(tag), test::EveryTopic()).value();
+  };
+  const std::string tag = test::UniqueTag();
+  const auto writer = open(tag);
+  const auto stranger = open(test::UniqueTag());
+  const auto reader = open(tag);
+  ASSERT_TRUE(writer->Publish(AgentStatus{.agent = AgentId("robot-1")}));
+  bool heard = false;
+  ASSERT_TRUE(test::TakeUntil(
+      *reader, [&](const Message&) { heard = true; }, [&] { return heard; }));
+  EXPECT_TRUE(stranger->Take(std::chrono::milliseconds(200)).empty());
+}
+
+}  // namespace
+}  // namespace trailcast::dds

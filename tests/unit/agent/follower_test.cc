@@ -1,0 +1,191 @@
+#include "agent/follower.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <future>
+
+#include "tests/unit/agent/swarm.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using test::WalkDevice;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int kFrames = 150;
+// The follower walks a little further than the scout: the last milestone lies at the taught end.
+constexpr int kFollowerFrames = 220;
+
+class FollowerTest : public testing::Test {
+ protected:
+  void TeachInto(const std::string& agent) {
+    WalkDevice scout(kFrames);
+    const auto summary = swarm_.Teach(scout, swarm_.ScoutNamed(agent), false);
+    ASSERT_TRUE(summary) << summary.error().message;
+  }
+  test::Swarm swarm_;
+  WalkDevice device_{kFollowerFrames};
+};
+
+TEST_F(FollowerTest, ArrivesAtTheEndOfARouteFromItsOwnStore) {
+  TeachInto("robot");
+  const auto outcome = swarm_.Replay(device_, swarm_.FollowerNamed("robot"), false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->reason;
+  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_EQ(*outcome->summary.Find("arrived"), "1");
+  EXPECT_EQ(*outcome->summary.Find("frames"), std::to_string(outcome->log.frames()));
+  ASSERT_GT(device_.told.size(), 100U);
+  EXPECT_GT(device_.told[50].linear_mps, 0.0);
+  EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+TEST_F(FollowerTest, WritesOneRowAFrame) {
+  TeachInto("robot");
+  auto options = swarm_.FollowerNamed("robot");
+  options.open_loop = true;
+  const auto outcome = swarm_.Replay(device_, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const test::TempDir folder;
+  ASSERT_TRUE(outcome->log.WriteCsv(folder / "out.csv"));
+  std::ifstream csv(folder / "out.csv");
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_THAT(line, StartsWith("frame,segment,progress,features,turn_rad,state"));
+  int rows = 0;
+  for (; std::getline(csv, line); ++rows) EXPECT_THAT(line, StartsWith(std::to_string(rows) + ","));
+  EXPECT_EQ(rows, kFollowerFrames) << "a recording is looked at to its end";
+}
+
+TEST_F(FollowerTest, FollowsWhileTheScoutStillTeaches) {
+  swarm_.StartServer();
+  auto following = std::async(std::launch::async, [&] {
+    return swarm_.Replay(device_, swarm_.FollowerNamed("robot"), true);
+  });
+  WalkDevice scout(kFrames);
+  const auto taught = swarm_.Teach(scout, swarm_.ScoutNamed("scout"), true);
+  EXPECT_TRUE(taught) << taught.error().message;
+  const auto outcome = following.get();
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->state << ": " << outcome->reason;
+  const auto theirs = swarm_.OpenStore("scout")->FindRoutesByName("hall");
+  const auto ours = swarm_.OpenStore("robot")->FindRoutesByName("hall");
+  EXPECT_EQ(*ours, *theirs);
+}
+
+TEST_F(FollowerTest, GoesOnFromItsOwnStoreWhenTheServerIsGone) {
+  TeachInto("server");
+  swarm_.StartServer();
+  WalkDevice first(kFollowerFrames);
+  ASSERT_TRUE(swarm_.Replay(first, swarm_.FollowerNamed("robot"), true)->success);
+  swarm_.StopServer();
+  const auto outcome = swarm_.Replay(device_, swarm_.FollowerNamed("robot"), true);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->reason;
+}
+
+TEST_F(FollowerTest, NamesTheRoutesThereAreWhenItsOwnIsNotAmongThem) {
+  TeachInto("server");
+  swarm_.StartServer();
+  auto options = swarm_.FollowerNamed("robot");
+  options.link.route = "hell";
+  options.link.wait_for_route = false;
+  const auto outcome = swarm_.Replay(device_, options, true);
+  ASSERT_TRUE(outcome && outcome->error);
+  EXPECT_THAT(outcome->reason, AllOf(HasSubstr("no route 'hell'"), HasSubstr("hall")));
+  EXPECT_EQ(device_.next, 0);
+}
+
+TEST_F(FollowerTest, SaysSoWhenNoServerAnswers) {
+  auto options = swarm_.FollowerNamed("robot");
+  options.link.wait = milliseconds(100);
+  const auto outcome = swarm_.Replay(device_, options, true);
+  ASSERT_TRUE(outcome && outcome->error);
+  EXPECT_THAT(outcome->reason, HasSubstr("no server answered"));
+}
+
+TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
+  auto scout_options = swarm_.ScoutNamed("scout");
+  scout_options.link.delivery_timeout = milliseconds(0);
+  swarm_.StartServer();
+  // A scout that stands still in the middle of its route.
+  std::promise<void> followed;
+  WalkDevice scout(kFrames);
+  scout.before_frame = [&](int frame) -> Result<void> {
+    if (frame == 120) followed.get_future().wait();
+    return {};
+  };
+  auto teaching = std::async(std::launch::async,
+                             [&] { return swarm_.Teach(scout, scout_options, true); });
+  auto options = swarm_.FollowerNamed("robot");
+  options.link.wait = milliseconds(1500);
+  const auto outcome = swarm_.Replay(device_, options, true);
+  followed.set_value();
+  (void)teaching.get();
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_FALSE(outcome->success);
+  EXPECT_EQ(outcome->state, "WAITING") << outcome->reason;
+  EXPECT_THAT(outcome->reason, HasSubstr("no further segment"));
+  EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+TEST_F(FollowerTest, StopsTheRobotWhenTheCameraFails) {
+  TeachInto("robot");
+  device_.before_frame = [](int frame) -> Result<void> {
+    if (frame < 50) return {};
+    return Fail(ErrorCode::kUnavailable, "the camera is unplugged");
+  };
+  const auto outcome = swarm_.Replay(device_, swarm_.FollowerNamed("robot"), false);
+  ASSERT_TRUE(outcome && outcome->error);
+  EXPECT_EQ(outcome->reason, "the camera is unplugged");
+  EXPECT_GT(device_.told[40].linear_mps, 0.0);
+  EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+TEST_F(FollowerTest, StopsTheRobotOnASignal) {
+  TeachInto("robot");
+  auto options = swarm_.FollowerNamed("robot");
+  std::atomic<bool> stop{false};
+  options.link.stop = [&] { return stop.load(); };
+  device_.before_frame = [&](int frame) {
+    stop = frame >= 50;
+    return Result<void>{};
+  };
+  const auto outcome = swarm_.Replay(device_, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->state, "STOPPED");
+  EXPECT_FALSE(outcome->success);
+  EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {
+  TeachInto("robot");
+  class Wall : public WalkDevice {
+   public:
+    Wall() : WalkDevice(100'000) {}
+    // Wheels and picture stand still from frame 60 on, time goes on.
+    Result<std::optional<Observation>> Next() override {
+      auto frame = WalkDevice::Next();
+      (*frame)->stamp = FromSeconds(count_++ / 30.0);
+      next = std::min(next, 60);
+      return frame;
+    }
+
+   private:
+    int count_ = 0;
+  } device;
+  auto options = swarm_.FollowerNamed("robot");
+  options.stuck_after = std::chrono::seconds(5);
+  const auto outcome = swarm_.Replay(device, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->state, "STUCK");
+  EXPECT_THAT(outcome->reason, HasSubstr("no progress for 5 s"));
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,70 @@
+#include "route_server/journal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::server {
+namespace {
+
+using exchange::Receipt;
+using exchange::RouteAnnouncement;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Optional;
+
+const route::RouteKey kKey{RouteId(std::string(32, '1')), RevisionNumber(1)};
+
+RouteAnnouncement Announcement() {
+  RouteAnnouncement announcement;
+  announcement.holder = AgentId("scout");
+  announcement.info.key = kKey;
+  announcement.info.name = "hall";
+  announcement.info.scout = AgentId("scout");
+  announcement.info.camera = "webcam 320x240";
+  return announcement;
+}
+
+Receipt ReceiptOf(std::uint32_t prefix) { return {AgentId("server"), kKey, prefix, {}, {}}; }
+
+TEST(JournalTest, TellsWhoTeachesWhatOnce) {
+  Journal journal;
+  EXPECT_THAT(journal.Received(Announcement()),
+              Optional(AllOf(HasSubstr("scout 'scout' teaches"), HasSubstr("'hall' revision 1"))));
+  EXPECT_EQ(journal.Received(Announcement()), std::nullopt);
+}
+
+TEST(JournalTest, TellsOfReceiptsOnlyWhenTheyGrow) {
+  Journal journal;
+  ASSERT_TRUE(journal.Received(Announcement()));
+  EXPECT_EQ(journal.Sent(ReceiptOf(0)), std::nullopt);
+  EXPECT_THAT(journal.Sent(ReceiptOf(2)), Optional(HasSubstr("'hall' revision 1: 2 segments")));
+  EXPECT_EQ(journal.Sent(ReceiptOf(2)), std::nullopt);
+  EXPECT_THAT(journal.Sent(ReceiptOf(3)), Optional(HasSubstr("3 segments stored and receipted")));
+}
+
+TEST(JournalTest, TellsWhenAgentsComeReturnAndGo) {
+  Journal journal;
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot2");
+  status.instance = 5;
+  status.role = exchange::AgentRole::kFollower;
+  EXPECT_EQ(journal.Received(status), "follower 'robot2' is there");
+  EXPECT_EQ(journal.Received(status), std::nullopt);
+  status.instance = 6;
+  EXPECT_EQ(journal.Received(status), "follower 'robot2' is there again");
+  EXPECT_EQ(journal.Received(exchange::AgentGone{AgentId("robot2"), 5}), std::nullopt)
+      << "the earlier process";
+  EXPECT_EQ(journal.Received(exchange::AgentGone{AgentId("robot2"), 6}), "'robot2' is gone");
+}
+
+TEST(JournalTest, TellsWhatFollowersAskFor) {
+  Journal journal;
+  ASSERT_TRUE(journal.Received(Announcement()));
+  const exchange::SegmentRequest request{AgentId("robot2"), kKey,
+                                         {SegmentIndex(4), SegmentIndex(5)}};
+  EXPECT_EQ(journal.Received(request),
+            "'robot2' asks for 2 segments of 'hall' revision 1, from 4 on");
+}
+
+}  // namespace
+}  // namespace trailcast::server

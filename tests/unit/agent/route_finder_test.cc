@@ -1,0 +1,102 @@
+#include "agent/route_finder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::agent {
+namespace {
+
+using exchange::CatalogReply;
+using exchange::CatalogRequest;
+using exchange::RouteAnnouncement;
+using route::RouteInfo;
+using route::RouteState;
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+const AgentId kSelf("follower");
+const AgentId kServer("server");
+
+RouteInfo Info(const std::string& name, std::uint32_t revision, std::int64_t taught,
+               RouteState state) {
+  RouteInfo info;
+  info.key = {RouteId(std::string(32, 'a')), RevisionNumber(revision)};
+  info.name = name;
+  info.taught_unix_ms = taught;
+  info.state = state;
+  return info;
+}
+
+class RouteFinderTest : public testing::Test {
+ protected:
+  // Asks, and returns the request's number.
+  std::uint64_t Ask(milliseconds at) {
+    const auto messages = finder_.Tick(start_ + at);
+    return messages.empty() ? 0 : std::get<CatalogRequest>(messages.front()).request;
+  }
+  RouteFinder finder_{kSelf, "hall"};
+  RouteFinder::Time start_{};
+};
+
+TEST_F(RouteFinderTest, AsksForTheNameAgainEachSecondUntilItIsFound) {
+  const auto first = finder_.Tick(start_);
+  ASSERT_THAT(first, SizeIs(1));
+  EXPECT_EQ(std::get<CatalogRequest>(first.front()), (CatalogRequest{kSelf, 1, "hall"}));
+  EXPECT_EQ(Ask(milliseconds(500)), 0U);
+  EXPECT_EQ(Ask(milliseconds(1000)), 2U);
+  const auto info = Info("hall", 1, 5, RouteState::kComplete);
+  finder_.Handle(CatalogReply{kServer, kSelf, 2, {info}, {}, ""});
+  EXPECT_EQ(finder_.found(), info);
+  EXPECT_EQ(Ask(milliseconds(9000)), 0U);
+}
+
+TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer,
+                              kSelf,
+                              1,
+                              {Info("hall", 3, 30, RouteState::kTeaching),
+                               Info("hall", 2, 20, RouteState::kComplete),
+                               Info("hall", 1, 10, RouteState::kComplete)},
+                              {},
+                              ""});
+  EXPECT_EQ(finder_.found()->key.revision.value(), 2U);
+}
+
+TEST_F(RouteFinderTest, TellsThatTheServerDoesNotKnowTheRouteAndWhichItKnows) {
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {}, {"hall2", "mall"}, ""});
+  ASSERT_TRUE(finder_.unknown());
+  EXPECT_EQ(finder_.unknown()->server, kServer);
+  EXPECT_THAT(finder_.unknown()->similar_names, ElementsAre("hall2", "mall"));
+  EXPECT_FALSE(finder_.found());
+  EXPECT_EQ(Ask(milliseconds(1000)), 2U) << "it may still be taught";
+}
+
+TEST_F(RouteFinderTest, IgnoresRepliesToOthersAndToNothing) {
+  const auto info = Info("hall", 1, 5, RouteState::kComplete);
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {info}, {}, ""});
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer, AgentId("other"), 1, {info}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 7, {info}, {}, ""});
+  EXPECT_FALSE(finder_.found());
+}
+
+TEST_F(RouteFinderTest, KeepsTheLatestAnnouncementOfTheNameAlone) {
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), Info("mall", 1, 5, RouteState::kTeaching)});
+  EXPECT_FALSE(finder_.announced());
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), Info("hall", 1, 5, RouteState::kTeaching)});
+  auto grown = Info("hall", 1, 5, RouteState::kTeaching);
+  grown.segment_count = 4;
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), grown});
+  EXPECT_EQ(finder_.announced(), grown);
+}
+
+TEST(ChooseRouteTest, HasNothingToChooseFromNothing) {
+  EXPECT_FALSE(ChooseRoute({}));
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,147 @@
+#include "agent/scout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/agent/swarm.h"
+
+namespace trailcast::agent {
+namespace {
+
+using route::RouteState;
+using test::WalkDevice;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using std::chrono::milliseconds;
+
+constexpr int kFrames = 150;
+
+class ScoutTest : public testing::Test {
+ protected:
+  route::RouteInfo Taught(const std::string& agent) {
+    const auto routes = swarm_.OpenStore(agent)->FindRoutesByName("hall");
+    return routes->empty() ? route::RouteInfo{} : routes->front();
+  }
+  static std::string Value(const Result<Summary>& summary, const std::string& key) {
+    if (!summary) return "error: " + summary.error().message;
+    const std::string* value = summary->Find(key);
+    return value == nullptr ? "no " + key : *value;
+  }
+  test::Swarm swarm_;
+  WalkDevice device_{kFrames};
+};
+
+TEST_F(ScoutTest, KeepsTheRouteInItsOwnStoreWithoutAServer) {
+  const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), false);
+  EXPECT_EQ(Value(summary, "frames"), std::to_string(kFrames));
+  const auto route = Taught("scout");
+  EXPECT_EQ(Value(summary, "segments"), std::to_string(route.segment_count));
+  EXPECT_GE(route.segment_count, 2U);
+  EXPECT_EQ(route.state, RouteState::kComplete);
+  EXPECT_EQ(route.scout, AgentId("scout"));
+  EXPECT_EQ(route.camera, "walk 160x120");
+  EXPECT_EQ(route.image_width_px, 160);
+  EXPECT_NEAR(route.length_m, 0.02 * (kFrames - 1), 0.1);
+  EXPECT_THAT(*swarm_.OpenStore("scout")->HeldSegments(route.key), SizeIs(route.segment_count));
+}
+
+TEST_F(ScoutTest, EndsWhenTheServerHasConfirmedEverySegment) {
+  swarm_.StartServer();
+  const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), true);
+  EXPECT_EQ(Value(summary, "unreceipted"), "0");
+  swarm_.StopServer();
+  EXPECT_TRUE(swarm_.server_result);
+  const auto taught = Taught("scout");
+  EXPECT_EQ(Taught("server"), taught);
+  EXPECT_THAT(*swarm_.OpenStore("scout")->UnreceiptedSegments(taught.key), IsEmpty());
+}
+
+TEST_F(ScoutTest, KeepsWhatNoServerConfirmedAndDeliversItLater) {
+  auto options = swarm_.ScoutNamed("scout");
+  options.link.delivery_timeout = milliseconds(100);
+  const auto alone = swarm_.Teach(device_, options, true);
+  ASSERT_FALSE(alone);
+  EXPECT_THAT(alone.error().message,
+              AllOf(HasSubstr("segments not receipted, kept in " + options.link.store_file),
+                    HasSubstr("deliver")));
+  swarm_.StartServer();
+  options.link.delivery_timeout = std::chrono::seconds(20);
+  const auto delivered = DeliverBacklog(options.link, swarm_.OpenStore("scout"),
+                                        swarm_.Join(exchange::ScoutTopics()));
+  ASSERT_TRUE(delivered) << delivered.error().message;
+  swarm_.StopServer();
+  EXPECT_EQ(Taught("server"), Taught("scout"));
+}
+
+TEST_F(ScoutTest, StopsTheRobotFirstWhenTheCameraFailsAndKeepsWhatWasTaught) {
+  device_.before_frame = [](int frame) -> Result<void> {
+    if (frame < 100) return {};
+    return Fail(ErrorCode::kUnavailable, "the camera is unplugged");
+  };
+  const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), false);
+  ASSERT_FALSE(summary);
+  EXPECT_THAT(summary.error().message,
+              AllOf(HasSubstr("unplugged"), HasSubstr("segments taught before are kept in")));
+  ASSERT_FALSE(device_.told.empty());
+  EXPECT_EQ(device_.told.front(), motion::VelocityCommand{});
+  EXPECT_GE(Taught("scout").segment_count, 1U);
+  EXPECT_EQ(Taught("scout").state, RouteState::kComplete);
+}
+
+TEST_F(ScoutTest, EndsTheRouteWhereASignalStopsIt) {
+  auto options = swarm_.ScoutNamed("scout");
+  std::atomic<bool> stop{false};
+  options.link.stop = [&] { return stop.load(); };
+  device_.before_frame = [&](int frame) {
+    stop = frame >= 100;
+    return Result<void>{};
+  };
+  const auto summary = swarm_.Teach(device_, options, false);
+  EXPECT_EQ(Value(summary, "frames"), "100");
+  EXPECT_EQ(Taught("scout").state, RouteState::kComplete);
+}
+
+TEST_F(ScoutTest, TeachesNothingInTheDarkAndLeavesNoRoute) {
+  class Dark : public WalkDevice {
+   public:
+    using WalkDevice::WalkDevice;
+    Result<std::optional<Observation>> Next() override {
+      auto seen = WalkDevice::Next();
+      if (seen && *seen) (*seen)->odometry.reset();
+      return seen;
+    }
+  } device{20};
+  device.blind = true;
+  const auto summary = swarm_.Teach(device, swarm_.ScoutNamed("scout"), false);
+  ASSERT_FALSE(summary);
+  EXPECT_THAT(summary.error().message, HasSubstr("nothing was taught"));
+  EXPECT_THAT(*swarm_.OpenStore("scout")->ListRoutes(), IsEmpty());
+}
+
+TEST_F(ScoutTest, TeachesARouteAgainAsItsNextRevision) {
+  ASSERT_TRUE(swarm_.Teach(device_, swarm_.ScoutNamed("scout"), false));
+  WalkDevice again(kFrames);
+  const auto summary = swarm_.Teach(again, swarm_.ScoutNamed("scout"), false);
+  EXPECT_EQ(Value(summary, "revision"), "2");
+  const auto routes = swarm_.OpenStore("scout")->FindRoutesByName("hall");
+  ASSERT_THAT(*routes, SizeIs(2));
+  EXPECT_EQ(routes->front().key.route, routes->back().key.route);
+}
+
+TEST_F(ScoutTest, RefusesANameThatIsTakenBeforeTheFirstFrame) {
+  const auto end = swarm_.Join(exchange::ScoutTopics());
+  exchange::AgentStatus status;
+  status.agent = AgentId("scout");
+  status.instance = 1;
+  status.mode = exchange::AgentMode::kTeaching;
+  ASSERT_TRUE(end->Publish(status));
+  const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), true);
+  ASSERT_FALSE(summary);
+  EXPECT_THAT(summary.error().message, HasSubstr("already used"));
+  EXPECT_EQ(device_.next, 0);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,54 @@
+#include "services/exchange/answer_queue.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using std::chrono::milliseconds;
+using test::Indices;
+using test::KeyNumber;
+
+constexpr AnswerQueue::Time kStart{};
+constexpr std::size_t kPlenty = 1'000'000;
+
+Result<route::SegmentPiece> Read(const route::RouteKey& key, SegmentIndex index) {
+  return test::PieceOf(key, index.value(), 100);
+}
+
+TEST(AnswerQueue, AnswersAllWhoAskWithinTheWindowOnce) {
+  AnswerQueue queue(milliseconds(50));
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  queue.Ask(KeyNumber(1), Indices(1, 5), kStart + milliseconds(40));
+  EXPECT_TRUE(queue.Due(kStart + milliseconds(49), kPlenty, Read).pieces.empty());
+  EXPECT_EQ(queue.Due(kStart + milliseconds(50), kPlenty, Read).pieces,
+            test::PiecesOf(KeyNumber(1), 5, 100));
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(AnswerQueue, SendsALongAnswerInTurns) {
+  AnswerQueue queue(milliseconds(0));
+  queue.Ask(KeyNumber(1), Indices(0, 5), kStart);
+  EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
+  EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
+  EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 1U);
+}
+
+TEST(AnswerQueue, ReportsWhatCannotBeReadAndSendsTheRest) {
+  AnswerQueue queue(milliseconds(0));
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  const auto damaged = [](const route::RouteKey& key,
+                          SegmentIndex index) -> Result<route::SegmentPiece> {
+    if (index == SegmentIndex(1)) return Fail(ErrorCode::kCorrupt, "damaged");
+    return Read(key, index);
+  };
+  const auto answers = queue.Due(kStart, kPlenty, damaged);
+  EXPECT_EQ(answers.pieces.size(), 2U);
+  ASSERT_EQ(answers.unreadable.size(), 1U);
+  EXPECT_EQ(answers.unreadable[0].message, "damaged");
+}
+
+}  // namespace
+}  // namespace trailcast::exchange

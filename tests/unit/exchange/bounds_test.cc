@@ -1,0 +1,79 @@
+#include "services/exchange/bounds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using test::KeyNumber;
+
+RouteAnnouncement Good() {
+  return {AgentId("server-1"), test::InfoOf(KeyNumber(1), {}, route::RouteState::kTeaching)};
+}
+
+void ExpectRefused(const Message& message, const std::string& naming) {
+  const auto result = CheckBounds(message);
+  ASSERT_FALSE(result) << "accepted, expected a refusal naming " << naming;
+  EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_THAT(result.error().message, testing::HasSubstr(naming));
+}
+
+TEST(CheckBounds, AcceptsAnOrdinaryAnnouncement) { EXPECT_TRUE(CheckBounds(Good())); }
+
+TEST(CheckBounds, RefusesEachBadFieldOfAnAnnouncementByName) {
+  const auto with = [](const auto& spoil) {
+    RouteAnnouncement message = Good();
+    spoil(message.info);
+    return message;
+  };
+  using Info = route::RouteInfo;
+  ExpectRefused(with([](Info& i) { i.name = std::string("../etc"); }), "route name");
+  ExpectRefused(with([](Info& i) { i.scout = AgentId(""); }), "scout");
+  ExpectRefused(with([](Info& i) { i.camera = std::string("\xFF"); }), "camera");
+  ExpectRefused(with([](Info& i) { i.image_width_px = -1; }), "image width");
+  ExpectRefused(with([](Info& i) { i.image_height_px = 65536; }), "image height");
+  ExpectRefused(with([](Info& i) { i.state = static_cast<route::RouteState>(2); }), "state");
+  ExpectRefused(with([](Info& i) { i.segment_count = ~0U; }), "segment count");
+  ExpectRefused(with([](Info& i) { i.length_m = -0.5; }), "length");
+  ExpectRefused(with([](Info& i) { i.length_m = std::numeric_limits<double>::infinity(); }),
+                "length");
+  ExpectRefused(with([](Info& i) { i.key.route = RouteId(std::string(32, 'G')); }), "route id");
+  ExpectRefused(with([](Info& i) { i.key.revision = RevisionNumber(0); }), "revision");
+}
+
+TEST(CheckBounds, RefusesPiecesWithoutBytesOrDigest) {
+  route::SegmentPiece no_digest = test::PieceOf(KeyNumber(1), 0);
+  no_digest.digest = {};
+  route::SegmentPiece no_bytes = test::PieceOf(KeyNumber(1), 0);
+  no_bytes.bytes.clear();
+  ExpectRefused(SegmentBatch{AgentId("s"), {no_digest}}, "no digest");
+  ExpectRefused(SegmentBatch{AgentId("s"), {no_bytes}}, "no bytes");
+  ExpectRefused(SegmentBatch{AgentId("s"), {test::PieceOf(KeyNumber(1), kMaxSegmentsPerRoute)}},
+                "index");
+}
+
+TEST(CheckBounds, RefusesListsThatAreTooLong) {
+  ExpectRefused(
+      SegmentRequest{AgentId("f"), KeyNumber(1), test::Indices(0, kMaxIndicesPerRequest + 1)},
+      "lacking");
+  Receipt receipt{.server = AgentId("s"), .key = KeyNumber(1)};
+  receipt.durable_beyond = test::Indices(0, kMaxIndicesPerReceipt + 1);
+  ExpectRefused(receipt, "durable");
+}
+
+TEST(CheckBounds, RefusesEnumeratorsThatDoNotExist) {
+  AgentStatus status{.agent = AgentId("a")};
+  status.mode = static_cast<AgentMode>(7);
+  ExpectRefused(status, "mode");
+  status.mode = AgentMode::kFault;
+  status.role = static_cast<AgentRole>(4);
+  ExpectRefused(status, "role");
+}
+
+}  // namespace
+}  // namespace trailcast::exchange

@@ -1,0 +1,207 @@
+#include "services/exchange/route_keeper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/memory_store.h"
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteState;
+using std::chrono::milliseconds;
+using test::Indices;
+using test::Only;
+
+class RouteKeeperTest : public testing::Test {
+ protected:
+  RouteKeeperTest() { Restart(); }
+
+  void Restart() {
+    const auto catalog = [](const CatalogRequest& request) {
+      return CatalogReply{.similar_names = {request.name + "-2"}};
+    };
+    keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, catalog, test::ToyIntegrity()).value();
+  }
+  route::RouteInfo Info(std::uint32_t count, RouteState state) {
+    return test::InfoOf(key_, std::span(pieces_).first(count), state);
+  }
+  void Announce(std::uint32_t count, RouteState state = RouteState::kTeaching) {
+    keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), Info(count, state)}, now_);
+  }
+  void Deliver(std::vector<route::SegmentPiece> pieces) {
+    keeper_->Handle(SegmentBatch{AgentId("scout-1"), std::move(pieces)}, now_);
+  }
+  void Ask(const std::string& who, std::vector<SegmentIndex> lacking) {
+    keeper_->Handle(SegmentRequest{AgentId(who), key_, std::move(lacking)}, now_);
+  }
+  std::vector<Message> TickAfter(milliseconds passed) {
+    now_ += passed;
+    return keeper_->Tick(now_);
+  }
+  std::vector<Message> Tick() { return TickAfter(milliseconds(0)); }
+
+  const route::RouteKey key_ = test::KeyNumber(1);
+  const std::vector<route::SegmentPiece> pieces_ = test::PiecesOf(key_, 10);
+  test::MemoryStore store_;
+  std::unique_ptr<RouteKeeper> keeper_;
+  RouteKeeper::Time now_{};
+};
+
+TEST_F(RouteKeeperTest, StoresOneTakeInOneCommitThenReceipts) {
+  Announce(4);
+  Deliver({pieces_[0], pieces_[1]});
+  Deliver({pieces_[3]});
+  const auto out = Tick();
+  EXPECT_EQ(store_.commits, 1);
+  EXPECT_EQ(Only<Receipt>(out),
+            (std::vector{
+                Receipt{AgentId("server-1"), key_, 2, {SegmentIndex(3)}, RouteState::kTeaching}}));
+  const auto announced = Only<RouteAnnouncement>(out);
+  ASSERT_EQ(announced.size(), 1U);
+  EXPECT_EQ(announced[0].info.segment_count, 2U);  // what can be served without a gap
+  EXPECT_DOUBLE_EQ(announced[0].info.length_m, 4.0);
+}
+
+TEST_F(RouteKeeperTest, SaysCompleteOnlyWhenAllIsOnDiskAndTheManifestIsRight) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0]});
+  EXPECT_EQ(Only<Receipt>(Tick()).at(0).durable_state, RouteState::kTeaching);
+  Deliver({pieces_[1]});
+  const auto out = TickAfter(milliseconds(300));
+  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Info(2, RouteState::kComplete));
+  EXPECT_EQ(Only<Receipt>(out).at(0).durable_state, RouteState::kComplete);
+  EXPECT_EQ(store_.FindRoute(key_).value(), Info(2, RouteState::kComplete));
+}
+
+TEST_F(RouteKeeperTest, NeverCompletesARouteOfWrongSegments) {
+  Deliver({test::PieceOf(key_, 0, 100, 99)});
+  Announce(1, RouteState::kComplete);
+  const auto out = Tick();
+  EXPECT_EQ(Only<Receipt>(out).at(0).durable_state, RouteState::kTeaching);
+  EXPECT_TRUE(Only<RouteAnnouncement>(out).empty());
+  const auto notes = keeper_->TakeNotes();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0].text, testing::HasSubstr("manifest"));
+}
+
+TEST_F(RouteKeeperTest, AsksTheScoutForGapsAndAgainAfterARestart) {
+  Announce(3);
+  Deliver({pieces_[1]});
+  (void)Tick();
+  const auto asked = Only<SegmentRequest>(TickAfter(milliseconds(200)));
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].lacking, (std::vector{SegmentIndex(0), SegmentIndex(2)}));
+  Restart();
+  Announce(3);
+  EXPECT_EQ(Only<SegmentRequest>(TickAfter(milliseconds(200))), asked);
+}
+
+TEST_F(RouteKeeperTest, AnnouncesAndReceiptsWhatItHoldsAfterARestart) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  Restart();
+  const auto out = Tick();
+  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Info(2, RouteState::kComplete));
+  EXPECT_EQ(Only<Receipt>(out).at(0).durable_prefix, 2U);
+}
+
+TEST_F(RouteKeeperTest, AnswersFollowersWhoAskTogetherOnce) {
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  Ask("follower-1", Indices(0, 5));
+  Ask("follower-2", Indices(0, 2));
+  EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(49))).empty());
+  EXPECT_EQ(test::PiecesIn(TickAfter(milliseconds(1))), (std::vector{pieces_[0], pieces_[1]}));
+  EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(100))).empty());
+}
+
+TEST_F(RouteKeeperTest, RepeatsItsReceiptToAScoutThatMissedIt) {
+  Announce(1);
+  Deliver({pieces_[0]});
+  EXPECT_EQ(Only<Receipt>(Tick()).size(), 1U);
+  Announce(1);
+  EXPECT_TRUE(Only<Receipt>(TickAfter(milliseconds(100))).empty());
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(400))).size(), 1U);
+}
+
+TEST_F(RouteKeeperTest, KeepsTheFirstOfTwoSegmentsThatContradictAndSaysSo) {
+  const auto other = test::PieceOf(key_, 0, 100, 99);
+  Deliver({pieces_[0]});
+  (void)Tick();
+  Restart();
+  Deliver({other, pieces_[1]});
+  (void)Tick();
+  EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(0)).value(), pieces_[0]);
+  EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
+  EXPECT_EQ(keeper_->counters().conflicting, 1U);
+  EXPECT_EQ(keeper_->TakeNotes().at(0).severity, Note::Severity::kWarning);
+}
+
+TEST_F(RouteKeeperTest, OneDamagedPieceDoesNotCostTheOthers) {
+  Announce(2);
+  auto damaged = pieces_[0];
+  damaged.bytes[0] ^= 1U;
+  Deliver({damaged, pieces_[1]});
+  const auto out = Tick();
+  EXPECT_EQ(keeper_->counters().corrupt, 1U);
+  EXPECT_EQ(Only<Receipt>(out).at(0).durable_beyond, std::vector{SegmentIndex(1)});
+}
+
+TEST_F(RouteKeeperTest, AFullDiskMeansNoReceiptUntilThereIsRoom) {
+  store_.full = true;
+  Announce(1);
+  Deliver({pieces_[0]});
+  EXPECT_TRUE(Only<Receipt>(Tick()).empty());
+  EXPECT_EQ(keeper_->TakeNotes().at(0).severity, Note::Severity::kError);
+  store_.full = false;
+  EXPECT_EQ(Only<SegmentRequest>(TickAfter(milliseconds(200))).size(), 1U);
+  Deliver({pieces_[0]});
+  EXPECT_EQ(Only<Receipt>(Tick()).size(), 1U);
+}
+
+TEST_F(RouteKeeperTest, ReportsTheSameTroubleNowAndThen) {
+  store_.full = true;
+  for (int i = 0; i < 100; ++i) {
+    Deliver({pieces_[0]});
+    (void)TickAfter(milliseconds(100));
+  }
+  EXPECT_EQ(keeper_->TakeNotes().size(), 1U);
+  EXPECT_EQ(keeper_->counters().store_failures, 100U);
+}
+
+TEST_F(RouteKeeperTest, ACompleteRouteDoesNotChange) {
+  Announce(1, RouteState::kComplete);
+  Deliver({pieces_[0]});
+  (void)Tick();
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[1]});
+  (void)TickAfter(milliseconds(500));
+  EXPECT_EQ(keeper_->counters().conflicting, 2U);
+  EXPECT_EQ(store_.FindRoute(key_).value()->segment_count, 1U);
+  EXPECT_EQ(store_.HeldSegments(key_).value().size(), 1U);
+}
+
+TEST_F(RouteKeeperTest, RefusesMoreRoutesThanItMayKeep) {
+  keeper_ =
+      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
+                        test::ToyIntegrity(), {.max_routes = 2})
+          .value();
+  for (unsigned i = 1; i <= 3; ++i) Deliver({test::PieceOf(test::KeyNumber(i), 0)});
+  EXPECT_EQ(Only<Receipt>(Tick()).size(), 2U);
+  EXPECT_THAT(keeper_->TakeNotes().at(0).text, testing::HasSubstr("the most"));
+}
+
+TEST_F(RouteKeeperTest, AddressesCatalogReplies) {
+  keeper_->Handle(CatalogRequest{AgentId("follower-1"), 7, "corridor"}, now_);
+  EXPECT_EQ(Only<CatalogReply>(Tick()),
+            (std::vector{CatalogReply{.server = AgentId("server-1"),
+                                      .client = AgentId("follower-1"),
+                                      .request = 7,
+                                      .similar_names = {"corridor-2"}}}));
+}
+
+}  // namespace
+}  // namespace trailcast::exchange

@@ -1,0 +1,133 @@
+#include "services/exchange/route_sender.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteState;
+using std::chrono::milliseconds;
+using test::Indices;
+using test::Only;
+
+class RouteSenderTest : public testing::Test {
+ protected:
+  RouteSender Sender(const std::vector<SegmentIndex>& receipted = {}) {
+    const auto read = [this](SegmentIndex index) -> Result<route::SegmentPiece> {
+      return pieces_.at(index.value());
+    };
+    return {AgentId("scout-1"), Info(RouteState::kTeaching), read, receipted};
+  }
+  void Teach(RouteSender& sender) {
+    pieces_.push_back(test::PieceOf(key_, static_cast<std::uint32_t>(pieces_.size())));
+    sender.Add(pieces_.back(), Info(RouteState::kTeaching));
+  }
+  route::RouteInfo Info(RouteState state) { return test::InfoOf(key_, pieces_, state); }
+  void Ask(RouteSender& sender, const std::string& who, std::vector<SegmentIndex> lacking) {
+    sender.Handle(SegmentRequest{AgentId(who), key_, std::move(lacking)}, now_);
+  }
+  void Confirm(RouteSender& sender, std::uint32_t prefix, std::vector<SegmentIndex> beyond = {},
+               RouteState state = RouteState::kTeaching) {
+    sender.Handle(Receipt{AgentId("server-1"), key_, prefix, std::move(beyond), state}, now_);
+  }
+  std::vector<Message> TickAfter(RouteSender& sender, milliseconds passed) {
+    now_ += passed;
+    return sender.Tick(now_);
+  }
+
+  const route::RouteKey key_ = test::KeyNumber(1);
+  std::vector<route::SegmentPiece> pieces_;
+  RouteSender::Time now_{};
+};
+
+TEST_F(RouteSenderTest, StreamsASegmentOnceBeforeTheAnnouncementThatCountsIt) {
+  RouteSender sender = Sender();
+  (void)sender.Tick(now_);
+  Teach(sender);
+  const std::vector<Message> sent = sender.Tick(now_);
+  EXPECT_EQ(sent, (std::vector<Message>{
+                      SegmentBatch{AgentId("scout-1"), pieces_},
+                      RouteAnnouncement{AgentId("scout-1"), Info(RouteState::kTeaching)}}));
+  EXPECT_TRUE(TickAfter(sender, milliseconds(100)).empty());
+}
+
+TEST_F(RouteSenderTest, AnnouncesAgainUntilEverythingIsReceipted) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  (void)sender.Tick(now_);
+  EXPECT_TRUE(TickAfter(sender, milliseconds(1999)).empty());
+  EXPECT_EQ(TickAfter(sender, milliseconds(1)).size(), 1U);
+  sender.Update(Info(RouteState::kComplete));
+  (void)sender.Tick(now_);
+  Confirm(sender, 1);
+  EXPECT_FALSE(sender.AllReceipted());  // the server may not know that the route is complete
+  EXPECT_EQ(TickAfter(sender, milliseconds(2000)).size(), 1U);
+  Confirm(sender, 1, {}, RouteState::kComplete);
+  EXPECT_TRUE(sender.AllReceipted());
+  EXPECT_TRUE(TickAfter(sender, milliseconds(5000)).empty());
+}
+
+TEST_F(RouteSenderTest, ReportsEachReceiptedSegmentOnce) {
+  RouteSender sender = Sender();
+  for (int i = 0; i < 5; ++i) Teach(sender);
+  Confirm(sender, 2, {SegmentIndex(3), SegmentIndex(77)});
+  EXPECT_EQ(sender.TakeNewlyReceipted(),
+            (std::vector{SegmentIndex(0), SegmentIndex(1), SegmentIndex(3)}));
+  Confirm(sender, 2, {SegmentIndex(3)});
+  EXPECT_TRUE(sender.TakeNewlyReceipted().empty());
+  EXPECT_EQ(sender.Unreceipted(), (std::set{SegmentIndex(2), SegmentIndex(4)}));
+}
+
+TEST_F(RouteSenderTest, ReceiptsOfOtherRoutesAndBeyondTheEndChangeNothing) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  sender.Handle(Receipt{AgentId("s"), test::KeyNumber(2), 9, {}, RouteState::kComplete}, now_);
+  EXPECT_EQ(sender.Unreceipted().size(), 1U);
+  Confirm(sender, 100'000);
+  Teach(sender);
+  EXPECT_EQ(sender.Unreceipted(), std::set{SegmentIndex(1)});
+}
+
+TEST_F(RouteSenderTest, AnswersWhatOnlyItHas) {
+  RouteSender sender = Sender();
+  for (int i = 0; i < 3; ++i) Teach(sender);
+  (void)sender.Tick(now_);
+  Ask(sender, "server-1", {SegmentIndex(1), SegmentIndex(2), SegmentIndex(9)});
+  EXPECT_TRUE(TickAfter(sender, milliseconds(49)).empty());
+  const auto sent = test::PiecesIn(TickAfter(sender, milliseconds(1)));
+  EXPECT_EQ(sent, (std::vector{pieces_[1], pieces_[2]}));
+}
+
+TEST_F(RouteSenderTest, LeavesWhatAServerHasToTheServerUnlessAskedAgain) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  (void)sender.Tick(now_);
+  Confirm(sender, 1);
+  Ask(sender, "follower-1", {SegmentIndex(0)});
+  EXPECT_TRUE(TickAfter(sender, milliseconds(100)).empty());
+  Ask(sender, "follower-2", {SegmentIndex(0)});
+  EXPECT_TRUE(TickAfter(sender, milliseconds(100)).empty());
+  Ask(sender, "follower-1", {SegmentIndex(0)});
+  EXPECT_EQ(test::PiecesIn(TickAfter(sender, milliseconds(100))), pieces_);
+}
+
+TEST_F(RouteSenderTest, AnnouncesToWhoAsksWhoHasTheRoute) {
+  RouteSender sender = Sender();
+  (void)sender.Tick(now_);
+  Ask(sender, "follower-1", {});
+  EXPECT_EQ(Only<RouteAnnouncement>(sender.Tick(now_)).size(), 1U);
+}
+
+TEST_F(RouteSenderTest, GoesOnAfterARestart) {
+  pieces_ = test::PiecesOf(key_, 4);
+  RouteSender sender = Sender(Indices(0, 2));
+  EXPECT_EQ(sender.Unreceipted(), (std::set{SegmentIndex(2), SegmentIndex(3)}));
+  EXPECT_EQ(sender.Tick(now_).size(), 1U);  // announces, streams nothing
+  Ask(sender, "server-1", Indices(2, 4));
+  EXPECT_EQ(test::PiecesIn(TickAfter(sender, milliseconds(50))).size(), 2U);
+}
+
+}  // namespace
+}  // namespace trailcast::exchange

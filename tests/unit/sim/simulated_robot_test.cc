@@ -1,0 +1,144 @@
+#include "services/sim/simulated_robot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "services/sim/judge.h"
+#include "tests/unit/sim/test_worlds.h"
+
+namespace trailcast::sim {
+namespace {
+
+using test::SmallWorld;
+using ::testing::HasSubstr;
+
+std::shared_ptr<const World> Place() {
+  return SmallWorld()
+      .WhiteBox({3, 0.3F, 0}, {3.4F, 0.8F, 1})
+      .WhiteBox({5, -1, 0}, {5.3F, -0.4F, 0.7F})
+      .Sun({1, 1, 2})
+      .Build();
+}
+
+SimulatedRobotOptions Options(std::uint64_t seed) {
+  SimulatedRobotOptions options;
+  options.camera = *FindCamera("webcam");
+  options.seed = seed;
+  return options;
+}
+
+TEST(SimulatedRobot, SameSeedGivesTheSameObservationsBitForBit) {
+  const auto first = *SimulatedRobot::Create(Place(), Options(4));
+  const auto again = *SimulatedRobot::Create(Place(), Options(4));
+  const auto other = *SimulatedRobot::Create(Place(), Options(5));
+  bool others_differ = false;
+  for (int step = 0; step < 20; ++step) {
+    const motion::VelocityCommand command{0.3, 0.2 * std::sin(step)};
+    const Observation a = first->Step(command);
+    const Observation b = again->Step(command);
+    const Observation c = other->Step(command);
+    ASSERT_EQ(a.image.pixels, b.image.pixels) << step;
+    ASSERT_EQ(a.odometry.x_m, b.odometry.x_m);
+    ASSERT_EQ(a.stamp, b.stamp);
+    others_differ = others_differ || a.image.pixels != c.image.pixels;
+  }
+  EXPECT_TRUE(others_differ);
+  EXPECT_EQ(Judge(*first).true_pose().x_m, Judge(*again).true_pose().x_m);
+}
+
+TEST(SimulatedRobot, ClockRunsAtThirtyHertzFromZero) {
+  const auto robot = *SimulatedRobot::Create(Place(), Options(1));
+  EXPECT_EQ(robot->Step({}).stamp, SensorTime(0));
+  EXPECT_NEAR(Seconds(robot->Step({}).stamp), 1.0 / 30.0, 1e-6);
+}
+
+TEST(SimulatedRobot, ScoutStartsWhereToldAFollowerAboutThere) {
+  SimulatedRobotOptions options = Options(3);
+  options.start = {1.0, 0.5, 0.2};
+  options.disturbances = Disturbances::ForScout();
+  const auto scout = *SimulatedRobot::Create(Place(), options);
+  EXPECT_EQ(Judge(*scout).true_pose().x_m, 1.0);
+  EXPECT_EQ(Judge(*scout).true_pose().heading_rad, 0.2);
+  double largest_m = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    options.seed = seed;
+    options.disturbances = Disturbances();
+    const auto follower = *SimulatedRobot::Create(Place(), options);
+    const auto& pose = Judge(*follower).true_pose();
+    largest_m = std::max(largest_m, std::hypot(pose.x_m - 1.0, pose.y_m - 0.5));
+  }
+  EXPECT_GT(largest_m, 0.05);
+  EXPECT_LT(largest_m, 0.6);
+}
+
+TEST(SimulatedRobot, ExposureOfFollowersStaysWithinItsRange) {
+  double lowest = 9.0;
+  double highest = 0.0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const double gain = DrawRobot(Disturbances(), seed).gain;
+    lowest = std::min(lowest, gain);
+    highest = std::max(highest, gain);
+  }
+  EXPECT_GE(lowest, 0.7);
+  EXPECT_LT(lowest, 0.75);
+  EXPECT_LE(highest, 1.4);
+  EXPECT_GT(highest, 1.3);
+  EXPECT_EQ(DrawRobot(Disturbances::ForScout(), 1).gain, 1.0);
+}
+
+TEST(SimulatedRobot, ShoveMovesItWithoutItsOdometryNoticing) {
+  const auto robot = *SimulatedRobot::Create(Place(), Options(1));
+  const motion::Pose2 before = robot->Step({}).odometry;
+  Judge judge(*robot);
+  const motion::Pose2 from = judge.true_pose();
+  judge.Shove({0.0, 1.0, 0.0});
+  const motion::Pose2 moved = motion::Between(from, judge.true_pose());
+  EXPECT_NEAR(moved.y_m, 1.0, 1e-9);
+  const motion::Pose2 after = robot->Step({}).odometry;
+  EXPECT_EQ(before.x_m, after.x_m);
+  EXPECT_EQ(before.y_m, after.y_m);
+}
+
+TEST(SimulatedRobot, BumperTellsOfAWall) {
+  SimulatedRobotOptions options = Options(1);
+  options.start = {2.6, 0.55, 0.0};
+  options.disturbances = Disturbances::None();
+  const auto robot = *SimulatedRobot::Create(Place(), options);
+  bool blocked = false;
+  for (int step = 0; step < 40; ++step) blocked = robot->Step({0.5, 0.0}).blocked;
+  EXPECT_TRUE(blocked);
+}
+
+TEST(SimulatedRobot, StartWithoutGroundIsRefusedWithTheWorldsExtent) {
+  SimulatedRobotOptions options = Options(1);
+  options.start = {50.0, 0.0, 0.0};
+  options.disturbances = Disturbances::ForScout();
+  const auto robot = SimulatedRobot::Create(Place(), options);
+  ASSERT_FALSE(robot);
+  EXPECT_THAT(robot.error().message, HasSubstr("50.00"));
+  EXPECT_THAT(robot.error().message, HasSubstr("10.00"));
+}
+
+TEST(SimulatedRobot, ImpossibleCameraOrRateIsRefused) {
+  SimulatedRobotOptions options = Options(1);
+  options.camera.width = 3;
+  EXPECT_FALSE(SimulatedRobot::Create(Place(), options));
+  options = Options(1);
+  options.rate_hz = 0.0;
+  EXPECT_FALSE(SimulatedRobot::Create(Place(), options));
+}
+
+TEST(SimulatedRobot, SunOfItsOwnChangesThePicture) {
+  const auto world = Place();
+  SimulatedRobotOptions options = Options(1);
+  const auto morning = *SimulatedRobot::Create(world, options);
+  options.lighting = world->lighting();
+  options.lighting->toward_sun = Eigen::Vector3f(1, -1, 1).normalized();
+  const auto evening = *SimulatedRobot::Create(world, options);
+  EXPECT_NE(morning->Step({}).image.pixels, evening->Step({}).image.pixels);
+}
+
+}  // namespace
+}  // namespace trailcast::sim
