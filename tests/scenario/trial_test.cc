@@ -18,7 +18,7 @@ std::vector<TrialRow> Rows(const Result<std::vector<TrialOutcome>>& outcomes) {
   return rows;
 }
 
-std::vector<TrialRow> Run(const TrialSetup& setup, const TrialOptions& options) {
+std::vector<TrialRow> RunAll(const TrialSetup& setup, const TrialOptions& options) {
   const auto outcomes = RunTrials(setup, options, nullptr);
   EXPECT_TRUE(outcomes.has_value()) << outcomes.error().message;
   return outcomes ? Rows(outcomes) : std::vector<TrialRow>{};
@@ -39,7 +39,7 @@ TEST(Trial, AFollowerWithTheScoutsCameraArrivesIndoors) {
   options.trials = 2;
   const auto setup = PrepareTrials(options);
   ASSERT_TRUE(setup.has_value()) << setup.error().message;
-  const std::vector<TrialRow> rows = Run(*setup, options);
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
   ASSERT_EQ(rows.size(), 2U);
   const TrialSummary summary = Summarize(rows);
   EXPECT_EQ(summary.arrived, 2) << TrialTable(rows);
@@ -61,7 +61,7 @@ TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
   options.trials = 1;
   const auto setup = PrepareTrials(options);
   ASSERT_TRUE(setup.has_value()) << setup.error().message;
-  const std::vector<TrialRow> rows = Run(*setup, options);
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_TRUE(rows.front().arrived) << TrialTable(rows);
   EXPECT_LT(rows.front().verdict.final_error_m, 0.5) << TrialTable(rows);
@@ -86,22 +86,22 @@ TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnThree) {
   options.trials = 3;
   const TrialSetup setup = ShortTrip(options);
   options.jobs = 1;
-  const std::string alone = Repeatable(Run(setup, options));
+  const std::string alone = Repeatable(RunAll(setup, options));
   options.jobs = 3;
-  EXPECT_EQ(Repeatable(Run(setup, options)), alone);
+  EXPECT_EQ(Repeatable(RunAll(setup, options)), alone);
 }
 
 TEST(Trial, OneTrialOfABatchCanBeRepeatedAloneByItsSeed) {
   TrialOptions options;
   options.trials = 2;
   const TrialSetup setup = ShortTrip(options);
-  std::vector<TrialRow> both = Run(setup, options);
+  std::vector<TrialRow> both = RunAll(setup, options);
   ASSERT_EQ(both.size(), 2U);
   EXPECT_NE(both[0].verdict.final_m, both[1].verdict.final_m);  // another draw
   TrialOptions second = options;
   second.trials = 1;
   second.seed = both[1].seed;
-  std::vector<TrialRow> alone = Run(setup, second);
+  std::vector<TrialRow> alone = RunAll(setup, second);
   ASSERT_EQ(alone.size(), 1U);
   alone.front().trial = 2;
   EXPECT_EQ(Repeatable(alone), Repeatable({both[1]}));
