@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -75,7 +76,7 @@ int Run(const CLI::App& app, const TrialOptions& options, const TrialFiles& file
   for (const std::string& warning : setup->world->warnings()) {
     fmt::print(stderr, "{}: {}\n", app.get_name(), warning);
   }
-  LiveLines live(stderr);
+  LiveLines live(stderr, std::chrono::seconds(20));
   const auto outcomes = RunTrials(*setup, options, [&](double share, int ended, int arrived) {
     live.Show({ProgressLine(share, ended, arrived, options.trials)}, ended == options.trials);
   });

@@ -1,0 +1,164 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "agent/tool/child_process.h"
+#include "services/image/files.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::tool {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::filesystem::path kPrograms = TRAILCAST_BINARY_DIR;
+
+bool Within(seconds bound, const std::function<bool()>& predicate) {
+  const auto deadline = std::chrono::steady_clock::now() + bound;
+  while (!predicate()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  return true;
+}
+
+std::string Contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Processes of `program` whose command line names `folder`.
+std::vector<pid_t> ProcessesOf(const std::filesystem::path& folder, const std::string& program) {
+  std::vector<pid_t> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); })) {
+      continue;
+    }
+    const std::string words = Contents(entry.path() / "cmdline");
+    if (words.find(folder.string()) != std::string::npos &&
+        words.find(program) != std::string::npos) {
+      found.push_back(std::stoi(name));
+    }
+  }
+  return found;
+}
+
+// A demo with a temporary folder of the test's own, so that what it leaves there is seen.
+class DemoTest : public ::testing::Test {
+ protected:
+  DemoTest() {
+    std::filesystem::create_directory(scratch());
+    std::filesystem::create_directory(out());
+  }
+  ChildProcess StartDemo() {
+    auto demo =
+        ChildProcess::Start({"/usr/bin/env", "TMPDIR=" + scratch().string(),
+                             (kPrograms / "trailcast").string(), "demo", "--out", out().string()},
+                            log());
+    EXPECT_TRUE(demo.has_value());
+    return std::move(*demo);
+  }
+  [[nodiscard]] std::filesystem::path scratch() const { return folder_ / "scratch"; }
+  [[nodiscard]] std::filesystem::path out() const { return folder_ / "out"; }
+  [[nodiscard]] std::filesystem::path log() const { return folder_ / "demo.log"; }
+  [[nodiscard]] std::vector<pid_t> Fleet() const {
+    std::vector<pid_t> fleet = ProcessesOf(scratch(), "trailcast-agent");
+    for (const pid_t server : ProcessesOf(scratch(), "trailcast-server")) fleet.push_back(server);
+    return fleet;
+  }
+  [[nodiscard]] std::vector<std::string> Left(const std::filesystem::path& in) const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(in)) {
+      names.push_back(entry.path().filename());
+    }
+    return names;
+  }
+
+ private:
+  test::TempDir folder_;
+};
+
+TEST_F(DemoTest, AllRobotsArriveAndNothingButThePictureIsLeft) {
+  ChildProcess demo = StartDemo();
+  ASSERT_TRUE(Within(seconds(280), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  EXPECT_TRUE(demo.Poll()->ok()) << Contents(log());
+  const std::string text = Contents(log());
+  for (const char* robot : {"scout", "follower-1", "follower-2", "follower-3"}) {
+    EXPECT_THAT(text, HasSubstr(robot));
+  }
+  EXPECT_THAT(Left(out()), ::testing::ElementsAre("trailcast-demo.png"));
+  const auto picture = image::ReadRgb(out() / "trailcast-demo.png");
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_GT(picture->width, 400);
+  EXPECT_THAT(Left(scratch()), IsEmpty());
+  EXPECT_THAT(Fleet(), IsEmpty());
+}
+
+TEST_F(DemoTest, WhenInterruptedItEndsAllItsProcessesAndTakesItsFilesAway) {
+  ChildProcess demo = StartDemo();
+  // One server and four agents, well under way: the server's store is on disk.
+  ASSERT_TRUE(Within(seconds(60), [&] {
+    if (Fleet().size() != 5) return false;
+    const std::vector<std::string> folders = Left(scratch());
+    return folders.size() == 1 &&
+           std::filesystem::exists(scratch() / folders.front() / "server.db");
+  })) << Contents(log());
+  const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
+  ASSERT_EQ(demos.size(), 1U);
+  ASSERT_EQ(kill(demos.front(), SIGINT), 0);
+  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  EXPECT_EQ(demo.Poll()->code, 130);
+  EXPECT_THAT(Contents(log()), HasSubstr("interrupted"));
+  EXPECT_THAT(Fleet(), IsEmpty());
+  EXPECT_THAT(Left(scratch()), IsEmpty());
+  EXPECT_THAT(Left(out()), IsEmpty());
+}
+
+TEST_F(DemoTest, WhenItIsKilledItsProcessesDieWithIt) {
+  ChildProcess demo = StartDemo();
+  ASSERT_TRUE(Within(seconds(60), [&] { return Fleet().size() == 5; })) << Contents(log());
+  const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
+  ASSERT_EQ(demos.size(), 1U);
+  ASSERT_EQ(kill(demos.front(), SIGKILL), 0);
+  EXPECT_TRUE(Within(seconds(30), [&] { return Fleet().empty(); }));
+}
+
+TEST_F(DemoTest, WhenTheServerDiesItSaysSoAndEnds) {
+  ChildProcess demo = StartDemo();
+  ASSERT_TRUE(Within(seconds(60), [&] { return Fleet().size() == 5; })) << Contents(log());
+  const std::vector<pid_t> servers = ProcessesOf(scratch(), "trailcast-server");
+  ASSERT_EQ(servers.size(), 1U);
+  ASSERT_EQ(kill(servers.front(), SIGKILL), 0);
+  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  EXPECT_EQ(demo.Poll()->code, 1);
+  EXPECT_THAT(Contents(log()), HasSubstr("the route server ended by signal 9"));
+  EXPECT_THAT(Fleet(), IsEmpty());
+  EXPECT_THAT(Left(scratch()), IsEmpty());
+}
+
+TEST_F(DemoTest, AskingForRoutesWhereThereIsNoServerFailsAndSaysWhy) {
+  auto routes = ChildProcess::Start(
+      {(kPrograms / "trailcast").string(), "routes", "--timeout", "0.5", "--network-interface",
+       "lo", "--dds-tag", "nobody-" + scratch().parent_path().filename().string()},
+      log());
+  ASSERT_TRUE(routes.has_value());
+  ASSERT_TRUE(Within(seconds(60), [&] { return routes->Poll().has_value(); }));
+  EXPECT_EQ(routes->Poll()->code, 1);
+  EXPECT_THAT(Contents(log()), HasSubstr("no route server answered"));
+}
+
+}  // namespace
+}  // namespace trailcast::tool

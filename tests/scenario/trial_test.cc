@@ -1,0 +1,142 @@
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "agent/tool/trial_batch.h"
+#include "agent/tool/trial_report.h"
+
+namespace trailcast::tool {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::vector<TrialRow> Rows(const Result<std::vector<TrialOutcome>>& outcomes) {
+  std::vector<TrialRow> rows;
+  for (const TrialOutcome& outcome : *outcomes) rows.push_back(outcome.row);
+  return rows;
+}
+
+std::vector<TrialRow> RunAll(const TrialSetup& setup, const TrialOptions& options) {
+  const auto outcomes = RunTrials(setup, options, nullptr);
+  EXPECT_TRUE(outcomes.has_value()) << outcomes.error().message;
+  return outcomes ? Rows(outcomes) : std::vector<TrialRow>{};
+}
+
+// The rows as text, without the one figure that varies from run to run.
+std::string Repeatable(std::vector<TrialRow> rows) {
+  std::string text;
+  for (TrialRow& row : rows) {
+    row.ms_per_frame = 0.0;
+    text += TrialCsvLine(row) + "\n";
+  }
+  return text;
+}
+
+TEST(Trial, AFollowerWithTheScoutsCameraArrivesIndoors) {
+  TrialOptions options;
+  options.trials = 2;
+  const auto setup = PrepareTrials(options);
+  ASSERT_TRUE(setup.has_value()) << setup.error().message;
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
+  ASSERT_EQ(rows.size(), 2U);
+  const TrialSummary summary = Summarize(rows);
+  EXPECT_EQ(summary.arrived, 2) << TrialTable(rows);
+  EXPECT_LT(summary.largest_final_error_m, 0.5) << TrialTable(rows);
+  EXPECT_LT(summary.max_path_error_m, 0.5) << TrialTable(rows);
+  EXPECT_LT(summary.bytes_per_m, 5000.0) << TrialTable(rows);
+  EXPECT_GT(rows.front().taught_m, 14.0);
+}
+
+TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
+  const std::filesystem::path shop =
+      std::filesystem::path(TRAILCAST_SOURCE_DIR) / "../shared/worlds/bookstore";
+  if (!std::filesystem::exists(shop / "world.obj")) {
+    GTEST_SKIP() << "no world to drive in at " << shop << ": nothing was tried";
+  }
+  TrialOptions options;
+  options.world_file = shop / "world.obj";
+  options.path_file = shop / "path.csv";
+  options.trials = 1;
+  const auto setup = PrepareTrials(options);
+  ASSERT_TRUE(setup.has_value()) << setup.error().message;
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows.front().arrived) << TrialTable(rows);
+  EXPECT_LT(rows.front().verdict.final_error_m, 0.5) << TrialTable(rows);
+}
+
+// The first two metres of the indoor path, seen coarsely: enough to compare runs with one another.
+TrialSetup ShortTrip(const TrialOptions& options) {
+  auto setup = PrepareTrials(options);
+  EXPECT_TRUE(setup.has_value()) << setup.error().message;
+  const Eigen::Vector2d start = setup->path.points[0];
+  const Eigen::Vector2d ahead = (setup->path.points[1] - start).normalized();
+  setup->path.points = {start, start + 2.0 * ahead};
+  for (sim::CameraModel* camera : {&setup->scout_camera, &setup->follower_camera}) {
+    camera->width = 160;
+    camera->height = 120;
+  }
+  return *setup;
+}
+
+TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnThree) {
+  TrialOptions options;
+  options.trials = 3;
+  const TrialSetup setup = ShortTrip(options);
+  options.jobs = 1;
+  const std::string alone = Repeatable(RunAll(setup, options));
+  options.jobs = 3;
+  EXPECT_EQ(Repeatable(RunAll(setup, options)), alone);
+}
+
+TEST(Trial, OneTrialOfABatchCanBeRepeatedAloneByItsSeed) {
+  TrialOptions options;
+  options.trials = 2;
+  const TrialSetup setup = ShortTrip(options);
+  std::vector<TrialRow> both = RunAll(setup, options);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_NE(both[0].verdict.final_m, both[1].verdict.final_m);  // another draw
+  TrialOptions second = options;
+  second.trials = 1;
+  second.seed = both[1].seed;
+  std::vector<TrialRow> alone = RunAll(setup, second);
+  ASSERT_EQ(alone.size(), 1U);
+  alone.front().trial = 2;
+  EXPECT_EQ(Repeatable(alone), Repeatable({both[1]}));
+}
+
+TEST(Trial, APathThroughAWallIsAnErrorThatSaysHowFarItGoes) {
+  TrialOptions options;
+  options.trials = 1;
+  TrialSetup setup = ShortTrip(options);
+  const Eigen::Vector2d start = setup.path.points[0];
+  setup.path.points[1] = start + 100.0 * (setup.path.points[1] - start);
+  setup.speed_mps = 1.0;
+  const auto outcomes = RunTrials(setup, options, nullptr);
+  ASSERT_FALSE(outcomes.has_value());
+  EXPECT_THAT(outcomes.error().message, HasSubstr("the scout gets no further than"));
+}
+
+TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
+  const auto message = [](const TrialOptions& options) {
+    const auto setup = PrepareTrials(options);
+    return setup ? std::string("no error") : setup.error().message;
+  };
+  TrialOptions scenario;
+  scenario.scenario = "moon";
+  EXPECT_THAT(message(scenario), AllOf(HasSubstr("moon"), HasSubstr("indoor")));
+  TrialOptions method;
+  method.method = "magic";
+  EXPECT_THAT(message(method), AllOf(HasSubstr("magic"), HasSubstr("default, paper")));
+  TrialOptions camera;
+  camera.follower_camera = "periscope";
+  EXPECT_THAT(message(camera), AllOf(HasSubstr("periscope"), HasSubstr("webcam")));
+  TrialOptions pathless;
+  pathless.world_file = "place.glb";
+  EXPECT_THAT(message(pathless), HasSubstr("--path"));
+}
+
+}  // namespace
+}  // namespace trailcast::tool
