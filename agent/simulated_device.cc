@@ -8,6 +8,7 @@
 
 #include "agent/camera_file.h"
 #include "agent/text_file.h"
+#include "services/sim/indoor_world.h"
 #include "services/sim/judge.h"
 #include "services/sim/load_world.h"
 #include "services/sim/path.h"
@@ -17,26 +18,41 @@
 namespace trailcast::agent {
 namespace {
 
-struct Place {
-  std::shared_ptr<const sim::World> world;
-  sim::DrivenPath path;
-};
+constexpr const char* kIndoor = "indoor";
 
-Result<Place> OpenPlace(const SimulatedRun& run) {
+Result<std::shared_ptr<const sim::World>> LoadFile(const SimulatedRun& run) {
   auto up = sim::ParseUpAxis(run.up);
   if (!up) return tl::unexpected(up.error());
   auto ground = sim::ParseGroundMode(run.ground);
   if (!ground) return tl::unexpected(ground.error());
-  if (run.path.empty()) {
-    return Fail(ErrorCode::kInvalidArgument, "world file {} has no path of its own: give --path",
-                run.world);
+  auto world = sim::LoadWorld({run.world, *up, run.scale, *ground});
+  if (!world) {
+    return Fail(world.error().code, "{} (built-in worlds: {})", world.error().message, kIndoor);
   }
+  for (const std::string& warning : (*world)->warnings()) spdlog::warn("{}", warning);
+  return world;
+}
+
+Result<sim::BuiltInWorld> OpenPlace(const SimulatedRun& run) {
+  sim::BuiltInWorld place;
+  if (run.world == kIndoor) {
+    auto built = sim::MakeIndoorWorld();
+    if (!built) return built;
+    place = std::move(*built);
+  } else if (run.path.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the world {} has no path of its own: give --path (built-in worlds: {})",
+                run.world, kIndoor);
+  } else {
+    auto world = LoadFile(run);
+    if (!world) return tl::unexpected(world.error());
+    place.world = std::move(*world);
+  }
+  if (run.path.empty()) return place;
   auto path = sim::ReadPath(run.path);
   if (!path) return tl::unexpected(path.error());
-  auto world = sim::LoadWorld({run.world, *up, run.scale, *ground});
-  if (!world) return tl::unexpected(world.error());
-  for (const std::string& warning : (*world)->warnings()) spdlog::warn("{}", warning);
-  return Place{std::move(*world), std::move(*path)};
+  place.path = std::move(*path);
+  return place;
 }
 
 struct TruePose {

@@ -1,0 +1,135 @@
+// Scout, server and follower as processes over DDS on the loopback interface.
+#include "tests/scenario/programs.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class SharingTest : public ProgramsTest {};
+
+TEST_F(SharingTest, AFollowerReplaysWhatAScoutTaught) {
+  const auto server = Server();
+  const auto scout =
+      RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}));
+  ASSERT_EQ(scout.status, 0) << scout.output;
+  EXPECT_THAT(scout.output, HasSubstr("unreceipted=0"));
+  const auto follower =
+      RunAgent(With(ReplayWords(Walk("seen", kFollowerFrames), "follower.db"),
+                    {"--server", "--csv", Path("out.csv"), "--report", Path("report.txt")}));
+  EXPECT_EQ(follower.status, 0) << follower.output;
+  EXPECT_THAT(follower.output, HasSubstr("state=ARRIVED"));
+  EXPECT_TRUE(std::filesystem::exists(Path("out.csv")));
+  EXPECT_TRUE(std::filesystem::exists(Path("report.txt")));
+  server->Signal(SIGTERM);
+  EXPECT_EQ(End(*server).status, 0);
+}
+
+TEST_F(SharingTest, AFollowerMayBeThereBeforeServerAndScout) {
+  const auto follower = Agent(With(ReplayWords(Walk("seen", kFollowerFrames), "follower.db"),
+                                   {"--server", "--wait-for-route"}),
+                              "follower");
+  ASSERT_TRUE(follower->WaitForOutput("asking for route 'hall'")) << follower->output();
+  const auto server = Server();
+  const auto scout =
+      RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}));
+  EXPECT_EQ(scout.status, 0) << scout.output;
+  EXPECT_EQ(End(*follower).status, 0) << follower->output();
+}
+
+TEST_F(SharingTest, AScoutDeliversToAServerThatComesLate) {
+  const auto scout = Agent(
+      With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}), "scout");
+  ASSERT_TRUE(scout->WaitForOutput("waiting for a server's receipts")) << scout->output();
+  const auto server = Server();
+  EXPECT_EQ(End(*scout).status, 0) << scout->output();
+}
+
+TEST_F(SharingTest, AScoutWithoutAServerKeepsTheRouteAndDeliversItAnotherTime) {
+  const auto alone = RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"),
+                                   {"--server", "--delivery-timeout", "0.5"}));
+  EXPECT_EQ(alone.status, 1);
+  EXPECT_THAT(alone.output, HasSubstr("segments not receipted, kept in " + Path("scout.db")));
+  const auto server = Server();
+  const auto again = RunAgent({"deliver", "--store", Path("scout.db")});
+  EXPECT_EQ(again.status, 0) << again.output;
+  const auto follower =
+      RunAgent(With(ReplayWords(Walk("seen", kFollowerFrames), "follower.db"), {"--server"}));
+  EXPECT_EQ(follower.status, 0) << follower.output;
+}
+
+TEST_F(SharingTest, AServerThatWasKilledStillHasWhatItConfirmed) {
+  auto server = Server();
+  const auto scout =
+      RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}));
+  ASSERT_EQ(scout.status, 0) << scout.output;
+  server->Signal(SIGKILL);
+  EXPECT_EQ(End(*server).status, 128 + SIGKILL);
+  server = Server("server.db", "server2");
+  const auto follower =
+      RunAgent(With(ReplayWords(Walk("seen", kFollowerFrames), "follower.db"), {"--server"}));
+  EXPECT_EQ(follower.status, 0) << follower.output;
+}
+
+TEST_F(SharingTest, ARouteNobodyTaughtIsNamedWithThoseThereAre) {
+  const auto server = Server();
+  ASSERT_EQ(RunAgent(With(TeachWords(Walk("walk", kTaughtFrames), "scout.db"), {"--server"})).status,
+            0);
+  const auto run = RunAgent({"replay", "--frames", Path("walk"), "--route", "hell", "--store",
+                             Path("follower.db"), "--server"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.output, AllOf(HasSubstr("no route 'hell'"), HasSubstr("hall")));
+}
+
+TEST_F(SharingTest, AFollowerThatNoServerAnswersSaysSo) {
+  const auto run = RunAgent(
+      With(ReplayWords(Walk("walk", 2), "follower.db"), {"--server", "--wait", "0.5"}));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.output, HasSubstr("no server answered"));
+}
+
+TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
+  const auto walk = Walk("walk", 2);
+  const auto first =
+      Agent(With(ReplayWords(walk, "a.db"), {"--server", "--name", "robot"}), "first");
+  ASSERT_TRUE(first->WaitForOutput("asking for route")) << first->output();
+  const auto second =
+      RunAgent(With(ReplayWords(walk, "b.db"), {"--server", "--name", "robot"}));
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.output, AllOf(HasSubstr("agent name 'robot' is already used"),
+                                   HasSubstr("choose another with --name")));
+  EXPECT_FALSE(first->Ended()) << first->output();
+
+  const auto server = Server();
+  const auto other = Start("trailcast-server", {"--store", Path("other.db")}, "other");
+  EXPECT_EQ(End(*other).status, 1);
+  EXPECT_THAT(other->output(), HasSubstr("name 'server' is already used"));
+}
+
+TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
+  const auto scout = Agent({"teach", "--sim", "indoor", "--route", "hall", "--store",
+                            Path("scout.db")},
+                           "scout");
+  ASSERT_TRUE(scout->WaitForOutput("segment 0 of 'hall'")) << scout->output();
+  scout->Signal(SIGINT);
+  const auto ended = End(*scout);
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("segments="));
+  const auto other = RunAgent(
+      {"replay", "--frames", Walk("walk", 2), "--route", "hell", "--store", Path("scout.db")});
+  EXPECT_THAT(other.output, HasSubstr("it has: hall"));
+}
+
+TEST_F(SharingTest, AnInterruptedFollowerEndsSoonAndSaysSo) {
+  const auto follower =
+      Agent(With(ReplayWords(Walk("walk", 2), "a.db"), {"--server"}), "follower");
+  ASSERT_TRUE(follower->WaitForOutput("asking for route")) << follower->output();
+  follower->Signal(SIGTERM);
+  const auto ended = End(*follower);
+  EXPECT_EQ(ended.status, 3) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("state=STOPPED"));
+}
+
+}  // namespace
+}  // namespace trailcast::test
