@@ -35,8 +35,8 @@ vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
                                           const route::Segment& segment, double s) const {
   const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
   if (coarse.matches == 0) return {};
-  return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit),
-                          coarse.fit.scale, kAfterWide);
+  return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit), coarse.fit.scale,
+                          kAfterWide);
 }
 
 std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& frame,
@@ -76,9 +76,9 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
   follower.SetMagnification(*middle);
 }
 
-std::optional<HandOver::Recovered> HandOver::Recover(
-    const image::GrayImage& frame, double magnification,
-    std::span<const route::Segment> ahead) const {
+std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
+                                                     double magnification,
+                                                     std::span<const route::Segment> ahead) const {
   Recovered best;
   const auto keep_better = [&](std::size_t segment, vision::FindResult found) {
     if (found.features.size() > best.features.size()) best = {segment, std::move(found.features)};
@@ -88,8 +88,8 @@ std::optional<HandOver::Recovered> HandOver::Recover(
     for (const double s : {0.0, 0.5, 1.0}) {
       if (i > 0 && s > 0.0) continue;
       keep_better(i, finder_.FindNear(frame, ahead[i].features,
-                                      Places(ahead[i], s, {magnification, 0.0, 0.0}),
-                                      magnification, kRadius));
+                                      Places(ahead[i], s, {magnification, 0.0, 0.0}), magnification,
+                                      kRadius));
       if (any_camera_) keep_better(i, FindAnywhere(frame, ahead[i], s));
     }
   }

@@ -13,8 +13,8 @@
 
 namespace trailcast::agent {
 
-// Finds a segment's stored features in the follower's picture, whatever its camera, and learns how the
-// two cameras' magnifications compare.
+// Finds a segment's stored features in the follower's picture, whatever its camera, and learns how
+// the two cameras' magnifications compare.
 class HandOver {
  public:
   // `any_camera`: look for other magnifications too; false for the paper's method, which takes the

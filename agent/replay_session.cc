@@ -28,9 +28,6 @@ constexpr int kLookAgain_frames = 5;
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
-// Segments whose milestone was not noticed: gone on by odometry so far past the taught length.
-constexpr double kOverrunShare = 0.25;
-constexpr double kOverrun_m = 0.3;
 
 std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& options,
                                                bool by_odometry, int scout_width_px,
@@ -75,7 +72,6 @@ struct ReplaySession::State {
   vision::FeatureTracker tracker;
   std::optional<HandOver> hand_over;
   std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
-  double driven_in_segment_m = 0.0;
   std::optional<motion::Pose2> last_odometry;
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
@@ -87,7 +83,6 @@ struct ReplaySession::State {
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
   void Begin(std::size_t index, const image::GrayImage& frame);
-  [[nodiscard]] bool Overrun() const;
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
   void Refresh(const image::GrayImage& frame);
@@ -118,15 +113,8 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   follower->Begin(segment);
   tracker.Follow(hand_over->ToSegment(frame, *follower));
   frames_since_find = 0;
-  driven_in_segment_m = 0.0;
   state = ReplayState::kFollowing;
   reason.clear();
-}
-
-bool ReplaySession::State::Overrun() const {
-  const route::Segment& segment = follower->segment();
-  return last_odometry && segment.has_odometry &&
-         driven_in_segment_m > segment.length_m * (1.0 + kOverrunShare) + kOverrun_m;
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -151,7 +139,6 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   if (!seen) return;
   if (seen->segment != 0) {
     follower->Begin(ahead[seen->segment]);
-    driven_in_segment_m = 0.0;
   }
   tracker.Follow(seen->features);
 }
@@ -250,11 +237,13 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
     s.Begin(next, frame);
     return s.Report(s.follower->Step({s.tracker.Current(), odometry}));
   }
-  s.driven_in_segment_m += odometry ? odometry->distance_m : 0.0;
   const replay::FollowStep step = s.follower->Step({tracked, odometry});
   s.JudgeSight(tracked.size(), odometry, frame);
   s.Refresh(frame);
-  if (s.state != ReplayState::kLost && (step.ended || s.Overrun())) s.EndSegment(frame);
+  const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
+  if (s.state != ReplayState::kLost && (step.ended || (step.wants_next && next_is_here))) {
+    s.EndSegment(frame);
+  }
   return s.Report(step);
 }
 

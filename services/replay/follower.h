@@ -24,11 +24,13 @@ struct FollowStep {
   double vision_turn_rad = 0.0;
   double odometry_turn_rad = 0.0;
   double roll_rad = 0.0;
-  double delta = 0.0;        // equation (2), where the method has it
+  double delta = 0.0;  // equation (2), where the method has it
   double delta_minus = 0.0;
   int agreeing = 0;       // features that fit what the route says
   double fraction = 0.0;  // of the segment, 0..1
   bool ended = false;     // the milestone has been passed
+  // Few of this segment's features are left in view: go on with the next one's, if they are there.
+  bool wants_next = false;
 };
 
 // Follows a route segment by segment. No clock, no camera, no thread.

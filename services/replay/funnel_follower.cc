@@ -67,7 +67,7 @@ FunnelFollower::FunnelFollower(int scout_width_px, double magnification,
 
 void FunnelFollower::Begin(const route::Segment& segment) {
   // The last segment ended where delta was highest; what was driven since belongs to this one.
-  if (segment.index.value() == segment_.index.value() + 1) {
+  if (begun_ && segment.index.value() == segment_.index.value() + 1) {
     driven_.distance_m -= driven_at_peak_.distance_m;
     driven_.heading_change_rad -= driven_at_peak_.heading_change_rad;
   } else {
@@ -78,14 +78,15 @@ void FunnelFollower::Begin(const route::Segment& segment) {
   transition_ = TransitionDetector(options_.transition);
   visual_fraction_ = MedianFilter(kFractionMedian);
   fraction_ = 0.0;
+  begun_ = true;
 }
 
 std::vector<route::TrackedFeature> FunnelFollower::Expect() const {
   std::vector<route::TrackedFeature> places;
   for (std::size_t i = 0; i < segment_.features.size(); ++i) {
     const route::TrackKnot taught = route::TaughtPlace(segment_.features[i], fraction_);
-    places.push_back({static_cast<int>(i), magnification_ * taught.u_px,
-                      magnification_ * taught.v_px});
+    places.push_back(
+        {static_cast<int>(i), magnification_ * taught.u_px, magnification_ * taught.v_px});
   }
   return places;
 }
@@ -143,7 +144,9 @@ bool FunnelFollower::Ended(const Matched& matched, bool by_odometry, FollowStep&
   step.delta = transition_.delta();
   step.delta_minus = transition_.delta_minus();
   step.fraction = fraction_ = Fraction(matched, by_odometry);
-  return fallen || (!by_odometry && fraction_ >= options_.end_fraction_without_odometry);
+  const double longest_m = segment_.length_m * (1.0 + options_.overrun_share) + options_.overrun_m;
+  return fallen || (by_odometry ? driven_.distance_m > longest_m
+                                : fraction_ >= options_.end_fraction_without_odometry);
 }
 
 double FunnelFollower::OdometryTurn(double speed_mps) const {

@@ -25,6 +25,9 @@ struct FunnelFollowerOptions {
   // the segment then also ends at this much of the taught tracks, a little early, because past the
   // milestone its features ask for the wrong turn.
   double end_fraction_without_odometry = 0.85;
+  // A milestone that went by unnoticed: the segment ends so far past its taught length.
+  double overrun_share = 0.25;
+  double overrun_m = 0.3;
   // Floors under equation (2)'s sigmas: a straight or very short segment would otherwise let the
   // odometry's noise decide.
   double min_distance_sigma_m = 0.2;
@@ -64,6 +67,7 @@ class FunnelFollower final : public Follower {
   TransitionDetector transition_;
   MedianFilter visual_fraction_;
   double fraction_ = 0.0;
+  bool begun_ = false;
 };
 
 }  // namespace trailcast::replay

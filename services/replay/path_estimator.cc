@@ -11,7 +11,8 @@ namespace trailcast::replay {
 namespace {
 
 constexpr int kIterations = 4;
-constexpr double kSlopeStep = 0.02;  // of a segment, for a track's flow
+constexpr double kFlowStep_m = 0.02;  // over which a track's flow is taken
+constexpr double kCurvatureStep_m = 0.1;
 
 double Square(double x) { return x * x; }
 
@@ -26,6 +27,8 @@ PathEstimator::PathEstimator(int scout_width_px, double magnification,
 
 void PathEstimator::Begin(const route::Segment& segment) {
   state_[kAlong] -= segment_.length_m;
+  last_heading_ = segment_.heading;
+  last_length_m_ = segment_.length_m;
   segment_ = segment;
   depths_.clear();
   for (const route::Feature& feature : segment_.features) {
@@ -38,6 +41,31 @@ void PathEstimator::Restart(const route::Segment& segment) {
   BeUnsure();
   state_[kAlong] = segment_.length_m;
   Begin(segment);
+  last_heading_ = {};
+}
+
+double PathEstimator::TaughtHeading(double along_m) const {
+  if (along_m >= 0.0) return route::HeadingAt(segment_.heading, along_m);
+  return route::HeadingAt(last_heading_, last_length_m_ + along_m) -
+         route::HeadingAt(last_heading_, last_length_m_);
+}
+
+double PathEstimator::TaughtTurn(double from_m, double to_m) const {
+  return TaughtHeading(to_m) - TaughtHeading(from_m);
+}
+
+// A feature's taught place; before the segment's start, where its depth and the taught turn put it.
+route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m) const {
+  const route::Feature& feature = segment_.features[index];
+  if (along_m >= 0.0) {
+    return route::TaughtPlace(feature, along_m / std::max(1e-3, segment_.length_m));
+  }
+  const double shrink = 1.0 / (1.0 - depths_[index].at_start_per_m * along_m);
+  const double u = shrink * feature.first().u_px;
+  const double v = shrink * feature.first().v_px;
+  const double heading_rad = TaughtHeading(along_m);
+  return {0.0F, static_cast<float>(u + focal_px_ * heading_rad * (1.0 + Square(u / focal_px_))),
+          static_cast<float>(v + heading_rad * u * v / focal_px_)};
 }
 
 void PathEstimator::BeUnsure() {
@@ -45,7 +73,8 @@ void PathEstimator::BeUnsure() {
   covariance_(kLeft, kLeft) = Square(options_.start_left_m);
   covariance_(kHeading, kHeading) = Square(options_.start_heading_rad);
   covariance_(kAlong, kAlong) = Square(options_.start_along_m);
-  covariance_(kMagnification, kMagnification) = Square(options_.start_magnification * state_[kMagnification]);
+  covariance_(kMagnification, kMagnification) =
+      Square(options_.start_magnification * state_[kMagnification]);
   covariance_(kMountYaw, kMountYaw) = Square(options_.mount_yaw_rad);
   covariance_(kRoll, kRoll) = Square(options_.roll_rad);
   covariance_(kPitch, kPitch) = Square(options_.pitch_rad);
@@ -55,14 +84,15 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
   // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
-  const double curvature = (route::HeadingAt(segment_.heading, before_m + 0.05) -
-                            route::HeadingAt(segment_.heading, before_m - 0.05)) / 0.1;
+  const double curvature =
+      TaughtTurn(before_m - 0.5 * kCurvatureStep_m, before_m + 0.5 * kCurvatureStep_m) /
+      kCurvatureStep_m;
   const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
   const double along_m = moved.distance_m * std::cos(alpha) / stretch;
-  const double turned = route::HeadingAt(segment_.heading, before_m + along_m) -
-                        route::HeadingAt(segment_.heading, before_m);
+  const double turned = TaughtTurn(before_m, before_m + along_m);
   state_[kAlong] += along_m;
-  state_[kLeft] += moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned);
+  state_[kLeft] +=
+      moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned);
   state_[kHeading] += moved.heading_change_rad - turned;
 
   Covariance f = Covariance::Identity();
@@ -86,16 +116,14 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
 
 PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
                                                         const State& state) const {
-  const route::Feature& feature = segment_.features[index];
-  const double length_m = std::max(1e-3, segment_.length_m);
-  const double s = state[kAlong] / length_m;
-  const route::TrackKnot taught = route::TaughtPlace(feature, s);
-  const route::TrackKnot ahead = route::TaughtPlace(feature, s + kSlopeStep);
+  const double along_m = state[kAlong];
+  const route::TrackKnot taught = TaughtPlaceAt(index, along_m);
+  const route::TrackKnot ahead = TaughtPlaceAt(index, along_m + kFlowStep_m);
   const double u = taught.u_px;
   const double v = taught.v_px;
   const double f = focal_px_;
   const double k = state[kMagnification];
-  const double rho = depths_[index].At(std::clamp(state[kAlong], 0.0, length_m));
+  const double rho = depths_[index].At(std::min(along_m, segment_.length_m));
   const double alpha = state[kHeading] + state[kMountYaw];
   const double widened = f * (1.0 + u * u / (f * f));
   const double scout_u = u + widened * alpha + f * rho * state[kLeft] - v * state[kRoll];
@@ -106,12 +134,12 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   p.du[kLeft] = k * f * rho;
   p.du[kHeading] = k * widened;
   p.du[kMountYaw] = k * widened;
-  p.du[kAlong] = k * (ahead.u_px - taught.u_px) / (kSlopeStep * length_m);
+  p.du[kAlong] = k * (ahead.u_px - taught.u_px) / kFlowStep_m;
   p.du[kMagnification] = scout_u;
   p.du[kRoll] = -k * v;
   p.dv[kHeading] = k * u * v / f;
   p.dv[kMountYaw] = p.dv[kHeading];
-  p.dv[kAlong] = k * (ahead.v_px - taught.v_px) / (kSlopeStep * length_m);
+  p.dv[kAlong] = k * (ahead.v_px - taught.v_px) / kFlowStep_m;
   p.dv[kMagnification] = scout_v;
   p.dv[kRoll] = k * u;
   p.dv[kPitch] = k * f;
@@ -139,7 +167,8 @@ int PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
       const double robust = 1.0 / (1.0 + Square(residual_px / options_.cauchy_px));
       const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
       const double noise_v = Square(scale * options_.feature_noise_px);
-      information += robust * (p.du.transpose() * p.du / noise_u + p.dv.transpose() * p.dv / noise_v);
+      information +=
+          robust * (p.du.transpose() * p.du / noise_u + p.dv.transpose() * p.dv / noise_v);
       gradient += robust * (p.du.transpose() * ru / noise_u + p.dv.transpose() * rv / noise_v);
     }
     state_ += information.ldlt().solve(gradient);

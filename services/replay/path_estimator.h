@@ -17,8 +17,8 @@ struct PathOffset {
 };
 
 struct PathEstimatorOptions {
-  // The scout's focal length as a share of its picture's width: a usual webcam's. Off by a third, it
-  // changes the estimate little, because a taught track is its own measure.
+  // The scout's focal length as a share of its picture's width: a usual webcam's. Off by a third,
+  // it changes the estimate little, because a taught track is its own measure.
   double focal_share = 0.87;
   // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
   // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
@@ -40,16 +40,17 @@ struct PathEstimatorOptions {
   double pitch_rad = 0.05;
 };
 
-// The widened funnel: the funnel lane's inequality made an equation. With its taught flow known, each
-// feature says not only on which side the robot is but how far: near ones speak of the offset, far
-// ones of the heading. An iterated Kalman filter over (offset, heading, progress, magnification,
-// mount yaw), and each frame's own roll and pitch. Pixels are those of the follower's own camera,
-// from its image centre.
+// The widened funnel: the funnel lane's inequality made an equation. With its taught flow known,
+// each feature says not only on which side the robot is but how far: near ones speak of the offset,
+// far ones of the heading. An iterated Kalman filter over (offset, heading, progress,
+// magnification, mount yaw), and each frame's own roll and pitch. Pixels are those of the
+// follower's own camera, from its image centre.
 class PathEstimator {
  public:
   PathEstimator(int scout_width_px, double magnification, const PathEstimatorOptions& options = {});
 
-  // The next segment begins where the last one ended; its features are seen from here on.
+  // The next segment begins where the last one ends; its features are seen from here on, also while
+  // its start is still ahead (`along_m` is negative until then).
   void Begin(const route::Segment& segment);
   // Begins a segment at its start, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment);
@@ -62,6 +63,8 @@ class PathEstimator {
 
   [[nodiscard]] PathOffset offset() const;
   [[nodiscard]] double offset_sigma_m() const;
+  // Taught change of heading between two places of the segment, before its start by the last one's.
+  [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }
   void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
   [[nodiscard]] double roll_rad() const { return roll_rad_; }
@@ -69,7 +72,17 @@ class PathEstimator {
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const;
 
  private:
-  enum Index { kLeft, kHeading, kAlong, kMagnification, kMountYaw, kCarried, kRoll = kCarried, kPitch, kSize };
+  enum Index {
+    kLeft,
+    kHeading,
+    kAlong,
+    kMagnification,
+    kMountYaw,
+    kCarried,
+    kRoll = kCarried,
+    kPitch,
+    kSize
+  };
   using State = Eigen::Matrix<double, kSize, 1>;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using Row = Eigen::Matrix<double, 1, kSize>;
@@ -82,11 +95,15 @@ class PathEstimator {
     double depth_sigma_px = 0.0;  // what not knowing the depth makes of it
   };
   void BeUnsure();
+  [[nodiscard]] double TaughtHeading(double along_m) const;
+  [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;
 
   PathEstimatorOptions options_;
   double focal_px_;  // the scout's
   route::Segment segment_;
+  route::HeadingPolynomial last_heading_;  // of the segment before this one
+  double last_length_m_ = 0.0;
   std::vector<InverseDepth> depths_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();

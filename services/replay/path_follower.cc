@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/route/heading.h"
-
 namespace trailcast::replay {
 namespace {
 
@@ -28,11 +26,8 @@ void PathFollower::Begin(const route::Segment& segment) {
   begun_ = true;
 }
 
-double PathFollower::TaughtCurvature(double along_m) const {
-  const double at_m = std::clamp(along_m, 0.0, segment_.length_m);
-  return (route::HeadingAt(segment_.heading, at_m + 0.5 * kCurvatureStep_m) -
-          route::HeadingAt(segment_.heading, at_m - 0.5 * kCurvatureStep_m)) /
-         kCurvatureStep_m;
+void PathFollower::SetMagnification(double magnification) {
+  if (!settled_) estimator_.SetMagnification(magnification);
 }
 
 FollowStep PathFollower::Step(const FollowInput& input) {
@@ -42,14 +37,20 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.roll_rad = estimator_.roll_rad();
   const PathOffset offset = estimator_.offset();
   const double speed_mps = options_.speed_factor * segment_.speed_mps();
-  const double curvature = TaughtCurvature(offset.along_m + speed_mps * options_.base_delay_s);
-  const double turn_rate =
-      LaneKeepingTurnRate(offset, curvature, speed_mps, options_.lane_keeping);
+  const double soon_m = std::min(offset.along_m + speed_mps * options_.base_delay_s,
+                                 segment_.length_m - 0.5 * kCurvatureStep_m);
+  const double curvature =
+      estimator_.TaughtTurn(soon_m - 0.5 * kCurvatureStep_m, soon_m + 0.5 * kCurvatureStep_m) /
+      kCurvatureStep_m;
+  const double turn_rate = LaneKeepingTurnRate(offset, curvature, speed_mps, options_.lane_keeping);
   step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
   step.turn_rad = -turn_rate * kTurnTime_s;
   step.fraction =
       segment_.length_m > 0.0 ? std::clamp(offset.along_m / segment_.length_m, 0.0, 1.0) : 1.0;
   step.ended = offset.along_m >= segment_.length_m;
+  step.wants_next =
+      step.fraction > options_.early_fraction && step.agreeing < options_.few_features;
+  settled_ = settled_ || step.agreeing >= options_.few_features;
   return step;
 }
 

@@ -14,10 +14,14 @@ struct PathFollowerOptions {
   motion::VelocityLimits limits{1.0, 0.8};
   double speed_factor = 1.0;
   double base_delay_s = 0.15;  // from a command to the motion it asks for
+  // With fewer features left, past this much of a segment, the next one's may serve better: a
+  // camera with a narrower view loses the taught ones early.
+  int few_features = 10;
+  double early_fraction = 0.4;
 };
 
-// Follows by the widened funnel: estimates where the robot is beside the taught path and steers back
-// onto it. Needs odometry, in the route and on the robot.
+// Follows by the widened funnel: estimates where the robot is beside the taught path and steers
+// back onto it. Needs odometry, in the route and on the robot.
 class PathFollower final : public Follower {
  public:
   PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
@@ -27,21 +31,19 @@ class PathFollower final : public Follower {
     return estimator_.Expect();
   }
   [[nodiscard]] double magnification() const override { return estimator_.magnification(); }
-  void SetMagnification(double magnification) override {
-    estimator_.SetMagnification(magnification);
-  }
+  // Taken as the first guess; after that the estimate is better than any one hand-over's.
+  void SetMagnification(double magnification) override;
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;
   [[nodiscard]] const route::Segment& segment() const override { return segment_; }
 
   [[nodiscard]] PathOffset offset() const { return estimator_.offset(); }
 
  private:
-  [[nodiscard]] double TaughtCurvature(double along_m) const;
-
   PathFollowerOptions options_;
   PathEstimator estimator_;
   route::Segment segment_;
   bool begun_ = false;
+  bool settled_ = false;  // has seen enough to know the magnification by itself
 };
 
 }  // namespace trailcast::replay

@@ -14,8 +14,8 @@ double MeanDistance(const route::Segment& segment,
                     const std::vector<route::TrackedFeature>& features, double fraction) {
   double sum = 0.0;
   for (const route::TrackedFeature& feature : features) {
-    const route::TrackKnot taught = route::TaughtPlace(
-        segment.features.at(static_cast<std::size_t>(feature.id)), fraction);
+    const route::TrackKnot taught =
+        route::TaughtPlace(segment.features.at(static_cast<std::size_t>(feature.id)), fraction);
     sum += std::hypot(feature.u_px - taught.u_px, feature.v_px - taught.v_px);
   }
   return sum / static_cast<double>(features.size());

@@ -79,8 +79,8 @@ FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
     const double u = feature.u_px / scale;
     const double v = feature.v_px / scale;
     const cv::Point2f place(centre.x + static_cast<float>(u), centre.y + static_cast<float>(v));
-    const auto peak = BestPlace(picture, sought[static_cast<std::size_t>(feature.id)].patch, place,
-                                reach);
+    const auto peak =
+        BestPlace(picture, sought[static_cast<std::size_t>(feature.id)].patch, place, reach);
     if (!peak || peak->correlation < options_.min_correlation) continue;
     pairs.push_back({u, v, peak->at.x - centre.x, peak->at.y - centre.y});
     index.push_back(feature.id);

@@ -23,7 +23,8 @@ std::vector<cv::KeyPoint> Corners(const cv::Mat& picture, int most) {
   return corners;
 }
 
-// The row of the descriptor most like the wanted one, if it is like enough and no other is nearly so.
+// The row of the descriptor most like the wanted one, if it is like enough and no other is nearly
+// so.
 std::optional<int> MostAlike(const cv::Mat& descriptors, const route::Descriptor& wanted,
                              const FeatureFinderOptions& options) {
   const cv::Mat row_wanted(1, static_cast<int>(wanted.size()), CV_8UC1,
@@ -48,9 +49,8 @@ std::optional<int> MostAlike(const cv::Mat& descriptors, const route::Descriptor
 }
 
 // The fit with the sought features in a picture of about the scout's magnification.
-ViewFitResult FitAtOneMagnification(const cv::Mat& picture,
-                                    std::span<const route::Feature> sought, double s,
-                                    const FeatureFinderOptions& options) {
+ViewFitResult FitAtOneMagnification(const cv::Mat& picture, std::span<const route::Feature> sought,
+                                    double s, const FeatureFinderOptions& options) {
   std::vector<cv::KeyPoint> corners = Corners(picture, options.wide_corners);
   if (corners.size() < 2) return {};
   const cv::Mat descriptors = DescribeUpright(picture, corners);

@@ -107,8 +107,9 @@ bool Swarm::HoldsExactly(const std::vector<route::SegmentPiece>& got) const {
 }
 
 std::vector<route::SegmentPiece> Swarm::ServerPieces() {
-  std::vector<route::SegmentPiece> pieces;
   const std::vector<SegmentIndex> held = server_store_.HeldSegments(key_).value();
+  std::vector<route::SegmentPiece> pieces;
+  pieces.reserve(held.size());
   for (const SegmentIndex index : held) {
     pieces.push_back(server_store_.ReadSegment(key_, index).value());
   }

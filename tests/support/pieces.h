@@ -47,7 +47,8 @@ namespace trailcast::test {
                                                  std::size_t size = 100, std::uint8_t salt = 0) {
   route::SegmentPiece piece{.key = key, .index = SegmentIndex(index), .digest = {}, .bytes = {}};
   for (std::size_t i = 0; i < size; ++i) {
-    piece.bytes.push_back(static_cast<std::uint8_t>(index * 31U + i * 7U + i / 251U + salt));
+    piece.bytes.push_back(
+        static_cast<std::uint8_t>(std::size_t{index} * 31U + i * 7U + i / 251U + salt));
   }
   piece.digest = ToyDigest(piece.bytes);
   return piece;

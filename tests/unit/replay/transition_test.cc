@@ -59,8 +59,8 @@ TEST(TransitionDetector, LargerTauFiresLater) {
 TEST(TransitionDetector, KnowsWhereThePeakWas) {
   TransitionDetector detector;
   double peak_s = 0.0;
-  for (double s = 0.0; !detector.Add(std::exp(-(s - 1.0) * (s - 1.0) / 0.5), std::exp(-s * s / 2.0));
-       s += 0.02) {
+  for (double s = 0.0;
+       !detector.Add(std::exp(-(s - 1.0) * (s - 1.0) / 0.5), std::exp(-s * s / 2.0)); s += 0.02) {
     if (detector.at_peak()) peak_s = s;
   }
   EXPECT_NEAR(peak_s, 1.0, 0.07);  // the median is two steps late

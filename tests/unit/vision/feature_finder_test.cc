@@ -58,7 +58,8 @@ TEST(FindNear, FindsNearlyAllAfterASmallMoveUnderAnotherGain) {
   for (const double gain : {0.7, 1.0, 1.3}) {
     const test::PaintedWall::View view{
         .du_px = 9.0, .dv_px = -4.0, .gain = gain, .noise_grey = 2.5, .noise_seed = 5};
-    const auto found = FeatureFinder().FindNear(kWall.Photograph(view), stored, Expected(stored), 1.0, {});
+    const auto found =
+        FeatureFinder().FindNear(kWall.Photograph(view), stored, Expected(stored), 1.0, {});
     EXPECT_GE(CountRight(stored, found, view) * 10, stored.size() * 7) << "gain " << gain;
   }
 }
@@ -67,8 +68,8 @@ TEST(FindNear, FindsThemThroughAnotherMagnificationThatIsKnown) {
   const auto stored = Stored();
   for (const double scale : {0.6, 0.8, 1.5}) {
     const test::PaintedWall::View view{.scale = scale, .du_px = 3.0, .noise_grey = 2.0};
-    const auto found =
-        FeatureFinder().FindNear(kWall.Photograph(view), stored, Expected(stored, scale), scale, {});
+    const auto found = FeatureFinder().FindNear(kWall.Photograph(view), stored,
+                                                Expected(stored, scale), scale, {});
     EXPECT_GE(CountRight(stored, found, view), 15U) << "scale " << scale;
     EXPECT_NEAR(found.magnification, scale, 0.02 * scale);
   }
@@ -76,8 +77,8 @@ TEST(FindNear, FindsThemThroughAnotherMagnificationThatIsKnown) {
 
 TEST(FindNear, FindsNothingOnAnotherWall) {
   const auto stored = Stored();
-  const auto found =
-      FeatureFinder().FindNear(test::PaintedWall(77).Photograph({}), stored, Expected(stored), 1.0, {});
+  const auto found = FeatureFinder().FindNear(test::PaintedWall(77).Photograph({}), stored,
+                                              Expected(stored), 1.0, {});
   EXPECT_LE(found.features.size(), stored.size() / 3);
 }
 
