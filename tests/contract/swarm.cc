@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "services/exchange/publish.h"
+
 namespace trailcast::test {
 namespace {
 
@@ -14,14 +16,12 @@ constexpr std::size_t kPieceBytes = 2000;
 
 // One turn of a program's loop; a refused message is lost, as in the programs.
 template <typename Protocol>
-void Turn(Protocol& protocol, exchange::RouteExchange& exchange,
+void Turn(Protocol& protocol, exchange::RouteExchange& bus,
           std::chrono::steady_clock::time_point now, std::chrono::milliseconds wait) {
-  for (const Message& message : exchange.Take(wait)) protocol.Handle(message, now);
-  for (const Message& message : protocol.Tick(now)) {
-    const auto published = exchange.Publish(message);
-    if (!published && published.error().code != ErrorCode::kUnavailable) {
-      throw std::runtime_error(published.error().message);
-    }
+  for (const Message& message : bus.Take(wait)) protocol.Handle(message, now);
+  const auto published = exchange::PublishAll(bus, protocol.Tick(now));
+  if (!published && published.error().code != ErrorCode::kUnavailable) {
+    throw std::runtime_error(published.error().message);
   }
 }
 

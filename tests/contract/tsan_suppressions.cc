@@ -1,0 +1,8 @@
+// Debian's libddsc is not built with ThreadSanitizer, which therefore does not see the atomics that
+// order its threads, and reports them as races. Found by the sanitizer under this name.
+#if defined(__SANITIZE_THREAD__)
+extern "C" const char* __tsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "called_from_lib:libddsc.so\nrace:libddsc.so\n";
+}
+#endif
