@@ -79,12 +79,27 @@ void CameraRenderer::RenderBlock(int x0, int y0) {
   }
 }
 
+// Neighbouring triangles of one material in one plane: what differs there is the texture, which is
+// filtered already.
+bool CameraRenderer::OnOnePlane(std::size_t a, std::size_t b) const {
+  const auto count = static_cast<std::uint32_t>(world_->surfaces().size());
+  if (surface_[a] >= count || surface_[b] >= count) return false;  // sky or shadow
+  const Surface& first = world_->surfaces()[surface_[a]];
+  const Surface& second = world_->surfaces()[surface_[b]];
+  if (first.material != second.material) return false;
+  if (std::abs(first.normal.dot(second.normal)) < 0.9998F) return false;
+  const Eigen::Vector3f step =
+      view_.depth_m[a] * rays_[a].direction - view_.depth_m[b] * rays_[b].direction;
+  const Eigen::Vector3f normal = rotation_.transpose() * first.normal;
+  return std::abs(normal.dot(step)) < 2e-3F * view_.depth_m[a];
+}
+
 void CameraRenderer::FindEdges() {
   edges_.clear();
   const auto width = static_cast<std::size_t>(view_.width);
   const auto differ = [&](std::size_t a, std::size_t b) {
-    return surface_[a] != surface_[b] && rays_[a].valid && rays_[b].valid &&
-           std::abs(view_.gray[a] - view_.gray[b]) > kVisibleEdge;
+    return surface_[a] != surface_[b] && std::abs(view_.gray[a] - view_.gray[b]) > kVisibleEdge &&
+           rays_[a].valid && rays_[b].valid && !OnOnePlane(a, b);
   };
   for (int y = 0; y < view_.height; ++y) {
     for (int x = 0; x < view_.width; ++x) {

@@ -50,6 +50,7 @@ class CameraRenderer {
   }
   [[nodiscard]] PixelRay MakeRay(int x, int y) const;
   void RenderBlock(int x0, int y0);
+  [[nodiscard]] bool OnOnePlane(std::size_t a, std::size_t b) const;
   void FindEdges();
   void SmoothEdges();
 

@@ -72,8 +72,9 @@ float ImageFormation::Smeared(const PerfectView& view, int x, int y,
   const float length = half_path.norm();
   const int half_count = std::clamp(static_cast<int>(std::ceil(1.5F * length)), 1, 12);
   const Eigen::Vector2f step = half_path * (1.0F / static_cast<float>(half_count));
-  float sum = 0.0F;
+  float sum = view.gray[image::PixelIndex(x, y, width_)];
   for (int i = -half_count; i <= half_count; ++i) {
+    if (i == 0) continue;
     const float u = std::clamp(static_cast<float>(x) + static_cast<float>(i) * step.x(), 0.0F,
                                static_cast<float>(width_ - 1) - 1e-3F);
     const float v = std::clamp(static_cast<float>(y) + static_cast<float>(i) * step.y(), 0.0F,
