@@ -1,11 +1,12 @@
 #include "agent/camera_file.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <variant>
 #include <vector>
+
+#include "agent/cli/toml.h"
 
 namespace trailcast::agent {
 namespace {
@@ -26,7 +27,8 @@ std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model
 }
 
 bool Assign(const Field& field, const std::string& text) {
-  if (auto* const* number = std::get_if<int*>(&field)) return CLI::detail::lexical_cast(text, **number);
+  if (auto* const* number = std::get_if<int*>(&field))
+    return CLI::detail::lexical_cast(text, **number);
   if (auto* const* real = std::get_if<double*>(&field)) {
     return CLI::detail::lexical_cast(text, **real) && std::isfinite(**real);
   }
@@ -55,7 +57,7 @@ Result<void> Set(const std::map<std::string, Field>& fields, const CLI::ConfigIt
 Result<sim::CameraModel> Parse(std::istream& stream, sim::CameraModel camera) {
   std::string model;
   const auto fields = Fields(camera, model);
-  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(stream)) {
+  for (const CLI::ConfigItem& item : cli::Toml().from_config(stream)) {
     if (item.name == "++" || item.name == "--") continue;  // a section's begin and end
     if (auto set = Set(fields, item); !set) return tl::unexpected(set.error());
   }

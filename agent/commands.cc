@@ -101,7 +101,8 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRoute(command, replay.route);
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
-  command.add_option("--method", replay.method, "The 2009 method as printed, or the project's best")
+  command
+      .add_option("--method", replay.method, "The 2009 method as printed, or the project's best")
       ->check(CLI::IsMember({"paper", "default"}));
   command
       .add_option("--wait", replay.wait_s,
@@ -134,8 +135,7 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
 Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver) {
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange =
-      cli::OpenExchange(options.common, cli::WithAgents(exchange::ScoutTopics()));
+  auto exchange = cli::OpenExchange(options.common, cli::WithAgents(exchange::ScoutTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
   return Ended(
       DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),

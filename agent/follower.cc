@@ -188,8 +188,8 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
     outcome.error = ran.error();
   }
   const bool arrived = state_ == ToString(ReplayState::kArrived);
-  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" && !outcome.error &&
-                          state_ != ToString(ReplayState::kLost);
+  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" &&
+                          !outcome.error && state_ != ToString(ReplayState::kLost);
   outcome.success = arrived || to_its_end;
   outcome.state = state_;
   outcome.reason = reason_;

@@ -22,9 +22,9 @@ struct FollowerOptions {
 };
 
 struct ReplayOutcome {
-  bool success = false;  // arrived; or a recording was replayed to its end and not lost there
-  std::string state;     // the last: ARRIVED, LOST, STUCK, WAITING, ...
-  std::string reason;    // one line for people
+  bool success = false;        // arrived; or a recording was replayed to its end and not lost there
+  std::string state;           // the last: ARRIVED, LOST, STUCK, WAITING, ...
+  std::string reason;          // one line for people
   std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;
   ReplayLog log;

@@ -9,8 +9,8 @@
 #include <thread>
 #include <variant>
 
-#include "agent/mailbox.h"
 #include "agent/cli/presence.h"
+#include "agent/mailbox.h"
 #include "agent/replay_session.h"
 #include "agent/route_finder.h"
 #include "services/exchange/route_fetcher.h"
@@ -20,8 +20,8 @@ namespace trailcast::agent {
 
 struct FollowerLinkOptions {
   AgentId agent;
-  std::string route;       // name
-  std::string store_file;  // for messages
+  std::string route;            // name
+  std::string store_file;       // for messages
   bool wait_for_route = false;  // a route that nobody knows yet may still be taught
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
@@ -89,7 +89,7 @@ class FollowerLink {
   std::optional<route::RouteInfo> route_;   // the newest that is known of it
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
-  std::uint32_t held_ = 0;      // segments in the own store without a gap
+  std::uint32_t held_ = 0;  // segments in the own store without a gap
   std::uint32_t next_feed_ = 0;
   bool fed_all_ = false;
   std::string waiting_for_ = "starting";

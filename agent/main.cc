@@ -1,7 +1,7 @@
 #include <exception>
 
-#include "agent/commands.h"
 #include "agent/cli/stop_signal.h"
+#include "agent/commands.h"
 
 namespace {
 
@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   for (CLI::App* command : {teach_app, replay_app, deliver_app}) ShareHelp(app, *command);
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
   try {
-    if (options.common.name.empty()) options.common.name = replay_app->parsed() ? "follower" : "scout";
+    if (options.common.name.empty())
+      options.common.name = replay_app->parsed() ? "follower" : "scout";
     cli::SetUpLog(options.common);
     const cli::StopSignal stop;
     const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)

@@ -41,9 +41,10 @@ Result<std::vector<std::string>> Outbox::LoadBacklog() {
     if (!unreceipted) return tl::unexpected(unreceipted.error());
     if (unreceipted->empty() || sending_.contains(info.key)) continue;
     if (info.state == route::RouteState::kTeaching && info.scout != self_) {
-      notes.push_back(fmt::format(
-          "route '{}' was left unfinished by agent '{}' and is not sent: run with --name {} for that",
-          info.name, info.scout.value(), info.scout.value()));
+      notes.push_back(
+          fmt::format("route '{}' was left unfinished by agent '{}' and is not sent: run with "
+                      "--name {} for that",
+                      info.name, info.scout.value(), info.scout.value()));
       continue;
     }
     auto note = TakeUp(std::move(info));

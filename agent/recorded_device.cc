@@ -55,7 +55,9 @@ Result<std::optional<Observation>> RecordedDevice::Next() {
   return observation;
 }
 
-std::string RecordedDevice::camera() const { return fmt::format("recorded {}x{}", width_, height_); }
+std::string RecordedDevice::camera() const {
+  return fmt::format("recorded {}x{}", width_, height_);
+}
 
 std::optional<double> RecordedDevice::drive_progress() const {
   const auto size = frames_->size();

@@ -12,9 +12,9 @@
 namespace trailcast::agent {
 
 struct RecordedRun {
-  std::filesystem::path frames;           // a folder of pictures or a video
-  std::filesystem::path odometry;         // empty: vision only
-  std::optional<double> rate_hz;          // nothing: the video's own, or kDefaultRate_hz
+  std::filesystem::path frames;    // a folder of pictures or a video
+  std::filesystem::path odometry;  // empty: vision only
+  std::optional<double> rate_hz;   // nothing: the video's own, or kDefaultRate_hz
 };
 
 // A run that was recorded, as fast as it can be read. What it is told to drive has no effect.

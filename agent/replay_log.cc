@@ -27,10 +27,10 @@ Result<void> ReplayLog::WriteCsv(const std::filesystem::path& file) const {
       "frame,segment,progress,features,turn_rad,state,t_s,fraction,linear_mps,angular_radps\n";
   int frame = 0;
   for (const Row& row : rows_) {
-    fmt::format_to(std::back_inserter(text), "{},{},{:.5f},{},{:.5f},{},{:.4f},{:.4f},{:.4f},{:.4f}\n",
-                   frame++, row.segment, row.progress, row.features, row.turn_rad,
-                   ToString(row.state), Seconds(row.stamp), row.fraction, row.command.linear_mps,
-                   row.command.angular_radps);
+    fmt::format_to(
+        std::back_inserter(text), "{},{},{:.5f},{},{:.5f},{},{:.4f},{:.4f},{:.4f},{:.4f}\n",
+        frame++, row.segment, row.progress, row.features, row.turn_rad, ToString(row.state),
+        Seconds(row.stamp), row.fraction, row.command.linear_mps, row.command.angular_radps);
   }
   return WriteTextFile(file, text);
 }

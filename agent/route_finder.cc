@@ -30,9 +30,8 @@ void RouteFinder::Handle(const exchange::Message& message) {
 void RouteFinder::Learn(const exchange::RouteAnnouncement& announcement) {
   if (announcement.info.name != name_) return;
   const auto known =
-      std::find_if(announced_.begin(), announced_.end(), [&](const route::RouteInfo& info) {
-        return info.key == announcement.info.key;
-      });
+      std::find_if(announced_.begin(), announced_.end(),
+                   [&](const route::RouteInfo& info) { return info.key == announcement.info.key; });
   if (known != announced_.end()) {
     *known = announcement.info;
   } else if (announced_.size() < kMaxAnnounced) {

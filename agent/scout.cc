@@ -92,8 +92,9 @@ Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
   summary.Add("segments", std::to_string(route.segment_count));
   summary.Add("metres", fmt::format("{:.2f}", route.length_m));
   summary.Add("bytes", std::to_string(route.bytes));
-  summary.Add("bytes_per_m",
-              route.length_m > 0.0 ? fmt::format("{:.0f}", route.bytes / route.length_m) : "unknown");
+  summary.Add("bytes_per_m", route.length_m > 0.0
+                                 ? fmt::format("{:.0f}", route.bytes / route.length_m)
+                                 : "unknown");
   summary.Add("features", std::to_string(drive.features));
   summary.Add("frames", std::to_string(drive.frames));
   summary.Add("unreceipted", std::to_string(outcome.unreceipted));
@@ -151,7 +152,9 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
   const auto judged = Judge(driven, *outcome, send, options);
   using exchange::AgentMode;
   const bool interrupted = options.link.stop();
-  link.Close(!judged ? AgentMode::kFault : interrupted ? AgentMode::kStopped : AgentMode::kArrived,
+  link.Close(!judged       ? AgentMode::kFault
+             : interrupted ? AgentMode::kStopped
+                           : AgentMode::kArrived,
              judged ? "" : judged.error().message);
   if (!judged) return tl::unexpected(judged.error());
   return Summarize(*outcome, drive);

@@ -174,10 +174,9 @@ Result<void> ScoutLink::Deliver() {
                  outbox_.unreceipted(), Seconds(options_.delivery_timeout));
   }
   while (!outbox_.AllReceipted()) {
-    const auto bound =
-        options_.stop()
-            ? std::min(options_.delivery_timeout_when_stopped, options_.delivery_timeout)
-            : options_.delivery_timeout;
+    const auto bound = options_.stop() ? std::min(options_.delivery_timeout_when_stopped,
+                                                  options_.delivery_timeout)
+                                       : options_.delivery_timeout;
     if (steady_clock::now() - began > bound) return {};
     ShowStatus(exchange::AgentMode::kWaiting,
                fmt::format("{} for receipts of {} segments",

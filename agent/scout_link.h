@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
+#include "agent/cli/presence.h"
 #include "agent/mailbox.h"
 #include "agent/outbox.h"
-#include "agent/cli/presence.h"
 
 namespace trailcast::agent {
 

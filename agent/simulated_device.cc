@@ -41,8 +41,8 @@ Result<sim::BuiltInWorld> OpenPlace(const SimulatedRun& run) {
     place = std::move(*built);
   } else if (run.path.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
-                "the world {} has no path of its own: give --path (built-in worlds: {})",
-                run.world, kIndoor);
+                "the world {} has no path of its own: give --path (built-in worlds: {})", run.world,
+                kIndoor);
   } else {
     auto world = LoadFile(run);
     if (!world) return tl::unexpected(world.error());
@@ -111,9 +111,9 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
   sim::Observation seen = s.robot->Step(s.command);
   s.truth.push_back({seen.stamp, s.Pose()});
   // Looked for near where it was: a loop passes some places twice.
-  s.along_m = sim::Nearest(s.path, motion::Position(s.truth.back().pose), s.along_m - 1.0,
-                           s.along_m + 2.0)
-                  .along_m;
+  s.along_m =
+      sim::Nearest(s.path, motion::Position(s.truth.back().pose), s.along_m - 1.0, s.along_m + 2.0)
+          .along_m;
   return Observation{seen.stamp, std::move(seen.image), seen.odometry};
 }
 

@@ -25,8 +25,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const std::string
   const cli::StopSignal stop;
   auto store = trailcast::store::OpenSqliteStore(store_file);
   if (!store) return cli::Complain(app, store.error());
-  auto exchange =
-      cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
+  auto exchange = cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
   if (!exchange) return cli::Complain(app, exchange.error());
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));

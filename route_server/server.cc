@@ -50,9 +50,9 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
   auto answer = [name, held = server->store_.get()](const exchange::CatalogRequest& request) {
     return catalog::Answer(request, name, *held);
   };
-  auto keeper = exchange::RouteKeeper::Open(
-      name, *server->store_, std::move(answer),
-      exchange::Integrity{route::CheckDigest, route::ManifestDigest});
+  auto keeper =
+      exchange::RouteKeeper::Open(name, *server->store_, std::move(answer),
+                                  exchange::Integrity{route::CheckDigest, route::ManifestDigest});
   if (!keeper) return tl::unexpected(keeper.error());
   server->keeper_ = std::move(*keeper);
   return server;

@@ -5,8 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <memory>
 #include <vector>
 
+#include "agent/cli/toml.h"
 #include "services/base/ids.h"
 
 #ifndef TRAILCAST_VERSION
@@ -52,9 +54,11 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
 void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), TRAILCAST_VERSION));
   app.set_config("--config", "", "TOML file with any of these options; unknown keys are errors");
+  app.config_formatter(std::make_shared<Toml>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.option_defaults()->always_capture_default();
-  app.add_option("--name", options.name, "Name in the fleet, unique: letters, digits, '_', '.', '-'")
+  app.add_option("--name", options.name,
+                 "Name in the fleet, unique: letters, digits, '_', '.', '-'")
       ->check(NameValidator())
       ->envname("TRAILCAST_NAME");
   app.add_option("--domain", options.domain, "DDS domain; only processes of one domain meet")

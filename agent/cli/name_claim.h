@@ -16,7 +16,8 @@ class NameClaim {
   static constexpr std::chrono::milliseconds kListening{1000};
 
   // `own` as published, with its instance.
-  explicit NameClaim(const exchange::AgentStatus& own) : agent_(own.agent), instance_(own.instance) {}
+  explicit NameClaim(const exchange::AgentStatus& own)
+      : agent_(own.agent), instance_(own.instance) {}
 
   // kConflict when `status` comes from another process that has the name and keeps it.
   [[nodiscard]] Result<void> See(const exchange::AgentStatus& status) const;

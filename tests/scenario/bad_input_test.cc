@@ -29,7 +29,8 @@ TEST_F(BadInputTest, AFrameThatCannotBeRead) {
   Write("walk/00100.png", "\x89PNG and then nothing");
   const auto run = RunAgent(TeachWords(walk, "a.db"));
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.output, AllOf(HasSubstr("00100.png"), HasSubstr("segments taught before are kept")));
+  EXPECT_THAT(run.output,
+              AllOf(HasSubstr("00100.png"), HasSubstr("segments taught before are kept")));
 }
 
 TEST_F(BadInputTest, AFrameOfAnotherSizeMidway) {
@@ -90,8 +91,8 @@ TEST_F(BadInputTest, ANameThatIsNone) {
 
 TEST_F(BadInputTest, ARouteThatIsNotInTheStore) {
   ASSERT_EQ(RunAgent(TeachWords(Walk("walk", kTaughtFrames), "a.db")).status, 0);
-  const auto run = RunAgent(
-      {"replay", "--frames", Path("walk"), "--route", "hell", "--store", Path("a.db")});
+  const auto run =
+      RunAgent({"replay", "--frames", Path("walk"), "--route", "hell", "--store", Path("a.db")});
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.output, AllOf(HasSubstr("no route 'hell'"), HasSubstr("it has: hall")));
 }
@@ -99,7 +100,8 @@ TEST_F(BadInputTest, ARouteThatIsNotInTheStore) {
 TEST_F(BadInputTest, AStoreThatIsNone) {
   const std::string garbage(5000, 'x');
   Write("a.db", garbage);
-  for (const auto& words : {TeachWords(Walk("walk", 2), "a.db"), ReplayWords(Path("walk"), "a.db")}) {
+  for (const auto& words :
+       {TeachWords(Walk("walk", 2), "a.db"), ReplayWords(Path("walk"), "a.db")}) {
     const auto run = RunAgent(words);
     EXPECT_EQ(run.status, 1);
     EXPECT_THAT(run.output, HasSubstr("a.db"));
@@ -118,8 +120,8 @@ TEST_F(BadInputTest, AReportThatCannotBeWritten) {
 }
 
 TEST_F(BadInputTest, AWorldWithoutAPath) {
-  const auto run = RunAgent(
-      {"teach", "--sim", "atlantis", "--route", "hall", "--store", Path("a.db")});
+  const auto run =
+      RunAgent({"teach", "--sim", "atlantis", "--route", "hall", "--store", Path("a.db")});
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.output, AllOf(HasSubstr("atlantis"), HasSubstr("indoor")));
 }

@@ -48,7 +48,9 @@ class ProgramsTest : public testing::Test {
   }
   Ended RunAgent(const Words& words) { return End(*Agent(words)); }
 
-  [[nodiscard]] std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string Path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
   // A folder of pictures of one walk.
   std::string Walk(const std::string& name, int frames) {
     WriteWalk(folder_ / name, frames);

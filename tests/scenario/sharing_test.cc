@@ -39,8 +39,8 @@ TEST_F(SharingTest, AFollowerMayBeThereBeforeServerAndScout) {
 }
 
 TEST_F(SharingTest, AScoutDeliversToAServerThatComesLate) {
-  const auto scout = Agent(
-      With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}), "scout");
+  const auto scout =
+      Agent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}), "scout");
   ASSERT_TRUE(scout->WaitForOutput("waiting for a server's receipts")) << scout->output();
   const auto server = Server();
   EXPECT_EQ(End(*scout).status, 0) << scout->output();
@@ -74,8 +74,8 @@ TEST_F(SharingTest, AServerThatWasKilledStillHasWhatItConfirmed) {
 
 TEST_F(SharingTest, ARouteNobodyTaughtIsNamedWithThoseThereAre) {
   const auto server = Server();
-  ASSERT_EQ(RunAgent(With(TeachWords(Walk("walk", kTaughtFrames), "scout.db"), {"--server"})).status,
-            0);
+  ASSERT_EQ(
+      RunAgent(With(TeachWords(Walk("walk", kTaughtFrames), "scout.db"), {"--server"})).status, 0);
   const auto run = RunAgent({"replay", "--frames", Path("walk"), "--route", "hell", "--store",
                              Path("follower.db"), "--server"});
   EXPECT_EQ(run.status, 1);
@@ -83,10 +83,25 @@ TEST_F(SharingTest, ARouteNobodyTaughtIsNamedWithThoseThereAre) {
 }
 
 TEST_F(SharingTest, AFollowerThatNoServerAnswersSaysSo) {
-  const auto run = RunAgent(
-      With(ReplayWords(Walk("walk", 2), "follower.db"), {"--server", "--wait", "0.5"}));
+  const auto run =
+      RunAgent(With(ReplayWords(Walk("walk", 2), "follower.db"), {"--server", "--wait", "0.5"}));
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.output, HasSubstr("no server answered"));
+}
+
+TEST_F(SharingTest, TheExampleConfigurationsAreAccepted) {
+  const std::string config = std::string(TRAILCAST_SOURCE_DIR) + "/config/";
+  const auto agent =
+      RunAgent({"--config", config + "agent/agent.toml", "--store", Path("a.db"), "replay",
+                "--camera", config + "agent/camera.toml", "--wait", "0.1"});
+  EXPECT_EQ(agent.status, 1);
+  EXPECT_THAT(agent.output, HasSubstr("no server answered"));
+  const auto server = Start(
+      "trailcast-server",
+      {"--config", config + "route_server/server.toml", "--store", Path("server.db")}, "server");
+  ASSERT_TRUE(server->WaitForOutput("ready")) << server->output();
+  server->Signal(SIGINT);
+  EXPECT_EQ(End(*server).status, 0);
 }
 
 TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
@@ -94,8 +109,7 @@ TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
   const auto first =
       Agent(With(ReplayWords(walk, "a.db"), {"--server", "--name", "robot"}), "first");
   ASSERT_TRUE(first->WaitForOutput("asking for route")) << first->output();
-  const auto second =
-      RunAgent(With(ReplayWords(walk, "b.db"), {"--server", "--name", "robot"}));
+  const auto second = RunAgent(With(ReplayWords(walk, "b.db"), {"--server", "--name", "robot"}));
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.output, AllOf(HasSubstr("agent name 'robot' is already used"),
                                    HasSubstr("choose another with --name")));
@@ -108,9 +122,8 @@ TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
 }
 
 TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
-  const auto scout = Agent({"teach", "--sim", "indoor", "--route", "hall", "--store",
-                            Path("scout.db")},
-                           "scout");
+  const auto scout =
+      Agent({"teach", "--sim", "indoor", "--route", "hall", "--store", Path("scout.db")}, "scout");
   ASSERT_TRUE(scout->WaitForOutput("segment 0 of 'hall'")) << scout->output();
   scout->Signal(SIGINT);
   const auto ended = End(*scout);
@@ -122,8 +135,7 @@ TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
 }
 
 TEST_F(SharingTest, AnInterruptedFollowerEndsSoonAndSaysSo) {
-  const auto follower =
-      Agent(With(ReplayWords(Walk("walk", 2), "a.db"), {"--server"}), "follower");
+  const auto follower = Agent(With(ReplayWords(Walk("walk", 2), "a.db"), {"--server"}), "follower");
   ASSERT_TRUE(follower->WaitForOutput("asking for route")) << follower->output();
   follower->Signal(SIGTERM);
   const auto ended = End(*follower);

@@ -23,7 +23,8 @@ class Process {
  public:
   static constexpr std::chrono::seconds kBound{60};
 
-  Process(std::vector<std::string> argv, std::filesystem::path output) : output_(std::move(output)) {
+  Process(std::vector<std::string> argv, std::filesystem::path output)
+      : output_(std::move(output)) {
     std::vector<char*> words;
     for (std::string& word : argv) words.push_back(word.data());
     words.push_back(nullptr);
@@ -61,9 +62,10 @@ class Process {
   // without.
   [[nodiscard]] bool WaitForOutput(const std::string& text) {
     return WaitUntil([&] {
-      const bool ended = Ended();
-      return output().find(text) != std::string::npos || ended;
-    }) && output().find(text) != std::string::npos;
+             const bool ended = Ended();
+             return output().find(text) != std::string::npos || ended;
+           }) &&
+           output().find(text) != std::string::npos;
   }
 
   // The exit status, or 128 and the signal that ended it; nothing if it goes on beyond the bound.

@@ -17,7 +17,8 @@ namespace trailcast::test {
 inline image::GrayImage WalkFrame(int frame, int width = 160, int height = 120) {
   const auto brightness = [](std::int64_t column, std::int64_t row, std::uint64_t size) {
     std::uint64_t hash = static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15ULL ^
-                         static_cast<std::uint64_t>(row) * 0xC2B2AE3D27D4EB4FULL ^ size * 0x165667B1ULL;
+                         static_cast<std::uint64_t>(row) * 0xC2B2AE3D27D4EB4FULL ^
+                         size * 0x165667B1ULL;
     hash = (hash ^ (hash >> 29U)) * 0xBF58476D1CE4E5B9ULL;
     return static_cast<double>((hash ^ (hash >> 32U)) & 0xFFU);
   };

@@ -59,8 +59,8 @@ TEST_F(CameraFileTest, KnowsTheBuiltInCamerasByName) {
   EXPECT_EQ(CameraFromWord("wide")->width, 320);
   const auto unknown = CameraFromWord("kodak");
   ASSERT_FALSE(unknown);
-  EXPECT_THAT(unknown.error().message, AllOf(HasSubstr("kodak"), HasSubstr("webcam"),
-                                             HasSubstr(".toml")));
+  EXPECT_THAT(unknown.error().message,
+              AllOf(HasSubstr("kodak"), HasSubstr("webcam"), HasSubstr(".toml")));
 }
 
 }  // namespace

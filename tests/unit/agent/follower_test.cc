@@ -120,8 +120,8 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
     if (frame == 120) followed.get_future().wait();
     return {};
   };
-  auto teaching = std::async(std::launch::async,
-                             [&] { return swarm_.Teach(scout, scout_options, true); });
+  auto teaching =
+      std::async(std::launch::async, [&] { return swarm_.Teach(scout, scout_options, true); });
   auto options = swarm_.FollowerNamed("robot");
   options.link.wait = milliseconds(1500);
   const auto outcome = swarm_.Replay(device_, options, true);

@@ -60,8 +60,8 @@ TEST(JournalTest, TellsWhenAgentsComeReturnAndGo) {
 TEST(JournalTest, TellsWhatFollowersAskFor) {
   Journal journal;
   ASSERT_TRUE(journal.Received(Announcement()));
-  const exchange::SegmentRequest request{AgentId("robot2"), kKey,
-                                         {SegmentIndex(4), SegmentIndex(5)}};
+  const exchange::SegmentRequest request{
+      AgentId("robot2"), kKey, {SegmentIndex(4), SegmentIndex(5)}};
   EXPECT_EQ(journal.Received(request),
             "'robot2' asks for 2 segments of 'hall' revision 1, from 4 on");
 }

@@ -49,7 +49,8 @@ TEST(RecordedDeviceTest, FailsAtOpeningWhenFramesOrOdometryCannotBeRead) {
   const auto no_frames = RecordedDevice::Open({folder / "none", "", std::nullopt});
   ASSERT_FALSE(no_frames);
   EXPECT_THAT(no_frames.error().message, HasSubstr("none"));
-  const auto no_odometry = RecordedDevice::Open({folder / "run", folder / "none.csv", std::nullopt});
+  const auto no_odometry =
+      RecordedDevice::Open({folder / "run", folder / "none.csv", std::nullopt});
   ASSERT_FALSE(no_odometry);
   EXPECT_THAT(no_odometry.error().message, HasSubstr("none.csv"));
 }

@@ -54,14 +54,14 @@ TEST_F(RouteFinderTest, AsksForTheNameAgainEachSecondUntilItIsFound) {
 
 TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
   Ask(milliseconds(0));
-  finder_.Handle(CatalogReply{kServer,
-                              kSelf,
-                              1,
-                              {Info("hall", 3, 30, RouteState::kTeaching),
-                               Info("hall", 2, 20, RouteState::kComplete),
-                               Info("hall", 1, 10, RouteState::kComplete)},
-                              {},
-                              ""});
+  finder_.Handle(CatalogReply{
+      kServer,
+      kSelf,
+      1,
+      {Info("hall", 3, 30, RouteState::kTeaching), Info("hall", 2, 20, RouteState::kComplete),
+       Info("hall", 1, 10, RouteState::kComplete)},
+      {},
+      ""});
   EXPECT_EQ(finder_.found()->key.revision.value(), 2U);
 }
 
@@ -94,9 +94,7 @@ TEST_F(RouteFinderTest, KeepsTheLatestAnnouncementOfTheNameAlone) {
   EXPECT_EQ(finder_.announced(), grown);
 }
 
-TEST(ChooseRouteTest, HasNothingToChooseFromNothing) {
-  EXPECT_FALSE(ChooseRoute({}));
-}
+TEST(ChooseRouteTest, HasNothingToChooseFromNothing) { EXPECT_FALSE(ChooseRoute({})); }
 
 }  // namespace
 }  // namespace trailcast::agent

@@ -9,12 +9,12 @@ namespace trailcast::agent {
 namespace {
 
 using route::RouteState;
+using std::chrono::milliseconds;
 using test::WalkDevice;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using std::chrono::milliseconds;
 
 constexpr int kFrames = 150;
 
@@ -68,8 +68,8 @@ TEST_F(ScoutTest, KeepsWhatNoServerConfirmedAndDeliversItLater) {
                     HasSubstr("deliver")));
   swarm_.StartServer();
   options.link.delivery_timeout = std::chrono::seconds(20);
-  const auto delivered = DeliverBacklog(options.link, swarm_.OpenStore("scout"),
-                                        swarm_.Join(exchange::ScoutTopics()));
+  const auto delivered =
+      DeliverBacklog(options.link, swarm_.OpenStore("scout"), swarm_.Join(exchange::ScoutTopics()));
   ASSERT_TRUE(delivered) << delivered.error().message;
   swarm_.StopServer();
   EXPECT_EQ(Taught("server"), Taught("scout"));

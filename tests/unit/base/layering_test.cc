@@ -141,6 +141,9 @@ std::string FaultOf(const Include& include) {
   }
   if (include.quoted) {
     if (header.starts_with(include.folder + "/")) return "";  // agent/ and route_server/ themselves
+    if (header.starts_with("agent/cli/")) {                   // what all programs share
+      return include.folder == "route_server" ? "" : "is for programs only";
+    }
     // What idlc generates from idl/*.idl bears the bare name of its file.
     return include.folder == "services/dds" ? "" : "is given by no path from the root";
   }
