@@ -9,14 +9,18 @@ namespace trailcast::agent {
 namespace {
 
 constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too noisy
+constexpr double kShareToLearn = 0.35;      // and from a small share of them not to be trusted
 constexpr std::size_t kMagnificationsKept = 15;
 constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
-// The first hand-over does not know yet how the robot stands and how its camera is mounted: 4
-// degrees of yaw and of pitch, and a few centimetres beside near features.
-constexpr vision::SearchRadius kStartRadius{45.0, 22.0};
-constexpr vision::SearchRadius kRadius{28.0, 14.0};
-constexpr vision::SearchRadius kAfterWide{16.0, 10.0};
+// Around what the wide search says, in scout's pixels of a picture 320 px wide.
+constexpr double kAfterWide_px = 16.0;
+constexpr double kRecover_px = 56.0;
+
+vision::SearchRadius Around(double within_px_at_320, int scout_width_px) {
+  const double u_px = within_px_at_320 * scout_width_px / 320.0;
+  return {u_px, 0.5 * u_px};
+}
 
 // Where a fit puts the segment's features, at fraction `s` of their tracks.
 std::vector<route::TrackedFeature> Places(const route::Segment& segment, double s,
@@ -36,7 +40,7 @@ vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
   const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
   if (coarse.matches == 0) return {};
   return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit), coarse.fit.scale,
-                          kAfterWide);
+                          Around(kAfterWide_px, scout_width_px_));
 }
 
 std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& frame,
@@ -46,12 +50,14 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
   const auto stored = static_cast<double>(segment.features.size());
   vision::FindResult found =
       finder_.FindNear(frame, segment.features, follower.Expect(), follower.magnification(),
-                       count_ == 0 ? kStartRadius : kRadius);
+                       Around(follower.expected_within_px_at_320(), scout_width_px_));
   if (any_camera_ && static_cast<double>(found.features.size()) < kEnoughShare * stored) {
     vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0);
     if (elsewhere.features.size() > found.features.size()) found = std::move(elsewhere);
   }
-  if (any_camera_) Learn(found, follower);
+  if (any_camera_ && static_cast<double>(found.features.size()) >= kShareToLearn * stored) {
+    Learn(found, follower);
+  }
   share_sum_ += static_cast<double>(found.features.size()) / stored;
   ++count_;
   return std::move(found.features);
@@ -61,7 +67,7 @@ std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame
                                                    const replay::Follower& follower) const {
   return finder_
       .FindNear(frame, follower.segment().features, follower.Expect(), follower.magnification(),
-                kRadius)
+                Around(follower.expected_within_px_at_320(), scout_width_px_))
       .features;
 }
 
@@ -89,7 +95,7 @@ std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& fra
       if (i > 0 && s > 0.0) continue;
       keep_better(i, finder_.FindNear(frame, ahead[i].features,
                                       Places(ahead[i], s, {magnification, 0.0, 0.0}), magnification,
-                                      kRadius));
+                                      Around(kRecover_px, scout_width_px_)));
       if (any_camera_) keep_better(i, FindAnywhere(frame, ahead[i], s));
     }
   }

@@ -19,7 +19,8 @@ class HandOver {
  public:
   // `any_camera`: look for other magnifications too; false for the paper's method, which takes the
   // cameras to be alike.
-  explicit HandOver(bool any_camera) : any_camera_(any_camera) {}
+  HandOver(bool any_camera, int scout_width_px)
+      : any_camera_(any_camera), scout_width_px_(scout_width_px) {}
 
   // The features of the segment that `follower` has just begun, in the follower's pixels. Tells the
   // follower the magnification it saw.
@@ -50,6 +51,7 @@ class HandOver {
 
   vision::FeatureFinder finder_;
   bool any_camera_;
+  int scout_width_px_;
   std::deque<double> seen_magnifications_;
   double share_sum_ = 0.0;
   int count_ = 0;

@@ -233,7 +233,9 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
       if (s.complete && s.follower) s.state = ReplayState::kArrived;
       return s.Report({});
     }
-    if (!s.hand_over) s.hand_over.emplace(s.options.method != ReplayMethod::kPaper);
+    if (!s.hand_over) {
+      s.hand_over.emplace(s.options.method != ReplayMethod::kPaper, s.scout_width_px);
+    }
     s.Begin(next, frame);
     return s.Report(s.follower->Step({s.tracker.Current(), odometry}));
   }

@@ -170,8 +170,8 @@ class FolderSequence final : public FrameSequence {
 
 class VideoSequence final : public FrameSequence {
  public:
-  VideoSequence(fs::path file, cv::VideoCapture video)
-      : file_(std::move(file)), video_(std::move(video)) {
+  VideoSequence(fs::path file, const cv::VideoCapture& video)
+      : file_(std::move(file)), video_(video) {
     announced_frames_ = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_COUNT));
   }
 
@@ -275,7 +275,9 @@ Result<std::unique_ptr<FrameSequence>> FrameSequence::Open(const fs::path& folde
   }
   cv::VideoCapture video;
   try {
-    video.open(folder_or_video.string());
+    // By name: with any backend allowed, OpenCV also asks for cameras, and GStreamer for devices.
+    const std::string name = folder_or_video.string();
+    if (!video.open(name, cv::CAP_FFMPEG)) video.open(name, cv::CAP_OPENCV_MJPEG);
   } catch (const cv::Exception&) {
     video.release();
   }
@@ -285,7 +287,7 @@ Result<std::unique_ptr<FrameSequence>> FrameSequence::Open(const fs::path& folde
                 "decodes (AVI, MP4, ...)",
                 folder_or_video.string());
   }
-  return std::make_unique<VideoSequence>(folder_or_video, std::move(video));
+  return std::make_unique<VideoSequence>(folder_or_video, video);
 }
 
 }  // namespace trailcast::image

@@ -45,6 +45,9 @@ class Follower {
   virtual void Begin(const route::Segment& segment) = 0;
   // Where the segment's features should be in the picture now (FollowInput's coordinates).
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
+  // How far along u they may be from there, in scout's pixels of a picture 320 px wide; along v
+  // half as far.
+  [[nodiscard]] virtual double expected_within_px_at_320() const = 0;
   // The follower's pixels per scout's pixel, and what the matches at a hand-over say it is.
   [[nodiscard]] virtual double magnification() const = 0;
   virtual void SetMagnification(double magnification) = 0;

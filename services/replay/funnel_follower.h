@@ -44,6 +44,8 @@ class FunnelFollower final : public Follower {
 
   void Begin(const route::Segment& segment) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override;
+  // It has no idea how far off the path or the heading it is.
+  [[nodiscard]] double expected_within_px_at_320() const override { return 56.0; }
   [[nodiscard]] double magnification() const override { return magnification_; }
   void SetMagnification(double magnification) override { magnification_ = magnification; }
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;

@@ -58,14 +58,17 @@ TexturePtr Instrument(std::uint64_t seed) {
     if (i < 5) canvas.Line({{14, 16 + 22.0 * i}, {164, 16 + 22.0 * i}}, {40, 82, 62}, 1);
   }
   std::vector<image::PixelPoint> trace;
+  trace.reserve(150);
   const double period = random.Uniform(20, 50);
   for (int x = 0; x < 150; ++x) {
     trace.push_back({14.0 + x, static_cast<int>(x / period) % 2 == 0 ? 50.0 : 96.0});
   }
   canvas.Line(trace, {150, 250, 120}, 2);
   for (int i = 0; i < 6; ++i) {
-    canvas.Disc({190 + 44.0 * (i % 3), 44 + 56.0 * (i / 3)}, random.Uniform(9, 16), {60, 60, 64});
-    canvas.Disc({190 + 44.0 * (i % 3), 40 + 56.0 * (i / 3)}, 3, {230, 230, 230});
+    const int row = i / 3;
+    const int column = i % 3;
+    canvas.Disc({190 + 44.0 * column, 44 + 56.0 * row}, random.Uniform(9, 16), {60, 60, 64});
+    canvas.Disc({190 + 44.0 * column, 40 + 56.0 * row}, 3, {230, 230, 230});
   }
   for (int i = 0; i < 4; ++i) canvas.Disc({40 + 40.0 * i, 145}, 7, {190, 170, 90});
   return Finish(canvas);

@@ -157,11 +157,13 @@ void Furniture::RowOfSpines(float width, float depth, float z, float room_m) {
 }
 
 void Furniture::RowOfCartons(float width, float depth, float z, float room_m) {
-  for (float x = 0.05F; x < width - 0.2F; x += Between(random_, 0.34, 0.5)) {
+  float x = 0.05F;
+  while (x < width - 0.2F) {
     const float wide = std::min(Between(random_, 0.22, 0.32), width - 0.04F - x);
     const float tall = room_m * Between(random_, 0.5, 0.85);
     b_.Box(pot_, {x, 0.04F, z}, {x + wide, depth - 0.03F, z + tall});
     b_.Panel(Pick(cartons_, random_), {x, 0.036F, z + tall}, {wide, 0, 0}, {0, 0, -tall});
+    x += Between(random_, 0.34, 0.5);
   }
 }
 

@@ -82,7 +82,7 @@ float ImageFormation::Smeared(const PerfectView& view, int x, int y,
     const int row = static_cast<int>(v);
     const float right = u - static_cast<float>(column);
     const float lower = v - static_cast<float>(row);
-    const float* p = &view.gray[static_cast<std::size_t>(row * width_ + column)];
+    const float* p = &view.gray[image::PixelIndex(column, row, width_)];
     const float upper_row = p[0] + right * (p[1] - p[0]);
     const float lower_row = p[width_] + right * (p[width_ + 1] - p[width_]);
     sum += upper_row + lower * (lower_row - upper_row);

@@ -81,7 +81,7 @@ std::vector<Lamp> AddLamps(SceneBuilder& b) {
       const float z = kHeight_m - 0.06F;
       b.Box(frame, {x - 0.62F, y - 0.17F, z}, {x + 0.62F, y + 0.17F, kHeight_m});
       b.Panel(glow, {x - 0.6F, y - 0.15F, z - 0.004F}, {1.2F, 0, 0}, {0, 0.3F, 0});
-      lamps.push_back({{x, y, z - 0.06F}, -Eigen::Vector3f::UnitZ(), 1.15F});
+      lamps.push_back({{x, y, z - 0.06F}, -Eigen::Vector3f::UnitZ(), 1.6F});
     }
   }
   for (const float x : {2.0F, 5.6F, 9.2F}) {

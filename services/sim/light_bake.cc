@@ -18,6 +18,7 @@ constexpr float kBrightest = 1.25F;  // next to a lamp
 // Directions spread over the half-sphere about z, denser towards it (by the cosine): a spiral.
 std::vector<Eigen::Vector3f> HalfSphere() {
   std::vector<Eigen::Vector3f> directions;
+  directions.reserve(kSkyRays);
   for (int i = 0; i < kSkyRays; ++i) {
     const float share = (static_cast<float>(i) + 0.5F) / kSkyRays;
     const float radius = std::sqrt(share);

@@ -54,6 +54,7 @@ void SmallPrint(Canvas& canvas, Random& random, double x, double y, double width
 void Curve(Canvas& canvas, Random& random, double x, double y, double width, double height,
            Color color) {
   std::vector<image::PixelPoint> points;
+  points.reserve(61);
   const double waves = random.Uniform(1.0, 3.0);
   const double phase = random.Uniform(0.0, 6.0);
   for (int i = 0; i <= 60; ++i) {
@@ -170,11 +171,11 @@ TexturePtr BookSpines(std::uint64_t seed) {
     Canvas title(200, kSpine_px, cloth);
     title.Text(Word(random), {8, 34}, random.Uniform(15, 24), Contrast(cloth));
     // The title runs down the spine: its picture is turned by a quarter.
-    image::RgbImage turned{kSpine_px, 200, std::vector<std::uint8_t>(3U * 200 * kSpine_px)};
+    image::RgbImage turned{kSpine_px, 200, std::vector<std::uint8_t>(std::size_t{600} * kSpine_px)};
     for (int row = 0; row < kSpine_px; ++row) {
       for (int column = 0; column < 200; ++column) {
-        const auto from = static_cast<std::size_t>(3 * (row * 200 + column));
-        const auto to = static_cast<std::size_t>(3 * (column * kSpine_px + kSpine_px - 1 - row));
+        const auto from = 3 * image::PixelIndex(column, row, 200);
+        const auto to = 3 * image::PixelIndex(kSpine_px - 1 - row, column, kSpine_px);
         for (std::size_t c = 0; c < 3; ++c)
           turned.pixels[to + c] = title.picture().pixels[from + c];
       }

@@ -54,6 +54,7 @@ Result<std::vector<double>> ReadRow(const std::string& line, std::size_t columns
                 line_number, fields.size(), columns);
   }
   std::vector<double> row;
+  row.reserve(columns);
   for (const std::string& field : fields) {
     const auto value = ToNumber(field);
     if (!value) {
@@ -145,6 +146,7 @@ Polyline RoundCorners(const Polyline& points, double radius_m, double spacing_m)
   const double length_m = Length(rounded);
   const int pieces = std::max(1, static_cast<int>(std::lround(length_m / spacing_m)));
   Polyline sampled;
+  sampled.reserve(static_cast<std::size_t>(pieces) + 1);
   for (int i = 0; i <= pieces; ++i) sampled.push_back(PointAlong(rounded, length_m * i / pieces));
   return sampled;
 }

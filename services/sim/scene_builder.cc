@@ -45,7 +45,7 @@ void SceneBuilder::Panel(MaterialId material, const Eigen::Vector3f& upper_left,
     }
   }
   const auto at = [&](int row, int column) {
-    return first + static_cast<std::uint32_t>(row * (columns + 1) + column);
+    return first + static_cast<std::uint32_t>(image::PixelIndex(column, row, columns + 1));
   };
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {

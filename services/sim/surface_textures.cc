@@ -32,7 +32,7 @@ class Field {
   [[nodiscard]] double Value(int i, int j) const {
     const int x = ((i % width_) + width_) % width_;
     const int y = ((j % height_) + height_) % height_;
-    return values_[static_cast<std::size_t>(y * width_ + x)];
+    return values_[image::PixelIndex(x, y, width_)];
   }
   int width_;
   int height_;
@@ -82,6 +82,8 @@ TexturePtr FloorBoards(std::uint64_t seed) {
   constexpr int kLengths = 2;
   std::vector<double> tones;
   std::vector<double> offsets;
+  tones.reserve(std::size_t{kBoards} * kLengths);
+  offsets.reserve(kBoards);
   for (int i = 0; i < kBoards; ++i) {
     offsets.push_back(random.Uniform());
     for (int j = 0; j < kLengths; ++j) tones.push_back(random.Uniform(-22.0, 22.0));
@@ -93,7 +95,7 @@ TexturePtr FloorBoards(std::uint64_t seed) {
     const double along = x * kLengths + offsets[static_cast<std::size_t>(board)];
     const int piece = static_cast<int>(along) % kLengths;
     const double joint = std::min(JointDistance(y * kBoards) / kBoards, JointDistance(along) / 2.0);
-    const double tone = tones[static_cast<std::size_t>(board * kLengths + piece)];
+    const double tone = tones[image::PixelIndex(piece, board, kLengths)];
     return tone + 11.0 * rings.At(x, y) + 5.0 * fibres.At(x, y) - (joint < 0.0012 ? 55.0 : 0.0);
   }));
 }
@@ -124,6 +126,7 @@ TexturePtr Brickwork(std::uint64_t seed) {
   constexpr int kCourses = 20;
   constexpr int kBricks = 6;
   std::vector<double> tones;
+  tones.reserve(std::size_t{kCourses} * kBricks);
   for (int i = 0; i < kCourses * kBricks; ++i) tones.push_back(random.Uniform(-25.0, 25.0));
   const Field rough(128, 128, random);
   return Finish(Tinted(1024, {176, 116, 92}, [&](double x, double y) {
@@ -133,7 +136,7 @@ TexturePtr Brickwork(std::uint64_t seed) {
     const double upright_m = JointDistance(along) * 0.25;
     const double level_m = JointDistance(y * kCourses) * 0.075;
     if (std::min(upright_m, level_m) < 0.005) return 48.0 + 4.0 * rough.At(x, y);
-    return tones[static_cast<std::size_t>(course * kBricks + brick)] + 9.0 * rough.At(x, y);
+    return tones[image::PixelIndex(brick, course, kBricks)] + 9.0 * rough.At(x, y);
   }));
 }
 

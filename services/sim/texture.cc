@@ -35,11 +35,6 @@ inline float Blend(const AxisTap& x, const AxisTap& y, float a, float b, float c
   return upper + y.weight * (lower - upper);
 }
 
-std::size_t IndexOf(int x, int y, int width) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(x);
-}
-
 }  // namespace
 
 Texture::Texture(const image::RgbImage& picture) {
@@ -53,7 +48,7 @@ Texture::Texture(const image::RgbImage& picture) {
 
 void Texture::FillGray(Level& level) {
   const auto gray = [&](int x, int y) {
-    const std::size_t i = IndexOf(x % level.width, y % level.height, level.width);
+    const std::size_t i = image::PixelIndex(x % level.width, y % level.height, level.width);
     const std::uint8_t* p = &level.rgb[3 * i];
     return static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2] + 128) >> 8);
   };
@@ -76,11 +71,11 @@ Texture::Level Texture::Halve(const Level& level) {
     for (int x = 0; x < half.width; ++x) {
       const int x0 = x * level.width / half.width;
       const int x1 = std::max(x0 + 1, (x + 1) * level.width / half.width);
-      for (int channel = 0; channel < 3; ++channel) {
+      for (std::size_t channel = 0; channel < 3; ++channel) {
         int sum = 0;
         for (int row = y0; row < y1; ++row) {
           for (int column = x0; column < x1; ++column) {
-            sum += level.rgb[static_cast<std::size_t>(3 * (row * level.width + column) + channel)];
+            sum += level.rgb[3 * image::PixelIndex(column, row, level.width) + channel];
           }
         }
         const int count = (y1 - y0) * (x1 - x0);
@@ -97,7 +92,7 @@ float Texture::GrayOnLevel(float u, float v, int level) const {
   const Level& l = levels_[static_cast<std::size_t>(std::clamp(level, 0, top))];
   const AxisTap x = AlongAxis(u, l.width);
   const AxisTap y = AlongAxis(v, l.height);
-  const auto& texels = l.gray[IndexOf(x.texel, y.texel, l.width)];
+  const auto& texels = l.gray[image::PixelIndex(x.texel, y.texel, l.width)];
   return Blend(x, y, texels[0], texels[1], texels[2], texels[3]);
 }
 
@@ -120,7 +115,8 @@ Eigen::Vector3f Texture::Rgb(float u, float v, float level) const {
   Eigen::Vector3f color;
   for (int channel = 0; channel < 3; ++channel) {
     const auto texel = [&](int column, int row) {
-      const std::size_t i = 3 * IndexOf(column, row, l.width) + static_cast<std::size_t>(channel);
+      const std::size_t i =
+          3 * image::PixelIndex(column, row, l.width) + static_cast<std::size_t>(channel);
       return static_cast<float>(l.rgb[i]);
     };
     color[channel] = Blend(x, y, texel(x.texel, y.texel), texel(next_x, y.texel),

@@ -1,5 +1,5 @@
-// One replay step at 320x240 with 60 features, beside the bare OpenCV calls that it cannot do without,
-// and the hand-over. See README.md.
+// One replay step at 320x240 with 60 features, beside the bare OpenCV calls that it cannot do
+// without, and the hand-over. See README.md.
 
 #include <benchmark/benchmark.h>
 
@@ -8,6 +8,7 @@
 
 #include "agent/hand_over.h"
 #include "services/replay/funnel_follower.h"
+#include "services/replay/path_follower.h"
 #include "services/teach/segment_recorder.h"
 #include "services/vision/feature_tracker.h"
 #include "services/vision/frame.h"
@@ -81,6 +82,7 @@ void BareOpenCv(benchmark::State& state) {
 }
 BENCHMARK(BareOpenCv)->Unit(benchmark::kMillisecond);
 
+template <typename Follower>
 void ReplayStep(benchmark::State& state) {
   vision::FeatureTracker tracker;
   tracker.Track(Frames().front());
@@ -95,26 +97,30 @@ void ReplayStep(benchmark::State& state) {
     const auto v = static_cast<float>(feature.v_px);
     segment.features.push_back({{}, {}, {{0.0F, u, v}, {1.0F, 1.1F * u, 1.1F * v}}});
   }
-  replay::SegmentFollower follower(segment, 320, {});
-  agent::HandOver hand_over(agent::ReplayMethod::kDefault, 320, 320);
+  Follower follower(320, 1.0);
+  follower.Begin(segment);
   std::size_t i = 0;
   double tracked = 0.0;
   for (auto _ : state) {
     if (i % kFrames == 0) tracker.Follow(features);
     const auto now = tracker.Track(Frames()[i++ % kFrames]);
     tracked += static_cast<double>(now.size());
-    benchmark::DoNotOptimize(
-        follower.Step({hand_over.InScoutPixels(now), motion::OdometryIncrement{0.001, 0.0}}));
+    benchmark::DoNotOptimize(follower.Step({now, motion::OdometryIncrement{0.001, 0.0}}));
   }
   state.counters["features"] = tracked / static_cast<double>(state.iterations());
 }
-BENCHMARK(ReplayStep)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(ReplayStep, replay::FunnelFollower)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(ReplayStep, replay::PathFollower)->Unit(benchmark::kMillisecond);
 
 void HandOverNear(benchmark::State& state) {
   const route::Segment segment = TaughtSegment();
-  agent::HandOver hand_over(agent::ReplayMethod::kDefault, 320, 320);
+  agent::HandOver hand_over(true, 320);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(hand_over.ToSegment(Frames()[3], segment));
+    state.PauseTiming();
+    replay::PathFollower follower(320, 1.0);
+    follower.Begin(segment);
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(hand_over.ToSegment(Frames()[3], follower));
   }
   state.counters["found_share"] = hand_over.found_share();
   state.counters["sought"] = static_cast<double>(segment.features.size());

@@ -58,10 +58,10 @@ inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& star
 
 // What a robot at `pose` sees of the run's features, numbered as in the segment.
 inline std::vector<route::TrackedFeature> Matched(const LandmarkScene& scene, const TaughtRun& run,
-                                                  const motion::Pose2& pose,
-                                                  double roll_rad = 0.0) {
+                                                  const motion::Pose2& pose, double roll_rad = 0.0,
+                                                  double focal_px = LandmarkScene::kFocal_px) {
   std::vector<route::TrackedFeature> matched;
-  for (const auto& now : scene.Look(pose, roll_rad)) {
+  for (const auto& now : scene.Look(pose, roll_rad, focal_px)) {
     for (std::size_t i = 0; i < run.landmark_of_feature.size(); ++i) {
       if (run.landmark_of_feature[i] == now.id) {
         matched.push_back({static_cast<int>(i), now.u_px, now.v_px});

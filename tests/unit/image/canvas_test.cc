@@ -12,7 +12,7 @@ constexpr Color kRed = {255, 0, 0};
 
 Color At(const Canvas& canvas, int x, int y) {
   const RgbImage& picture = canvas.picture();
-  const auto i = 3 * static_cast<std::size_t>(y * picture.width + x);
+  const auto i = 3 * PixelIndex(x, y, picture.width);
   return {picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]};
 }
 

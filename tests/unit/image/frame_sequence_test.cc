@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 GrayImage Plain(int width, int height, std::uint8_t grey) {
-  return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), grey)};
+  return {width, height, std::vector<std::uint8_t>(PixelIndex(0, height, width), grey)};
 }
 
 void Write(const GrayImage& frame, const std::filesystem::path& file) {

@@ -28,7 +28,7 @@ Eigen::Vector2d Expected(const CameraModel& camera, const Eigen::Vector3d& point
 }
 
 float At(const PerfectView& view, int x, int y) {
-  return view.gray[static_cast<std::size_t>(y * view.width + x)];
+  return view.gray[image::PixelIndex(x, y, view.width)];
 }
 
 class EveryLens : public ::testing::TestWithParam<std::string> {};

@@ -11,7 +11,7 @@ namespace {
 class ImageFormationTest : public ::testing::Test {
  protected:
   PerfectView Even(float gray) const {
-    const auto pixels = static_cast<std::size_t>(camera_.width * camera_.height);
+    const auto pixels = image::PixelIndex(0, camera_.height, camera_.width);
     return {camera_.width, camera_.height, std::vector<float>(pixels, gray),
             std::vector<float>(pixels, 2.0F)};
   }

@@ -57,10 +57,12 @@ TEST_F(IndoorWorld, HasStructureAtManyDepthsOnBothSides) {
     for (const int first : {0, 160}) {
       std::vector<float> depths;
       std::vector<float> grays;
+      depths.reserve(110U * 160U);
+      grays.reserve(110U * 160U);
       for (int y = 20; y < 130; ++y) {
         for (int x = first; x < first + 160; ++x) {
-          depths.push_back(view.depth_m[static_cast<std::size_t>(y * 320 + x)]);
-          grays.push_back(view.gray[static_cast<std::size_t>(y * 320 + x)]);
+          depths.push_back(view.depth_m[image::PixelIndex(x, y, 320)]);
+          grays.push_back(view.gray[image::PixelIndex(x, y, 320)]);
         }
       }
       std::sort(depths.begin(), depths.end());

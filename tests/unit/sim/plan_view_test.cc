@@ -9,8 +9,8 @@ namespace {
 
 int RedAt(const PlanView& plan, double x_m, double y_m) {
   const Eigen::Vector2d pixel = plan.PixelOf(x_m, y_m);
-  const auto i = static_cast<std::size_t>(
-      3 * (static_cast<int>(pixel.y()) * plan.picture.width + static_cast<int>(pixel.x())));
+  const std::size_t i = 3 * image::PixelIndex(static_cast<int>(pixel.x()),
+                                              static_cast<int>(pixel.y()), plan.picture.width);
   return plan.picture.pixels[i];
 }
 

@@ -56,6 +56,7 @@ TEST(Robot, OdometryErrorsAreAsLargeAsAskedFor) {
   std::vector<double> scale;
   std::vector<double> bias;
   std::vector<double> turn;
+  for (auto* values : {&scale, &bias, &turn}) values->reserve(200);
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     DifferentialDriveRobot robot(world, {}, DrawRobot(disturbances, seed), {}, 1.0, seed);
     DriveFor(robot, {0.9, 0.0}, 10.0);

@@ -1,0 +1,176 @@
+#include "services/replay/path_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "services/replay/lane_keeping.h"
+#include "services/replay/path_follower.h"
+#include "tests/support/taught_segment.h"
+
+namespace trailcast::replay {
+namespace {
+
+const test::LandmarkScene kScene = test::LandmarkScene::Corridor(4.0, 16.0, 90, 5);
+constexpr double kDt_s = 1.0 / 30.0;
+// The estimator's own guess at 320 px; the scene's true focal length is close to it but not the
+// same.
+constexpr double kGuess_px = 0.87 * 320;
+
+TEST(TaughtDepth, IsTheLandmarksDepthOnAStraight) {
+  const test::LandmarkScene scene({{4.0, 1.0, 0.3}, {8.0, -2.0, 0.5}});
+  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
+  ASSERT_EQ(run.segment.features.size(), 2U);
+  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).at_start_per_m,
+              1.0 / 4.0, 0.01);
+  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[1], kGuess_px).at_start_per_m,
+              1.0 / 8.0, 0.01);
+}
+
+TEST(TaughtDepth, IsNotFooledByABend) {
+  const test::LandmarkScene scene({{5.0, 1.2, 0.3}, {40.0, 3.0, 6.0}});
+  const auto run = test::TeachArcs(scene, {}, {{1.2, 0.25}});
+  ASSERT_EQ(run.segment.features.size(), 2U);
+  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).at_start_per_m, 0.2,
+              0.04);
+  EXPECT_LT(TaughtDepth(run.segment, run.segment.features[1], kGuess_px).at_start_per_m, 0.06);
+}
+
+TEST(TaughtDepth, IsUnsureNearTheImageCentre) {
+  const test::LandmarkScene scene({{6.0, 0.05, 0.02}, {6.0, 1.5, 0.5}});
+  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
+  EXPECT_GT(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).sigma_per_m,
+            5 * TaughtDepth(run.segment, run.segment.features[1], kGuess_px).sigma_per_m);
+}
+
+// What the estimator makes of one look from a known place beside the path.
+PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator(320, magnification);
+  estimator.Begin(run.segment);
+  estimator.Predict({1.0, 0.0});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_GE(estimator.Update(test::Matched(kScene, run, pose, roll_rad,
+                                             magnification * test::LandmarkScene::kFocal_px)),
+              10);
+  }
+  return estimator.offset();
+}
+
+TEST(PathEstimator, SaysZeroOnThePath) {
+  const PathOffset offset = LookFrom({1.0, 0.0, 0.0});
+  EXPECT_NEAR(offset.left_m, 0.0, 0.01);
+  EXPECT_NEAR(offset.heading_rad, 0.0, 0.005);
+  EXPECT_NEAR(offset.along_m, 1.0, 0.04);  // tracks are straight between knots, in truth they bend
+}
+
+TEST(PathEstimator, TellsSidewaysFromRotation) {
+  const PathOffset aside = LookFrom({1.0, 0.15, 0.0});
+  EXPECT_NEAR(aside.left_m, 0.15, 0.04);
+  const PathOffset turned = LookFrom({1.0, 0.0, 0.05});
+  EXPECT_NEAR(turned.left_m, 0.0, 0.04);
+}
+
+TEST(PathEstimator, SeesProgressThatOdometryMissed) {
+  EXPECT_NEAR(LookFrom({1.2, 0.0, 0.0}).along_m, 1.2, 0.05);
+  EXPECT_NEAR(LookFrom({0.8, 0.0, 0.0}).along_m, 0.8, 0.05);
+}
+
+TEST(PathEstimator, BearsRollAndAnotherMagnification) {
+  for (const double magnification : {0.6, 1.0, 1.8}) {
+    const PathOffset offset = LookFrom({1.0, 0.1, 0.0}, magnification, 0.04);
+    EXPECT_NEAR(offset.left_m, 0.1, 0.05) << "magnification " << magnification;
+  }
+}
+
+TEST(PathEstimator, PassesOverMismatches) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator(320, 1.0);
+  estimator.Begin(run.segment);
+  estimator.Predict({1.0, 0.0});
+  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
+  ASSERT_GE(seen.size(), 20U);
+  for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
+  const int agreeing = estimator.Update(seen);
+  EXPECT_EQ(agreeing, static_cast<int>(seen.size() - seen.size() / 5));
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
+}
+
+TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
+  const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.3}});
+  PathEstimator estimator(320, 1.0);
+  estimator.Begin(run.segment);
+  for (int i = 0; i < 50; ++i) {
+    estimator.Predict({0.01, 0.003});
+    EXPECT_EQ(estimator.Update({}), 0);
+  }
+  EXPECT_NEAR(estimator.offset().along_m, 0.5, 0.01);
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.01);
+  EXPECT_GT(estimator.offset_sigma_m(), 0.09);
+}
+
+TEST(LaneKeeping, GainsAreCriticallyDamped) {
+  // L = 0.5 m: c1 = 4 /m, c2 = 4 /m^2 at 0.4 m/s.
+  EXPECT_NEAR(LaneKeepingTurnRate({0.0, 0.1, 0.0}, 0.0, 0.4), -0.16, 1e-9);
+  EXPECT_NEAR(LaneKeepingTurnRate({0.1, 0.0, 0.0}, 0.0, 0.4), -0.16, 1e-9);
+  EXPECT_NEAR(LaneKeepingTurnRate({0.0, 0.0, 0.0}, 0.5, 0.4), 0.2, 1e-9);
+}
+
+TEST(LaneKeeping, NeverApproachesSteeperThanItsLimit) {
+  const LaneKeepingOptions options;
+  // Already heading for the path at the limit, from far away: straight on.
+  EXPECT_NEAR(LaneKeepingTurnRate({5.0, -options.steepest_rad, 0.0}, 0.0, 0.4), 0.0, 1e-9);
+}
+
+// Drives a robot with a perfect base by the follower's commands over several segments.
+motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robot,
+                    double magnification) {
+  PathFollower follower(320, magnification);
+  motion::OdometryIncrement moved;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    route::Segment segment = runs[i].segment;
+    segment.index = SegmentIndex(static_cast<std::uint32_t>(i));
+    follower.Begin(segment);
+    FollowStep step;
+    for (int frame = 0; frame < 900 && !step.ended; ++frame) {
+      step = follower.Step({test::Matched(kScene, runs[i], robot, 0.0,
+                                          magnification * test::LandmarkScene::kFocal_px),
+                            moved});
+      if (step.ended) {
+        moved = {};
+        break;
+      }
+      moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
+      robot = motion::Advance(robot, moved);
+    }
+    EXPECT_TRUE(step.ended) << "segment " << i;
+  }
+  return robot;
+}
+
+TEST(PathFollower, ReturnsToThePathAndEndsWhereTeachingEnded) {
+  const auto first = test::TeachArcs(kScene, {}, {{1.5, 0.0}});
+  const auto second = test::TeachArcs(kScene, first.end, {{1.0, 0.25}});
+  const auto third = test::TeachArcs(kScene, second.end, {{1.0, -0.25}});
+  for (const double magnification : {0.7, 1.0, 1.6}) {
+    const motion::Pose2 end = Drive({first, second, third}, {-0.08, 0.1, -0.05}, magnification);
+    EXPECT_NEAR(end.x_m, third.end.x_m, 0.08) << "magnification " << magnification;
+    EXPECT_NEAR(end.y_m, third.end.y_m, 0.08) << "magnification " << magnification;
+    EXPECT_NEAR(end.heading_rad, third.end.heading_rad, 0.08);
+  }
+}
+
+TEST(PathFollower, WantsTheNextSegmentWhenFewFeaturesAreLeft) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathFollower follower(320, 1.0);
+  follower.Begin(run.segment);
+  auto few = test::Matched(kScene, run, {1.2, 0.0, 0.0});
+  few.resize(5);
+  EXPECT_TRUE(follower.Step({few, motion::OdometryIncrement{1.2, 0.0}}).wants_next);
+  EXPECT_FALSE(
+      follower.Step({test::Matched(kScene, run, {1.2, 0.0, 0.0}), motion::OdometryIncrement{}})
+          .wants_next);
+}
+
+}  // namespace
+}  // namespace trailcast::replay
