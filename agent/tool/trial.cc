@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "agent/tool/standstill_watch.h"
 #include "agent/tool/trial_teach.h"
 #include "services/route/digest.h"
 #include "services/sim/judge.h"
@@ -16,8 +17,6 @@ namespace {
 using agent::ReplayState;
 using agent::ReplayStep;
 
-constexpr double kStandstill_s = 20.0;  // without getting kStandstill_m further: stuck
-constexpr double kStandstill_m = 0.2;
 constexpr double kPatience = 4.0;  // times what teaching took: going round in circles
 constexpr double kPatience_s = 60.0;
 constexpr int kProgressEvery = 15;   // frames
@@ -38,22 +37,6 @@ sim::SimulatedRobotOptions FollowerOptions(const TrialSetup& setup, std::uint64_
   options.seed = seed;
   return options;
 }
-
-// Notices a robot that gets nowhere.
-class StandstillWatch {
- public:
-  bool Stuck(const Eigen::Vector2d& position_m, double time_s) {
-    if (!since_s_ || (position_m - anchor_m_).norm() > kStandstill_m) {
-      anchor_m_ = position_m;
-      since_s_ = time_s;
-    }
-    return time_s - *since_s_ > kStandstill_s;
-  }
-
- private:
-  Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Zero();
-  std::optional<double> since_s_;
-};
 
 // A follower in closed loop, frame by frame, until it has ended one way or the other.
 class Replaying {
@@ -109,8 +92,9 @@ class Replaying {
       return End("strayed", fmt::format("{}: over {:.0f} m off the path", where, kStrayLimit_m));
     }
     if (standstill_.Stuck(position_m, time_s)) {
-      return End("stuck", fmt::format("{}: no further for {:.0f} s{}{}", where, kStandstill_s,
-                                      last_.reason.empty() ? "" : ": ", last_.reason));
+      return End("stuck",
+                 fmt::format("{}: no further for {:.0f} s{}{}", where, StandstillWatch::kBound_s,
+                             last_.reason.empty() ? "" : ": ", last_.reason));
     }
     if (time_s > limit_s_) {
       return End("timeout", fmt::format("{}: still under way after {:.0f} s", where, limit_s_));

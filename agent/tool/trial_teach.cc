@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agent/teach_session.h"
+#include "agent/tool/standstill_watch.h"
 #include "services/route/digest.h"
 #include "services/sim/judge.h"
 #include "services/sim/path_follow_driver.h"
@@ -13,9 +14,6 @@
 namespace trailcast::tool {
 namespace {
 
-// An operator who is this much slower than planned does not get along.
-constexpr double kPatience = 5.0;
-constexpr double kPatience_s = 60.0;
 constexpr int kProgressEvery = 15;  // frames
 
 sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, std::uint64_t seed) {
@@ -66,10 +64,10 @@ class Teaching {
 
   [[nodiscard]] double time_s() const { return taught_.duration_s; }
   [[nodiscard]] const motion::Pose2& true_pose() const { return truth_.true_pose(); }
-  [[nodiscard]] double path_m() const { return sim::Length(driver_.path()); }
   // Of the path, by the nearest place on it.
   [[nodiscard]] double share() const {
-    return sim::Nearest(driver_.path(), motion::Position(true_pose())).along_m / path_m();
+    return sim::Nearest(driver_.path(), motion::Position(true_pose())).along_m /
+           sim::Length(driver_.path());
   }
 
  private:
@@ -96,13 +94,13 @@ Result<Taught> TeachOnce(const TrialSetup& setup, std::uint64_t seed,
   const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, seed));
   if (!robot) return Wrap(robot.error(), "the scout");
   Teaching teaching(setup, **robot);
-  const double limit_s = kPatience * teaching.path_m() / setup.speed_mps + kPatience_s;
+  StandstillWatch standstill;
   for (int frame = 0;; ++frame) {
     const Result<bool> more = teaching.Step();
     if (!more) return Wrap(more.error(), "the scout");
     if (!*more) return teaching.Finish();
-    if (teaching.time_s() > limit_s) {
-      const motion::Pose2& pose = teaching.true_pose();
+    const motion::Pose2& pose = teaching.true_pose();
+    if (standstill.Stuck(motion::Position(pose), teaching.time_s())) {
       return Fail(
           ErrorCode::kUnavailable,
           "the scout gets no further than ({:.2f}, {:.2f}) along the path, at {:.0f} % of it: "

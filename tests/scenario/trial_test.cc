@@ -36,13 +36,13 @@ std::string Repeatable(std::vector<TrialRow> rows) {
 
 TEST(Trial, AFollowerWithTheScoutsCameraArrivesIndoors) {
   TrialOptions options;
-  options.trials = 2;
+  options.trials = 1;
   const auto setup = PrepareTrials(options);
   ASSERT_TRUE(setup.has_value()) << setup.error().message;
   const std::vector<TrialRow> rows = RunAll(*setup, options);
-  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows.size(), 1U);
   const TrialSummary summary = Summarize(rows);
-  EXPECT_EQ(summary.arrived, 2) << TrialTable(rows);
+  EXPECT_EQ(summary.arrived, 1) << TrialTable(rows);
   EXPECT_LT(summary.largest_final_error_m, 0.5) << TrialTable(rows);
   EXPECT_LT(summary.max_path_error_m, 0.5) << TrialTable(rows);
   EXPECT_LT(summary.bytes_per_m, 5000.0) << TrialTable(rows);
@@ -67,13 +67,14 @@ TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
   EXPECT_LT(rows.front().verdict.final_error_m, 0.5) << TrialTable(rows);
 }
 
-// The first two metres of the indoor path, seen coarsely: enough to compare runs with one another.
+// The first metre and a half of the indoor path, seen coarsely: enough to compare runs with one
+// another.
 TrialSetup ShortTrip(const TrialOptions& options) {
   auto setup = PrepareTrials(options);
   EXPECT_TRUE(setup.has_value()) << setup.error().message;
   const Eigen::Vector2d start = setup->path.points[0];
   const Eigen::Vector2d ahead = (setup->path.points[1] - start).normalized();
-  setup->path.points = {start, start + 2.0 * ahead};
+  setup->path.points = {start, start + 1.5 * ahead};
   for (sim::CameraModel* camera : {&setup->scout_camera, &setup->follower_camera}) {
     camera->width = 160;
     camera->height = 120;
@@ -81,13 +82,13 @@ TrialSetup ShortTrip(const TrialOptions& options) {
   return *setup;
 }
 
-TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnThree) {
+TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnTwo) {
   TrialOptions options;
-  options.trials = 3;
+  options.trials = 2;
   const TrialSetup setup = ShortTrip(options);
   options.jobs = 1;
   const std::string alone = Repeatable(RunAll(setup, options));
-  options.jobs = 3;
+  options.jobs = 2;
   EXPECT_EQ(Repeatable(RunAll(setup, options)), alone);
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace trailcast::tool {
+
+// Notices a robot that gets nowhere: 20 s without coming 0.2 m further.
+class StandstillWatch {
+ public:
+  static constexpr double kBound_s = 20.0;
+  static constexpr double kDistance_m = 0.2;
+
+  // The robot's true position, at rising times.
+  [[nodiscard]] bool Stuck(const Eigen::Vector2d& position_m, double time_s) {
+    if (!since_s_ || (position_m - anchor_m_).norm() > kDistance_m) {
+      anchor_m_ = position_m;
+      since_s_ = time_s;
+    }
+    return time_s - *since_s_ > kBound_s;
+  }
+
+ private:
+  Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Zero();
+  std::optional<double> since_s_;
+};
+
+}  // namespace trailcast::tool
