@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <limits>
 
 namespace trailcast::tool {
 
@@ -13,16 +13,17 @@ class StandstillWatch {
 
   // The robot's true position, at rising times.
   [[nodiscard]] bool Stuck(const Eigen::Vector2d& position_m, double time_s) {
-    if (!since_s_ || (position_m - anchor_m_).norm() > kDistance_m) {
+    if ((position_m - anchor_m_).norm() > kDistance_m) {
       anchor_m_ = position_m;
       since_s_ = time_s;
     }
-    return time_s - *since_s_ > kBound_s;
+    return time_s - since_s_ > kBound_s;
   }
 
  private:
-  Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Zero();
-  std::optional<double> since_s_;
+  // Far from anywhere, so that the first position counts as further.
+  Eigen::Vector2d anchor_m_ = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  double since_s_ = 0.0;
 };
 
 }  // namespace trailcast::tool
