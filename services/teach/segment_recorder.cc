@@ -83,6 +83,12 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature) co
   return stored;
 }
 
+std::size_t SegmentRecorder::MostFeatures(const route::Segment& segment) const {
+  if (!segment.has_odometry) return first_.size();
+  const auto by_length = static_cast<std::size_t>(options_.features_per_metre * segment.length_m);
+  return std::max(options_.fewest_kept, by_length);
+}
+
 std::optional<route::Segment> SegmentRecorder::Finish() {
   const bool survivors = !moments_.empty() && !moments_.back().features.empty();
   if (moments_.size() < 2 || (!survivors && distance_m() < kStandstill_m)) return std::nullopt;
@@ -100,8 +106,9 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
     }
     segment.heading = FitHeading(headings_);
   }
+  const std::size_t most = MostFeatures(segment);
   for (const route::DescribedFeature& feature : first_) {
-    if (moments_.back().features.contains(feature.at.id)) {
+    if (segment.features.size() < most && moments_.back().features.contains(feature.at.id)) {
       segment.features.push_back(Store(feature));
     }
   }

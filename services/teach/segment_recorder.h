@@ -14,6 +14,11 @@ namespace trailcast::teach {
 struct SegmentRecorderOptions {
   // A segment ends when fewer than this share of its first features survive (III).
   double survival_share = 0.5;
+  // Where segments are short (turns, clutter close by) their features overlap in what they say: of
+  // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
+  // second figure. Holds a route under 5 kB a metre.
+  double features_per_metre = 40.0;
+  std::size_t fewest_kept = 16;
   // Knots kept of each feature's track, first and last included; the paper needs those two.
   int knots = 4;
 };
@@ -25,7 +30,8 @@ class SegmentRecorder {
  public:
   explicit SegmentRecorder(const SegmentRecorderOptions& options = {}) : options_(options) {}
 
-  // The segment's first image: its features, and the odometry pose at that moment, if any.
+  // The segment's first image: its features, the strongest first, and the odometry pose at that
+  // moment, if any.
   void Begin(SensorTime stamp, std::vector<route::DescribedFeature> features,
              const std::optional<motion::Pose2>& odometry);
 
@@ -47,6 +53,7 @@ class SegmentRecorder {
     std::unordered_map<int, route::TrackedFeature> features;
   };
 
+  [[nodiscard]] std::size_t MostFeatures(const route::Segment& segment) const;
   [[nodiscard]] route::Feature Store(const route::DescribedFeature& feature) const;
   [[nodiscard]] double FractionAt(const Moment& moment) const;
 

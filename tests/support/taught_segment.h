@@ -53,6 +53,7 @@ inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& star
   }
   TaughtRun run{*recorder.Finish(), {}, pose};
   for (const auto& feature : in_view) run.landmark_of_feature.push_back(feature.id);
+  run.landmark_of_feature.resize(run.segment.features.size());  // the first ones are kept
   return run;
 }
 

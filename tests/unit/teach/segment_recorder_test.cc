@@ -88,6 +88,19 @@ TEST(SegmentRecorder, IndicesCountUp) {
   }
 }
 
+TEST(SegmentRecorder, ShortSegmentsKeepTheStrongestOnly) {
+  SegmentRecorder recorder;
+  for (const double length_m : {0.1, 0.6, 2.0}) {
+    recorder.Begin(SensorTime{0}, test::Describe(Features(60)), motion::Pose2{});
+    EXPECT_FALSE(recorder.Add(FromSeconds(1.0), Features(50), motion::Pose2{length_m, 0.0, 0.0}));
+    const auto segment = recorder.Finish();
+    ASSERT_TRUE(segment);
+    EXPECT_EQ(segment->features.size(), length_m < 0.5 ? 16U : length_m < 1.0 ? 24U : 50U);
+    EXPECT_FLOAT_EQ(segment->features.back().first().u_px,
+                    static_cast<float>(segment->features.size() - 1));
+  }
+}
+
 TEST(SegmentRecorder, NothingAddedIsNoSegment) {
   SegmentRecorder recorder;
   EXPECT_FALSE(recorder.Finish());
