@@ -39,8 +39,8 @@ class Mailbox {
 
  private:
   std::vector<T> slots_;  // one more than fits, so that full and empty differ
-  alignas(64) std::atomic<std::size_t> read_{0};
-  alignas(64) std::atomic<std::size_t> write_{0};
+  std::atomic<std::size_t> read_{0};
+  std::atomic<std::size_t> write_{0};
 };
 
 // Wakes the one thread that waits for it. Ringing takes no lock and never waits.

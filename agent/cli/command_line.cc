@@ -39,7 +39,7 @@ std::string AcceptedKeys(const CLI::App& app) {
 
 // CLI11 looks for what is missing before it looks at what is too much; a misspelt option is both.
 std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string message = error.what();
+  std::string message = error.what();
   const std::vector<std::string> unknown = app.remaining(true);
   if (!unknown.empty()) return fmt::format("not understood: {}", fmt::join(unknown, " "));
   if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;

@@ -9,7 +9,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 class BadInputTest : public ProgramsTest {
  protected:
@@ -43,7 +42,7 @@ TEST_F(BadInputTest, AFrameOfAnotherSizeMidway) {
 
 TEST_F(BadInputTest, NothingButDarkness) {
   std::filesystem::create_directories(folder_ / "dark");
-  const image::GrayImage black{160, 120, std::vector<std::uint8_t>(160 * 120, 0)};
+  const image::GrayImage black{160, 120, std::vector<std::uint8_t>(160UL * 120UL, 0)};
   for (const char* name : {"0.png", "1.png", "2.png"}) {
     ASSERT_TRUE(image::WritePng(black, folder_ / "dark" / name));
   }

@@ -26,6 +26,7 @@ class Process {
   Process(std::vector<std::string> argv, std::filesystem::path output)
       : output_(std::move(output)) {
     std::vector<char*> words;
+    words.reserve(argv.size() + 1);
     for (std::string& word : argv) words.push_back(word.data());
     words.push_back(nullptr);
     const int log = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);

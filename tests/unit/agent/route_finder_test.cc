@@ -13,7 +13,6 @@ using route::RouteInfo;
 using route::RouteState;
 using std::chrono::milliseconds;
 using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 const AgentId kSelf("follower");
