@@ -89,12 +89,14 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
                   "route", name_width, "revision", "state", "segments", "metres", "kB", "B/m",
                   "scout", scout_width, "camera", camera_width, "age");
   for (const route::RouteInfo& info : routes) {
+    const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
-        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8.1f}  {:>8.1f}  {:>6.0f}  {:<{}}  {:<{}}  {:>6}\n",
-        info.name, name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
-        info.length_m, static_cast<double>(info.bytes) / 1000.0, BytesPerMeter(info),
-        info.scout.value(), scout_width, info.camera, camera_width,
-        Age(now_unix_ms - info.taught_unix_ms));
+        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}\n", info.name,
+        name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
+        taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
+        static_cast<double>(info.bytes) / 1000.0,
+        taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
+        scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms));
   }
   return text;
 }
