@@ -15,6 +15,7 @@ class Id {
   Id() = default;
   explicit Id(Value value) : value_(std::move(value)) {}
   [[nodiscard]] const Value& value() const { return value_; }
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads a defaulted <=>
   auto operator<=>(const Id&) const = default;
 
  private:

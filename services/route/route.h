@@ -69,6 +69,7 @@ struct RouteKey {
   RouteId route;
   RevisionNumber revision{1};
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads a defaulted <=>
   auto operator<=>(const RouteKey&) const = default;
 };
 
