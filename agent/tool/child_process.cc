@@ -32,7 +32,7 @@ constexpr int kExecFailed = 127;
   dup2(log, STDERR_FILENO);
   sigset_t none;
   sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   execv(argv[0], argv);
   _exit(kExecFailed);
 }

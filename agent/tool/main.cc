@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <exception>
 #include <vector>
 
 #include "agent/tool/command.h"
@@ -11,12 +13,8 @@ constexpr const char* kExamples =
     "  trailcast routes                       # what the route server keeps\n"
     "Each subcommand has its own --help.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(CLI::App& app, int argc, char** argv) {
   using trailcast::tool::Command;
-  CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
-               "trailcast");
   app.footer(kExamples);
   app.require_subcommand(1);
   app.fallthrough();
@@ -31,4 +29,17 @@ int main(int argc, char** argv) {
     if (command.app->parsed()) return command.run();
   }
   return trailcast::cli::kExitUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
+                 "trailcast");
+    return Run(app, argc, argv);
+  } catch (const std::exception& exception) {
+    std::fprintf(stderr, "trailcast: %s\n", exception.what());
+    return trailcast::cli::kExitFailure;
+  }
 }

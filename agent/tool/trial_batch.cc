@@ -77,6 +77,7 @@ Result<std::vector<TrialOutcome>> RunTrials(const TrialSetup& setup, const Trial
   {
     std::vector<std::jthread> threads;
     const int jobs = std::clamp(options.jobs, 1, options.trials);
+    threads.reserve(static_cast<std::size_t>(jobs));
     for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { batch.Work(); });
   }
   return batch.Take();

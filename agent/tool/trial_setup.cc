@@ -93,6 +93,7 @@ std::vector<std::string> ScenarioNames() { return {kIndoor}; }
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const NamedMethod& each : kMethods) names.emplace_back(each.name);
   return names;
 }

@@ -112,7 +112,7 @@ TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {
 TEST(Age, IsGivenInAUnitThatFits) {
   EXPECT_EQ(Age(-5), "0 s");
   EXPECT_EQ(Age(119'000), "119 s");
-  EXPECT_EQ(Age(3 * 3'600'000), "3 h");
+  EXPECT_EQ(Age(3LL * 3'600'000), "3 h");
   EXPECT_EQ(Age(50LL * 3'600'000), "2 d");
 }
 
