@@ -174,7 +174,6 @@ int PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
     state_ += information.ldlt().solve(gradient);
   }
   covariance_ = information.inverse();
-  roll_rad_ = state_[kRoll];
   return agreeing;
 }
 

@@ -67,7 +67,7 @@ class PathEstimator {
   [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }
   void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
-  [[nodiscard]] double roll_rad() const { return roll_rad_; }
+  [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const;
 
@@ -107,7 +107,6 @@ class PathEstimator {
   std::vector<InverseDepth> depths_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  double roll_rad_ = 0.0;
 };
 
 }  // namespace trailcast::replay
