@@ -26,7 +26,7 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
       ->group(recording);
 
   const std::string simulation = "Simulated robot";
-  auto* world = command.add_option("--sim", simulated.world,
+  auto* world = command.add_option("--sim", simulated.place.world,
                                    "World: a built-in one's name, or a file (.obj, .glb, ...)");
   world->excludes(frames)->group(simulation);
   const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
@@ -34,10 +34,14 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   };
   add("--camera", simulated.camera, "Built-in camera's name, or a .toml file");
   add("--seed", simulated.seed, "Draws this robot's errors and noise");
-  add("--path", simulated.path, "CSV x_m,y_m: the taught path; default: the built-in world's own");
-  add("--up", simulated.up, "Axis that is up in a world file")->check(CLI::IsMember({"y", "z"}));
-  add("--scale", simulated.scale, "Metres per unit of a world file")->check(CLI::PositiveNumber);
-  add("--ground", simulated.ground, "What robots stand on")->check(CLI::IsMember({"mesh", "flat"}));
+  add("--path", simulated.place.path,
+      "CSV x_m,y_m: the taught path; default: the built-in world's own");
+  add("--up", simulated.place.up, "Axis that is up in a world file")
+      ->check(CLI::IsMember({"y", "z"}));
+  add("--scale", simulated.place.scale, "Metres per unit of a world file")
+      ->check(CLI::PositiveNumber);
+  add("--ground", simulated.place.ground, "What robots stand on")
+      ->check(CLI::IsMember({"mesh", "flat"}));
   if (scout) {
     add("--speed", simulated.speed_mps, "How fast the scout is driven, m/s")
         ->check(CLI::Range(0.05, 2.0));

@@ -15,7 +15,7 @@ struct DeviceOptions {
   SimulatedRun simulated;
   std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
 
-  [[nodiscard]] bool is_simulated() const { return !simulated.world.empty(); }
+  [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
 };
 
 // Flags of `command`; one of --frames and --sim is required. The scout's differ in that it may be

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/time.h"
+#include "services/exchange/publish.h"
 #include "services/route/digest.h"
 
 namespace trailcast::agent {
@@ -156,8 +157,9 @@ void FollowerLink::Trade() {
       finder_.Handle(message);
     }
   }
-  for (const exchange::Message& message : fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now)) {
-    if (auto sent = exchange_->Publish(message); !sent) spdlog::debug("{}", sent.error().message);
+  const auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
+    spdlog::debug("{}", sent.error().message);
   }
   HearServer();
   ShowStatus();

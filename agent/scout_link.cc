@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "services/base/time.h"
+#include "services/exchange/publish.h"
 
 namespace trailcast::agent {
 namespace {
@@ -156,8 +157,8 @@ Result<void> ScoutLink::Trade() {
     outbox_.Handle(message, steady_clock::now());
   }
   const auto now = steady_clock::now();
-  for (const exchange::Message& message : outbox_.Tick(now)) {
-    if (auto sent = exchange_->Publish(message); !sent) spdlog::debug("{}", sent.error().message);
+  if (auto sent = exchange::PublishAll(*exchange_, outbox_.Tick(now)); !sent) {
+    spdlog::debug("{}", sent.error().message);
   }
   for (const Error& error : outbox_.TakeReadErrors()) {
     spdlog::error("cannot send: {}", error.message);

@@ -8,52 +8,13 @@
 
 #include "agent/camera_file.h"
 #include "agent/text_file.h"
-#include "services/sim/indoor_world.h"
 #include "services/sim/judge.h"
-#include "services/sim/load_world.h"
 #include "services/sim/path.h"
 #include "services/sim/path_follow_driver.h"
 #include "services/sim/simulated_robot.h"
 
 namespace trailcast::agent {
 namespace {
-
-constexpr const char* kIndoor = "indoor";
-
-Result<std::shared_ptr<const sim::World>> LoadFile(const SimulatedRun& run) {
-  auto up = sim::ParseUpAxis(run.up);
-  if (!up) return tl::unexpected(up.error());
-  auto ground = sim::ParseGroundMode(run.ground);
-  if (!ground) return tl::unexpected(ground.error());
-  auto world = sim::LoadWorld({run.world, *up, run.scale, *ground});
-  if (!world) {
-    return Fail(world.error().code, "{} (built-in worlds: {})", world.error().message, kIndoor);
-  }
-  for (const std::string& warning : (*world)->warnings()) spdlog::warn("{}", warning);
-  return world;
-}
-
-Result<sim::BuiltInWorld> OpenPlace(const SimulatedRun& run) {
-  sim::BuiltInWorld place;
-  if (run.world == kIndoor) {
-    auto built = sim::MakeIndoorWorld();
-    if (!built) return built;
-    place = std::move(*built);
-  } else if (run.path.empty()) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "the world {} has no path of its own: give --path (built-in worlds: {})", run.world,
-                kIndoor);
-  } else {
-    auto world = LoadFile(run);
-    if (!world) return tl::unexpected(world.error());
-    place.world = std::move(*world);
-  }
-  if (run.path.empty()) return place;
-  auto path = sim::ReadPath(run.path);
-  if (!path) return tl::unexpected(path.error());
-  place.path = std::move(*path);
-  return place;
-}
 
 struct TruePose {
   SensorTime stamp{};
@@ -80,8 +41,9 @@ SimulatedDevice::~SimulatedDevice() = default;
 Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRun& run) {
   auto camera = CameraFromWord(run.camera);
   if (!camera) return tl::unexpected(camera.error());
-  auto place = OpenPlace(run);
+  auto place = sim::OpenPlace(run.place);
   if (!place) return tl::unexpected(place.error());
+  for (const std::string& warning : place->world->warnings()) spdlog::warn("{}", warning);
   sim::SimulatedRobotOptions options;
   options.camera = *camera;
   options.start = sim::StartPose(place->path.points);

@@ -7,15 +7,12 @@
 #include <string>
 
 #include "agent/device.h"
+#include "services/sim/place.h"
 
 namespace trailcast::agent {
 
 struct SimulatedRun {
-  std::string world;              // a built-in world's name, or a file (.obj, .glb, .gltf, ...)
-  std::filesystem::path path;     // x_m,y_m way-points; empty: the built-in world's own path
-  std::string up = "z";           // of a world file: y or z
-  double scale = 1.0;             // metres per unit of a world file
-  std::string ground = "mesh";    // mesh or flat
+  sim::PlaceOptions place;
   std::string camera = "webcam";  // a built-in camera's name, or a .toml file
   std::uint64_t seed = 1;         // draws the robot's errors and all noise
   double speed_mps = 0.4;         // the scout's

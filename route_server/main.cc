@@ -17,8 +17,8 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-server --store routes.db --domain 7 --network-interface wlan0
   trailcast-server --config server.toml
 
-Runs until SIGINT or SIGTERM. A server killed at any instant comes back with everything it ever
-confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
+Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
+it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
 
 int Run(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file) {
   cli::SetUpLog(common);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/catalog/catalog.h"
+#include "services/exchange/publish.h"
 #include "services/route/digest.h"
 
 namespace trailcast::server {
@@ -81,10 +82,13 @@ void Server::Receive(const exchange::Message& message) {
 void Server::Serve() {
   for (const exchange::Message& message : exchange_->Take(kWait)) Receive(message);
   const auto now = steady_clock::now();
-  for (const exchange::Message& message : keeper_->Tick(now)) {
+  const auto outgoing = keeper_->Tick(now);
+  for (const exchange::Message& message : outgoing) {
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
-    // What cannot be handed over is asked for again by whoever lacks it.
-    if (auto sent = exchange_->Publish(message); !sent) spdlog::debug("{}", sent.error().message);
+  }
+  // What cannot be handed over is asked for again by whoever lacks it.
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
+    spdlog::debug("{}", sent.error().message);
   }
   for (const exchange::Note& note : keeper_->TakeNotes()) {
     spdlog::log(LevelOf(note.severity), "{}", note.text);

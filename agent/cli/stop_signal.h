@@ -2,8 +2,9 @@
 
 namespace trailcast::cli {
 
-// SIGINT and SIGTERM turned into a flag, so that a process ends by its own code. A third signal
-// kills, in case that code hangs. One per process, in main.
+// SIGINT, SIGTERM and SIGHUP (the terminal is gone) turned into a flag, so that a process ends by
+// its own code and a robot is stopped first. Signals ignored from the start stay so (nohup). A
+// third signal kills, in case that code hangs. One per process, in main.
 class StopSignal {
  public:
   StopSignal();

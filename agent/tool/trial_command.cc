@@ -35,19 +35,20 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
       app.add_option("--scenario", options.scenario,
                      fmt::format("A built-in one: {}", fmt::join(ScenarioNames(), ", ")));
   CLI::Option* world =
-      app.add_option("--world", options.world_file, "A world of your own: glTF, OBJ, ...")
+      app.add_option("--world", options.place.world, "A world of your own: glTF, OBJ, ...")
           ->check(CLI::ExistingFile)
           ->excludes(scenario);
-  app.add_option("--up", options.up, "Which axis of the world file is up")
+  app.add_option("--up", options.place.up, "Which axis of the world file is up")
       ->check(CLI::IsMember({"y", "z"}))
       ->needs(world);
-  app.add_option("--scale", options.scale, "Metres per unit of the world file")
+  app.add_option("--scale", options.place.scale, "Metres per unit of the world file")
       ->check(CLI::PositiveNumber)
       ->needs(world);
-  app.add_option("--path", options.path_file, "Way-points: CSV with the header x_m,y_m[,z_m]")
+  app.add_option("--path", options.place.path, "Way-points: CSV with the header x_m,y_m[,z_m]")
       ->check(CLI::ExistingFile)
       ->needs(world);
-  app.add_option("--ground", options.ground, "What robots stand on: the world's surfaces, or z = 0")
+  app.add_option("--ground", options.place.ground,
+                 "What robots stand on: the world's surfaces, or z = 0")
       ->check(CLI::IsMember({"mesh", "flat"}))
       ->needs(world);
   app.add_option("--method", options.method,

@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <thread>
+
+#include "services/sim/place.h"
 
 namespace trailcast::tool {
 
 // What `trailcast trial` is told. Either a built-in scenario, or a world and a path of one's own.
 struct TrialOptions {
   std::string scenario = "indoor";
-  std::filesystem::path world_file;  // not empty: in place of the scenario, with path_file
-  std::string up = "z";              // of the world file: y, z
-  double scale = 1.0;                // metres per unit of the world file
-  std::filesystem::path path_file;
-  std::string ground = "mesh";  // mesh, flat
+  sim::PlaceOptions place;  // its world not empty: in place of the scenario
 
   std::string method = "default";
   std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)

@@ -1,17 +1,15 @@
 #include "agent/tool/trial_setup.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include "agent/camera_file.h"
-#include "services/sim/indoor_world.h"
-#include "services/sim/load_world.h"
 #include "services/sim/path_follow_driver.h"
 
 namespace trailcast::tool {
 namespace {
-
-constexpr const char* kIndoor = "indoor";
 
 struct NamedMethod {
   const char* name;
@@ -28,42 +26,22 @@ Result<agent::ReplayMethod> FindMethod(const std::string& name) {
               fmt::join(MethodNames(), ", "));
 }
 
-// A world and a path of the user's own.
-Result<void> LoadOwnWorld(const TrialOptions& options, TrialSetup& setup) {
-  if (options.path_file.empty()) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "a world needs a path through it: --path FILE with the header x_m,y_m");
+// A world and a path of the user's own, or the scenario's.
+Result<void> OpenScene(const TrialOptions& options, TrialSetup& setup) {
+  sim::PlaceOptions where = options.place;
+  setup.scenario = std::filesystem::path(where.world).stem().string();
+  if (where.world.empty()) {
+    const auto names = ScenarioNames();
+    if (std::find(names.begin(), names.end(), options.scenario) == names.end()) {
+      return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}",
+                  options.scenario, fmt::join(names, ", "));
+    }
+    setup.scenario = where.world = options.scenario;
   }
-  sim::WorldFileOptions file;
-  file.file = options.world_file;
-  file.scale = options.scale;
-  const auto up = sim::ParseUpAxis(options.up);
-  if (!up) return tl::unexpected(up.error());
-  file.up = *up;
-  const auto ground = sim::ParseGroundMode(options.ground);
-  if (!ground) return tl::unexpected(ground.error());
-  file.ground = *ground;
-  auto world = sim::LoadWorld(file);
-  if (!world) return tl::unexpected(world.error());
-  auto path = sim::ReadPath(options.path_file);
-  if (!path) return tl::unexpected(path.error());
-  setup.scenario = options.world_file.stem().string();
-  setup.world = std::move(*world);
-  setup.path = std::move(*path);
-  setup.speed_mps = sim::DriverOptions{}.speed_mps;
-  return {};
-}
-
-Result<void> LoadScenario(const TrialOptions& options, TrialSetup& setup) {
-  if (options.scenario != kIndoor) {
-    return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}", options.scenario,
-                fmt::join(ScenarioNames(), ", "));
-  }
-  auto built = sim::MakeIndoorWorld();
-  if (!built) return tl::unexpected(built.error());
-  setup.scenario = options.scenario;
-  setup.world = std::move(built->world);
-  setup.path = std::move(built->path);
+  auto place = sim::OpenPlace(where);
+  if (!place) return tl::unexpected(place.error());
+  setup.world = std::move(place->world);
+  setup.path = std::move(place->path);
   setup.speed_mps = sim::DriverOptions{}.speed_mps;
   return {};
 }
@@ -82,14 +60,12 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   auto follower_camera = agent::CameraFromWord(options.follower_camera);
   if (!follower_camera) return tl::unexpected(follower_camera.error());
   setup.follower_camera = std::move(*follower_camera);
-  const auto loaded =
-      options.world_file.empty() ? LoadScenario(options, setup) : LoadOwnWorld(options, setup);
-  if (!loaded) return tl::unexpected(loaded.error());
+  if (auto opened = OpenScene(options, setup); !opened) return tl::unexpected(opened.error());
   if (options.speed_mps > 0.0) setup.speed_mps = options.speed_mps;
   return setup;
 }
 
-std::vector<std::string> ScenarioNames() { return {kIndoor}; }
+std::vector<std::string> ScenarioNames() { return sim::BuiltInPlaces(); }
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;

@@ -206,7 +206,7 @@ void FurnishNorthRoom(Furniture& f, SceneBuilder& b) {
 
 }  // namespace
 
-Result<BuiltInWorld> MakeIndoorWorld() {
+Result<Place> MakeIndoorWorld() {
   SceneBuilder builder;
   AddShell(builder);
   const std::vector<Lamp> lamps = AddLamps(builder);
@@ -221,7 +221,7 @@ Result<BuiltInWorld> MakeIndoorWorld() {
   if (auto baked = BakeLight(lamps, scene); !baked) return tl::unexpected(baked.error());
   auto world = World::Build(std::move(scene));
   if (!world) return tl::unexpected(world.error());
-  BuiltInWorld indoor;
+  Place indoor;
   indoor.world = *world;
   indoor.path.points = {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}};
   return indoor;

@@ -13,8 +13,8 @@
 namespace trailcast::sim {
 namespace {
 
-const BuiltInWorld& Indoor() {
-  static const BuiltInWorld indoor = [] {
+const Place& Indoor() {
+  static const Place indoor = [] {
     auto made = MakeIndoorWorld();
     if (!made) {
       std::cerr << made.error().message << '\n';

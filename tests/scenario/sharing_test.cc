@@ -125,7 +125,7 @@ TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
   const auto scout =
       Agent({"teach", "--sim", "indoor", "--route", "hall", "--store", Path("scout.db")}, "scout");
   ASSERT_TRUE(scout->WaitForOutput("segment 0 of 'hall'")) << scout->output();
-  scout->Signal(SIGINT);
+  scout->Signal(SIGHUP);
   const auto ended = End(*scout);
   EXPECT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, HasSubstr("segments="));

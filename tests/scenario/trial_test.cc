@@ -56,8 +56,8 @@ TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
     GTEST_SKIP() << "no world to drive in at " << shop << ": nothing was tried";
   }
   TrialOptions options;
-  options.world_file = shop / "world.obj";
-  options.path_file = shop / "path.csv";
+  options.place.world = shop / "world.obj";
+  options.place.path = shop / "path.csv";
   options.trials = 1;
   const auto setup = PrepareTrials(options);
   ASSERT_TRUE(setup.has_value()) << setup.error().message;
@@ -135,7 +135,7 @@ TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
   camera.follower_camera = "periscope";
   EXPECT_THAT(message(camera), AllOf(HasSubstr("periscope"), HasSubstr("webcam")));
   TrialOptions pathless;
-  pathless.world_file = "place.glb";
+  pathless.place.world = "place.glb";
   EXPECT_THAT(message(pathless), HasSubstr("--path"));
 }
 

@@ -19,9 +19,9 @@ class IndoorWorld : public ::testing::Test {
     indoor_ = *made;
   }
   static void TearDownTestSuite() { indoor_ = {}; }
-  static BuiltInWorld indoor_;
+  static Place indoor_;
 };
-BuiltInWorld IndoorWorld::indoor_;
+Place IndoorWorld::indoor_;
 
 TEST_F(IndoorWorld, PathIsFifteenMetresLong) {
   EXPECT_NEAR(Length(indoor_.path.points), 15.0, 0.3);

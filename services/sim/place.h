@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/sim/path.h"
+#include "services/sim/world.h"
+
+namespace trailcast::sim {
+
+// A world and the path that a scout is driven along through it.
+struct Place {
+  std::shared_ptr<const World> world;
+  DrivenPath path;
+};
+
+// Places by the words of a command line.
+struct PlaceOptions {
+  std::string world;            // a built-in place's name, or a world file (.obj, .glb, ...)
+  std::filesystem::path path;   // x_m,y_m way-points; empty: the built-in place's own
+  std::string up = "z";         // of a world file: y or z
+  double scale = 1.0;           // metres per unit of a world file
+  std::string ground = "mesh";  // what robots stand on: mesh or flat
+};
+
+[[nodiscard]] const std::vector<std::string>& BuiltInPlaces();
+
+// Makes the built-in place, or reads the files. Errors name what is wrong and what there is.
+[[nodiscard]] Result<Place> OpenPlace(const PlaceOptions& options);
+
+}  // namespace trailcast::sim
