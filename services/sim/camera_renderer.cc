@@ -13,9 +13,10 @@ constexpr int kBlockWidth = 4;
 constexpr int kBlockHeight = 2;
 // Neighbours on different triangles that differ by less (grey levels) need no finer sampling.
 constexpr float kVisibleEdge = 8.0F;
-// Places inside an edge pixel, a grid turned so that near-level edges get four grey steps.
-constexpr std::array<std::array<float, 2>, 4> kSubPixels = {
-    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
+// Places looked at inside an edge pixel besides its middle: a triangle turned so that level and
+// upright edges get four grey steps.
+constexpr std::array<std::array<float, 2>, 3> kSubPixels = {
+    {{0.386F, 0.104F}, {-0.283F, 0.283F}, {-0.104F, -0.386F}}};
 
 }  // namespace
 
@@ -114,25 +115,26 @@ void CameraRenderer::FindEdges() {
 
 void CameraRenderer::SmoothEdges() {
   constexpr std::size_t kPerPixel = kSubPixels.size();
-  constexpr std::size_t kPixels = RayPacket::kSize / kPerPixel;
-  for (std::size_t first = 0; first < edges_.size(); first += kPixels) {
+  for (const std::size_t pixel : edges_) {
+    view_.gray[pixel] = std::min(view_.gray[pixel], 255.0F) / (kPerPixel + 1);
+  }
+  const std::size_t rays = kPerPixel * edges_.size();
+  packet_.most_lookups = RayPacket::kMostLookups / 3;
+  for (std::size_t first = 0; first < rays; first += RayPacket::kSize) {
     for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
-      const std::size_t which = first + i / kPerPixel;
-      packet_.valid[i] = which < edges_.size();
-      const PixelRay& ray = rays_[edges_[std::min(which, edges_.size() - 1)]];
-      const auto& place = kSubPixels[i % kPerPixel];
+      const std::size_t which = std::min(first + i, rays - 1);
+      const PixelRay& ray = rays_[edges_[which / kPerPixel]];
+      const auto& place = kSubPixels[which % kPerPixel];
+      packet_.valid[i] = first + i < rays;
       packet_.directions[i] =
           rotation_ *
           (ray.direction + place[0] * ray.to_right + place[1] * ray.to_below).normalized();
       packet_.spreads[i] = 0.5F * ray.spread;
     }
     const auto seen = tracer_.Trace(packet_);
-    for (std::size_t p = 0; p < kPixels && first + p < edges_.size(); ++p) {
-      float sum = 0.0F;
-      for (std::size_t s = 0; s < kPerPixel; ++s) {
-        sum += std::min(seen[p * kPerPixel + s].gray, 255.0F);
-      }
-      view_.gray[edges_[first + p]] = sum / static_cast<float>(kPerPixel);
+    for (std::size_t i = 0; i < RayPacket::kSize && first + i < rays; ++i) {
+      view_.gray[edges_[(first + i) / kPerPixel]] +=
+          std::min(seen[i].gray, 255.0F) / (kPerPixel + 1);
     }
   }
 }
@@ -140,6 +142,7 @@ void CameraRenderer::SmoothEdges() {
 const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_camera) {
   rotation_ = world_from_camera.linear().cast<float>();
   packet_.origin = world_from_camera.translation().cast<float>();
+  packet_.most_lookups = RayPacket::kMostLookups;
   for (int y = 0; y < view_.height; y += kBlockHeight) {
     for (int x = 0; x < view_.width; x += kBlockWidth) RenderBlock(x, y);
   }

@@ -39,7 +39,7 @@ inline float Blend(const AxisTap& x, const AxisTap& y, float a, float b, float c
 
 Texture::Texture(const image::RgbImage& picture) {
   assert(!picture.empty());
-  levels_.push_back({picture.width, picture.height, {}, picture.pixels});
+  levels_.push_back({picture.width, picture.height, picture.pixels, {}});
   FillGray(levels_.back());
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     levels_.push_back(Halve(levels_.back()));
@@ -52,10 +52,18 @@ void Texture::FillGray(Level& level) {
     const std::uint8_t* p = &level.rgb[3 * i];
     return static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2] + 128) >> 8);
   };
-  level.gray.reserve(level.rgb.size() / 3);
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      level.gray.push_back({gray(x, y), gray(x + 1, y), gray(x, y + 1), gray(x + 1, y + 1)});
+  level.tiles_a_row = (level.width + Tile::kSide - 1) / Tile::kSide;
+  const int tile_rows = (level.height + Tile::kSide - 1) / Tile::kSide;
+  level.gray.reserve(static_cast<std::size_t>(level.tiles_a_row) *
+                     static_cast<std::size_t>(tile_rows));
+  for (int row = 0; row < tile_rows; ++row) {
+    for (int column = 0; column < level.tiles_a_row; ++column) {
+      Tile tile;
+      for (int i = 0; i < Tile::kStride * Tile::kStride; ++i) {
+        tile.gray[static_cast<std::size_t>(i)] =
+            gray(Tile::kSide * column + i % Tile::kStride, Tile::kSide * row + i / Tile::kStride);
+      }
+      level.gray.push_back(tile);
     }
   }
 }
@@ -92,12 +100,17 @@ float Texture::GrayOnLevel(float u, float v, int level) const {
   const Level& l = levels_[static_cast<std::size_t>(std::clamp(level, 0, top))];
   const AxisTap x = AlongAxis(u, l.width);
   const AxisTap y = AlongAxis(v, l.height);
-  const auto& texels = l.gray[image::PixelIndex(x.texel, y.texel, l.width)];
+  const int column = x.texel / Tile::kSide;
+  const int row = y.texel / Tile::kSide;
+  const Tile& tile = l.gray[static_cast<std::size_t>(row * l.tiles_a_row + column)];
+  const auto* texels = &tile.gray[static_cast<std::size_t>(
+      (y.texel - Tile::kSide * row) * Tile::kStride + x.texel - Tile::kSide * column)];
+  const auto* below = texels + Tile::kStride;
   // In 256ths: whole numbers spare the conversion of each texel.
   const int right = static_cast<int>(256.0F * x.weight);
   const int lower = static_cast<int>(256.0F * y.weight);
   const int upper_row = 256 * texels[0] + right * (texels[1] - texels[0]);
-  const int lower_row = 256 * texels[2] + right * (texels[3] - texels[2]);
+  const int lower_row = 256 * below[0] + right * (below[1] - below[0]);
   return static_cast<float>(256 * upper_row + lower * (lower_row - upper_row)) * (1.0F / 65536.0F);
 }
 

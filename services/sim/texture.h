@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,13 +25,19 @@ class Texture {
   [[nodiscard]] int height() const { return levels_.front().height; }
 
  private:
+  // 7 x 7 grey texels with the next column and row (round the picture's edges): what one lookup
+  // needs is in one cache line, and so is what its neighbours need.
+  struct alignas(64) Tile {
+    static constexpr int kSide = 7;
+    static constexpr int kStride = 8;
+    std::array<std::uint8_t, static_cast<std::size_t>(kStride* kStride)> gray;
+  };
   struct Level {
     int width = 0;
     int height = 0;
-    // Each texel with its right, lower and lower right neighbours (round the picture's edges):
-    // what one lookup needs, in one place.
-    std::vector<std::array<std::uint8_t, 4>> gray;
     std::vector<std::uint8_t> rgb;
+    std::vector<Tile> gray;
+    int tiles_a_row = 0;
   };
   static Level Halve(const Level& level);
   static void FillGray(Level& level);

@@ -11,9 +11,8 @@ namespace trailcast::sim {
 namespace {
 
 constexpr std::size_t kSize = RayPacket::kSize;
-// Texture lookups along the long side of a slanted pixel's footprint, at most.
-constexpr int kMostLookups = 6;
-constexpr float kMostStretch = 2.0F * kMostLookups;
+// Of a pixel's footprint: longer ones see coarser texture.
+constexpr float kMostStretch = 2.0F * RayPacket::kMostLookups;
 constexpr float kShadowOffset_m = 2e-3F;
 
 // log2 to within 0.01: enough to choose between mip-map levels.
@@ -27,9 +26,9 @@ float FastLog2(float x) {
 // The texture seen through one pixel. Its footprint on the surface is as wide as the pixel's cone
 // and longer by 1 / cos along the view: several lookups along it keep slanted floors sharp.
 float TextureGray(const Texture& texture, const Surface& surface, const Eigen::Vector3f& direction,
-                  const Eigen::Vector2f& uv, float width_m, float cosine) {
+                  const Eigen::Vector2f& uv, float width_m, float cosine, int most_lookups) {
   const float stretch = 1.0F / std::max(cosine, 1e-3F);
-  const int lookups = std::clamp(static_cast<int>(stretch * 0.8F + 1.0F), 1, kMostLookups);
+  const int lookups = std::clamp(static_cast<int>(stretch * 0.8F + 1.0F), 1, most_lookups);
   const float covered_m = width_m * std::max(1.0F, stretch / kMostStretch);
   const float level = FastLog2(std::max(covered_m * surface.texels_per_m, 1e-6F));
   if (lookups == 1) return texture.Gray(uv.x(), uv.y(), level);
@@ -58,9 +57,9 @@ struct ViewTracer::Lit {
   bool glows = false;
 };
 
-ViewTracer::Lit ViewTracer::Shade(const Surface& surface, const Eigen::Vector3f& direction,
-                                  float spread, float distance,
-                                  const Eigen::Vector2f& barycentric) const {
+ViewTracer::Lit ViewTracer::Shade(const Surface& surface, const RayPacket& packet, std::size_t ray,
+                                  float distance, const Eigen::Vector2f& barycentric) const {
+  const Eigen::Vector3f& direction = packet.directions[ray];
   const Material& material = world_.material(surface.material);
   const float facing = -direction.dot(surface.normal);
   Lit lit;
@@ -71,9 +70,10 @@ ViewTracer::Lit ViewTracer::Shade(const Surface& surface, const Eigen::Vector3f&
   const float c = barycentric.y();
   if (material.texture) {
     const Eigen::Vector2f uv = surface.uv + b * surface.uv_b + c * surface.uv_c;
-    lit.albedo *= TextureGray(*material.texture, surface, direction, uv, distance * spread,
-                              std::abs(facing)) /
-                  255.0F;
+    lit.albedo *=
+        TextureGray(*material.texture, surface, direction, uv, distance * packet.spreads[ray],
+                    std::abs(facing), packet.most_lookups) /
+        255.0F;
   }
   const float shade =
       (1.0F - b - c) * surface.shade[0] + b * surface.shade[1] + c * surface.shade[2];
@@ -158,8 +158,8 @@ std::array<SeenPoint, kSize> ViewTracer::Trace(const RayPacket& packet) const {
     }
     seen[i].surface = query.hit.primID[i];
     seen[i].depth_m = query.ray.tfar[i];
-    lit[i] = Shade(world_.surfaces()[seen[i].surface], packet.directions[i], packet.spreads[i],
-                   seen[i].depth_m, {query.hit.u[i], query.hit.v[i]});
+    lit[i] = Shade(world_.surfaces()[seen[i].surface], packet, i, seen[i].depth_m,
+                   {query.hit.u[i], query.hit.v[i]});
   }
   if (lighting_.sun > 0.0F) CastShadows(packet, seen, lit);
   for (std::size_t i = 0; i < kSize; ++i) {

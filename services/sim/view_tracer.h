@@ -16,6 +16,10 @@ struct RayPacket {
   // Angle that the ray's pixel covers, radians: what textures are averaged over.
   std::array<float, kSize> spreads{};
   std::array<bool, kSize> valid{};
+  // Of a texture along the long side of a slanted pixel's footprint; fewer where several rays share
+  // a pixel.
+  static constexpr int kMostLookups = 6;
+  int most_lookups = kMostLookups;
 };
 
 // What one ray sees.
@@ -37,7 +41,7 @@ class ViewTracer {
 
  private:
   struct Lit;  // a surface point between the primary ray and its shadow ray
-  [[nodiscard]] Lit Shade(const Surface& surface, const Eigen::Vector3f& direction, float spread,
+  [[nodiscard]] Lit Shade(const Surface& surface, const RayPacket& packet, std::size_t ray,
                           float distance, const Eigen::Vector2f& barycentric) const;
   [[nodiscard]] float SkyGray(const Eigen::Vector3f& direction) const;
   void CastShadows(const RayPacket& packet, std::array<SeenPoint, RayPacket::kSize>& seen,

@@ -41,7 +41,7 @@ route::Segment TaughtSegment() {
   tracker.Detect();
   recorder.Begin(SensorTime{0}, tracker.Describe(), motion::Pose2{});
   for (std::size_t i = 1; i < kFrames / 2; ++i) {
-    const double x_m = 0.01 * static_cast<double>(i);
+    const double x_m = 0.25 * static_cast<double>(i);  // long enough to keep every feature
     if (recorder.Add(FromSeconds(x_m), tracker.Track(Frames()[i]), motion::Pose2{x_m, 0.0, 0.0})) {
       break;
     }
