@@ -172,6 +172,7 @@ Result<void> FollowerLink::StoreArrived() {
     if (auto appended = store_->AppendSegments(arrived); !appended) return appended;
     // These are another agent's to deliver: never ours.
     std::vector<SegmentIndex> indices;
+    indices.reserve(arrived.size());
     for (const route::SegmentPiece& piece : arrived) indices.push_back(piece.index);
     if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
     if (auto counted = CountHeld(); !counted) return counted;

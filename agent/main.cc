@@ -1,5 +1,3 @@
-#include <exception>
-
 #include "agent/cli/stop_signal.h"
 #include "agent/commands.h"
 
@@ -27,9 +25,7 @@ void ShareHelp(const CLI::App& app, CLI::App& command) {
   });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App app("A robot's agent: teaches a route, or follows one that was taught.",
                "trailcast-agent");
   app.footer(kFooter);
@@ -49,16 +45,19 @@ int main(int argc, char** argv) {
   agent::AddDeliverOptions(*deliver_app, deliver);
   for (CLI::App* command : {teach_app, replay_app, deliver_app}) ShareHelp(app, *command);
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  try {
-    if (options.common.name.empty())
-      options.common.name = replay_app->parsed() ? "follower" : "scout";
-    cli::SetUpLog(options.common);
-    const cli::StopSignal stop;
-    const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
-                        : replay_app->parsed() ? agent::RunReplay(options, replay)
-                                               : agent::RunDeliver(options, deliver);
-    return status ? *status : cli::Complain(app, status.error());
-  } catch (const std::exception& exception) {
-    return cli::Complain(app, {trailcast::ErrorCode::kInternal, exception.what()});
+  if (options.common.name.empty()) {
+    options.common.name = replay_app->parsed() ? "follower" : "scout";
   }
+  cli::SetUpLog(options.common);
+  const cli::StopSignal stop;
+  const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
+                      : replay_app->parsed() ? agent::RunReplay(options, replay)
+                                             : agent::RunDeliver(options, deliver);
+  return status ? *status : cli::Complain(app, status.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cli::RunMain("trailcast-agent", [&] { return Run(argc, argv); });
 }

@@ -29,6 +29,10 @@ constexpr int kLookAgain_frames = 5;
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
 
+// The route's end is approached ever more slowly, so that the robot stands where it is reached.
+constexpr double kEndDeceleration_mps2 = 0.25;
+constexpr double kEndSpeed_mps = 0.08;
+
 std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& options,
                                                bool by_odometry, int scout_width_px,
                                                double magnification) {
@@ -88,6 +92,7 @@ struct ReplaySession::State {
   void Refresh(const image::GrayImage& frame);
   void JudgeSight(std::size_t features, const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
+  [[nodiscard]] double SpeedShare(const replay::FollowStep& step) const;
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
 };
 
@@ -152,7 +157,7 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame) {
   }
   frames_since_find = 0;
   std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
-  if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(std::move(found));
+  if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(found);
 }
 
 // Too few features: on by odometry alone for a while, slowly, looking for the route; then lost.
@@ -178,6 +183,19 @@ void ReplaySession::State::JudgeSight(std::size_t features,
   LookAgain(frame);
 }
 
+// Share of the method's speed that is driven: less when blind and before the route's end.
+double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
+  const double share = state == ReplayState::kBlind ? kBlindSpeedFactor : 1.0;
+  const route::Segment& segment = follower->segment();
+  const bool last = complete && segment.index.value() + 1 == segments.size();
+  if (options.method == ReplayMethod::kPaper || !last || step.command.linear_mps <= 0.0) {
+    return share;
+  }
+  const double left_m = (1.0 - step.fraction) * segment.length_m;
+  const double bound_mps = kEndSpeed_mps + std::sqrt(2.0 * kEndDeceleration_mps2 * left_m);
+  return std::min(share, bound_mps / step.command.linear_mps);
+}
+
 ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   ReplayStep report;
   report.state = state;
@@ -193,10 +211,13 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.progress =
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
   report.turn_rad = step.turn_rad;
+  report.decision = step;
   const bool drive = state == ReplayState::kFollowing ||
                      (state == ReplayState::kBlind && last_odometry.has_value());
-  if (drive) report.command = step.command;
-  if (state == ReplayState::kBlind) report.command.linear_mps *= kBlindSpeedFactor;
+  if (drive) {
+    const double share = SpeedShare(step);
+    report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
+  }
   return report;
 }
 

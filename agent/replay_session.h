@@ -7,6 +7,7 @@
 #include "agent/observation.h"
 #include "services/base/result.h"
 #include "services/motion/motion.h"
+#include "services/replay/follower.h"
 #include "services/route/route.h"
 
 namespace trailcast::agent {
@@ -42,7 +43,8 @@ struct ReplayStep {
   double turn_rad = 0.0;     // desired heading change theta_d, positive to the right
   double found_share = 0.0;  // of stored features found, mean over hand-overs so far
   int hand_overs = 0;
-  std::string reason;  // kLost, kBlind, kWaiting: one line for people
+  replay::FollowStep decision;  // what the method saw and asked for
+  std::string reason;           // kLost, kBlind, kWaiting: one line for people
 };
 
 // Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's

@@ -90,9 +90,8 @@ bool ScoutLink::Offer(route::Segment segment) {
 }
 
 void ScoutLink::Report(const TeachingNow& now) {
-  TeachingNow copy = now;
   // Full: the thread is busy on the disk, and will get a newer one.
-  [[maybe_unused]] const bool put = reports_.TryPut(std::move(copy));
+  [[maybe_unused]] const bool put = reports_.TryPut(TeachingNow(now));
 }
 
 Result<ScoutLink::Outcome> ScoutLink::Finish() {

@@ -1,7 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <exception>
-
 #include "agent/cli/command_line.h"
 #include "agent/cli/open_exchange.h"
 #include "agent/cli/stop_signal.h"
@@ -20,7 +18,7 @@ constexpr const char* kFooter = R"(Examples:
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
 it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
 
-int Run(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file) {
+int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file) {
   cli::SetUpLog(common);
   const cli::StopSignal stop;
   auto store = trailcast::store::OpenSqliteStore(store_file);
@@ -36,9 +34,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const std::string
   return cli::kExitOk;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App app("Keeps the routes of a swarm: stores what scouts teach, serves it to followers.",
                "trailcast-server");
   app.footer(kFooter);
@@ -50,9 +46,11 @@ int main(int argc, char** argv) {
       ->required()
       ->envname("TRAILCAST_STORE");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  try {
-    return Run(app, common, store_file);
-  } catch (const std::exception& exception) {
-    return cli::Complain(app, {trailcast::ErrorCode::kInternal, exception.what()});
-  }
+  return Serve(app, common, store_file);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cli::RunMain("trailcast-server", [&] { return Run(argc, argv); });
 }

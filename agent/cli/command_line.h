@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <optional>
 #include <string>
 
@@ -36,6 +38,18 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options);
 
 // spdlog's default logger to stderr, one line an event.
 void SetUpLog(const CommonOptions& options);
+
+// Runs a program's `body` and returns its exit status; an exception that gets this far is told on
+// stderr and fails the program.
+template <typename Body>
+int RunMain(const char* program, const Body& body) {
+  try {
+    return body();
+  } catch (const std::exception& exception) {
+    std::fprintf(stderr, "%s: %s\n", program, exception.what());
+    return kExitFailure;
+  }
+}
 
 // "trailcast-agent: cannot ..." on stderr; returns kExitFailure.
 int Complain(const CLI::App& app, const Error& error);

@@ -118,11 +118,14 @@ std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
 }
 
 std::string Age(std::int64_t milliseconds) {
+  constexpr std::int64_t kMinute_s = 60;
+  constexpr std::int64_t kHour_s = 3600;
+  constexpr std::int64_t kDay_s = 86400;
   const std::int64_t seconds = std::max<std::int64_t>(0, milliseconds / 1000);
-  if (seconds < 120) return fmt::format("{} s", seconds);
-  if (seconds < 2 * 3600) return fmt::format("{} min", seconds / 60);
-  if (seconds < 2 * 86400) return fmt::format("{} h", seconds / 3600);
-  return fmt::format("{} d", seconds / 86400);
+  if (seconds < 2 * kMinute_s) return fmt::format("{} s", seconds);
+  if (seconds < 2 * kHour_s) return fmt::format("{} min", seconds / kMinute_s);
+  if (seconds < 2 * kDay_s) return fmt::format("{} h", seconds / kHour_s);
+  return fmt::format("{} d", seconds / kDay_s);
 }
 
 }  // namespace trailcast::tool

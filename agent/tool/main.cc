@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <exception>
 #include <vector>
 
 #include "agent/tool/command.h"
@@ -13,8 +11,10 @@ constexpr const char* kExamples =
     "  trailcast routes                       # what the route server keeps\n"
     "Each subcommand has its own --help.";
 
-int Run(CLI::App& app, int argc, char** argv) {
+int Run(int argc, char** argv) {
   using trailcast::tool::Command;
+  CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
+               "trailcast");
   app.footer(kExamples);
   app.require_subcommand(1);
   app.fallthrough();
@@ -34,12 +34,5 @@ int Run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
-                 "trailcast");
-    return Run(app, argc, argv);
-  } catch (const std::exception& exception) {
-    std::fprintf(stderr, "trailcast: %s\n", exception.what());
-    return trailcast::cli::kExitFailure;
-  }
+  return trailcast::cli::RunMain("trailcast", [&] { return Run(argc, argv); });
 }

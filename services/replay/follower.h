@@ -16,6 +16,13 @@ struct FollowInput {
   std::optional<motion::OdometryIncrement> odometry;
 };
 
+// Where the robot is beside the path as it was taught.
+struct PathOffset {
+  double left_m = 0.0;       // e: to the left of the path
+  double heading_rad = 0.0;  // alpha: to the left of the taught heading
+  double along_m = 0.0;      // s: driven of the segment
+};
+
 struct FollowStep {
   motion::VelocityCommand command;
   // Desired heading change, radians, positive to the right; the two halves that the paper's method
@@ -26,9 +33,11 @@ struct FollowStep {
   double roll_rad = 0.0;
   double delta = 0.0;  // equation (2), where the method has it
   double delta_minus = 0.0;
-  int agreeing = 0;       // features that fit what the route says
-  double fraction = 0.0;  // of the segment, 0..1
-  bool ended = false;     // the milestone has been passed
+  std::optional<PathOffset> offset;  // where the method estimates it
+  double mount_yaw_rad = 0.0;        // of this robot's camera against the scout's, the same
+  int agreeing = 0;                  // features that fit what the route says
+  double fraction = 0.0;             // of the segment, 0..1
+  bool ended = false;                // the milestone has been passed
   // Few of this segment's features are left in view: go on with the next one's, if they are there.
   bool wants_next = false;
 };

@@ -20,7 +20,7 @@ double Square(double x) { return x * x; }
 
 PathEstimator::PathEstimator(int scout_width_px, double magnification,
                              const PathEstimatorOptions& options)
-    : options_(options), focal_px_(options.focal_share * scout_width_px) {
+    : options_(options), flow_(scout_width_px, options.flow) {
   state_[kMagnification] = magnification;
   BeUnsure();
 }
@@ -30,10 +30,7 @@ void PathEstimator::Begin(const route::Segment& segment) {
   last_heading_ = segment_.heading;
   last_length_m_ = segment_.length_m;
   segment_ = segment;
-  depths_.clear();
-  for (const route::Feature& feature : segment_.features) {
-    depths_.push_back(TaughtDepth(segment_, feature, focal_px_));
-  }
+  depths_ = flow_.Learn(segment_);
 }
 
 void PathEstimator::Restart(const route::Segment& segment) {
@@ -54,18 +51,31 @@ double PathEstimator::TaughtTurn(double from_m, double to_m) const {
   return TaughtHeading(to_m) - TaughtHeading(from_m);
 }
 
-// A feature's taught place; before the segment's start, where its depth and the taught turn put it.
+// A feature's taught place: between its knots, each turned to the heading taught here, since in a
+// bend features do not go straight; before the segment's start, where its depth puts it.
 route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m) const {
   const route::Feature& feature = segment_.features[index];
-  if (along_m >= 0.0) {
-    return route::TaughtPlace(feature, along_m / std::max(1e-3, segment_.length_m));
-  }
-  const double shrink = 1.0 / (1.0 - depths_[index].at_start_per_m * along_m);
-  const double u = shrink * feature.first().u_px;
-  const double v = shrink * feature.first().v_px;
+  const ScoutCamera& camera = flow_.camera();
   const double heading_rad = TaughtHeading(along_m);
-  return {0.0F, static_cast<float>(u + focal_px_ * heading_rad * (1.0 + Square(u / focal_px_))),
-          static_cast<float>(v + heading_rad * u * v / focal_px_)};
+  const auto turned = [&](double u, double v, double by_rad) -> Eigen::Vector2d {
+    return {u + by_rad * camera.TurnU(u), v + by_rad * camera.TurnV(u, v)};
+  };
+  Eigen::Vector2d place;
+  if (along_m < 0.0) {
+    const double shrink = 1.0 / (1.0 - depths_[index].at_start_per_m * along_m);
+    place = turned(camera.ahead_u_px + shrink * (feature.first().u_px - camera.ahead_u_px),
+                   camera.ahead_v_px + shrink * (feature.first().v_px - camera.ahead_v_px),
+                   heading_rad);
+  } else {
+    const double s = along_m / std::max(1e-3, segment_.length_m);
+    const route::TrackStretch stretch = route::StretchAt(feature, s);
+    const auto at = [&](const route::TrackKnot& knot) {
+      const double then_rad = route::HeadingAt(segment_.heading, knot.s * segment_.length_m);
+      return turned(knot.u_px, knot.v_px, heading_rad - then_rad);
+    };
+    place = (1.0 - stretch.weight) * at(stretch.before) + stretch.weight * at(stretch.after);
+  }
+  return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
 void PathEstimator::BeUnsure() {
@@ -76,6 +86,7 @@ void PathEstimator::BeUnsure() {
   covariance_(kMagnification, kMagnification) =
       Square(options_.start_magnification * state_[kMagnification]);
   covariance_(kMountYaw, kMountYaw) = Square(options_.mount_yaw_rad);
+  covariance_(kHeight, kHeight) = Square(options_.mount_height_m);
   covariance_(kRoll, kRoll) = Square(options_.roll_rad);
   covariance_(kPitch, kPitch) = Square(options_.pitch_rad);
 }
@@ -121,28 +132,32 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   const route::TrackKnot ahead = TaughtPlaceAt(index, along_m + kFlowStep_m);
   const double u = taught.u_px;
   const double v = taught.v_px;
-  const double f = focal_px_;
+  const ScoutCamera& camera = flow_.camera();
+  const double f = camera.focal_px;
   const double k = state[kMagnification];
   const double rho = depths_[index].At(std::min(along_m, segment_.length_m));
   const double alpha = state[kHeading] + state[kMountYaw];
-  const double widened = f * (1.0 + u * u / (f * f));
-  const double scout_u = u + widened * alpha + f * rho * state[kLeft] - v * state[kRoll];
-  const double scout_v = v + alpha * u * v / f + u * state[kRoll] + f * state[kPitch];
+  const double turn_u = camera.TurnU(u);
+  const double turn_v = camera.TurnV(u, v);
+  const double scout_u = u + turn_u * alpha + f * rho * state[kLeft] - v * state[kRoll];
+  const double scout_v =
+      v + alpha * turn_v + u * state[kRoll] + f * state[kPitch] + f * rho * state[kHeight];
   Prediction p;
   p.u_px = k * scout_u;
   p.v_px = k * scout_v;
   p.du[kLeft] = k * f * rho;
-  p.du[kHeading] = k * widened;
-  p.du[kMountYaw] = k * widened;
+  p.du[kHeading] = k * turn_u;
+  p.du[kMountYaw] = k * turn_u;
   p.du[kAlong] = k * (ahead.u_px - taught.u_px) / kFlowStep_m;
   p.du[kMagnification] = scout_u;
   p.du[kRoll] = -k * v;
-  p.dv[kHeading] = k * u * v / f;
+  p.dv[kHeading] = k * turn_v;
   p.dv[kMountYaw] = p.dv[kHeading];
   p.dv[kAlong] = k * (ahead.v_px - taught.v_px) / kFlowStep_m;
   p.dv[kMagnification] = scout_v;
   p.dv[kRoll] = k * u;
   p.dv[kPitch] = k * f;
+  p.dv[kHeight] = k * f * rho;
   p.depth_sigma_px = k * f * std::min(depths_[index].sigma_per_m, 0.5) * std::abs(state[kLeft]);
   return p;
 }

@@ -4,22 +4,14 @@
 #include <vector>
 
 #include "services/motion/motion.h"
-#include "services/replay/taught_depth.h"
+#include "services/replay/follower.h"
+#include "services/replay/taught_flow.h"
 #include "services/route/tracked_feature.h"
 
 namespace trailcast::replay {
 
-// Where the robot is beside the path as it was taught.
-struct PathOffset {
-  double left_m = 0.0;       // e: to the left of the path
-  double heading_rad = 0.0;  // alpha: to the left of the taught heading
-  double along_m = 0.0;      // s: driven of the segment
-};
-
 struct PathEstimatorOptions {
-  // The scout's focal length as a share of its picture's width: a usual webcam's. Off by a third,
-  // it changes the estimate little, because a taught track is its own measure.
-  double focal_share = 0.87;
+  TaughtFlowOptions flow;
   // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
   // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
   double feature_noise_px = 3.0;
@@ -31,11 +23,12 @@ struct PathEstimatorOptions {
   double start_along_m = 0.15;
   double start_magnification = 0.05;  // relative
   double mount_yaw_rad = 0.035;       // between the scout's camera mount and this robot's
+  double mount_height_m = 0.05;       // the same
   // Of the odometry, per root metre, and what may change besides.
   double along_noise = 0.05;
   double left_noise_m = 0.01;
   double heading_noise_rad = 0.02;
-  double magnification_noise = 0.01;
+  double magnification_noise = 0.001;
   double roll_rad = 0.05;  // of each frame alone, as pitch
   double pitch_rad = 0.05;
 };
@@ -67,6 +60,7 @@ class PathEstimator {
   [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }
   void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
+  [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const;
@@ -78,6 +72,7 @@ class PathEstimator {
     kAlong,
     kMagnification,
     kMountYaw,
+    kHeight,
     kCarried,
     kRoll = kCarried,
     kPitch,
@@ -100,7 +95,7 @@ class PathEstimator {
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;
 
   PathEstimatorOptions options_;
-  double focal_px_;  // the scout's
+  TaughtFlow flow_;
   route::Segment segment_;
   route::HeadingPolynomial last_heading_;  // of the segment before this one
   double last_length_m_ = 0.0;

@@ -36,6 +36,8 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.agreeing = estimator_.Update(input.features);
   step.roll_rad = estimator_.roll_rad();
   const PathOffset offset = estimator_.offset();
+  step.offset = offset;
+  step.mount_yaw_rad = estimator_.mount_yaw_rad();
   const double speed_mps = options_.speed_factor * segment_.speed_mps();
   const double soon_m = std::min(offset.along_m + speed_mps * options_.base_delay_s,
                                  segment_.length_m - 0.5 * kCurvatureStep_m);

@@ -135,7 +135,7 @@ std::vector<route::TrackedFeature> FeatureTracker::Detect() {
   return s.Current();
 }
 
-void FeatureTracker::Follow(std::vector<route::TrackedFeature> features) {
+void FeatureTracker::Follow(const std::vector<route::TrackedFeature>& features) {
   State& s = *state_;
   const cv::Point2f centre = Centre(s.last.front().size());
   s.ids.clear();

@@ -36,7 +36,7 @@ class FeatureTracker {
   std::vector<route::TrackedFeature> Detect();
 
   // Goes on with these features at these places of the last frame (hand-over).
-  void Follow(std::vector<route::TrackedFeature> features);
+  void Follow(const std::vector<route::TrackedFeature>& features);
 
   // Those followed at present, in the last frame.
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;

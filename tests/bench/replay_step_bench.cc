@@ -65,7 +65,7 @@ void BareOpenCv(benchmark::State& state) {
   cv::buildOpticalFlowPyramid(vision::View(Frames().back()), last, window, 3, true,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
   std::size_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     cv::buildOpticalFlowPyramid(vision::View(Frames()[i++ % kFrames]), next, window, 3, true,
                                 cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
     std::vector<cv::Point2f> there = start;
@@ -101,7 +101,7 @@ void ReplayStep(benchmark::State& state) {
   follower.Begin(segment);
   std::size_t i = 0;
   double tracked = 0.0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     if (i % kFrames == 0) tracker.Follow(features);
     const auto now = tracker.Track(Frames()[i++ % kFrames]);
     tracked += static_cast<double>(now.size());
@@ -115,7 +115,7 @@ BENCHMARK_TEMPLATE(ReplayStep, replay::PathFollower)->Unit(benchmark::kMilliseco
 void HandOverNear(benchmark::State& state) {
   const route::Segment segment = TaughtSegment();
   agent::HandOver hand_over(true, 320);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     replay::PathFollower follower(320, 1.0);
     follower.Begin(segment);
@@ -130,7 +130,7 @@ BENCHMARK(HandOverNear)->Unit(benchmark::kMillisecond);
 void SearchAtEveryMagnification(benchmark::State& state) {
   const route::Segment segment = TaughtSegment();
   const vision::FeatureFinder finder;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(finder.FindWide(Frames()[3], segment.features, 0.0));
   }
 }

@@ -41,7 +41,7 @@ void RenderAlongPath(benchmark::State& state, const char* name, const Lighting& 
   const auto camera = FindCamera(name);
   CameraRenderer renderer(Indoor().world, *camera, lighting);
   double along_m = 0.0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     along_m = along_m > 14.0 ? 0.0 : along_m + 0.37;
     benchmark::DoNotOptimize(renderer.Render(OnPath(along_m, *camera)).gray.data());
   }
@@ -67,7 +67,8 @@ void WholeStepInATurn(benchmark::State& state) {
   options.camera = *FindCamera("webcam");
   options.start = StartPose(Indoor().path.points);
   auto robot = SimulatedRobot::Create(Indoor().world, options);
-  for (auto _ : state) benchmark::DoNotOptimize((*robot)->Step({0.1, 0.4}).image.pixels.data());
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize((*robot)->Step({0.1, 0.4}).image.pixels.data());
   state.counters["frames/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }

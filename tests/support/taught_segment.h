@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace trailcast::test {
 inline std::vector<route::DescribedFeature> Describe(
     const std::vector<route::TrackedFeature>& features) {
   std::vector<route::DescribedFeature> described;
+  described.reserve(features.size());
   for (const auto& feature : features) described.push_back({feature, {}, {}});
   return described;
 }
@@ -23,6 +25,12 @@ struct Arc {
   double turn_rad = 0.0;  // left positive
 };
 
+// How the scout's camera is mounted, and its lens.
+struct ScoutEye {
+  double yaw_rad = 0.0;  // to the left
+  double focal_px = LandmarkScene::kFocal_px;
+};
+
 struct TaughtRun {
   route::Segment segment;
   std::vector<int> landmark_of_feature;
@@ -30,19 +38,22 @@ struct TaughtRun {
 };
 
 inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& start,
-                           const std::vector<Arc>& arcs) {
+                           const std::vector<Arc>& arcs, const ScoutEye& eye = {}) {
   constexpr double kStep_m = 0.01;
   teach::SegmentRecorder recorder;
   motion::Pose2 pose = start;
-  std::vector<route::TrackedFeature> in_view = scene.Look(pose);
+  const auto look = [&] {
+    return scene.Look(motion::Compose(pose, {0.0, 0.0, eye.yaw_rad}), 0.0, eye.focal_px);
+  };
+  std::vector<route::TrackedFeature> in_view = look();
   recorder.Begin(SensorTime{0}, Describe(in_view), pose);
   int frame = 0;
   for (const Arc& arc : arcs) {
-    const int steps = static_cast<int>(arc.length_m / kStep_m + 0.5);
+    const int steps = static_cast<int>(std::lround(arc.length_m / kStep_m));
     for (int i = 0; i < steps; ++i) {
       pose = motion::Advance(pose, {kStep_m, arc.turn_rad / steps});
       std::vector<route::TrackedFeature> still;
-      for (const auto& now : scene.Look(pose)) {
+      for (const auto& now : look()) {
         for (const auto& before : in_view) {
           if (before.id == now.id) still.push_back(now);
         }

@@ -13,35 +13,6 @@ namespace {
 
 const test::LandmarkScene kScene = test::LandmarkScene::Corridor(4.0, 16.0, 90, 5);
 constexpr double kDt_s = 1.0 / 30.0;
-// The estimator's own guess at 320 px; the scene's true focal length is close to it but not the
-// same.
-constexpr double kGuess_px = 0.87 * 320;
-
-TEST(TaughtDepth, IsTheLandmarksDepthOnAStraight) {
-  const test::LandmarkScene scene({{4.0, 1.0, 0.3}, {8.0, -2.0, 0.5}});
-  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
-  ASSERT_EQ(run.segment.features.size(), 2U);
-  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).at_start_per_m,
-              1.0 / 4.0, 0.01);
-  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[1], kGuess_px).at_start_per_m,
-              1.0 / 8.0, 0.01);
-}
-
-TEST(TaughtDepth, IsNotFooledByABend) {
-  const test::LandmarkScene scene({{5.0, 1.2, 0.3}, {40.0, 3.0, 6.0}});
-  const auto run = test::TeachArcs(scene, {}, {{1.2, 0.25}});
-  ASSERT_EQ(run.segment.features.size(), 2U);
-  EXPECT_NEAR(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).at_start_per_m, 0.2,
-              0.04);
-  EXPECT_LT(TaughtDepth(run.segment, run.segment.features[1], kGuess_px).at_start_per_m, 0.06);
-}
-
-TEST(TaughtDepth, IsUnsureNearTheImageCentre) {
-  const test::LandmarkScene scene({{6.0, 0.05, 0.02}, {6.0, 1.5, 0.5}});
-  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
-  EXPECT_GT(TaughtDepth(run.segment, run.segment.features[0], kGuess_px).sigma_per_m,
-            5 * TaughtDepth(run.segment, run.segment.features[1], kGuess_px).sigma_per_m);
-}
 
 // What the estimator makes of one look from a known place beside the path.
 PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {

@@ -98,8 +98,9 @@ TEST(CameraRenderer, FineCheckersFarAwayAreAveragedNotAliased) {
   EXPECT_NEAR(At(view, 159, 121), At(view, 160, 121), 12.0F);
   CameraRenderer near_renderer(near_world, Pinhole());
   const PerfectView& near_view = near_renderer.Render(AtOrigin());
+  constexpr std::ptrdiff_t kRow = 38'400;  // the 120th, of 320 pixels
   const auto [darkest, brightest] =
-      std::minmax_element(near_view.gray.begin() + 120 * 320, near_view.gray.begin() + 121 * 320);
+      std::minmax_element(near_view.gray.begin() + kRow, near_view.gray.begin() + kRow + 320);
   EXPECT_LT(*darkest, 20.0F);
   EXPECT_GT(*brightest, 220.0F);
 }

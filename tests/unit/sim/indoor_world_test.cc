@@ -55,10 +55,11 @@ TEST_F(IndoorWorld, HasStructureAtManyDepthsOnBothSides) {
     pose.rotate(BodyFromCamera(0.0, 0.0));
     const PerfectView& view = renderer.Render(pose);
     for (const int first : {0, 160}) {
+      constexpr std::size_t kPixels = 17'600;  // 110 rows of 160
       std::vector<float> depths;
       std::vector<float> grays;
-      depths.reserve(110U * 160U);
-      grays.reserve(110U * 160U);
+      depths.reserve(kPixels);
+      grays.reserve(kPixels);
       for (int y = 20; y < 130; ++y) {
         for (int x = first; x < first + 160; ++x) {
           depths.push_back(view.depth_m[image::PixelIndex(x, y, 320)]);

@@ -13,6 +13,7 @@ namespace {
 
 std::vector<route::TrackedFeature> Features(int count, double u_px = 0.0) {
   std::vector<route::TrackedFeature> features;
+  features.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) features.push_back({i, u_px + i, -2.0 * i});
   return features;
 }

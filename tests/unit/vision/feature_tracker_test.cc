@@ -85,7 +85,7 @@ TEST(FeatureTracker, KeepsOffTheBlackSurroundOfAFisheye) {
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       if (std::hypot(x - 159.5, y - 119.5) > 115.0) {
-        frame.pixels[static_cast<std::size_t>(y * frame.width + x)] = 5;
+        frame.pixels[image::PixelIndex(x, y, frame.width)] = 5;
       }
     }
   }

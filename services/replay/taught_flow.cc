@@ -1,0 +1,163 @@
+#include "services/replay/taught_flow.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "services/route/heading.h"
+
+namespace trailcast::replay {
+namespace {
+
+constexpr int kIterations = 6;
+constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer is ever in view
+constexpr double kCauchySigmas = 3.0;
+constexpr double kSmallestShrink = 0.05;
+
+double Square(double x) { return x * x; }
+
+}  // namespace
+
+double InverseDepth::At(double along_m) const {
+  return at_start_per_m / std::max(kSmallestShrink, 1.0 - at_start_per_m * along_m);
+}
+
+// One landmark's share of the normal equations: of the unknowns all have in common, of its own
+// inverse depth, and between the two.
+struct TaughtFlow::Equations {
+  Matrix common = Matrix::Zero();
+  Vector common_gradient = Vector::Zero();
+  Vector mixed = Vector::Zero();
+  double depth = 1e-6;
+  double depth_gradient = 0.0;
+
+  void Add(const Vector& slope, double depth_slope, double residual, double weight) {
+    common += weight * slope * slope.transpose();
+    common_gradient += weight * residual * slope;
+    mixed += weight * depth_slope * slope;
+    depth += weight * depth_slope * depth_slope;
+    depth_gradient += weight * depth_slope * residual;
+  }
+};
+
+TaughtFlow::TaughtFlow(int scout_width_px, const TaughtFlowOptions& options)
+    : options_(options), noise_px_(options.track_noise_px_at_320 * scout_width_px / 320.0) {
+  const double focal_px = options.focal_share * scout_width_px;
+  mean_ << 0.0, 0.0, std::log(focal_px), options.widening;
+  CameraVector sigma;
+  sigma << focal_px * options.mount_sigma_rad, focal_px * options.mount_sigma_rad,
+      options.focal_sigma, options.widening_sigma;
+  information_ = sigma.cwiseProduct(sigma).cwiseInverse().asDiagonal();
+  Use(mean_);
+}
+
+void TaughtFlow::Use(const CameraVector& camera) {
+  camera_.ahead_u_px = camera[kAheadU];
+  camera_.ahead_v_px = camera[kAheadV];
+  camera_.focal_px = std::exp(camera[kLogFocal]);
+  camera_.widening = camera[kWidening];
+}
+
+TaughtFlow::Landmark TaughtFlow::MakeLandmark(const route::Segment& segment,
+                                              const route::Feature& feature) {
+  Landmark landmark;
+  for (std::size_t i = 1; i < feature.track.size(); ++i) {
+    const route::TrackKnot& a = feature.track[i - 1];
+    const route::TrackKnot& b = feature.track[i];
+    const double from_m = a.s * segment.length_m;
+    const double to_m = b.s * segment.length_m;
+    landmark.stretches.push_back(
+        {0.5 * (from_m + to_m), to_m - from_m,
+         route::HeadingAt(segment.heading, to_m) - route::HeadingAt(segment.heading, from_m),
+         0.5 * (a.u_px + b.u_px), 0.5 * (a.v_px + b.v_px), b.u_px - a.u_px, b.v_px - a.v_px});
+  }
+  return landmark;
+}
+
+TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
+                                            const Vector& unknowns) const {
+  Equations equations;
+  const double f = std::exp(unknowns[kLogFocal]);
+  const double c = unknowns[kWidening];
+  for (const Stretch& s : landmark.stretches) {
+    const double rho = landmark.depth.At(s.middle_m);
+    const double shrink =
+        std::max(kSmallestShrink, 1.0 - landmark.depth.at_start_per_m * s.middle_m);
+    const double turn = s.turn_rad + unknowns[kDrift] * s.length_m;
+    const double wide_u = s.u_px * s.u_px / f;
+    const double wide_v = s.u_px * s.v_px / f;
+    const double out_u = s.u_px - unknowns[kAheadU];
+    const double out_v = s.v_px - unknowns[kAheadV];
+    const double residual_u = s.du_px - turn * (f + c * wide_u) - rho * out_u * s.length_m;
+    const double residual_v = s.dv_px - turn * c * wide_v - rho * out_v * s.length_m;
+    const double error2 = (Square(residual_u) + Square(residual_v)) / Square(noise_px_);
+    const double weight = 1.0 / (Square(noise_px_) * (1.0 + error2 / Square(kCauchySigmas)));
+    Vector slope_u;
+    slope_u << -rho * s.length_m, 0.0, turn * (f - c * wide_u), turn * wide_u,
+        s.length_m * (f + c * wide_u);
+    Vector slope_v;
+    slope_v << 0.0, -rho * s.length_m, -turn * c * wide_v, turn * wide_v, s.length_m * c * wide_v;
+    const double depth_slope = s.length_m / Square(shrink);
+    equations.Add(slope_u, depth_slope * out_u, residual_u, weight);
+    equations.Add(slope_v, depth_slope * out_v, residual_v, weight);
+  }
+  return equations;
+}
+
+// One step of Gauss-Newton; the depths are eliminated first and follow from the rest.
+void TaughtFlow::Improve(std::vector<Landmark>& landmarks, double length_m, Vector& unknowns,
+                         Matrix& information) const {
+  information.setZero();
+  information.topLeftCorner<kCamera, kCamera>() = information_;
+  information(kDrift, kDrift) = 1.0 / Square(options_.heading_drift_rad_per_m);
+  Vector gradient = Vector::Zero();
+  gradient.head<kCamera>() = information_ * (mean_ - unknowns.head<kCamera>());
+  gradient[kDrift] = -information(kDrift, kDrift) * unknowns[kDrift];
+  std::vector<Equations> all;
+  all.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) {
+    const Equations& e = all.emplace_back(Linearise(landmark, unknowns));
+    information += options_.trust * (e.common - e.mixed * e.mixed.transpose() / e.depth);
+    gradient += options_.trust * (e.common_gradient - e.mixed * (e.depth_gradient / e.depth));
+  }
+  const Vector step = information.ldlt().solve(gradient);
+  unknowns += step;
+  const Matrix covariance = information.inverse();
+  const double largest_per_m = 1.0 / (length_m + kNearest_m);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Equations& e = all[i];
+    InverseDepth& depth = landmarks[i].depth;
+    const double change = (e.depth_gradient - e.mixed.dot(step)) / e.depth;
+    depth.at_start_per_m = std::clamp(depth.at_start_per_m + change, 0.0, largest_per_m);
+    const double variance = 1.0 / e.depth + e.mixed.dot(covariance * e.mixed) / Square(e.depth);
+    depth.sigma_per_m = std::sqrt(variance);
+  }
+}
+
+std::vector<InverseDepth> TaughtFlow::Learn(const route::Segment& segment) {
+  std::vector<Landmark> landmarks;
+  landmarks.reserve(segment.features.size());
+  for (const route::Feature& feature : segment.features) {
+    landmarks.push_back(MakeLandmark(segment, feature));
+  }
+  Vector unknowns;
+  unknowns << mean_, 0.0;
+  Matrix information;
+  for (int i = 0; i < kIterations; ++i) {
+    Improve(landmarks, segment.length_m, unknowns, information);
+  }
+  if (unknowns.allFinite()) {
+    // The segment's own drift is no longer of interest.
+    const CameraVector mixed = information.topRightCorner<kCamera, 1>();
+    mean_ = unknowns.head<kCamera>();
+    information_ = information.topLeftCorner<kCamera, kCamera>() -
+                   mixed * mixed.transpose() / information(kDrift, kDrift);
+    Use(mean_);
+  }
+  std::vector<InverseDepth> depths;
+  depths.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) depths.push_back(landmark.depth);
+  return depths;
+}
+
+}  // namespace trailcast::replay

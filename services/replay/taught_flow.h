@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "services/route/route.h"
+
+namespace trailcast::replay {
+
+// Inverse depth of a landmark, 1/m, and how sure it is.
+struct InverseDepth {
+  double at_start_per_m = 0.0;  // from the camera's place at the segment's first image
+  double sigma_per_m = 0.0;
+
+  // From the camera's place `along_m` into the segment; the landmark comes nearer.
+  [[nodiscard]] double At(double along_m) const;
+};
+
+// The scout's camera as the route itself shows it, in the scout's pixels from its image centre.
+struct ScoutCamera {
+  double focal_px = 0.0;
+  // How a turn's flow grows away from the image centre, f (1 + c u^2 / f^2): 1 for a pinhole, near
+  // 0 for a fisheye.
+  double widening = 1.0;
+  // Focus of expansion: where the camera was going, which its mount puts off the image centre.
+  double ahead_u_px = 0.0;
+  double ahead_v_px = 0.0;
+
+  // Flow of a feature at (u, v) for a small turn to the left, pixels per radian.
+  [[nodiscard]] double TurnU(double u_px) const {
+    return focal_px + widening * u_px * u_px / focal_px;
+  }
+  [[nodiscard]] double TurnV(double u_px, double v_px) const {
+    return widening * u_px * v_px / focal_px;
+  }
+};
+
+struct TaughtFlowOptions {
+  // What is believed before anything was seen: a usual webcam, and how far from one it may be.
+  double focal_share = 0.87;  // of the picture's width
+  double focal_sigma = 0.4;   // relative
+  double widening = 0.8;
+  double widening_sigma = 0.5;
+  double mount_sigma_rad = 0.05;
+  double heading_drift_rad_per_m = 0.02;  // of the scout's odometry, anew in each segment
+  double track_noise_px_at_320 = 0.7;     // of a stretch between two knots
+  // Share of what a segment tells that is believed: its tracks err together.
+  double trust = 0.05;
+};
+
+// What taught tracks tell by their flow. A landmark's flow is what the turn makes of it, and, away
+// from the focus of expansion, what driving past it makes of it:
+//   du = turn f (1 + c u^2 / f^2) + rho (u - u0) ds        dv = turn c u v / f + rho (v - v0) ds
+// so that each feature's inverse depth rho comes out in the scout's own metres, and f, c and the
+// focus of expansion come out of the whole route: no calibration.
+class TaughtFlow {
+ public:
+  explicit TaughtFlow(int scout_width_px, const TaughtFlowOptions& options = {});
+
+  // Learns from one more segment; the inverse depths of its features, in their order.
+  std::vector<InverseDepth> Learn(const route::Segment& segment);
+  [[nodiscard]] const ScoutCamera& camera() const { return camera_; }
+
+ private:
+  // The camera's unknowns, and the segment's: drift of its heading.
+  enum Index { kAheadU, kAheadV, kLogFocal, kWidening, kCamera, kDrift = kCamera, kSize };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  using CameraVector = Eigen::Matrix<double, kCamera, 1>;
+  using CameraMatrix = Eigen::Matrix<double, kCamera, kCamera>;
+
+  // Two knots of a feature's track and what lies between.
+  struct Stretch {
+    double middle_m = 0.0;
+    double length_m = 0.0;
+    double turn_rad = 0.0;
+    double u_px = 0.0;
+    double v_px = 0.0;
+    double du_px = 0.0;
+    double dv_px = 0.0;
+  };
+  struct Landmark {
+    std::vector<Stretch> stretches;
+    InverseDepth depth;
+  };
+  struct Equations;
+  [[nodiscard]] static Landmark MakeLandmark(const route::Segment& segment,
+                                             const route::Feature& feature);
+  void Improve(std::vector<Landmark>& landmarks, double length_m, Vector& unknowns,
+               Matrix& information) const;
+  [[nodiscard]] Equations Linearise(const Landmark& landmark, const Vector& unknowns) const;
+  void Use(const CameraVector& camera);
+
+  TaughtFlowOptions options_;
+  double noise_px_;
+  ScoutCamera camera_;
+  CameraVector mean_;
+  CameraMatrix information_;
+};
+
+}  // namespace trailcast::replay

@@ -1,0 +1,77 @@
+#include "services/replay/taught_flow.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/taught_segment.h"
+
+namespace trailcast::replay {
+namespace {
+
+std::vector<InverseDepth> Depths(const route::Segment& segment) {
+  return TaughtFlow(320).Learn(segment);
+}
+
+TEST(TaughtFlow, TellsTheLandmarksDepthOnAStraight) {
+  const test::LandmarkScene scene({{4.0, 1.0, 0.3}, {8.0, -2.0, 0.5}});
+  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
+  ASSERT_EQ(run.segment.features.size(), 2U);
+  const auto depths = Depths(run.segment);
+  EXPECT_NEAR(depths[0].at_start_per_m, 1.0 / 4.0, 0.01);
+  EXPECT_NEAR(depths[1].at_start_per_m, 1.0 / 8.0, 0.01);
+}
+
+TEST(TaughtFlow, TellsNearFromFarInABend) {
+  const test::LandmarkScene scene({{5.0, 1.2, 0.3}, {40.0, 3.0, 6.0}, {5.0, -0.4, 0.9}});
+  const auto run = test::TeachArcs(scene, {}, {{1.2, 0.25}});
+  ASSERT_EQ(run.segment.features.size(), 3U);
+  const auto depths = Depths(run.segment);
+  EXPECT_NEAR(depths[0].at_start_per_m, 0.2, 0.05);
+  EXPECT_LT(depths[1].at_start_per_m, 0.07);
+}
+
+TEST(TaughtFlow, IsUnsureNearTheImageCentre) {
+  const test::LandmarkScene scene({{6.0, 0.05, 0.02}, {6.0, 1.5, 0.5}});
+  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
+  const auto depths = Depths(run.segment);
+  EXPECT_GT(depths[0].sigma_per_m, 5 * depths[1].sigma_per_m);
+}
+
+// What a route of bends teaches of a camera.
+ScoutCamera LearnOnBends(const test::ScoutEye& eye) {
+  const test::LandmarkScene scene = test::LandmarkScene::Corridor(3.0, 20.0, 300, 7);
+  TaughtFlow flow(320);
+  motion::Pose2 pose;
+  for (const double turn_rad : {0.0, 0.25, -0.25, -0.25, 0.25, 0.0}) {
+    const auto run = test::TeachArcs(scene, pose, {{1.0, turn_rad}}, eye);
+    flow.Learn(run.segment);
+    pose = run.end;
+  }
+  return flow.camera();
+}
+
+TEST(TaughtFlow, LearnsTheFocalLengthFromBends) {
+  EXPECT_NEAR(LearnOnBends({.focal_px = 280.0}).focal_px, 280.0, 14.0);
+  EXPECT_NEAR(LearnOnBends({.focal_px = 200.0}).focal_px, 200.0, 10.0);
+  EXPECT_NEAR(LearnOnBends({.focal_px = 420.0}).focal_px, 420.0, 25.0);
+}
+
+TEST(TaughtFlow, LearnsWhereACrookedCameraIsGoing) {
+  // A camera that looks 3 degrees to the left goes to the right of its image centre.
+  const ScoutCamera camera = LearnOnBends({.yaw_rad = 0.0524});
+  // It is believed slowly: mounts are straight as a rule, and tracks err together.
+  EXPECT_GT(camera.ahead_u_px, 0.4 * 280.0 * 0.0524);
+  EXPECT_LT(camera.ahead_u_px, 1.1 * 280.0 * 0.0524);
+  EXPECT_NEAR(camera.ahead_v_px, 0.0, 2.0);
+}
+
+TEST(TaughtFlow, ASegmentWithoutFeaturesTeachesNothing) {
+  TaughtFlow flow(320);
+  const double before_px = flow.camera().focal_px;
+  route::Segment empty;
+  empty.length_m = 1.0;
+  EXPECT_TRUE(flow.Learn(empty).empty());
+  EXPECT_DOUBLE_EQ(flow.camera().focal_px, before_px);
+}
+
+}  // namespace
+}  // namespace trailcast::replay
