@@ -1,6 +1,7 @@
 #include <string>
 
 #include "services/sim/indoor_textures.h"
+#include "services/sim/pattern.h"
 #include "services/sim/random.h"
 
 // Pictures of what is fitted to the room: doors, cupboards, windows, and the laboratory's devices.
@@ -10,12 +11,6 @@ namespace {
 
 using image::Canvas;
 using image::Color;
-
-void Block(Canvas& canvas, double x, double y, double width, double height, Color color) {
-  canvas.FillPolygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, color);
-}
-
-TexturePtr Finish(const Canvas& canvas) { return std::make_shared<Texture>(canvas.picture()); }
 
 }  // namespace
 

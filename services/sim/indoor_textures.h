@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "services/image/canvas.h"
 #include "services/sim/texture.h"
@@ -9,7 +8,6 @@
 namespace trailcast::sim {
 
 // Pictures of what is found in a laboratory, drawn here: the same for the same arguments.
-using TexturePtr = std::shared_ptr<const Texture>;
 
 // Surfaces, which repeat. `tint` is their middle colour.
 [[nodiscard]] TexturePtr WoodGrain(image::Color tint, std::uint64_t seed);    // 1 m x 1 m

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "services/sim/indoor_textures.h"
+#include "services/sim/pattern.h"
 #include "services/sim/random.h"
 
 namespace trailcast::sim {
@@ -31,10 +32,6 @@ Color Ink(Random& random) { return kInks[static_cast<std::size_t>(random.Integer
 Color Contrast(Color paper) {
   const int brightness = 3 * paper[0] + 6 * paper[1] + paper[2];
   return brightness > 1300 ? Color{25, 25, 30} : Color{240, 240, 235};
-}
-
-void Block(Canvas& canvas, double x, double y, double width, double height, Color color) {
-  canvas.FillPolygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, color);
 }
 
 // Lines of text too small to read: dashes of the lengths that words have.
@@ -95,8 +92,6 @@ void Shapes(Canvas& canvas, Random& random, double x, double y, double width, do
     }
   }
 }
-
-TexturePtr Finish(const Canvas& canvas) { return std::make_shared<Texture>(canvas.picture()); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "services/image/image.h"
@@ -44,5 +45,7 @@ class Texture {
 
   std::vector<Level> levels_;
 };
+
+using TexturePtr = std::shared_ptr<const Texture>;
 
 }  // namespace trailcast::sim
