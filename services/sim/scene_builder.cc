@@ -8,8 +8,16 @@
 namespace trailcast::sim {
 namespace {
 
-// Fine enough for soft shadows under desks, coarse enough to bake quickly.
-constexpr float kCell_m = 0.3F;
+// The point of a circle round `axis` at a share of the full turn.
+struct Rim {
+  Rim(const Eigen::Vector3f& axis, float radius_m)
+      : side(radius_m * axis.unitOrthogonal()), other(axis.normalized().cross(side)) {}
+  [[nodiscard]] Eigen::Vector3f At(float share) const {
+    const float angle = 2.0F * std::numbers::pi_v<float> * share;
+    return std::cos(angle) * side + std::sin(angle) * other;
+  }
+  Eigen::Vector3f side, other;
+};
 
 }  // namespace
 
@@ -28,12 +36,18 @@ void SceneBuilder::Place(const Eigen::Vector3f& origin, float yaw_rad) {
   place_ = Eigen::Translation3f(origin) * Eigen::AngleAxisf(yaw_rad, Eigen::Vector3f::UnitZ());
 }
 
+void SceneBuilder::PlaceIn(const Eigen::Isometry3f& frame, const Eigen::Vector3f& origin,
+                           float yaw_rad) {
+  Place(origin, yaw_rad);
+  place_ = frame * place_;
+}
+
 void SceneBuilder::Panel(MaterialId material, const Eigen::Vector3f& upper_left,
                          const Eigen::Vector3f& right, const Eigen::Vector3f& down,
                          const TexturePart& part) {
   Mesh& mesh = MeshOf(material);
-  const int columns = std::max(1, static_cast<int>(std::ceil(right.norm() / kCell_m)));
-  const int rows = std::max(1, static_cast<int>(std::ceil(down.norm() / kCell_m)));
+  const int columns = std::max(1, static_cast<int>(std::ceil(right.norm() / cell_m_)));
+  const int rows = std::max(1, static_cast<int>(std::ceil(down.norm() / cell_m_)));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const Eigen::Vector2f size = part.lower_right - part.upper_left;
   for (int row = 0; row <= rows; ++row) {
@@ -116,7 +130,74 @@ void SceneBuilder::Bar(MaterialId material, const Eigen::Vector3f& from, const E
   Panel(material, corner + across, -across, along);
 }
 
+void SceneBuilder::Quad(MaterialId material, const std::array<Eigen::Vector3f, 4>& corners,
+                        const TexturePart& part) {
+  Mesh piece;
+  piece.positions.assign(corners.begin(), corners.end());
+  piece.uvs = {part.upper_left,
+               {part.upper_left.x(), part.lower_right.y()},
+               part.lower_right,
+               {part.lower_right.x(), part.upper_left.y()}};
+  piece.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Add(material, piece);
+}
+
+void SceneBuilder::Tube(MaterialId material, const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                        float radius_from_m, float radius_to_m, int sides, float tile_m) {
+  const Eigen::Vector3f along = to - from;
+  const Rim rim(along, 1.0F);
+  const float repeats = along.norm() / tile_m;
+  Mesh piece;
+  for (int i = 0; i <= sides; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(sides);
+    piece.positions.emplace_back(from + radius_from_m * rim.At(share));
+    piece.positions.emplace_back(to + radius_to_m * rim.At(share));
+    piece.uvs.emplace_back(share, repeats);
+    piece.uvs.emplace_back(share, 0.0F);
+    if (i == sides) break;
+    const auto first = static_cast<std::uint32_t>(2 * i);
+    piece.triangles.push_back({first, first + 2, first + 3});
+    piece.triangles.push_back({first, first + 3, first + 1});
+  }
+  Add(material, piece);
+}
+
+void SceneBuilder::Disc(MaterialId material, const Eigen::Vector3f& middle,
+                        const Eigen::Vector3f& axis, float radius_m, int sides) {
+  const Rim rim(axis, radius_m);
+  Mesh piece;
+  piece.positions.push_back(middle);
+  piece.uvs.emplace_back(0.5F, 0.5F);
+  for (int i = 0; i < sides; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(sides);
+    const float angle = 2.0F * std::numbers::pi_v<float> * share;
+    piece.positions.emplace_back(middle + rim.At(share));
+    piece.uvs.emplace_back(0.5F + 0.5F * std::cos(angle), 0.5F - 0.5F * std::sin(angle));
+    piece.triangles.push_back(
+        {0, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % sides)});
+  }
+  Add(material, piece);
+}
+
+void SceneBuilder::Add(MaterialId material, const Mesh& piece) {
+  Mesh& mesh = MeshOf(material);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Eigen::Vector3f& position : piece.positions) {
+    mesh.positions.push_back(place_ * position);
+  }
+  if (!piece.shade.empty()) mesh.shade.resize(first, 1.0F);
+  mesh.shade.insert(mesh.shade.end(), piece.shade.begin(), piece.shade.end());
+  mesh.uvs.insert(mesh.uvs.end(), piece.uvs.begin(), piece.uvs.end());
+  for (const auto& [a, b, c] : piece.triangles) {
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+}
+
 Scene SceneBuilder::Take(const std::string& name) {
+  // Pieces without shade of their own get all the ambient light.
+  for (Mesh& mesh : scene_.meshes) {
+    if (!mesh.shade.empty()) mesh.shade.resize(mesh.positions.size(), 1.0F);
+  }
   scene_.name = name;
   return std::exchange(scene_, {});
 }
