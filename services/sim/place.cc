@@ -3,15 +3,34 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "services/sim/indoor_world.h"
 #include "services/sim/load_world.h"
+#include "services/sim/parking_lot.h"
+#include "services/sim/rough_ground.h"
 
 namespace trailcast::sim {
 namespace {
 
-constexpr const char* kIndoor = "indoor";
+struct BuiltInPlace {
+  const char* name;
+  const char* description;
+  Result<Place> (*make)();
+};
+constexpr std::array kPlaces = {
+    BuiltInPlace{"indoor", "15 m through a furnished laboratory", MakeIndoorWorld},
+    BuiltInPlace{"paved", "60 m over a parking lot with cars, trees and buildings", MakePavedWorld},
+    BuiltInPlace{"rough", "40 m over rough ground, roll and pitch to 5 degrees", MakeRoughWorld},
+};
+
+const BuiltInPlace* FindPlace(const std::string& name) {
+  const auto* found = std::find_if(kPlaces.begin(), kPlaces.end(),
+                                   [&](const BuiltInPlace& each) { return name == each.name; });
+  return found == kPlaces.end() ? nullptr : found;
+}
 
 std::string ListOfPlaces() { return fmt::format("{}", fmt::join(BuiltInPlaces(), ", ")); }
 
@@ -31,14 +50,25 @@ Result<std::shared_ptr<const World>> LoadFile(const PlaceOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& BuiltInPlaces() {
-  static const std::vector<std::string> names = {kIndoor};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    all.reserve(kPlaces.size());
+    for (const BuiltInPlace& each : kPlaces) all.emplace_back(each.name);
+    return all;
+  }();
   return names;
+}
+
+std::optional<std::string> DescribePlace(const std::string& name) {
+  const BuiltInPlace* place = FindPlace(name);
+  if (place == nullptr) return std::nullopt;
+  return place->description;
 }
 
 Result<Place> OpenPlace(const PlaceOptions& options) {
   Place place;
-  if (options.world == kIndoor) {
-    auto built = MakeIndoorWorld();
+  if (const BuiltInPlace* built_in = FindPlace(options.world)) {
+    auto built = built_in->make();
     if (!built) return built;
     place = std::move(*built);
   } else if (options.path.empty()) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace trailcast::sim {
 struct Place {
   std::shared_ptr<const World> world;
   DrivenPath path;
+  double speed_mps = 0.4;  // of a scout on the straight
+  double slip = 0.02;      // of wheels on this ground (Disturbances::slip)
 };
 
 // Places by the words of a command line.
@@ -27,6 +30,8 @@ struct PlaceOptions {
 };
 
 [[nodiscard]] const std::vector<std::string>& BuiltInPlaces();
+// A line on what a built-in place is; nothing where there is none of that name.
+[[nodiscard]] std::optional<std::string> DescribePlace(const std::string& name);
 
 // Makes the built-in place, or reads the files. Errors name what is wrong and what there is.
 [[nodiscard]] Result<Place> OpenPlace(const PlaceOptions& options);

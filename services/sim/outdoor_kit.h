@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "services/base/result.h"
+#include "services/sim/buildings.h"
+#include "services/sim/paving.h"
+#include "services/sim/place.h"
+#include "services/sim/scene_builder.h"
+#include "services/sim/street_furniture.h"
+#include "services/sim/vegetation.h"
+#include "services/sim/vehicles.h"
+
+namespace trailcast::sim {
+
+// All that an outdoor place is put together from, on one builder.
+struct OutdoorKit {
+  explicit OutdoorKit(std::uint64_t seed)
+      : paving(builder, seed),
+        buildings(builder, seed),
+        plants(builder, seed),
+        vehicles(builder, seed),
+        street(builder, seed) {}
+  OutdoorKit(const OutdoorKit&) = delete;
+  OutdoorKit& operator=(const OutdoorKit&) = delete;
+
+  // Light is not baked out of doors: the sun casts shadows, so cells may be large.
+  static constexpr float kCell_m = 12.0F;
+  SceneBuilder builder{kCell_m};
+  Paving paving;
+  Buildings buildings;
+  Vegetation plants;
+  Vehicles vehicles;
+  StreetFurniture street;
+  Lighting lighting;
+};
+
+// What drives are like out of doors, on firm ground.
+inline constexpr double kOutdoorSpeed_mps = 0.75;
+
+// The finished place: the kit's scene in its light, and the way through it.
+[[nodiscard]] Result<Place> FinishOutdoors(OutdoorKit& kit, const std::string& name,
+                                           GroundMode ground, Polyline points);
+
+}  // namespace trailcast::sim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "services/sim/random.h"
+#include "services/sim/scene_builder.h"
+
+namespace trailcast::sim {
+
+enum class VehicleShape { kSaloon, kHatchback, kEstate, kVan };
+
+// Builds parked vehicles: bodies with windows, wheels, lamps and number plates.
+class Vehicles {
+ public:
+  // Keeps a reference to `builder`. The same seed gives the same colours and plates.
+  Vehicles(SceneBuilder& builder, std::uint64_t seed);
+
+  // With its middle at (x, y), its nose towards `heading_rad`.
+  void Park(float x, float y, float heading_rad, VehicleShape shape);
+  // A car of any shape but the van's.
+  void ParkAny(float x, float y, float heading_rad);
+
+ private:
+  struct Paint {
+    MaterialId flank, front, rear;
+  };
+  // A section across the body: where along it, its lowest and highest point, half its width.
+  struct Section {
+    float y, low, high, half_width;
+  };
+  struct Shape;
+  static const Shape& ShapeOf(VehicleShape shape);
+
+  void Body(const Shape& shape, const Paint& paint);
+  void Cabin(const Shape& shape, const Paint& paint);
+  void Wheels(const Shape& shape);
+  void Fittings(const Shape& shape, const Paint& paint);
+
+  SceneBuilder& b_;
+  Random random_;
+  std::vector<Paint> paints_;
+  std::vector<MaterialId> plates_;
+  MaterialId glass_, black_, tyre_, wheel_, chrome_;
+};
+
+}  // namespace trailcast::sim
