@@ -49,6 +49,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   options.start = sim::StartPose(place->path.points);
   options.start_z_max_m = place->path.z_max_m;
   if (run.drives_itself) options.disturbances = sim::Disturbances::ForScout();
+  options.disturbances.slip = place->slip;
   options.seed = run.seed;
   auto robot = sim::SimulatedRobot::Create(place->world, options);
   if (!robot) return tl::unexpected(robot.error());
@@ -58,7 +59,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   state->path = std::move(place->path.points);
   if (run.drives_itself) {
     sim::DriverOptions driver;
-    driver.speed_mps = run.speed_mps;
+    driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
     state->operator_.emplace(state->path, driver);
   }
   return std::unique_ptr<SimulatedDevice>(new SimulatedDevice(std::move(state)));

@@ -15,7 +15,7 @@ struct SimulatedRun {
   sim::PlaceOptions place;
   std::string camera = "webcam";  // a built-in camera's name, or a .toml file
   std::uint64_t seed = 1;         // draws the robot's errors and all noise
-  double speed_mps = 0.4;         // the scout's
+  double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
   bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
 };
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "agent/camera_file.h"
-#include "services/sim/path_follow_driver.h"
 
 namespace trailcast::tool {
 namespace {
@@ -42,7 +41,8 @@ Result<void> OpenScene(const TrialOptions& options, TrialSetup& setup) {
   if (!place) return tl::unexpected(place.error());
   setup.world = std::move(place->world);
   setup.path = std::move(place->path);
-  setup.speed_mps = sim::DriverOptions{}.speed_mps;
+  setup.speed_mps = place->speed_mps;
+  setup.follower.slip = place->slip;
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "services/sim/furniture.h"
 #include "services/sim/indoor_textures.h"
 #include "services/sim/light_bake.h"
+#include "services/sim/rooms.h"
 #include "services/sim/scene_builder.h"
 
 namespace trailcast::sim {
@@ -213,18 +214,8 @@ Result<Place> MakeIndoorWorld() {
   Furniture furniture(builder, kSeed);
   FurnishSouthRoom(furniture, builder);
   FurnishNorthRoom(furniture, builder);
-  Scene scene = builder.Take("indoor");
-  scene.ground = GroundMode::kFlat;
-  scene.lighting.sun = 0.0F;
-  scene.lighting.ambient = 1.0F;
-  scene.lighting.ambient_by_direction = false;  // the baked light says it all
-  if (auto baked = BakeLight(lamps, scene); !baked) return tl::unexpected(baked.error());
-  auto world = World::Build(std::move(scene));
-  if (!world) return tl::unexpected(world.error());
-  Place indoor;
-  indoor.world = *world;
-  indoor.path.points = {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}};
-  return indoor;
+  return FinishIndoors(builder, lamps, "indoor",
+                       {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}});
 }
 
 }  // namespace trailcast::sim

@@ -9,6 +9,7 @@
 
 #include "services/sim/indoor_world.h"
 #include "services/sim/load_world.h"
+#include "services/sim/offices.h"
 #include "services/sim/parking_lot.h"
 #include "services/sim/rough_ground.h"
 
@@ -22,6 +23,9 @@ struct BuiltInPlace {
 };
 constexpr std::array kPlaces = {
     BuiltInPlace{"indoor", "15 m through a furnished laboratory", MakeIndoorWorld},
+    BuiltInPlace{"turns", "25 m round the corners of an office", MakeTurnsWorld},
+    BuiltInPlace{"desks", "10 m between chairs and desks, tight", MakeDesksWorld},
+    BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
     BuiltInPlace{"paved", "60 m over a parking lot with cars, trees and buildings", MakePavedWorld},
     BuiltInPlace{"rough", "40 m over rough ground, roll and pitch to 5 degrees", MakeRoughWorld},
 };

@@ -63,7 +63,7 @@ class RoughGround {
 void RoughGround::AddGround() {
   const auto meadow = kit_.builder.AddMaterial("meadow", {255, 255, 255}, Meadow(kSeed));
   kit_.builder.Place({0, 0, 0}, 0);
-  AddHeightField(kit_.builder, meadow, {-40, -2, 42, 100, 0.18F}, {-60, -4.2F, 4.2F, 60, 0.18F},
+  AddHeightField(kit_.builder, meadow, {-40, -2, 42, 100, 0.20F}, {-60, -4.2F, 4.2F, 60, 0.20F},
                  3.0F, [this](float x, float y) { return Height(x, y); });
 }
 
@@ -78,8 +78,8 @@ void RoughGround::ScatterStones() {
 }
 
 void RoughGround::ScatterTussocks() {
-  for (int i = 0; i < 620; ++i) {
-    const Eigen::Vector2f at = BesideTheWay(i < 420 ? 5.0 : 12.0);
+  for (int i = 0; i < 520; ++i) {
+    const Eigen::Vector2f at = BesideTheWay(i < 380 ? 5.0 : 12.0);
     kit_.plants.Stand(at.x(), at.y(), Height(at.x(), at.y()));
     kit_.plants.Tussock(Between(0.10, 0.26), Between(0.10, 0.34));
   }
@@ -96,7 +96,7 @@ void RoughGround::Plant() {
                              {42.0F, -3.6F},
                              {47.0F, 5.5F}}) {
     stand(x, y);
-    plants.Tree(Between(5.0, 7.5), Between(1.7, 2.5), {4.5F, 0.44F});
+    plants.Tree(Between(5.0, 7.5), Between(1.7, 2.5), {4.0F, 0.46F});
   }
   for (const auto& [x, y] : {std::pair{3.5F, -3.0F},
                              {8.0F, 4.2F},
@@ -118,13 +118,17 @@ void RoughGround::Plant() {
     if (i % 3 == 0) {
       plants.Conifer(Between(6.0, 10.0), Between(1.8, 2.6), {1.0F, 0.8F});
     } else {
-      plants.Tree(Between(6.0, 9.0), Between(2.2, 3.2), {0.9F, 0.9F});
+      plants.Tree(Between(6.0, 9.0), Between(2.2, 3.2), {0.8F, 0.95F});
     }
   }
-  for (int i = 0; i < 64; ++i) {  // the tree line
-    const float angle = 2.0F * kPi * (static_cast<float>(i) + Between(-0.3, 0.3)) / 64.0F;
+  for (int i = 0; i < 54; ++i) {  // the tree line
+    const float angle = 2.0F * kPi * (static_cast<float>(i) + Between(-0.3, 0.3)) / 54.0F;
     stand(25.0F + Between(58.0, 66.0) * std::cos(angle), Between(48.0, 55.0) * std::sin(angle));
     plants.Tree(Between(8.0, 13.0), Between(3.6, 5.0), Vegetation::kFar);
+    if (i % 2 == 0) {  // undergrowth, through which the sky does not show
+      stand(25.0F + 61.0F * std::cos(angle + 0.05F), 50.0F * std::sin(angle + 0.05F));
+      plants.Bush(Between(4.5, 5.5), Between(2.6, 3.6), Vegetation::kFar);
+    }
   }
 }
 

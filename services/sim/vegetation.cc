@@ -123,7 +123,7 @@ void Vegetation::Tree(float height_m, float crown_radius_m, const Detail& detail
   const float thick = 0.022F * height_m + 0.03F;
   Trunk(0.55F * height_m, thick);
   const float crown_half = 0.5F * (height_m - clear);
-  const int balls = detail.cluster_m > 1.0F ? 4 : 7;
+  const int balls = detail.cluster_m > 1.0F ? 4 : 6;
   for (int i = 0; i < balls; ++i) {
     const float angle = 2.39996F * static_cast<float>(i) + Between(0.0F, 0.5F);
     const float share = (static_cast<float>(i) + 0.5F) / static_cast<float>(balls);
@@ -213,7 +213,7 @@ void Vegetation::Hedge(const Eigen::Vector2f& from, const Eigen::Vector2f& to, f
 
 void Vegetation::Tussock(float radius_m, float height_m) {
   Mesh piece;
-  for (std::uint32_t i = 0; i < 22; ++i) {
+  for (std::uint32_t i = 0; i < 18; ++i) {
     const float angle = Between(0.0F, kFullTurn);
     const V out(std::cos(angle), std::sin(angle), 0.0F);
     const V side(-out.y(), out.x(), 0.0F);

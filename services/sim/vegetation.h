@@ -21,7 +21,7 @@ class Vegetation {
   };
   static constexpr Detail kNear = {8.0F, 0.32F};
   static constexpr Detail kAcross = {2.2F, 0.62F};  // 10 m away and more
-  static constexpr Detail kFar = {0.3F, 1.7F};      // 40 m away and more
+  static constexpr Detail kFar = {0.24F, 1.8F};      // 40 m away and more
 
   // Keeps a reference to `builder`. The same seed grows the same plants.
   Vegetation(SceneBuilder& builder, std::uint64_t seed);
