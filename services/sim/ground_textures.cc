@@ -105,8 +105,18 @@ TexturePtr Lawn(std::uint64_t seed) {
   Canvas canvas = CanvasOn(Painted(1024, [&](double x, double y) {
     return Mix({92, 112, 62}, {136, 134, 82}, 0.5 + 0.5 * patches.At(x, y));
   }));
-  DrawBlades(canvas, random, 16000, {112, 126, 72}, 20.0);
+  DrawBlades(canvas, random, 18000, {112, 126, 72}, 15.0);
   return Finish(canvas);
+}
+
+TexturePtr Turf(std::uint64_t seed) {
+  Random random(seed, "turf");
+  const RandomField patches(4, 4, random);
+  const RandomField tufts(256, 256, random);
+  return Finish(Painted(512, [&](double x, double y) {
+    const Color grass = Mix({112, 126, 74}, {126, 132, 84}, 0.5 + 0.5 * patches.At(x, y));
+    return Lighter(grass, 5.0 * tufts.At(x, y));
+  }));
 }
 
 TexturePtr Meadow(std::uint64_t seed) {
@@ -124,7 +134,7 @@ TexturePtr Meadow(std::uint64_t seed) {
   DrawPebbles(soil, random, 500, 8.0);
   Canvas grass = CanvasOn(
       Tinted(1024, {96, 108, 62}, [&](double x, double y) { return 14.0 * edge.At(x, y); }));
-  DrawBlades(grass, random, 14000, {118, 128, 74}, 26.0);
+  DrawBlades(grass, random, 20000, {124, 134, 80}, 14.0);
   image::RgbImage both = grass.picture();
   for (std::size_t i = 0; i < both.pixels.size(); ++i) {
     const auto pixel = static_cast<int>(i / 3);

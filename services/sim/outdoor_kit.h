@@ -36,6 +36,8 @@ struct OutdoorKit {
   Lighting lighting;
 };
 
+// From behind and to the right of who drives along x: what lies ahead is in the light.
+inline const Eigen::Vector3f kSunBehind = Eigen::Vector3f(-0.50F, -0.28F, 0.82F).normalized();
 // What drives are like out of doors, on firm ground.
 inline constexpr double kOutdoorSpeed_mps = 0.75;
 

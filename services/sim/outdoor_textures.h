@@ -14,6 +14,7 @@ namespace trailcast::sim {
 [[nodiscard]] TexturePtr Concrete(image::Color tint, std::uint64_t seed);  // 3 m x 3 m
 [[nodiscard]] TexturePtr Slabs(std::uint64_t seed);                        // 2 m x 2 m
 [[nodiscard]] TexturePtr Lawn(std::uint64_t seed);                         // 2.5 m x 2.5 m
+[[nodiscard]] TexturePtr Turf(std::uint64_t seed);                         // 5 m x 5 m, mown short
 [[nodiscard]] TexturePtr Meadow(std::uint64_t seed);  // 3 m x 3 m, with bare earth
 [[nodiscard]] TexturePtr RoofTiles(image::Color tint, std::uint64_t seed);  // 2 m x 2 m
 [[nodiscard]] TexturePtr Planks(image::Color tint, std::uint64_t seed);     // 1.2 m, upright

@@ -12,8 +12,6 @@ constexpr std::uint64_t kSeed = 1960;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kNorth = kPi / 2.0F;
 constexpr float kSouth = -kPi / 2.0F;
-// Over the driver's right shoulder, so that the fronts ahead are in the light.
-const Eigen::Vector3f kAfternoonSun = {-0.50F, -0.28F, 0.82F};
 
 void LayGround(Paving& paving) {
   paving.LawnGround({{-60, -60}, {130, 90}});
@@ -66,15 +64,15 @@ void PutUpBuildings(Buildings& buildings) {
 }
 
 void Plant(Vegetation& plants) {
-  plants.Hedge({-13.5F, -10.6F}, {28.2F, -10.6F}, 1.1F, 0.8F, {6.0F, 0.34F});
+  plants.Hedge({-13.5F, -10.6F}, {28.2F, -10.6F}, 1.1F, 0.8F, {12.0F, 0.27F});
   plants.Hedge({-15, -9}, {-15, 17}, 1.4F, 0.9F, Vegetation::kAcross);
   for (const float y : {5.6F, 9.0F, 12.2F}) {
     plants.Stand(35.6F, y);
-    if (y < 7.0F || y > 11.0F) plants.Tree(5.6F, 1.9F, {7.0F, 0.36F});
+    if (y < 7.0F || y > 11.0F) plants.Tree(5.6F, 1.9F, {13.0F, 0.28F});
     if (y > 7.0F && y < 11.0F) plants.Bush(0.8F, 0.9F);
   }
   plants.Stand(15.9F, -6.4F);
-  plants.Tree(5.0F, 1.7F, {7.0F, 0.34F});
+  plants.Tree(5.0F, 1.7F, {13.0F, 0.28F});
   for (const float x : {-11.0F, -2.0F, 7.5F, 24.0F, 38.0F, 47.0F, 63.0F}) {
     plants.Stand(x, -13.6F);
     plants.Tree(7.5F + 0.03F * x, 2.8F, Vegetation::kAcross);
@@ -88,7 +86,7 @@ void Plant(Vegetation& plants) {
     plants.Tree(9.0F, 3.6F, Vegetation::kAcross);
   }
   plants.Stand(61.5F, 10.6F);
-  plants.Tree(5.2F, 1.8F, {6.0F, 0.38F});
+  plants.Tree(5.2F, 1.8F, {13.0F, 0.28F});
   for (const float x : {51.0F, 52.6F, 54.1F}) {
     plants.Stand(x, -0.1F);
     plants.Bush(0.75F, 0.9F);
@@ -151,7 +149,7 @@ Result<Place> MakePavedWorld() {
   PutUpBuildings(kit.buildings);
   Plant(kit.plants);
   SetOutFurniture(kit.street);
-  kit.lighting.toward_sun = kAfternoonSun.normalized();
+  kit.lighting.toward_sun = kSunBehind;
   return FinishOutdoors(kit, "paved", GroundMode::kFlat,
                         {{0, -0.8}, {14, 0.6}, {26, -0.6}, {38, 1.0}, {48, 5.5}, {58, 7.5}});
 }

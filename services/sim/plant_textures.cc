@@ -14,6 +14,7 @@ using image::Color;
 
 TexturePtr Foliage(Color tint, std::uint64_t seed) {
   Random random(seed, "foliage");
+  const RandomField boughs(5, 5, random);
   Canvas canvas(512, 512, Lighter(tint, -64.0));
   constexpr int kLeaves = 1100;
   for (int i = 0; i < kLeaves; ++i) {
@@ -26,7 +27,8 @@ TexturePtr Foliage(Color tint, std::uint64_t seed) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     const double wide = 0.32 * length;
-    const Color leaf = Lighter(tint, -46.0 + 54.0 * depth + random.Uniform(-18.0, 18.0));
+    const Color leaf = Lighter(tint, -46.0 + 54.0 * depth + 30.0 * boughs.At(x / 512.0, y / 512.0) +
+                                         random.Uniform(-18.0, 18.0));
     WrappedPolygon(canvas,
                    {{x - length * c, y - length * s},
                     {x - wide * s, y + wide * c},

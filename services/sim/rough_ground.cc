@@ -31,6 +31,7 @@ class RoughGround {
     ScatterTussocks();
     Plant();
     PutUpThings();
+    kit_.lighting.toward_sun = kSunBehind;
     auto place = FinishOutdoors(kit_, "rough", GroundMode::kMesh, WayPoints());
     if (place) place->slip = kRoughSlip;
     return place;
@@ -63,7 +64,7 @@ class RoughGround {
 void RoughGround::AddGround() {
   const auto meadow = kit_.builder.AddMaterial("meadow", {255, 255, 255}, Meadow(kSeed));
   kit_.builder.Place({0, 0, 0}, 0);
-  AddHeightField(kit_.builder, meadow, {-40, -2, 42, 100, 0.20F}, {-60, -4.2F, 4.2F, 60, 0.20F},
+  AddHeightField(kit_.builder, meadow, {-40, -2, 42, 100, 0.22F}, {-60, -4.2F, 4.2F, 60, 0.22F},
                  3.0F, [this](float x, float y) { return Height(x, y); });
 }
 
@@ -96,7 +97,7 @@ void RoughGround::Plant() {
                              {42.0F, -3.6F},
                              {47.0F, 5.5F}}) {
     stand(x, y);
-    plants.Tree(Between(5.0, 7.5), Between(1.7, 2.5), {4.0F, 0.46F});
+    plants.Tree(Between(5.0, 7.5), Between(1.7, 2.5), {8.0F, 0.33F});
   }
   for (const auto& [x, y] : {std::pair{3.5F, -3.0F},
                              {8.0F, 4.2F},
@@ -110,15 +111,15 @@ void RoughGround::Plant() {
                              {44.0F, 1.8F},
                              {-5.0F, 2.0F}}) {
     stand(x, y);
-    plants.Bush(Between(0.6, 1.1), Between(0.6, 1.2), {7.0F, 0.32F});
+    plants.Bush(Between(0.6, 1.1), Between(0.6, 1.2), {14.0F, 0.25F});
   }
   for (int i = 0; i < 26; ++i) {  // scattered, further off
     const float side = i % 2 == 0 ? 1.0F : -1.0F;
     stand(Between(-14.0, 66.0), side * Between(13.0, 27.0));
     if (i % 3 == 0) {
-      plants.Conifer(Between(6.0, 10.0), Between(1.8, 2.6), {1.0F, 0.8F});
+      plants.Conifer(Between(6.0, 10.0), Between(1.8, 2.6), {1.4F, 0.7F});
     } else {
-      plants.Tree(Between(6.0, 9.0), Between(2.2, 3.2), {0.8F, 0.95F});
+      plants.Tree(Between(6.0, 9.0), Between(2.2, 3.2), {1.1F, 0.85F});
     }
   }
   for (int i = 0; i < 54; ++i) {  // the tree line

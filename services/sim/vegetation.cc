@@ -48,25 +48,22 @@ std::size_t Vegetation::AnyKind() {
   return static_cast<std::size_t>(random_.Integer(0, static_cast<int>(leaves_.size()) - 1));
 }
 
-// A ragged star of leaves in the plane across `normal`, with some piece of the foliage on it.
+// A ragged patch of leaves in the plane across `normal`, with some piece of the foliage on it.
 void Vegetation::Cluster(const V& middle, const V& normal, float size_m, float shade, Mesh& piece) {
-  const std::uint32_t tips = size_m > 0.6F ? 5 : 6;
+  constexpr std::uint32_t kTips = 5;
   const V side = normal.unitOrthogonal();
   const V other = normal.cross(side);
   const Eigen::Vector2f uv(Between(0.0F, 1.0F), Between(0.0F, 1.0F));
   const float start = Between(0.0F, kFullTurn);
   const auto first = static_cast<std::uint32_t>(piece.positions.size());
-  const auto corner = [&](float right_m, float up_m) {
-    piece.positions.emplace_back(middle + right_m * side + up_m * other);
-    piece.uvs.emplace_back(uv + Eigen::Vector2f(right_m, up_m) / kFoliageTile_m);
+  for (std::uint32_t i = 0; i < kTips; ++i) {
+    const float angle = start + kFullTurn * static_cast<float>(i) / kTips;
+    const float reach = 0.5F * size_m * Between(0.5F, 1.3F);
+    const Eigen::Vector2f at(reach * std::cos(angle), reach * std::sin(angle));
+    piece.positions.emplace_back(middle + at.x() * side + at.y() * other);
+    piece.uvs.emplace_back(uv + at / kFoliageTile_m);
     piece.shade.push_back(shade);
-  };
-  corner(0.0F, 0.0F);
-  for (std::uint32_t i = 0; i < tips; ++i) {
-    const float angle = start + kFullTurn * static_cast<float>(i) / static_cast<float>(tips);
-    const float reach = 0.5F * size_m * Between(0.45F, 1.25F);
-    corner(reach * std::cos(angle), reach * std::sin(angle));
-    piece.triangles.push_back({first, first + 1 + i, first + 1 + (i + 1) % tips});
+    if (i >= 2) piece.triangles.push_back({first, first + i - 1, first + i});
   }
 }
 

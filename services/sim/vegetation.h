@@ -19,9 +19,9 @@ class Vegetation {
     float clusters_per_m2;
     float cluster_m;
   };
-  static constexpr Detail kNear = {8.0F, 0.32F};
-  static constexpr Detail kAcross = {2.2F, 0.62F};  // 10 m away and more
-  static constexpr Detail kFar = {0.24F, 1.8F};      // 40 m away and more
+  static constexpr Detail kNear = {16.0F, 0.24F};
+  static constexpr Detail kAcross = {5.0F, 0.44F};  // 10 m away and more
+  static constexpr Detail kFar = {0.5F, 1.3F};      // 40 m away and more
 
   // Keeps a reference to `builder`. The same seed grows the same plants.
   Vegetation(SceneBuilder& builder, std::uint64_t seed);
