@@ -9,4 +9,8 @@ namespace trailcast::sim {
 // buildings round it.
 [[nodiscard]] Result<Place> MakePavedWorld();
 
+// `loop`: 380 m round a larger one, closed: the last way-point is the first. Most of it passes
+// rows of cars and trees; along the north there is little near by but asphalt.
+[[nodiscard]] Result<Place> MakeLoopWorld();
+
 }  // namespace trailcast::sim

@@ -23,6 +23,13 @@ V At(const V2& place, float z_m) { return {place.x(), place.y(), z_m}; }
 
 }  // namespace
 
+std::array<GroundArea, 4> Around(const GroundArea& area, const GroundArea& hole) {
+  return {{{area.low, {hole.low.x(), area.high.y()}},
+           {{hole.high.x(), area.low.y()}, area.high},
+           {{hole.low.x(), area.low.y()}, {hole.high.x(), hole.low.y()}},
+           {{hole.low.x(), hole.high.y()}, {hole.high.x(), area.high.y()}}}};
+}
+
 Paving::Paving(SceneBuilder& builder, std::uint64_t seed) : b_(builder), random_(seed, "paving") {
   const V white(255, 255, 255);
   const auto asphalt = Asphalt({126, 125, 122}, seed);
@@ -177,22 +184,29 @@ void Paving::Manhole(const V2& middle) {
 }
 
 void Paving::Wear(const GroundArea& area, float density_per_m2) {
+  constexpr float kReach_m = 2.0F;
+  const V2 room = (area.high - area.low - V2::Constant(2.0F * kReach_m)).cwiseMax(0.0F);
+  const V2 corner = 0.5F * (area.low + area.high - room);
   const V2 size = area.high - area.low;
-  const int count = static_cast<int>(size.x() * size.y() * density_per_m2);
-  for (int i = 0; i < count; ++i) {
-    const V2 at = area.low + size.cwiseProduct(V2(Between(0.03F, 0.97F), Between(0.03F, 0.97F)));
-    const float kind = Between(0.0F, 1.0F);
-    if (kind < 0.45F) {
-      const float angle = Between(0.0F, kFullTurn);
-      const V2 reach = Between(1.2F, 4.0F) * V2(std::cos(angle), std::sin(angle));
-      Crack(at, (at + reach).cwiseMax(area.low).cwiseMin(area.high));
-    } else if (kind < 0.55F) {
-      Patch(at, {Between(0.7F, 2.4F), Between(0.6F, 1.3F)}, Between(-0.1F, 0.1F));
-    } else if (kind < 0.95F) {
-      Stain(at, Between(0.08F, 0.4F));
-    } else {
-      Manhole(at);
-    }
+  for (int i = static_cast<int>(size.x() * size.y() * density_per_m2); i > 0; --i) {
+    const V2 share(Between(0.0F, 1.0F), Between(0.0F, 1.0F));
+    WearSpot(corner + room.cwiseProduct(share), 0.0F, kReach_m);
+  }
+}
+
+void Paving::WearSpot(const V2& middle, float heading_rad, float reach_m) {
+  const float kind = Between(0.0F, 1.0F);
+  if (kind < 0.45F) {
+    const float angle = Between(0.0F, kFullTurn);
+    const V2 half = reach_m * Between(0.3F, 1.0F) * V2(std::cos(angle), std::sin(angle));
+    Crack(middle - half, middle + half);
+  } else if (kind < 0.55F) {
+    const V2 size(Between(0.35F, 1.2F), Between(0.3F, 0.65F));
+    Patch(middle, reach_m * size, heading_rad + Between(-0.1F, 0.1F));
+  } else if (kind < 0.95F) {
+    Stain(middle, Between(0.08F, 0.4F));
+  } else {
+    Manhole(middle);
   }
 }
 

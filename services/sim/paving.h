@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct GroundArea {
   Eigen::Vector2f low = {0.0F, 0.0F};
   Eigen::Vector2f high = {0.0F, 0.0F};
 };
+
+// What is left of an area round a hole in it: west, east, south and north of the hole.
+[[nodiscard]] std::array<GroundArea, 4> Around(const GroundArea& area, const GroundArea& hole);
 
 // Lays ground and what is painted, cracked or mended in it, in world coordinates. Layers lie some
 // millimetres above each other, too little for a wheel to feel.
@@ -40,7 +44,9 @@ class Paving {
   void Patch(const Eigen::Vector2f& middle, const Eigen::Vector2f& size, float yaw_rad);
   void Manhole(const Eigen::Vector2f& middle);
   // Cracks, patches, oil stains and manholes here and there, as many to the square metre.
-  void Wear(const GroundArea& area, float density_per_m2 = 0.05F);
+  void Wear(const GroundArea& area, float density_per_m2);
+  // Any one of them; what is long lies within `reach_m`, along or across `heading_rad`.
+  void WearSpot(const Eigen::Vector2f& middle, float heading_rad, float reach_m);
 
   [[nodiscard]] MaterialId concrete() const { return concrete_; }
   [[nodiscard]] MaterialId asphalt() const { return asphalt_; }

@@ -7,10 +7,13 @@
 #include <array>
 #include <utility>
 
+#include "services/sim/field.h"
 #include "services/sim/indoor_world.h"
 #include "services/sim/load_world.h"
+#include "services/sim/narrow_road.h"
 #include "services/sim/offices.h"
 #include "services/sim/parking_lot.h"
+#include "services/sim/ramp.h"
 #include "services/sim/rough_ground.h"
 
 namespace trailcast::sim {
@@ -23,11 +26,15 @@ struct BuiltInPlace {
 };
 constexpr std::array kPlaces = {
     BuiltInPlace{"indoor", "15 m through a furnished laboratory", MakeIndoorWorld},
-    BuiltInPlace{"turns", "25 m round the corners of an office", MakeTurnsWorld},
-    BuiltInPlace{"desks", "10 m between chairs and desks, tight", MakeDesksWorld},
-    BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
     BuiltInPlace{"paved", "60 m over a parking lot with cars, trees and buildings", MakePavedWorld},
     BuiltInPlace{"rough", "40 m over rough ground, roll and pitch to 5 degrees", MakeRoughWorld},
+    BuiltInPlace{"desks", "10 m between chairs and desks, tight", MakeDesksWorld},
+    BuiltInPlace{"loop", "380 m round a large parking lot, back to the start", MakeLoopWorld},
+    BuiltInPlace{"ramp", "40 m up and down a slanted ramp beside walls", MakeRampWorld},
+    BuiltInPlace{"road", "80 m of narrow road between fences, hedges and houses", MakeRoadWorld},
+    BuiltInPlace{"turns", "25 m round the corners of an office", MakeTurnsWorld},
+    BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
+    BuiltInPlace{"field", "30 m in the open, all features far away", MakeFieldWorld},
 };
 
 const BuiltInPlace* FindPlace(const std::string& name) {

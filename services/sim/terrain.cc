@@ -17,7 +17,8 @@ std::vector<float> Places(const GridLines& lines) {
     below.push_back(at);
     step *= kGrowth;
   }
-  std::vector<float> places = {lines.low_limit};
+  std::vector<float> places;
+  if (lines.low_limit < lines.fine_from) places.push_back(lines.low_limit);
   places.insert(places.end(), below.rbegin(), below.rend());
   const int cells =
       std::max(1, static_cast<int>(std::lround((lines.fine_to - lines.fine_from) / lines.cell_m)));
@@ -30,7 +31,7 @@ std::vector<float> Places(const GridLines& lines) {
     places.push_back(at);
     step *= kGrowth;
   }
-  places.push_back(lines.high_limit);
+  if (lines.high_limit > lines.fine_to) places.push_back(lines.high_limit);
   return places;
 }
 

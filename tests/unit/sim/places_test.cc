@@ -27,12 +27,18 @@ std::ostream& operator<<(std::ostream& out, const Expected& expected) {
   return out << expected.name;
 }
 
-const std::vector<Expected> kExpected = {{"indoor", 15.0, 0.5, 60'000, GroundMode::kFlat},
-                                         {"paved", 60.0, 0.6, 150'000, GroundMode::kFlat},
-                                         {"rough", 40.0, 0.6, 150'000, GroundMode::kMesh, 4.0},
-                                         {"turns", 25.0, 0.5, 60'000, GroundMode::kFlat},
-                                         {"desks", 10.0, 0.5, 60'000, GroundMode::kFlat},
-                                         {"corridor", 30.0, 0.5, 60'000, GroundMode::kFlat}};
+const std::vector<Expected> kExpected = {
+    {"indoor", 15.0, 0.5, 60'000, GroundMode::kFlat},
+    {"paved", 60.0, 0.6, 150'000, GroundMode::kFlat},
+    {"rough", 40.0, 0.6, 150'000, GroundMode::kMesh, 4.0},
+    {"desks", 10.0, 0.5, 60'000, GroundMode::kFlat},
+    {"loop", 380.0, 0.6, 300'000, GroundMode::kFlat},
+    {"ramp", 40.0, 0.6, 150'000, GroundMode::kMesh, 3.5},
+    {"road", 80.0, 0.6, 150'000, GroundMode::kFlat},
+    {"turns", 25.0, 0.5, 60'000, GroundMode::kFlat},
+    {"corridor", 30.0, 0.5, 60'000, GroundMode::kFlat},
+    {"field", 30.0, 20.0, 150'000, GroundMode::kFlat},
+};
 
 // A robot as drawn that is set down along the place's way, on the ground there.
 class Walk {
@@ -127,7 +133,9 @@ INSTANTIATE_TEST_SUITE_P(Places, BuiltIn, ::testing::ValuesIn(kExpected),
                          [](const auto& each) { return each.param.name; });
 
 TEST(BuiltInPlaces, AreAllInTheTableAbove) {
-  EXPECT_EQ(BuiltInPlaces().size(), kExpected.size());
+  std::vector<std::string> names;
+  for (const Expected& each : kExpected) names.emplace_back(each.name);
+  EXPECT_EQ(BuiltInPlaces(), names);
   EXPECT_FALSE(DescribePlace("moon"));
 }
 
