@@ -13,11 +13,11 @@ using image::Canvas;
 using image::Color;
 
 std::string PlateText(Random& random) {
-  std::string text;
-  for (int i = 0; i < 7; ++i) {
-    const int low = i == 2 ? ' ' : (i < 2 ? 'A' : '0');
-    text += static_cast<char>(i == 2 ? low : low + random.Integer(0, i < 2 ? 25 : 9));
-  }
+  const auto any = [&random](char first, char last) {
+    return static_cast<char>(random.Integer(first, last));
+  };
+  std::string text = {any('A', 'Z'), any('A', 'Z'), ' '};
+  for (int i = 0; i < 4; ++i) text += any('0', '9');
   return text;
 }
 

@@ -26,101 +26,6 @@ Corners PartOf(const Corners& quad, float left, float top, float right, float bo
 
 }  // namespace
 
-// Sizes in metres; y runs from the nose (low) to the tail.
-struct Vehicles::Shape {
-  std::vector<Section> sections;
-  // The cabin's foot and roof: from, to, height, half width.
-  float foot_from, foot_to, foot_z, foot_half;
-  float roof_from, roof_to, roof_z, roof_half;
-  float pillar;  // share of the side's length at which the front doors end
-  float front_axle, rear_axle, wheel_radius;
-  bool side_glass_behind;  // windows behind the front doors
-};
-
-const Vehicles::Shape& Vehicles::ShapeOf(VehicleShape shape) {
-  static const std::array<Shape, 4> shapes = {Shape{{{-2.22F, 0.34F, 0.60F, 0.76F},
-                                                     {-2.14F, 0.22F, 0.72F, 0.84F},
-                                                     {-1.15F, 0.20F, 0.92F, 0.88F},
-                                                     {0.20F, 0.19F, 0.95F, 0.89F},
-                                                     {1.45F, 0.20F, 0.98F, 0.88F},
-                                                     {2.14F, 0.24F, 0.95F, 0.83F},
-                                                     {2.22F, 0.36F, 0.80F, 0.78F}},
-                                                    -1.18F,
-                                                    1.62F,
-                                                    0.92F,
-                                                    0.80F,
-                                                    -0.36F,
-                                                    0.98F,
-                                                    1.43F,
-                                                    0.58F,
-                                                    0.50F,
-                                                    -1.36F,
-                                                    1.34F,
-                                                    0.32F,
-                                                    true},
-                                              Shape{{{-1.92F, 0.34F, 0.62F, 0.74F},
-                                                     {-1.84F, 0.21F, 0.76F, 0.81F},
-                                                     {-0.98F, 0.19F, 0.96F, 0.85F},
-                                                     {0.30F, 0.18F, 1.00F, 0.86F},
-                                                     {1.50F, 0.20F, 1.02F, 0.84F},
-                                                     {1.90F, 0.26F, 0.98F, 0.80F},
-                                                     {1.96F, 0.36F, 0.80F, 0.76F}},
-                                                    -1.04F,
-                                                    1.88F,
-                                                    0.96F,
-                                                    0.78F,
-                                                    -0.26F,
-                                                    1.50F,
-                                                    1.50F,
-                                                    0.58F,
-                                                    0.55F,
-                                                    -1.20F,
-                                                    1.24F,
-                                                    0.30F,
-                                                    true},
-                                              Shape{{{-2.24F, 0.34F, 0.62F, 0.77F},
-                                                     {-2.16F, 0.22F, 0.74F, 0.85F},
-                                                     {-1.20F, 0.20F, 0.94F, 0.89F},
-                                                     {0.20F, 0.19F, 0.97F, 0.90F},
-                                                     {1.70F, 0.20F, 1.00F, 0.89F},
-                                                     {2.22F, 0.24F, 0.97F, 0.85F},
-                                                     {2.28F, 0.36F, 0.80F, 0.80F}},
-                                                    -1.22F,
-                                                    2.18F,
-                                                    0.94F,
-                                                    0.81F,
-                                                    -0.40F,
-                                                    1.86F,
-                                                    1.48F,
-                                                    0.61F,
-                                                    0.46F,
-                                                    -1.38F,
-                                                    1.36F,
-                                                    0.32F,
-                                                    true},
-                                              Shape{{{-2.52F, 0.38F, 0.66F, 0.84F},
-                                                     {-2.42F, 0.26F, 0.98F, 0.94F},
-                                                     {-1.78F, 0.24F, 1.16F, 0.97F},
-                                                     {0.00F, 0.24F, 1.22F, 0.98F},
-                                                     {2.30F, 0.24F, 1.22F, 0.98F},
-                                                     {2.50F, 0.30F, 1.20F, 0.96F},
-                                                     {2.54F, 0.44F, 1.00F, 0.94F}},
-                                                    -1.98F,
-                                                    2.50F,
-                                                    1.14F,
-                                                    0.95F,
-                                                    -1.30F,
-                                                    2.42F,
-                                                    2.22F,
-                                                    0.86F,
-                                                    0.30F,
-                                                    -1.68F,
-                                                    1.60F,
-                                                    0.35F,
-                                                    false}};
-  return shapes[static_cast<std::size_t>(shape)];
-}
-
 Vehicles::Vehicles(SceneBuilder& builder, std::uint64_t seed)
     : b_(builder), random_(seed, "vehicles") {
   const V white(255, 255, 255);
@@ -152,23 +57,23 @@ void Vehicles::ParkAny(float x, float y, float heading_rad) {
 }
 
 void Vehicles::Park(float x, float y, float heading_rad, VehicleShape shape) {
-  const Shape& s = ShapeOf(shape);
+  const VehicleSizes& sizes = SizesOf(shape);
   const auto last = static_cast<int>(paints_.size()) - 1;
   const Paint& paint = paints_[static_cast<std::size_t>(random_.Integer(0, last))];
   b_.Place({x, y, 0.0F}, heading_rad + kQuarter);
-  Body(s, paint);
-  Cabin(s, paint);
-  Wheels(s);
-  Fittings(s, paint);
+  Body(sizes, paint);
+  Cabin(sizes, paint);
+  Wheels(sizes);
+  Fittings(sizes, paint);
 }
 
-void Vehicles::Body(const Shape& shape, const Paint& paint) {
-  const auto corner = [](const Section& s, float side, float z) -> V {
+void Vehicles::Body(const VehicleSizes& sizes, const Paint& paint) {
+  const auto corner = [](const VehicleSizes::Section& s, float side, float z) -> V {
     return {side * s.half_width, s.y, z};
   };
-  for (std::size_t i = 0; i + 1 < shape.sections.size(); ++i) {
-    const Section& a = shape.sections[i];
-    const Section& c = shape.sections[i + 1];
+  for (std::size_t i = 0; i + 1 < sizes.sections.size(); ++i) {
+    const VehicleSizes::Section& a = sizes.sections[i];
+    const VehicleSizes::Section& c = sizes.sections[i + 1];
     const TexturePart flank = {{a.y / 4.0F, 0.36F}, {c.y / 4.0F, 1.0F}};
     b_.Quad(
         paint.flank,
@@ -184,52 +89,52 @@ void Vehicles::Body(const Shape& shape, const Paint& paint) {
     b_.Quad(black_,
             {corner(a, -1, a.low), corner(c, -1, c.low), corner(c, 1, c.low), corner(a, 1, a.low)});
   }
-  const Section& nose = shape.sections.front();
-  const Section& tail = shape.sections.back();
+  const VehicleSizes::Section& nose = sizes.sections.front();
+  const VehicleSizes::Section& tail = sizes.sections.back();
   b_.Quad(black_, {corner(nose, -1, nose.high), corner(nose, -1, nose.low),
                    corner(nose, 1, nose.low), corner(nose, 1, nose.high)});
   b_.Quad(black_, {corner(tail, 1, tail.high), corner(tail, 1, tail.low),
                    corner(tail, -1, tail.low), corner(tail, -1, tail.high)});
 }
 
-void Vehicles::Cabin(const Shape& shape, const Paint& paint) {
+void Vehicles::Cabin(const VehicleSizes& sizes, const Paint& paint) {
   const auto foot = [&](float side, float y) -> V {
-    return {side * shape.foot_half, y, shape.foot_z};
+    return {side * sizes.cabin_foot.half_width, y, sizes.cabin_foot.z};
   };
   const auto roof = [&](float side, float y) -> V {
-    return {side * shape.roof_half, y, shape.roof_z};
+    return {side * sizes.roof.half_width, y, sizes.roof.z};
   };
-  const Corners windscreen = {roof(-1, shape.roof_from), foot(-1, shape.foot_from),
-                              foot(1, shape.foot_from), roof(1, shape.roof_from)};
-  const Corners rear = {roof(1, shape.roof_to), foot(1, shape.foot_to), foot(-1, shape.foot_to),
-                        roof(-1, shape.roof_to)};
-  const Corners right = {roof(1, shape.roof_from), foot(1, shape.foot_from), foot(1, shape.foot_to),
-                         roof(1, shape.roof_to)};
-  const Corners left = {roof(-1, shape.roof_to), foot(-1, shape.foot_to), foot(-1, shape.foot_from),
-                        roof(-1, shape.roof_from)};
+  const Corners windscreen = {roof(-1, sizes.roof.from), foot(-1, sizes.cabin_foot.from),
+                              foot(1, sizes.cabin_foot.from), roof(1, sizes.roof.from)};
+  const Corners rear = {roof(1, sizes.roof.to), foot(1, sizes.cabin_foot.to),
+                        foot(-1, sizes.cabin_foot.to), roof(-1, sizes.roof.to)};
+  const Corners right = {roof(1, sizes.roof.from), foot(1, sizes.cabin_foot.from),
+                         foot(1, sizes.cabin_foot.to), roof(1, sizes.roof.to)};
+  const Corners left = {roof(-1, sizes.roof.to), foot(-1, sizes.cabin_foot.to),
+                        foot(-1, sizes.cabin_foot.from), roof(-1, sizes.roof.from)};
   for (const Corners& side : {windscreen, rear, right, left}) {
     b_.Quad(paint.flank, side, {{0.0F, 0.10F}, {0.7F, 0.40F}});
   }
   b_.Quad(paint.flank,
-          {roof(-1, shape.roof_to), roof(-1, shape.roof_from), roof(1, shape.roof_from),
-           roof(1, shape.roof_to)},
+          {roof(-1, sizes.roof.to), roof(-1, sizes.roof.from), roof(1, sizes.roof.from),
+           roof(1, sizes.roof.to)},
           {{0.0F, 0.0F}, {0.7F, 0.2F}});
   b_.Quad(glass_, PartOf(windscreen, 0.05F, 0.06F, 0.95F, 0.92F));
-  b_.Quad(glass_, PartOf(rear, 0.08F, 0.08F, 0.92F, shape.side_glass_behind ? 0.9F : 0.5F));
+  b_.Quad(glass_, PartOf(rear, 0.08F, 0.08F, 0.92F, sizes.rear_side_windows ? 0.9F : 0.5F));
   // On the right the nose is at the left end of the picture, on the left side at its right end.
-  const float pillar = shape.pillar;
+  const float pillar = sizes.front_doors_end;
   b_.Quad(glass_, PartOf(right, 0.06F, 0.1F, pillar - 0.02F, 0.94F));
   b_.Quad(glass_, PartOf(left, 1.02F - pillar, 0.1F, 0.94F, 0.94F));
-  if (!shape.side_glass_behind) return;
+  if (!sizes.rear_side_windows) return;
   b_.Quad(glass_, PartOf(right, pillar + 0.02F, 0.1F, 0.92F, 0.94F));
   b_.Quad(glass_, PartOf(left, 0.08F, 0.1F, 0.98F - pillar, 0.94F));
 }
 
-void Vehicles::Wheels(const Shape& shape) {
+void Vehicles::Wheels(const VehicleSizes& sizes) {
   constexpr int kSides = 14;
-  const float radius = shape.wheel_radius;
-  const float flank = shape.sections[3].half_width;
-  for (const float y : {shape.front_axle, shape.rear_axle}) {
+  const float radius = sizes.wheel_radius;
+  const float flank = sizes.half_width();
+  for (const float y : {sizes.front_axle, sizes.rear_axle}) {
     for (const float side : {-1.0F, 1.0F}) {
       const V out(side, 0.0F, 0.0F);
       const V hub(side * (flank + 0.012F), y, radius);
@@ -240,9 +145,9 @@ void Vehicles::Wheels(const Shape& shape) {
   }
 }
 
-void Vehicles::Fittings(const Shape& shape, const Paint& paint) {
-  const Section& nose = shape.sections[1];
-  const Section& tail = shape.sections[shape.sections.size() - 2];
+void Vehicles::Fittings(const VehicleSizes& sizes, const Paint& paint) {
+  const VehicleSizes::Section& nose = sizes.sections[1];
+  const VehicleSizes::Section& tail = sizes.sections[sizes.sections.size() - 2];
   const auto upright = [&](MaterialId material, float y, float facing, float half, float low,
                            float high) {
     const float x = facing * half;
@@ -250,27 +155,28 @@ void Vehicles::Fittings(const Shape& shape, const Paint& paint) {
   };
   const MaterialId plate =
       plates_[static_cast<std::size_t>(random_.Integer(0, static_cast<int>(plates_.size()) - 1))];
-  const float front = shape.sections.front().y - 0.008F;
-  const float back = shape.sections.back().y + 0.008F;
+  const float front = sizes.sections.front().y - 0.008F;
+  const float back = sizes.sections.back().y + 0.008F;
   upright(paint.front, front, -1.0F, nose.half_width - 0.05F, nose.low + 0.06F, nose.high);
   upright(paint.rear, back, 1.0F, tail.half_width - 0.04F, tail.low + 0.08F, tail.high);
   upright(plate, front - 0.008F, -1.0F, 0.26F, 0.36F, 0.47F);
   upright(plate, back + 0.008F, 1.0F, 0.26F, 0.56F, 0.67F);
-  const float half = shape.sections[3].half_width + 0.004F;
-  const float pillar = shape.foot_from + shape.pillar * (shape.foot_to - shape.foot_from);
+  const float half = sizes.half_width() + 0.004F;
+  const float pillar =
+      sizes.cabin_foot.from + sizes.front_doors_end * (sizes.cabin_foot.to - sizes.cabin_foot.from);
   for (const float side : {-1.0F, 1.0F}) {
     const float x = side * half;
-    for (const float y : {shape.foot_from + 0.22F, pillar, shape.rear_axle - 0.28F}) {
+    for (const float y : {sizes.cabin_foot.from + 0.22F, pillar, sizes.rear_axle - 0.28F}) {
       b_.Quad(black_, {V(x, y - 0.006F, 0.90F), V(x, y - 0.006F, 0.30F), V(x, y + 0.006F, 0.30F),
                        V(x, y + 0.006F, 0.90F)});
     }
-    b_.Quad(black_, {V(x, shape.front_axle, 0.36F), V(x, shape.front_axle, 0.26F),
-                     V(x, shape.rear_axle, 0.26F), V(x, shape.rear_axle, 0.36F)});
+    b_.Quad(black_, {V(x, sizes.front_axle, 0.36F), V(x, sizes.front_axle, 0.26F),
+                     V(x, sizes.rear_axle, 0.26F), V(x, sizes.rear_axle, 0.36F)});
     b_.Box(chrome_, {x - 0.012F, pillar - 0.22F, 0.80F}, {x + 0.012F, pillar - 0.06F, 0.83F});
-    const float mirror = side * (shape.foot_half + 0.12F);
-    const float at = shape.foot_from + 0.36F;
-    b_.Box(black_, {mirror - 0.09F, at, shape.foot_z + 0.02F},
-           {mirror + 0.09F, at + 0.10F, shape.foot_z + 0.16F});
+    const float mirror = side * (sizes.cabin_foot.half_width + 0.12F);
+    const float at = sizes.cabin_foot.from + 0.36F;
+    b_.Box(black_, {mirror - 0.09F, at, sizes.cabin_foot.z + 0.02F},
+           {mirror + 0.09F, at + 0.10F, sizes.cabin_foot.z + 0.16F});
   }
 }
 

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "services/sim/random.h"
 #include "services/sim/scene_builder.h"
+#include "services/sim/vehicle_shape.h"
 
 namespace trailcast::sim {
-
-enum class VehicleShape { kSaloon, kHatchback, kEstate, kVan };
 
 // Builds parked vehicles: bodies with windows, wheels, lamps and number plates.
 class Vehicles {
@@ -26,17 +24,11 @@ class Vehicles {
   struct Paint {
     MaterialId flank, front, rear;
   };
-  // A section across the body: where along it, its lowest and highest point, half its width.
-  struct Section {
-    float y, low, high, half_width;
-  };
-  struct Shape;
-  static const Shape& ShapeOf(VehicleShape shape);
 
-  void Body(const Shape& shape, const Paint& paint);
-  void Cabin(const Shape& shape, const Paint& paint);
-  void Wheels(const Shape& shape);
-  void Fittings(const Shape& shape, const Paint& paint);
+  void Body(const VehicleSizes& sizes, const Paint& paint);
+  void Cabin(const VehicleSizes& sizes, const Paint& paint);
+  void Wheels(const VehicleSizes& sizes);
+  void Fittings(const VehicleSizes& sizes, const Paint& paint);
 
   SceneBuilder& b_;
   Random random_;
