@@ -69,7 +69,7 @@ void Buildings::WindowRow(float width_m, float z, float pitch_m, bool alike) {
 }
 
 void Buildings::Entrance(float x) {
-  b_.Panel(Any(doors_), {x, -0.03F, 2.15F}, {1.05F, 0, 0}, {0, 0, -2.15F});
+  b_.Panel(Any(doors_), {x, -0.045F, 2.15F}, {1.05F, 0, 0}, {0, 0, -2.15F});
   b_.Box(frame_, {x - 0.12F, -0.06F, 0}, {x, 0, 2.27F});
   b_.Box(frame_, {x + 1.05F, -0.06F, 0}, {x + 1.17F, 0, 2.27F});
   b_.Box(frame_, {x - 0.12F, -0.06F, 2.15F}, {x + 1.17F, 0, 2.27F});
@@ -80,8 +80,8 @@ void Buildings::Entrance(float x) {
 void Buildings::Shops(float width_m) {
   constexpr float kShop_m = 6.0F;
   for (float x = 0.6F; x + kShop_m < width_m; x += kShop_m + 0.5F) {
-    b_.Panel(Any(shops_), {x + 0.1F, -0.03F, 2.35F}, {4.2F, 0, 0}, {0, 0, -1.9F});
-    b_.Panel(Any(doors_), {x + 4.6F, -0.03F, 2.35F}, {1.05F, 0, 0}, {0, 0, -2.35F});
+    b_.Panel(Any(shops_), {x + 0.1F, -0.045F, 2.35F}, {4.2F, 0, 0}, {0, 0, -1.9F});
+    b_.Panel(Any(doors_), {x + 4.6F, -0.045F, 2.35F}, {1.05F, 0, 0}, {0, 0, -2.35F});
     b_.Box(frame_, {x, -0.12F, 2.5F}, {x + kShop_m - 0.2F, 0, 3.05F});
     b_.Panel(Any(signs_), {x + 0.9F, -0.125F, 3.02F}, {3.0F, 0, 0}, {0, 0, -0.5F});
   }
@@ -150,7 +150,7 @@ void Buildings::PutUp(const House& house) {
   const MaterialId picture = house.alike ? windows_.front() : Any(windows_);
   Window({0.1F * wide, 1.0F, 1.2F, 1.35F}, picture);
   if (house.garage) {
-    b_.Panel(garage_, {0.66F * wide, -0.03F, 2.2F}, {2.5F, 0, 0}, {0, 0, -2.2F});
+    b_.Panel(garage_, {0.66F * wide, -0.045F, 2.2F}, {2.5F, 0, 0}, {0, 0, -2.2F});
   } else {
     Window({0.75F * wide, 1.0F, 1.2F, 1.35F}, house.alike ? windows_.front() : Any(windows_));
   }
