@@ -1,6 +1,7 @@
 #include "services/sim/buildings.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "services/sim/indoor_textures.h"

@@ -1,7 +1,9 @@
 #include "services/sim/narrow_road.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "services/sim/outdoor_kit.h"
 #include "services/sim/outdoor_textures.h"

@@ -1,5 +1,6 @@
 #include "services/sim/paving.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

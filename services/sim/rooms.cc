@@ -118,9 +118,6 @@ void Rooms::FitOne(Fitting what) {
     case Fitting::kBin:
       shift(0, -0.18F, 0);
       return furniture_.Bin();
-    case Fitting::kCartons:
-      shift(0, -0.40F, 0);
-      return furniture_.Cartons(2);
   }
 }
 

@@ -30,8 +30,7 @@ enum class Fitting {
   kShelf,
   kCupboard,
   kPlant,
-  kBin,
-  kCartons
+  kBin
 };
 struct FittingAt {
   float along_m;  // its left end

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "services/sim/outdoor_kit.h"
 #include "services/sim/outdoor_textures.h"

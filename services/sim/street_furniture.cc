@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "services/sim/indoor_textures.h"
 #include "services/sim/outdoor_textures.h"

@@ -1,5 +1,6 @@
 #include "services/sim/vehicles.h"
 
+#include <array>
 #include <numbers>
 
 #include "services/sim/outdoor_textures.h"
