@@ -70,8 +70,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.wait_for_route = replay.wait_for_route;
   follower.link.wait = Milliseconds(replay.wait_s);
   follower.link.stop = [] { return cli::StopSignal::requested(); };
-  follower.session.method =
-      replay.method == "paper" ? ReplayMethod::kPaper : ReplayMethod::kDefault;
+  if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
   follower.open_loop = !replay.device.is_simulated();
   return follower;
@@ -102,8 +101,9 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRoute(command, replay.route);
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
   command
-      .add_option("--method", replay.method, "The 2009 method as printed, or the project's best")
-      ->check(CLI::IsMember({"paper", "default"}));
+      .add_option("--method", replay.method,
+                  "The project's best, the 2009 method as printed, or its first version of 2006")
+      ->check(CLI::IsMember(ReplayMethodNames()));
   command
       .add_option("--wait", replay.wait_s,
                   "Seconds to wait for a server, the route or the next segment while none comes")

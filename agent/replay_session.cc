@@ -1,6 +1,7 @@
 #include "agent/replay_session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,11 @@ constexpr int kRefresh_frames = 6;
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
+constexpr double kBangBang_radps = 0.35;
+
+// The methods as printed; what this project adds is left out.
+bool AsPrinted(ReplayMethod method) { return method != ReplayMethod::kDefault; }
+
 std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& options,
                                                bool by_odometry, int scout_width_px,
                                                double magnification) {
@@ -43,6 +49,10 @@ std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& optio
     return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
   }
   replay::FunnelFollowerOptions funnel;
+  if (options.method == ReplayMethod::kIcra2006) {
+    funnel.bang_bang_radps = kBangBang_radps;
+    funnel.compensate_roll = false;
+  }
   funnel.limits = options.limits;
   funnel.speed_factor = options.speed_factor;
   return std::make_unique<replay::FunnelFollower>(scout_width_px, magnification, funnel);
@@ -64,6 +74,19 @@ const char* ToString(ReplayState state) {
       return "LOST";
   }
   return "UNKNOWN";
+}
+
+const std::vector<std::string>& ReplayMethodNames() {
+  static const std::vector<std::string> names = {"default", "paper", "icra2006"};
+  return names;
+}
+
+Result<ReplayMethod> FindReplayMethod(const std::string& name) {
+  if (name == "default") return ReplayMethod::kDefault;
+  if (name == "paper") return ReplayMethod::kPaper;
+  if (name == "icra2006") return ReplayMethod::kIcra2006;
+  return Fail(ErrorCode::kNotFound, "there is no method '{}'; there are: {}", name,
+              fmt::join(ReplayMethodNames(), ", "));
 }
 
 struct ReplaySession::State {
@@ -151,7 +174,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
 // Features once lost (blur, a passer-by) come back into view: look for them again.
 void ReplaySession::State::Refresh(const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
-  if (options.method == ReplayMethod::kPaper || ++frames_since_find < kRefresh_frames ||
+  if (AsPrinted(options.method) || ++frames_since_find < kRefresh_frames ||
       tracker.count() >= kEnoughShare * static_cast<double>(segment.features.size())) {
     return;
   }
@@ -188,7 +211,7 @@ double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
   const double share = state == ReplayState::kBlind ? kBlindSpeedFactor : 1.0;
   const route::Segment& segment = follower->segment();
   const bool last = complete && segment.index.value() + 1 == segments.size();
-  if (options.method == ReplayMethod::kPaper || !last || step.command.linear_mps <= 0.0) {
+  if (AsPrinted(options.method) || !last || step.command.linear_mps <= 0.0) {
     return share;
   }
   const double left_m = (1.0 - step.fraction) * segment.length_m;
@@ -245,7 +268,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
   if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
   const image::GrayImage& frame = observation.image;
-  const auto odometry = s.OdometryStep(observation);
+  const auto driven = s.OdometryStep(observation);
+  const auto odometry = s.options.method == ReplayMethod::kIcra2006 ? std::nullopt : driven;
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
   if (s.state == ReplayState::kArrived) return s.Report({});
   if (s.state == ReplayState::kWaiting) {
@@ -255,7 +279,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
       return s.Report({});
     }
     if (!s.hand_over) {
-      s.hand_over.emplace(s.options.method != ReplayMethod::kPaper, s.scout_width_px);
+      s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
     }
     s.Begin(next, frame);
     return s.Report(s.follower->Step({s.tracker.Current(), odometry}));

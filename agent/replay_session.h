@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/observation.h"
 #include "services/base/result.h"
@@ -23,9 +24,14 @@ enum class ReplayState {
 [[nodiscard]] const char* ToString(ReplayState state);
 
 enum class ReplayMethod {
-  kPaper,    // Chen & Birchfield 2009 as printed
-  kDefault,  // with what this project adds
+  kIcra2006,  // the paper's first version: vision alone, bang-bang, no roll compensation
+  kPaper,     // Chen & Birchfield 2009 as printed
+  kDefault,   // with what this project adds
 };
+
+[[nodiscard]] const std::vector<std::string>& ReplayMethodNames();
+// kNotFound lists the names there are.
+[[nodiscard]] Result<ReplayMethod> FindReplayMethod(const std::string& name);
 
 struct ReplaySessionOptions {
   ReplayMethod method = ReplayMethod::kDefault;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "agent/frame_check.h"
-#include "services/teach/segment_recorder.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -17,6 +16,8 @@ constexpr std::size_t kMinFeatures = 8;
 }  // namespace
 
 struct TeachSession::State {
+  explicit State(const teach::SegmentRecorderOptions& options) : recorder(options) {}
+
   vision::FeatureTracker tracker;
   teach::SegmentRecorder recorder;
   FrameCheck check;
@@ -52,7 +53,8 @@ void TeachSession::State::BeginSegment(const Observation& observation) {
   }
 }
 
-TeachSession::TeachSession() : state_(std::make_unique<State>()) {}
+TeachSession::TeachSession(const teach::SegmentRecorderOptions& options)
+    : state_(std::make_unique<State>(options)) {}
 TeachSession::~TeachSession() = default;
 TeachSession::TeachSession(TeachSession&&) noexcept = default;
 

@@ -7,6 +7,7 @@
 #include "agent/observation.h"
 #include "services/base/result.h"
 #include "services/route/route.h"
+#include "services/teach/segment_recorder.h"
 
 namespace trailcast::agent {
 
@@ -20,7 +21,7 @@ struct TeachStep {
 // no socket, lock, disk or clock. Not thread-safe.
 class TeachSession {
  public:
-  TeachSession();
+  explicit TeachSession(const teach::SegmentRecorderOptions& options = {});
   ~TeachSession();
   TeachSession(TeachSession&&) noexcept;
 

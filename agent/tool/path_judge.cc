@@ -37,10 +37,18 @@ double PathJudge::Observe(const Eigen::Vector2d& position_m) {
     max_settled_m_ = std::max(max_settled_m_.value_or(0.0), error_m);
   }
   worst_m_ = std::max(worst_m_, error_m);
+  if (pushed_at_m_ && !after_push_m_ && driven_m_ - *pushed_at_m_ >= kReturnDistance_m) {
+    after_push_m_ = error_m;
+  }
   last_m_ = position_m;
   last_error_m_ = error_m;
   replayed_.Add(position_m);
   return error_m;
+}
+
+void PathJudge::NotePush() {
+  pushed_at_m_ = driven_m_;
+  last_m_.reset();
 }
 
 Verdict PathJudge::verdict() const {
@@ -52,6 +60,7 @@ Verdict PathJudge::verdict() const {
   verdict.max_path_error_m = max_settled_m_.value_or(last_error_m_);
   verdict.worst_path_error_m = worst_m_;
   verdict.driven_m = driven_m_;
+  verdict.after_push_m = after_push_m_;
   return verdict;
 }
 

@@ -35,9 +35,12 @@ struct Verdict {
   double max_path_error_m = 0.0;    // after the first kSettlingDistance_m
   double worst_path_error_m = 0.0;  // from the start on
   double driven_m = 0.0;
+  // From the taught path, kReturnDistance_m after a push; nothing if it did not come that far.
+  std::optional<double> after_push_m;
 };
 
 inline constexpr double kSettlingDistance_m = 2.0;  // belongs to the start error
+inline constexpr double kReturnDistance_m = 10.0;   // in which a pushed robot is to be back
 inline constexpr double kArrivalRadius_m = 2.0;
 inline constexpr double kStrayLimit_m = 5.0;
 
@@ -49,6 +52,10 @@ class PathJudge {
 
   // Returns the distance from the taught path.
   double Observe(const Eigen::Vector2d& position_m);
+
+  // The robot has just been pushed: what it does not drive itself counts for nothing.
+  void NotePush();
+  [[nodiscard]] double driven_m() const { return driven_m_; }
 
   [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] const TruePath& taught() const { return taught_; }
@@ -63,6 +70,8 @@ class PathJudge {
   double error_integral_ = 0.0;  // metres of error times metres driven
   std::optional<double> max_settled_m_;
   double worst_m_ = 0.0;
+  std::optional<double> pushed_at_m_;  // driven until then
+  std::optional<double> after_push_m_;
 };
 
 }  // namespace trailcast::tool

@@ -28,28 +28,34 @@ double ThreadCpuMs() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-sim::SimulatedRobotOptions FollowerOptions(const TrialSetup& setup, std::uint64_t seed) {
+sim::SimulatedRobotOptions FollowerOptions(const TrialSetup& setup, const TrialCase& trial_case,
+                                           std::uint64_t seed) {
   sim::SimulatedRobotOptions options;
-  options.camera = setup.follower_camera;
+  options.camera = trial_case.follower_camera;
   options.start = sim::StartPose(setup.path.points);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
   options.seed = seed;
+  if (setup.sun_moves) options.lighting = sim::WithMovedSun(setup.world->lighting(), seed);
   return options;
 }
 
 // A follower in closed loop, frame by frame, until it has ended one way or the other.
 class Replaying {
  public:
-  Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session)
+  Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
+            double push_m)
       : robot_(robot),
         truth_(robot),
         judge_(taught.path),
         session_(std::move(session)),
+        push_at_m_(0.5 * taught.path.length_m()),
+        push_m_(push_m),
         limit_s_(kPatience * taught.duration_s + kPatience_s) {}
 
   // One frame. False when the replay is over; `state` and `reason` then say how.
   Result<bool> Step() {
+    if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
     sim::Observation seen = robot_.Step(last_.command);
     const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
     const double off_m = judge_.Observe(position_m);
@@ -77,6 +83,11 @@ class Replaying {
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
 
  private:
+  void Push() {
+    truth_.Shove({0.0, push_m_, 0.0});
+    judge_.NotePush();
+    push_m_ = 0.0;
+  }
   bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
     const std::string where = fmt::format("at segment {}, {:.0f} % of the way",
                                           last_.segment.value(), 100.0 * last_.progress);
@@ -111,6 +122,8 @@ class Replaying {
   sim::Judge truth_;
   PathJudge judge_;
   agent::ReplaySession session_;
+  double push_at_m_;
+  double push_m_;  // 0: none, or done
   double limit_s_;
   StandstillWatch standstill_;
   ReplayStep last_;  // a first Step of the robot with no command is a look at the start
@@ -133,12 +146,14 @@ Result<agent::ReplaySession> LoadRoute(const TrialSetup& setup, const Taught& ta
   return session;
 }
 
-TrialRow BeginRow(const TrialSetup& setup, std::uint64_t seed, int trial, const Taught& taught) {
+TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uint64_t seed,
+                  int trial, const Taught& taught) {
   TrialRow row;
   row.scenario = setup.scenario;
   row.method = setup.method;
-  row.scout_camera = setup.scout_camera.name;
-  row.follower_camera = setup.follower_camera.name;
+  row.scout_camera = trial_case.scout_camera.name;
+  row.follower_camera = trial_case.follower_camera.name;
+  row.push_m = trial_case.push_m;
   row.trial = trial;
   row.seed = seed;
   row.end_m = taught.path.end_m();
@@ -150,18 +165,19 @@ TrialRow BeginRow(const TrialSetup& setup, std::uint64_t seed, int trial, const 
 
 }  // namespace
 
-Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialOptions& options, int trial,
+Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
+                              const TrialOptions& options, int trial,
                               const TrialProgress& on_progress) {
   const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(trial - 1);
-  auto taught = TeachOnce(setup, sim::Random(seed, "scout").Bits(),
+  auto taught = TeachOnce(setup, trial_case.scout_camera, sim::Random(seed, "scout").Bits(),
                           [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
   const auto robot = sim::SimulatedRobot::Create(
-      setup.world, FollowerOptions(setup, sim::Random(seed, "follower").Bits()));
+      setup.world, FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits()));
   if (!robot) return Wrap(robot.error(), "the follower");
   auto session = LoadRoute(setup, *taught);
   if (!session) return tl::unexpected(session.error());
-  Replaying replaying(**robot, *taught, std::move(*session));
+  Replaying replaying(**robot, *taught, std::move(*session), trial_case.push_m);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");
@@ -171,7 +187,8 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialOptions& optio
       return Fail(ErrorCode::kUnavailable, "interrupted");
     }
   }
-  TrialOutcome outcome{BeginRow(setup, seed, trial, *taught), taught->path, replaying.path()};
+  TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, *taught), taught->path,
+                       replaying.path()};
   replaying.Fill(outcome.row);
   return outcome;
 }

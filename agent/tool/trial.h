@@ -21,11 +21,12 @@ using TrialProgress = std::function<bool(double share)>;
 
 // One teach and one replay in closed loop, in process: the scout is driven along the path by its
 // operator, what it taught goes through the route format's bytes, and another robot, drawn anew,
-// follows. Truth goes to the judge alone. `trial` counts from 1; the same setup, options.seed and
-// trial give the same outcome, bit for bit, but for the CPU time. A robot that fails to arrive is
-// an outcome, not an error; an error is a path that cannot be driven, or a session that refuses a
-// frame.
-[[nodiscard]] Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialOptions& options,
-                                            int trial, const TrialProgress& on_progress);
+// follows, under a sun that has moved on where there is one. Truth goes to the judge alone. `trial`
+// counts from 1; the same setup, options.seed and trial give the same outcome, bit for bit, but for
+// the CPU time. A robot that fails to arrive is an outcome, not an error; an error is a path that
+// cannot be driven, or a session that refuses a frame.
+[[nodiscard]] Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
+                                            const TrialOptions& options, int trial,
+                                            const TrialProgress& on_progress);
 
 }  // namespace trailcast::tool

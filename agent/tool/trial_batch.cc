@@ -16,20 +16,23 @@ class Batch {
       : setup_(setup),
         options_(options),
         on_progress_(on_progress),
-        outcomes_(static_cast<std::size_t>(options.trials)),
-        shares_(static_cast<std::size_t>(options.trials), 0.0) {}
+        outcomes_(setup.cases.size() * static_cast<std::size_t>(options.trials)),
+        shares_(outcomes_.size(), 0.0) {}
 
   // A thread's work: trials, until none is left or one failed to run at all.
   void Work() {
     while (!broken_) {
-      const int index = next_.fetch_add(1);
-      if (index >= options_.trials) return;
-      Result<TrialOutcome> outcome = RunTrial(setup_, options_, index + 1, [&](double share) {
-        Note(static_cast<std::size_t>(index), share, nullptr);
-        return !broken_;
-      });
+      const std::size_t index = next_.fetch_add(1);
+      if (index >= outcomes_.size()) return;
+      const auto trials = static_cast<std::size_t>(options_.trials);
+      Result<TrialOutcome> outcome =
+          RunTrial(setup_, setup_.cases[index / trials], options_,
+                   static_cast<int>(index % trials) + 1, [&](double share) {
+                     Note(index, share, nullptr);
+                     return !broken_;
+                   });
       if (!outcome) broken_ = true;
-      Note(static_cast<std::size_t>(index), 1.0, &outcome);
+      Note(index, 1.0, &outcome);
     }
   }
 
@@ -60,7 +63,7 @@ class Batch {
   const TrialSetup& setup_;
   const TrialOptions& options_;
   const BatchProgress& on_progress_;
-  std::atomic<int> next_{0};
+  std::atomic<std::size_t> next_{0};
   std::atomic<bool> broken_{false};
   std::mutex mutex_;  // guards what follows
   std::vector<std::optional<Result<TrialOutcome>>> outcomes_;

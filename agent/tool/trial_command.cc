@@ -9,6 +9,7 @@
 
 #include "agent/tool/command.h"
 #include "agent/tool/live_lines.h"
+#include "agent/tool/scenario.h"
 #include "agent/tool/trial_batch.h"
 #include "agent/tool/trial_plot.h"
 
@@ -24,16 +25,22 @@ constexpr int kBarWidth = 40;
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  trailcast trial --scenario cameras --trials 1 --csv pairs.csv\n"
     "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
 
+std::string ScenarioHelp() {
+  std::string help = "A built-in one:";
+  for (const Scenario& each : Scenarios())
+    help += fmt::format("\n{:<8} {}", each.name, each.summary);
+  return help;
+}
+
 void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
   app.option_defaults()->always_capture_default();
-  CLI::Option* scenario =
-      app.add_option("--scenario", options.scenario,
-                     fmt::format("A built-in one: {}", fmt::join(ScenarioNames(), ", ")));
+  CLI::Option* scenario = app.add_option("--scenario", options.scenario, ScenarioHelp());
   CLI::Option* world =
       app.add_option("--world", options.place.world, "A world of your own: glTF, OBJ, ...")
           ->check(CLI::ExistingFile)
@@ -52,7 +59,7 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
       ->check(CLI::IsMember({"mesh", "flat"}))
       ->needs(world);
   app.add_option("--method", options.method,
-                 fmt::format("How to follow: {}", fmt::join(MethodNames(), ", ")));
+                 fmt::format("How to follow: {}", fmt::join(agent::ReplayMethodNames(), ", ")));
   app.add_option("--scout-camera", options.scout_camera,
                  fmt::format("{}, or a camera file (.toml)", fmt::join(CameraNames(), ", ")));
   app.add_option("--follower-camera", options.follower_camera, "The same");
@@ -77,9 +84,10 @@ int Run(const CLI::App& app, const TrialOptions& options, const TrialFiles& file
   for (const std::string& warning : setup->world->warnings()) {
     fmt::print(stderr, "{}: {}\n", app.get_name(), warning);
   }
+  const int all = options.trials * static_cast<int>(setup->cases.size());
   LiveLines live(stderr, std::chrono::seconds(20));
   const auto outcomes = RunTrials(*setup, options, [&](double share, int ended, int arrived) {
-    live.Show({ProgressLine(share, ended, arrived, options.trials)}, ended == options.trials);
+    live.Show({ProgressLine(share, ended, arrived, all)}, ended == all);
   });
   if (!outcomes) return cli::Complain(app, outcomes.error());
   std::vector<TrialRow> rows;

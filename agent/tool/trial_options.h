@@ -16,10 +16,10 @@ struct TrialOptions {
 
   std::string method = "default";
   std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
-  std::string follower_camera = "webcam";  // the same
+  std::string follower_camera = "webcam";  // the same; some scenarios have cameras of their own
   double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
-  int trials = 10;
-  std::uint64_t seed = 1;  // trial i of n is drawn from seed + i - 1 alone
+  int trials = 10;                         // of each of the scenario's cases
+  std::uint64_t seed = 1;                  // trial i of n is drawn from seed + i - 1 alone
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 

@@ -5,24 +5,17 @@
 #include <fstream>
 #include <optional>
 
+#include "agent/tool/scenario.h"
+
 namespace trailcast::tool {
 namespace {
 
-// Chen & Birchfield 2009, Table I: ten trials each.
-struct PaperFigures {
-  const char* scenario;
-  double accuracy_m;
-  double repeatability_m;
-  double largest_final_error_m;
-};
-constexpr PaperFigures kPaperTable[] = {{"indoor", 0.14, 0.08, 0.23}};
-
-std::optional<PaperFigures> PaperFiguresFor(const std::string& scenario) {
-  const auto* found =
-      std::find_if(std::begin(kPaperTable), std::end(kPaperTable),
-                   [&](const PaperFigures& row) { return scenario == row.scenario; });
-  if (found == std::end(kPaperTable)) return std::nullopt;
-  return *found;
+// The paper's figures for a scenario and one of its two methods; the default is measured against
+// the later one.
+std::optional<PaperFigures> PaperFiguresFor(const TrialRow& row) {
+  const auto scenario = FindScenario(row.scenario);
+  if (!scenario) return std::nullopt;
+  return row.method == "icra2006" ? scenario->icra2006 : scenario->paper;
 }
 
 template <typename Value>
@@ -89,20 +82,22 @@ std::string TrialCsvHeader() {
   return "scenario,method,scout_camera,follower_camera,trial,seed,arrived,final_error_m,final_x_m,"
          "final_y_m,end_x_m,end_y_m,mean_path_error_m,max_path_error_m,found_share,segments,"
          "bytes_per_m,ms_per_frame,state,taught_m,driven_m,worst_path_error_m,frames,hand_overs,"
-         "reason";
+         "push_m,after_push_m,reason";
 }
 
 std::string TrialCsvLine(const TrialRow& row) {
   const Verdict& verdict = row.verdict;
   return fmt::format(
       "{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f},"
-      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{}",
+      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{}",
       CsvText(row.scenario), row.method, CsvText(row.scout_camera), CsvText(row.follower_camera),
       row.trial, row.seed, row.arrived ? 1 : 0, verdict.final_error_m, verdict.final_m.x(),
       verdict.final_m.y(), row.end_m.x(), row.end_m.y(), verdict.mean_path_error_m,
       verdict.max_path_error_m, row.found_share, row.segments, row.bytes_per_m, row.ms_per_frame,
       row.state, row.taught_m, verdict.driven_m, verdict.worst_path_error_m, row.frames,
-      row.hand_overs, CsvText(row.reason));
+      row.hand_overs, row.push_m,
+      verdict.after_push_m ? fmt::format("{:.4f}", *verdict.after_push_m) : "",
+      CsvText(row.reason));
 }
 
 Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesystem::path& file) {
@@ -117,8 +112,27 @@ Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesys
   return {};
 }
 
-std::string TrialTable(const std::vector<TrialRow>& rows) {
-  if (rows.empty()) return "no trials\n";
+namespace {
+
+std::string CaseName(const TrialRow& row) {
+  std::string name = row.scout_camera + " > " + row.follower_camera;
+  if (row.push_m != 0.0) name += fmt::format(", pushed {:+.0f} m", row.push_m);
+  return name;
+}
+
+// The rows of each case, in the order of their first ones.
+std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows) {
+  std::vector<std::vector<TrialRow>> cases;
+  for (const TrialRow& row : rows) {
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const auto& others) {
+      return CaseName(others.front()) == CaseName(row);
+    });
+    (same == cases.end() ? cases.emplace_back() : *same).push_back(row);
+  }
+  return cases;
+}
+
+std::string RowTable(const std::vector<TrialRow>& rows) {
   std::string text =
       fmt::format("{:>5}{:>8} {:<10}{:>9}{:>9}{:>9}{:>7}{:>9}{:>8}{:>10}\n", "trial", "seed",
                   "state", "end m", "mean m", "max m", "found", "segments", "B/m", "ms/frame");
@@ -127,17 +141,42 @@ std::string TrialTable(const std::vector<TrialRow>& rows) {
                         row.trial, row.seed, row.state, row.verdict.final_error_m,
                         row.verdict.mean_path_error_m, row.verdict.max_path_error_m,
                         100.0 * row.found_share, row.segments, row.bytes_per_m, row.ms_per_frame);
+    if (row.push_m != 0.0) {
+      text += row.verdict.after_push_m
+                  ? fmt::format("  {:.2f} m off 10 m after a push of {:+.0f} m",
+                                *row.verdict.after_push_m, row.push_m)
+                  : fmt::format("  pushed {:+.0f} m", row.push_m);
+    }
     text += row.reason.empty() ? "\n" : fmt::format("  {}\n", row.reason);
   }
+  return text;
+}
+
+// Several cases: a line each.
+std::string CaseTable(const std::vector<std::vector<TrialRow>>& cases) {
+  std::string text = fmt::format("{:<32}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}\n", "case", "arrived",
+                                 "accuracy", "repeat", "largest", "mean m", "max m", "found");
+  for (const std::vector<TrialRow>& rows : cases) {
+    const TrialSummary summary = Summarize(rows);
+    text += fmt::format(
+        "{:<32}{:>9}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>6.0f}%\n", CaseName(rows.front()),
+        fmt::format("{}/{}", summary.arrived, summary.trials), summary.accuracy_m,
+        summary.repeatability_m, summary.largest_final_error_m, summary.mean_path_error_m,
+        summary.max_path_error_m, 100.0 * summary.found_share);
+  }
+  return text;
+}
+
+std::string SummaryTable(const std::vector<TrialRow>& rows) {
   const TrialRow& first = rows.front();
   const TrialSummary summary = Summarize(rows);
-  const std::optional<PaperFigures> paper = PaperFiguresFor(first.scenario);
+  const std::optional<PaperFigures> paper = PaperFiguresFor(first);
   const auto meters = [](double value) { return fmt::format("{:.3f} m", value); };
   const auto beside = [&](double PaperFigures::*figure) {
     return paper ? fmt::format("{:.2f} m", (*paper).*figure) : std::string();
   };
-  text += fmt::format("\n{}, method {}, taught by {}, followed by {}\n", first.scenario,
-                      first.method, first.scout_camera, first.follower_camera);
+  std::string text = fmt::format("{}, method {}, taught by {}, followed by {}\n", first.scenario,
+                                 first.method, first.scout_camera, first.follower_camera);
   text += SummaryLine("", "ours", paper ? "the paper" : "");
   text += SummaryLine("accuracy (RMS at the end)", meters(summary.accuracy_m),
                       beside(&PaperFigures::accuracy_m));
@@ -154,6 +193,22 @@ std::string TrialTable(const std::vector<TrialRow>& rows) {
   text += SummaryLine("route", fmt::format("{:.0f} B/m", summary.bytes_per_m), "");
   text += SummaryLine("replay, CPU a frame", fmt::format("{:.2f} ms", summary.ms_per_frame), "");
   return text;
+}
+
+}  // namespace
+
+std::string TrialTable(const std::vector<TrialRow>& rows) {
+  if (rows.empty()) return "no trials\n";
+  const auto cases = Cases(rows);
+  std::string text;
+  for (const std::vector<TrialRow>& each : cases) {
+    if (cases.size() > 1) text += CaseName(each.front()) + "\n";
+    text += RowTable(each);
+    text += '\n';
+  }
+  if (cases.size() == 1) return text + SummaryTable(rows);
+  return text + fmt::format("{}, method {}\n", rows.front().scenario, rows.front().method) +
+         CaseTable(cases);
 }
 
 }  // namespace trailcast::tool

@@ -16,6 +16,7 @@ struct TrialRow {
   std::string method;
   std::string scout_camera;
   std::string follower_camera;
+  double push_m = 0.0;     // to the left, half way
   int trial = 0;           // from 1
   std::uint64_t seed = 0;  // `--trials 1 --seed <this>` repeats this trial alone
   bool arrived = false;    // by itself, within 2 m, never more than 5 m off

@@ -1,77 +1,72 @@
 #include "agent/tool/trial_setup.h"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "agent/camera_file.h"
+#include "agent/tool/scenario.h"
 
 namespace trailcast::tool {
 namespace {
 
-struct NamedMethod {
-  const char* name;
-  agent::ReplayMethod method;
-};
-constexpr std::array<NamedMethod, 2> kMethods{
-    {{"default", agent::ReplayMethod::kDefault}, {"paper", agent::ReplayMethod::kPaper}}};
-
-Result<agent::ReplayMethod> FindMethod(const std::string& name) {
-  for (const NamedMethod& each : kMethods) {
-    if (name == each.name) return each.method;
+Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOptions& options) {
+  std::vector<TrialCase> cases;
+  for (const CameraPair& pair : scenario.cameras) {
+    auto scout = agent::CameraFromWord(pair.scout.empty() ? options.scout_camera : pair.scout);
+    if (!scout) return tl::unexpected(scout.error());
+    auto follower =
+        agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
+    if (!follower) return tl::unexpected(follower.error());
+    for (const double push_m : scenario.pushes_m) cases.push_back({*scout, *follower, push_m});
   }
-  return Fail(ErrorCode::kNotFound, "there is no method '{}'; there are: {}", name,
-              fmt::join(MethodNames(), ", "));
+  return cases;
 }
 
-// A world and a path of the user's own, or the scenario's.
-Result<void> OpenScene(const TrialOptions& options, TrialSetup& setup) {
+// A world and a path of the user's own, or the scenario's place.
+Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, TrialSetup& setup) {
   sim::PlaceOptions where = options.place;
-  setup.scenario = std::filesystem::path(where.world).stem().string();
-  if (where.world.empty()) {
-    const auto names = ScenarioNames();
-    if (std::find(names.begin(), names.end(), options.scenario) == names.end()) {
-      return Fail(ErrorCode::kNotFound, "there is no scenario '{}'; there are: {}",
-                  options.scenario, fmt::join(names, ", "));
-    }
-    setup.scenario = where.world = options.scenario;
-  }
+  if (where.world.empty()) where.world = scenario.place;
   auto place = sim::OpenPlace(where);
   if (!place) return tl::unexpected(place.error());
   setup.world = std::move(place->world);
   setup.path = std::move(place->path);
-  setup.speed_mps = place->speed_mps;
+  setup.speed_mps = options.speed_mps > 0.0 ? options.speed_mps : place->speed_mps;
   setup.follower.slip = place->slip;
+  setup.sun_moves = options.place.world.empty() && setup.world->lighting().sun > 0.0F;
   return {};
+}
+
+// The user's own world is a scenario without a name of its own.
+Result<Scenario> ScenarioOf(const TrialOptions& options) {
+  if (options.place.world.empty()) return FindScenario(options.scenario);
+  Scenario own;
+  own.name = std::filesystem::path(options.place.world).stem().string();
+  return own;
 }
 
 }  // namespace
 
 Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   TrialSetup setup;
-  const auto method = FindMethod(options.method);
+  const auto method = agent::FindReplayMethod(options.method);
   if (!method) return tl::unexpected(method.error());
   setup.method = options.method;
   setup.session.method = *method;
-  auto scout_camera = agent::CameraFromWord(options.scout_camera);
-  if (!scout_camera) return tl::unexpected(scout_camera.error());
-  setup.scout_camera = std::move(*scout_camera);
-  auto follower_camera = agent::CameraFromWord(options.follower_camera);
-  if (!follower_camera) return tl::unexpected(follower_camera.error());
-  setup.follower_camera = std::move(*follower_camera);
-  if (auto opened = OpenScene(options, setup); !opened) return tl::unexpected(opened.error());
-  if (options.speed_mps > 0.0) setup.speed_mps = options.speed_mps;
+  // A method as printed is taught as printed: by the 50 % rule alone.
+  if (*method != agent::ReplayMethod::kDefault) {
+    setup.recorder.longest_m = std::numeric_limits<double>::infinity();
+  }
+  const auto scenario = ScenarioOf(options);
+  if (!scenario) return tl::unexpected(scenario.error());
+  setup.scenario = scenario->name;
+  auto cases = MakeCases(*scenario, options);
+  if (!cases) return tl::unexpected(cases.error());
+  setup.cases = std::move(*cases);
+  if (auto opened = OpenScene(*scenario, options, setup); !opened) {
+    return tl::unexpected(opened.error());
+  }
   return setup;
-}
-
-std::vector<std::string> ScenarioNames() { return sim::BuiltInPlaces(); }
-
-std::vector<std::string> MethodNames() {
-  std::vector<std::string> names;
-  names.reserve(kMethods.size());
-  for (const NamedMethod& each : kMethods) names.emplace_back(each.name);
-  return names;
 }
 
 std::vector<std::string> CameraNames() {

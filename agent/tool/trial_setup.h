@@ -11,8 +11,16 @@
 #include "services/sim/disturbances.h"
 #include "services/sim/path.h"
 #include "services/sim/world.h"
+#include "services/teach/segment_recorder.h"
 
 namespace trailcast::tool {
+
+// What differs between the trials of one scenario, but for the seed.
+struct TrialCase {
+  sim::CameraModel scout_camera;
+  sim::CameraModel follower_camera;
+  double push_m = 0.0;  // to the left, half way; 0: none
+};
 
 // Everything that the trials of one command have in common, read and checked.
 struct TrialSetup {
@@ -21,17 +29,16 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
-  sim::CameraModel scout_camera;
-  sim::CameraModel follower_camera;
+  bool sun_moves = false;        // between teaching and following
+  std::vector<TrialCase> cases;  // at least one
   std::string method;
+  teach::SegmentRecorderOptions recorder;
   agent::ReplaySessionOptions session;
 };
 
 // Loads the world and looks up the names. Errors say which of them there are.
 [[nodiscard]] Result<TrialSetup> PrepareTrials(const TrialOptions& options);
 
-[[nodiscard]] std::vector<std::string> ScenarioNames();
-[[nodiscard]] std::vector<std::string> MethodNames();
 // The built-in ones.
 [[nodiscard]] std::vector<std::string> CameraNames();
 

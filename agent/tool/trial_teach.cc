@@ -16,9 +16,10 @@ namespace {
 
 constexpr int kProgressEvery = 15;  // frames
 
-sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, std::uint64_t seed) {
+sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, const sim::CameraModel& camera,
+                                        std::uint64_t seed) {
   sim::SimulatedRobotOptions options;
-  options.camera = setup.scout_camera;
+  options.camera = camera;
   options.start = sim::StartPose(setup.path.points);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = sim::Disturbances::ForScout();
@@ -29,14 +30,17 @@ sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, std::uint64_t s
 
 class Teaching {
  public:
-  Teaching(const TrialSetup& setup, sim::SimulatedRobot& robot)
-      : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
+  Teaching(const TrialSetup& setup, const sim::CameraModel& camera, sim::SimulatedRobot& robot)
+      : robot_(robot),
+        truth_(robot),
+        driver_(setup.path.points, {.speed_mps = setup.speed_mps}),
+        session_(setup.recorder) {
     // A trial's route is never stored or sent, so it needs no id that differs from others'.
     taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
     taught_.info.name = setup.scenario;
-    taught_.info.camera = setup.scout_camera.name;
-    taught_.info.image_width_px = setup.scout_camera.width;
-    taught_.info.image_height_px = setup.scout_camera.height;
+    taught_.info.camera = camera.name;
+    taught_.info.image_width_px = camera.width;
+    taught_.info.image_height_px = camera.height;
   }
 
   // One frame. False when the drive is over.
@@ -89,11 +93,11 @@ class Teaching {
 
 }  // namespace
 
-Result<Taught> TeachOnce(const TrialSetup& setup, std::uint64_t seed,
-                         const std::function<bool(double share)>& on_progress) {
-  const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, seed));
+Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
+                         std::uint64_t seed, const std::function<bool(double share)>& on_progress) {
+  const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, camera, seed));
   if (!robot) return Wrap(robot.error(), "the scout");
-  Teaching teaching(setup, **robot);
+  Teaching teaching(setup, camera, **robot);
   StandstillWatch standstill;
   for (int frame = 0;; ++frame) {
     const Result<bool> more = teaching.Step();

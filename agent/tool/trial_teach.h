@@ -21,7 +21,8 @@ struct Taught {
 
 // Drives a scout drawn from `seed` along the setup's path. `on_progress` gets the share of the path
 // driven; false ends the drive. kUnavailable when the robot cannot get along the path.
-[[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, std::uint64_t seed,
+[[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
+                                       std::uint64_t seed,
                                        const std::function<bool(double share)>& on_progress);
 
 }  // namespace trailcast::tool

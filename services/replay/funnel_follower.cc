@@ -114,12 +114,14 @@ FollowStep FunnelFollower::Step(const FollowInput& input) {
                                                  : kSpeedWithoutOdometry_mps;
   FollowStep step;
   Matched matched = Match(input.features);
-  step.roll_rad = EstimateRoll(matched.AgainstMilestone(), options_.roll).angle_rad;
-  matched.UndoRoll(step.roll_rad);
+  if (options_.compensate_roll) {
+    step.roll_rad = EstimateRoll(matched.AgainstMilestone(), options_.roll).angle_rad;
+    matched.UndoRoll(step.roll_rad);
+  }
 
   // The funnel lane, fused with the taught heading: equation (1). Each half alone where the other
   // is missing.
-  step.vision_turn_rad = MeanFeatureTurn(matched.FunnelPairs(), gain_rad_per_px_);
+  step.vision_turn_rad = VisionTurn(matched);
   step.odometry_turn_rad = by_odometry ? OdometryTurn(speed_mps) : 0.0;
   const double eta = !by_odometry ? 1.0 : matched.current.empty() ? 0.0 : options_.eta;
   step.turn_rad = FuseTurns(step.vision_turn_rad, step.odometry_turn_rad, eta);
@@ -128,6 +130,13 @@ FollowStep FunnelFollower::Step(const FollowInput& input) {
   step.ended = Ended(matched, by_odometry, step);
   step.command = motion::Limit({speed_mps, -step.turn_rad / options_.turn_time_s}, options_.limits);
   return step;
+}
+
+double FunnelFollower::VisionTurn(const Matched& matched) const {
+  if (options_.bang_bang_radps > 0.0) {
+    return MajorityTurn(matched.FunnelPairs()) * options_.bang_bang_radps * options_.turn_time_s;
+  }
+  return MeanFeatureTurn(matched.FunnelPairs(), gain_rad_per_px_);
 }
 
 // At the segment's end? Equation (2), against this milestone and against the previous one, which is

@@ -15,6 +15,10 @@ struct FunnelFollowerOptions {
   // gamma, radians per pixel of the scout's picture; scaled with its width. Five times what one
   // pixel of a usual webcam subtends: the mean is over all features, and most are content.
   double gain_rad_per_px_at_320 = 0.018;
+  // Not 0: the robot turns this fast whichever way most features ask for, and looks at nothing else
+  // (the first version, ICRA 2006).
+  double bang_bang_radps = 0.0;
+  bool compensate_roll = true;
   double eta = 0.5;           // share of vision in the turn where there is odometry
   double turn_time_s = 0.15;  // in which a desired turn is carried out
   double speed_factor = 1.0;
@@ -55,6 +59,7 @@ class FunnelFollower final : public Follower {
   struct Matched;
 
   [[nodiscard]] Matched Match(const std::vector<route::TrackedFeature>& features) const;
+  [[nodiscard]] double VisionTurn(const Matched& matched) const;
   [[nodiscard]] double OdometryTurn(double speed_mps) const;
   [[nodiscard]] TransitionErrors OdometryErrors() const;
   [[nodiscard]] double Fraction(const Matched& matched, bool by_odometry);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace trailcast::replay {
@@ -28,6 +29,16 @@ double MeanFeatureTurn(std::span<const FunnelPair> pairs, double gain) {
   double sum = 0.0;
   for (const FunnelPair& pair : pairs) sum += FeatureTurn(pair, gain);
   return sum / static_cast<double>(pairs.size());
+}
+
+int MajorityTurn(std::span<const FunnelPair> pairs) {
+  int votes = 0;
+  for (const FunnelPair& pair : pairs) {
+    const double turn = FeatureTurn(pair, 1.0);
+    votes += turn > 0.0 ? 1 : turn < 0.0 ? -1 : 0;
+  }
+  if (5 * std::abs(votes) < static_cast<int>(pairs.size())) return 0;
+  return votes > 0 ? 1 : votes < 0 ? -1 : 0;
 }
 
 double FuseTurns(double vision_rad, double odometry_rad, double eta) {

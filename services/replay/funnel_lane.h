@@ -26,6 +26,10 @@ struct FunnelPair {
 // (1/N) sum of FeatureTurn: the visual half of equation (1). Zero without features.
 [[nodiscard]] double MeanFeatureTurn(std::span<const FunnelPair> pairs, double gain);
 
+// The first version's control (ICRA 2006): which way the features vote, whatever they ask for: -1
+// left, +1 right, 0 where neither has a fifth of them more than the other.
+[[nodiscard]] int MajorityTurn(std::span<const FunnelPair> pairs);
+
 // Equation (1): eta * vision + (1 - eta) * odometry.
 [[nodiscard]] double FuseTurns(double vision_rad, double odometry_rad, double eta);
 

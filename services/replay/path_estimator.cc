@@ -20,7 +20,7 @@ double Square(double x) { return x * x; }
 
 PathEstimator::PathEstimator(int scout_width_px, double magnification,
                              const PathEstimatorOptions& options)
-    : options_(options), flow_(scout_width_px, options.flow) {
+    : options_(options), scout_width_px_(scout_width_px), flow_(scout_width_px, options.flow) {
   state_[kMagnification] = magnification;
   BeUnsure();
 }
@@ -85,6 +85,7 @@ void PathEstimator::BeUnsure() {
   covariance_(kAlong, kAlong) = Square(options_.start_along_m);
   covariance_(kMagnification, kMagnification) =
       Square(options_.start_magnification * state_[kMagnification]);
+  covariance_(kDistortion, kDistortion) = Square(options_.distortion);
   covariance_(kMountYaw, kMountYaw) = Square(options_.mount_yaw_rad);
   covariance_(kHeight, kHeight) = Square(options_.mount_height_m);
   covariance_(kRoll, kRoll) = Square(options_.roll_rad);
@@ -142,22 +143,32 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   const double scout_u = u + turn_u * alpha + f * rho * state[kLeft] - v * state[kRoll];
   const double scout_v =
       v + alpha * turn_v + u * state[kRoll] + f * state[kPitch] + f * rho * state[kHeight];
+  Row du = Row::Zero();
+  Row dv = Row::Zero();
+  du[kLeft] = f * rho;
+  du[kHeading] = du[kMountYaw] = turn_u;
+  du[kAlong] = (ahead.u_px - taught.u_px) / kFlowStep_m;
+  du[kRoll] = -v;
+  dv[kHeading] = dv[kMountYaw] = turn_v;
+  dv[kAlong] = (ahead.v_px - taught.v_px) / kFlowStep_m;
+  dv[kRoll] = u;
+  dv[kPitch] = f;
+  dv[kHeight] = f * rho;
+  // From the scout's lens to the follower's: magnified, and bent towards the edge.
+  const double d = state[kDistortion];
+  const double width2 = Square(scout_width_px_);
+  const double radius2 = (Square(scout_u) + Square(scout_v)) / width2;
+  const double bent = 1.0 + d * radius2;
+  const Row dradius2 = 2.0 / width2 * (scout_u * du + scout_v * dv);
   Prediction p;
-  p.u_px = k * scout_u;
-  p.v_px = k * scout_v;
-  p.du[kLeft] = k * f * rho;
-  p.du[kHeading] = k * turn_u;
-  p.du[kMountYaw] = k * turn_u;
-  p.du[kAlong] = k * (ahead.u_px - taught.u_px) / kFlowStep_m;
-  p.du[kMagnification] = scout_u;
-  p.du[kRoll] = -k * v;
-  p.dv[kHeading] = k * turn_v;
-  p.dv[kMountYaw] = p.dv[kHeading];
-  p.dv[kAlong] = k * (ahead.v_px - taught.v_px) / kFlowStep_m;
-  p.dv[kMagnification] = scout_v;
-  p.dv[kRoll] = k * u;
-  p.dv[kPitch] = k * f;
-  p.dv[kHeight] = k * f * rho;
+  p.u_px = k * bent * scout_u;
+  p.v_px = k * bent * scout_v;
+  p.du = k * (bent * du + d * scout_u * dradius2);
+  p.dv = k * (bent * dv + d * scout_v * dradius2);
+  p.du[kMagnification] = bent * scout_u;
+  p.dv[kMagnification] = bent * scout_v;
+  p.du[kDistortion] = k * radius2 * scout_u;
+  p.dv[kDistortion] = k * radius2 * scout_v;
   p.depth_sigma_px = k * f * std::min(depths_[index].sigma_per_m, 0.5) * std::abs(state[kLeft]);
   return p;
 }

@@ -22,8 +22,9 @@ struct PathEstimatorOptions {
   double start_heading_rad = 0.08;
   double start_along_m = 0.15;
   double start_magnification = 0.05;  // relative
-  double mount_yaw_rad = 0.035;       // between the scout's camera mount and this robot's
-  double mount_height_m = 0.05;       // the same
+  double distortion = 0.1;
+  double mount_yaw_rad = 0.035;  // between the scout's camera mount and this robot's
+  double mount_height_m = 0.05;  // the same
   // Of the odometry, per root metre, and what may change besides.
   double along_noise = 0.05;
   double left_noise_m = 0.01;
@@ -60,6 +61,7 @@ class PathEstimator {
   [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }
   void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
+  [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
@@ -71,6 +73,7 @@ class PathEstimator {
     kHeading,
     kAlong,
     kMagnification,
+    kDistortion,
     kMountYaw,
     kHeight,
     kCarried,
@@ -95,6 +98,7 @@ class PathEstimator {
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;
 
   PathEstimatorOptions options_;
+  double scout_width_px_;
   TaughtFlow flow_;
   route::Segment segment_;
   route::HeadingPolynomial last_heading_;  // of the segment before this one

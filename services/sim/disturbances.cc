@@ -1,6 +1,9 @@
 #include "services/sim/disturbances.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "services/base/angles.h"
 
 namespace trailcast::sim {
 
@@ -16,6 +19,23 @@ Disturbances Disturbances::None() {
   none.odometry_scale = none.heading_bias_rad_per_m = none.wheel_base = none.slip = 0.0;
   none.camera_yaw_rad = none.camera_pitch_rad = none.camera_height_m = 0.0;
   return none;
+}
+
+Lighting WithMovedSun(const Lighting& lighting, std::uint64_t seed) {
+  Random sky(seed, "sun");
+  const double side = sky.Uniform() < 0.5 ? -1.0 : 1.0;
+  const double round_rad = side * Radians(15.0 + 30.0 * sky.Uniform());
+  const double higher_rad = Radians(20.0 * sky.Uniform() - 10.0);
+  const Eigen::Vector3d before = lighting.toward_sun.cast<double>();
+  const double azimuth_rad = std::atan2(before.y(), before.x()) + round_rad;
+  const double elevation_rad = std::clamp(std::asin(std::clamp(before.z(), -1.0, 1.0)) + higher_rad,
+                                          Radians(15.0), Radians(80.0));
+  Lighting moved = lighting;
+  moved.toward_sun =
+      Eigen::Vector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                      std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad))
+          .cast<float>();
+  return moved;
 }
 
 RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "services/sim/random.h"
+#include "services/sim/scene.h"
 
 namespace trailcast::sim {
 
@@ -43,6 +44,9 @@ struct RobotErrors {
   double start_heading_rad = 0.0;
   double gain = 1.0;
 };
+
+// The sun some hours on: 15 to 45 degrees round to either side, up to 10 higher or lower.
+[[nodiscard]] Lighting WithMovedSun(const Lighting& lighting, std::uint64_t seed);
 
 // The same seed gives the same robot.
 [[nodiscard]] RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed);

@@ -102,9 +102,9 @@ float Texture::GrayOnLevel(float u, float v, int level) const {
   const AxisTap y = AlongAxis(v, l.height);
   const int column = x.texel / Tile::kSide;
   const int row = y.texel / Tile::kSide;
-  const Tile& tile = l.gray[static_cast<std::size_t>(row * l.tiles_a_row + column)];
-  const auto* texels = &tile.gray[static_cast<std::size_t>(
-      (y.texel - Tile::kSide * row) * Tile::kStride + x.texel - Tile::kSide * column)];
+  const Tile& tile = l.gray[image::PixelIndex(column, row, l.tiles_a_row)];
+  const auto* texels = &tile.gray[image::PixelIndex(x.texel - Tile::kSide * column,
+                                                    y.texel - Tile::kSide * row, Tile::kStride)];
   const auto* below = texels + Tile::kStride;
   // In 256ths: whole numbers spare the conversion of each texel.
   const int right = static_cast<int>(256.0F * x.weight);

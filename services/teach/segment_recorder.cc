@@ -22,7 +22,8 @@ void SegmentRecorder::Begin(SensorTime stamp, std::vector<route::DescribedFeatur
   for (const route::DescribedFeature& feature : first_) {
     first.features[feature.at.id] = feature.at;
   }
-  moments_.assign(1, std::move(first));
+  moments_.clear();
+  moments_.push_back(std::move(first));
   headings_.assign(1, {});
   moving_ = SensorTime{0};
   last_odometry_ = odometry;
@@ -49,8 +50,9 @@ bool SegmentRecorder::Add(SensorTime stamp, const std::vector<route::TrackedFeat
   } else {
     moments_.back() = std::move(moment);
   }
-  return static_cast<double>(tracked.size()) <
-         options_.survival_share * static_cast<double>(first_.size());
+  return distance_m() >= options_.longest_m ||
+         static_cast<double>(tracked.size()) <
+             options_.survival_share * static_cast<double>(first_.size());
 }
 
 double SegmentRecorder::FractionAt(const Moment& moment) const {

@@ -14,6 +14,9 @@ namespace trailcast::teach {
 struct SegmentRecorderOptions {
   // A segment ends when fewer than this share of its first features survive (III).
   double survival_share = 0.5;
+  // ... or at this length. Where all features are far away half of them survive for long, and the
+  // few that come near on the way would never be stored. The paper has no such limit.
+  double longest_m = 2.0;
   // Where segments are short (turns, clutter close by) their features overlap in what they say: of
   // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
   // second figure. Holds a route under 5 kB a metre.

@@ -75,7 +75,8 @@ TrialSetup ShortTrip(const TrialOptions& options) {
   const Eigen::Vector2d start = setup->path.points[0];
   const Eigen::Vector2d ahead = (setup->path.points[1] - start).normalized();
   setup->path.points = {start, start + 1.5 * ahead};
-  for (sim::CameraModel* camera : {&setup->scout_camera, &setup->follower_camera}) {
+  TrialCase& only = setup->cases.front();
+  for (sim::CameraModel* camera : {&only.scout_camera, &only.follower_camera}) {
     camera->width = 160;
     camera->height = 120;
   }
@@ -130,7 +131,7 @@ TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
   EXPECT_THAT(message(scenario), AllOf(HasSubstr("moon"), HasSubstr("indoor")));
   TrialOptions method;
   method.method = "magic";
-  EXPECT_THAT(message(method), AllOf(HasSubstr("magic"), HasSubstr("default, paper")));
+  EXPECT_THAT(message(method), AllOf(HasSubstr("magic"), HasSubstr("default, paper, icra2006")));
   TrialOptions camera;
   camera.follower_camera = "periscope";
   EXPECT_THAT(message(camera), AllOf(HasSubstr("periscope"), HasSubstr("webcam")));

@@ -23,7 +23,7 @@ TEST(MailboxTest, RefusesWhatDoesNotFitAndLeavesItUntouched) {
   ASSERT_TRUE(mailbox.TryPut(std::make_unique<int>(1)));
   ASSERT_TRUE(mailbox.TryPut(std::make_unique<int>(2)));
   auto third = std::make_unique<int>(3);
-  EXPECT_FALSE(mailbox.TryPut(std::move(third)));
+  ASSERT_FALSE(mailbox.TryPut(std::move(third)));
   ASSERT_NE(third, nullptr);
   EXPECT_EQ(**mailbox.TryGet(), 1);
   EXPECT_TRUE(mailbox.TryPut(std::move(third)));  // NOLINT(clang-analyzer-cplusplus.Move)

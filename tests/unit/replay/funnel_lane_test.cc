@@ -100,5 +100,22 @@ TEST(FunnelLane, BeingLeftOfThePathAsksForRightAndTheReverse) {
   EXPECT_LT(Asked(scene, {2.0, -0.5, 0.0}, {3.0, 0.0, 0.0}), 0.0);
 }
 
+TEST(MajorityTurn, GoesWithTheVotesNotWithTheirSize) {
+  // One wants far to the left, two a little to the right, one is content.
+  const std::vector<FunnelPair> pairs = {{-150.0, -20.0}, {31.0, 30.0}, {52.0, 50.0}, {30.0, 50.0}};
+  EXPECT_EQ(MajorityTurn(pairs), 1);
+  const std::vector<FunnelPair> mirrored = {
+      {150.0, 20.0}, {-31.0, -30.0}, {-52.0, -50.0}, {-30.0, -50.0}};
+  EXPECT_EQ(MajorityTurn(mirrored), -1);
+}
+
+TEST(MajorityTurn, IsNoneWithoutAMajority) {
+  EXPECT_EQ(MajorityTurn({}), 0);
+  const std::vector<FunnelPair> split = {{-31.0, -30.0}, {31.0, 30.0}};
+  EXPECT_EQ(MajorityTurn(split), 0);
+  const std::vector<FunnelPair> content = {{30.0, 50.0}, {20.0, 40.0}};
+  EXPECT_EQ(MajorityTurn(content), 0);
+}
+
 }  // namespace
 }  // namespace trailcast::replay

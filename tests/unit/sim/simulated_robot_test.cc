@@ -140,5 +140,17 @@ TEST(SimulatedRobot, SunOfItsOwnChangesThePicture) {
   EXPECT_NE(morning->Step({}).image.pixels, evening->Step({}).image.pixels);
 }
 
+TEST(MovedSun, IsElsewhereAsBrightAndStillUp) {
+  const Lighting noon;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Lighting later = WithMovedSun(noon, seed);
+    EXPECT_NEAR(later.toward_sun.norm(), 1.0F, 1e-5F);
+    EXPECT_GT(later.toward_sun.z(), 0.25F);
+    EXPECT_LT(later.toward_sun.dot(noon.toward_sun), 0.999F);
+    EXPECT_EQ(later.sun, noon.sun);
+    EXPECT_EQ(later.toward_sun, WithMovedSun(noon, seed).toward_sun);
+  }
+}
+
 }  // namespace
 }  // namespace trailcast::sim

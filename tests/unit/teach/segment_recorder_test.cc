@@ -91,7 +91,7 @@ TEST(SegmentRecorder, IndicesCountUp) {
 
 TEST(SegmentRecorder, ShortSegmentsKeepTheStrongestOnly) {
   SegmentRecorder recorder;
-  for (const double length_m : {0.1, 0.6, 2.0}) {
+  for (const double length_m : {0.1, 0.6, 1.9}) {
     recorder.Begin(SensorTime{0}, test::Describe(Features(60)), motion::Pose2{});
     EXPECT_FALSE(recorder.Add(FromSeconds(1.0), Features(50), motion::Pose2{length_m, 0.0, 0.0}));
     const auto segment = recorder.Finish();
@@ -100,6 +100,16 @@ TEST(SegmentRecorder, ShortSegmentsKeepTheStrongestOnly) {
     EXPECT_FLOAT_EQ(segment->features.back().first().u_px,
                     static_cast<float>(segment->features.size() - 1));
   }
+}
+
+TEST(SegmentRecorder, EndsAtItsLongestHoweverManySurvive) {
+  SegmentRecorderOptions options;
+  options.longest_m = 1.5;
+  SegmentRecorder recorder(options);
+  recorder.Begin(SensorTime{0}, test::Describe(Features(60)), motion::Pose2{});
+  EXPECT_FALSE(recorder.Add(FromSeconds(1.0), Features(60), motion::Pose2{1.4, 0.0, 0.0}));
+  EXPECT_TRUE(recorder.Add(FromSeconds(1.1), Features(60), motion::Pose2{1.5, 0.0, 0.0}));
+  EXPECT_NEAR(recorder.Finish()->length_m, 1.5, 1e-9);
 }
 
 TEST(SegmentRecorder, NothingAddedIsNoSegment) {

@@ -65,5 +65,21 @@ TEST(PathJudge, ADriveTooShortToSettleIsJudgedByItsLastPosition) {
   EXPECT_NEAR(judge.verdict().max_path_error_m, 0.2, 1e-9);
 }
 
+TEST(PathJudge, APushIsNotDrivenAndTheReturnIsMeasuredTenMetresOn) {
+  PathJudge judge(StraightPath(20.0));
+  for (int i = 0; i <= 50; ++i) judge.Observe({0.1 * i, 0.0});
+  judge.NotePush();
+  EXPECT_FALSE(judge.verdict().after_push_m.has_value());
+  // Back on the path within five metres, then a tenth beside it.
+  for (int i = 0; i <= 110; ++i) {
+    judge.Observe({5.0 + 0.1 * i, i < 50 ? 2.0 - 0.04 * i : 0.1});
+  }
+  const Verdict verdict = judge.verdict();
+  ASSERT_TRUE(verdict.after_push_m.has_value());
+  EXPECT_NEAR(*verdict.after_push_m, 0.1, 1e-9);
+  EXPECT_NEAR(verdict.worst_path_error_m, 2.0, 1e-9);
+  EXPECT_LT(verdict.driven_m, 16.6);  // the two metres of the push are not among them
+}
+
 }  // namespace
 }  // namespace trailcast::tool
