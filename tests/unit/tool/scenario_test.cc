@@ -25,8 +25,9 @@ TEST(Scenarios, HappenInPlacesThatThereAre) {
 TEST(Scenarios, UseCamerasThatThereAre) {
   for (const Scenario& each : Scenarios()) {
     for (const CameraPair& pair : each.cameras) {
-      if (!pair.scout.empty()) EXPECT_TRUE(sim::FindCamera(pair.scout)) << each.name;
-      if (!pair.follower.empty()) EXPECT_TRUE(sim::FindCamera(pair.follower)) << each.name;
+      for (const std::string& name : {pair.scout, pair.follower}) {
+        EXPECT_TRUE(name.empty() || sim::FindCamera(name)) << each.name << ": " << name;
+      }
     }
   }
 }
