@@ -17,10 +17,16 @@
 namespace trailcast::agent {
 namespace {
 
-// With fewer features than this the funnel lane is not to be trusted.
+// With fewer features than this there is nothing to steer by.
 constexpr std::size_t kMinFeatures = 4;
-// How far a robot may go on by odometry alone, and how long one without odometry may look around,
-// before it is lost.
+// So many of a segment's features have to agree with what was taught for the robot to be sure that
+// it is on the path. A handful can be found in any picture: a robot that follows those alone would
+// drive through the wrong building with confidence.
+constexpr double kSureShare = 0.4;
+constexpr double kSureFeatures_least = 5.0;
+constexpr double kSureFeatures_most = 8.0;
+// How far a robot that is not sure may go on, and how long one without odometry, or one that has
+// not found the route yet, may look around, before it is lost.
 constexpr double kBlindLimit_m = 2.5;
 constexpr int kBlindLimit_frames = 90;
 constexpr double kBlindSpeedFactor = 0.6;
@@ -103,9 +109,10 @@ struct ReplaySession::State {
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
   int frames_since_find = 0;
-  // Since features were last enough.
-  double blind_m = 0.0;
-  int blind_frames = 0;
+  bool sure_once = false;  // has been sure of the path before
+  // Since it was last sure.
+  double unsure_m = 0.0;
+  int unsure_frames = 0;
 
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
@@ -113,7 +120,7 @@ struct ReplaySession::State {
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
   void Refresh(const image::GrayImage& frame);
-  void JudgeSight(std::size_t features, const std::optional<motion::OdometryIncrement>& odometry,
+  void JudgeSight(std::size_t agreeing, const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step) const;
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
@@ -141,8 +148,6 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   follower->Begin(segment);
   tracker.Follow(hand_over->ToSegment(frame, *follower));
   frames_since_find = 0;
-  state = ReplayState::kFollowing;
-  reason.clear();
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -159,7 +164,7 @@ void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
 }
 
 void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
-  if (blind_frames % kLookAgain_frames != 0) return;
+  if (unsure_frames % kLookAgain_frames != 0) return;
   const std::size_t here = follower->segment().index.value();
   const std::span<const route::Segment> ahead(segments.data() + here,
                                               std::min<std::size_t>(3, segments.size() - here));
@@ -183,27 +188,40 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame) {
   if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(found);
 }
 
-// Too few features: on by odometry alone for a while, slowly, looking for the route; then lost.
-void ReplaySession::State::JudgeSight(std::size_t features,
+// Sure of the path, or not: then on for a while, by the few features there are or by odometry
+// alone, slowly, looking for the route; then lost.
+void ReplaySession::State::JudgeSight(std::size_t agreeing,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
-  if (features >= kMinFeatures || follower->segment().features.size() < kMinFeatures) {
+  const std::size_t taught = follower->segment().features.size();
+  if (taught < kMinFeatures) {  // nothing was to be seen here when it was taught
     state = ReplayState::kFollowing;
-    reason.clear();
-    blind_m = 0.0;
-    blind_frames = 0;
+    reason = "this stretch was taught without features: on by odometry";
     return;
   }
-  blind_m += odometry ? std::abs(odometry->distance_m) : 0.0;
-  ++blind_frames;
-  const bool lost = odometry ? blind_m > kBlindLimit_m : blind_frames > kBlindLimit_frames;
-  state = lost ? ReplayState::kLost : ReplayState::kBlind;
+  const double wanted =
+      std::clamp(kSureShare * static_cast<double>(taught), kSureFeatures_least, kSureFeatures_most);
+  if (static_cast<double>(agreeing) >= std::min(wanted, static_cast<double>(taught))) {
+    state = ReplayState::kFollowing;
+    reason.clear();
+    sure_once = true;
+    unsure_m = 0.0;
+    unsure_frames = 0;
+    return;
+  }
+  unsure_m += odometry ? std::abs(odometry->distance_m) : 0.0;
+  ++unsure_frames;
+  const bool by_distance = odometry && sure_once;
+  const bool lost = by_distance ? unsure_m > kBlindLimit_m : unsure_frames > kBlindLimit_frames;
+  const bool steers = sure_once && agreeing >= kMinFeatures;
+  state = lost ? ReplayState::kLost : steers ? ReplayState::kFollowing : ReplayState::kBlind;
   reason = fmt::format(
-      "{} of segment {}'s {} features in view for {}; at least {} are needed", features,
-      follower->segment().index.value(), follower->segment().features.size(),
-      odometry ? fmt::format("{:.1f} m", blind_m) : fmt::format("{} frames", blind_frames),
-      kMinFeatures);
-  LookAgain(frame);
+      "{}{} of segment {}'s {} features in view for {}; {:.0f} are needed to be sure",
+      sure_once ? "" : "the route's start is not found: ", agreeing,
+      follower->segment().index.value(), taught,
+      by_distance ? fmt::format("{:.1f} m", unsure_m) : fmt::format("{} frames", unsure_frames),
+      wanted);
+  if (agreeing < kMinFeatures) LookAgain(frame);
 }
 
 // Share of the method's speed that is driven: less when blind and before the route's end.
@@ -236,7 +254,7 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.turn_rad = step.turn_rad;
   report.decision = step;
   const bool drive = state == ReplayState::kFollowing ||
-                     (state == ReplayState::kBlind && last_odometry.has_value());
+                     (state == ReplayState::kBlind && sure_once && last_odometry.has_value());
   if (drive) {
     const double share = SpeedShare(step);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
@@ -282,10 +300,12 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
       s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
     }
     s.Begin(next, frame);
-    return s.Report(s.follower->Step({s.tracker.Current(), odometry}));
+    const replay::FollowStep first = s.follower->Step({s.tracker.Current(), odometry});
+    s.JudgeSight(static_cast<std::size_t>(first.agreeing), odometry, frame);
+    return s.Report(first);
   }
   const replay::FollowStep step = s.follower->Step({tracked, odometry});
-  s.JudgeSight(tracked.size(), odometry, frame);
+  s.JudgeSight(static_cast<std::size_t>(step.agreeing), odometry, frame);
   s.Refresh(frame);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
   if (s.state != ReplayState::kLost && (step.ended || (step.wants_next && next_is_here))) {

@@ -16,9 +16,11 @@ namespace trailcast::agent {
 enum class ReplayState {
   kWaiting,    // at the end of what is known of the route: standing until more comes
   kFollowing,  // by vision (and odometry, where there is any)
-  kBlind,      // too few features: by odometry alone for a short way, slowly
-  kArrived,    // past the last milestone of a complete route
-  kLost,       // cannot go on: `reason` says why; the command is "stop"
+  // Too few features: by odometry alone for a short way, slowly; standing, as long as the route's
+  // start has not been found.
+  kBlind,
+  kArrived,  // past the last milestone of a complete route
+  kLost,     // cannot go on: `reason` says why; the command is "stop"
 };
 
 [[nodiscard]] const char* ToString(ReplayState state);
