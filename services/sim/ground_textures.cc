@@ -86,8 +86,8 @@ TexturePtr Concrete(Color tint, std::uint64_t seed) {
 TexturePtr Slabs(std::uint64_t seed) {
   Random random(seed, "slabs");
   constexpr int kSlabs = 5;
-  std::vector<double> tones;
-  for (int i = 0; i < kSlabs * kSlabs; ++i) tones.push_back(random.Uniform(-12.0, 12.0));
+  std::vector<double> tones(kSlabs * kSlabs);
+  for (double& tone : tones) tone = random.Uniform(-12.0, 12.0);
   const RandomField stains(6, 6, random);
   const RandomField fine(256, 256, random);
   return Finish(Tinted(512, {158, 154, 146}, [&](double x, double y) {
@@ -138,7 +138,8 @@ TexturePtr Meadow(std::uint64_t seed) {
   image::RgbImage both = grass.picture();
   for (std::size_t i = 0; i < both.pixels.size(); ++i) {
     const auto pixel = static_cast<int>(i / 3);
-    const double share = earth_share((pixel % 1024 + 0.5) / 1024, (pixel / 1024 + 0.5) / 1024);
+    const int row = pixel / 1024;
+    const double share = earth_share((pixel % 1024 + 0.5) / 1024, (row + 0.5) / 1024);
     both.pixels[i] = static_cast<std::uint8_t>((1.0 - share) * grass.picture().pixels[i] +
                                                share * soil.picture().pixels[i]);
   }

@@ -55,8 +55,8 @@ TexturePtr Bark(std::uint64_t seed) {
 TexturePtr Planks(Color tint, std::uint64_t seed) {
   Random random(seed, "planks");
   constexpr int kPlanks = 8;
-  std::vector<double> tones;
-  for (int i = 0; i < kPlanks; ++i) tones.push_back(random.Uniform(-18.0, 18.0));
+  std::vector<double> tones(kPlanks);
+  for (double& tone : tones) tone = random.Uniform(-18.0, 18.0);
   const RandomField grain(70, 4, random);
   const RandomField weather(5, 5, random);
   return Finish(Tinted(512, tint, [&](double x, double y) {
@@ -70,8 +70,8 @@ TexturePtr RoofTiles(Color tint, std::uint64_t seed) {
   Random random(seed, "tiles");
   constexpr int kRows = 8;
   constexpr int kColumns = 10;
-  std::vector<double> tones;
-  for (int i = 0; i < kRows * kColumns; ++i) tones.push_back(random.Uniform(-16.0, 16.0));
+  std::vector<double> tones(kRows * kColumns);
+  for (double& tone : tones) tone = random.Uniform(-16.0, 16.0);
   const RandomField moss(6, 6, random);
   return Finish(Tinted(512, tint, [&](double x, double y) {
     const double down = y * kRows - std::floor(y * kRows);

@@ -48,7 +48,7 @@ void Rooms::FloorAndCeiling(const V2& corner, float yaw_rad, const V2& size, Loo
 
 WallLine Rooms::Wall(const V2& from, const V2& to, Look look) {
   const V2 along = to - from;
-  const WallLine line{from, std::atan2(along.y(), along.x())};
+  WallLine line{from, std::atan2(along.y(), along.x())};
   const float length = along.norm();
   b_.Place({from.x(), from.y(), 0.0F}, line.yaw_rad);
   const bool plain = look == Look::kPlain;
