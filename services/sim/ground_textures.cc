@@ -86,7 +86,7 @@ TexturePtr Concrete(Color tint, std::uint64_t seed) {
 TexturePtr Slabs(std::uint64_t seed) {
   Random random(seed, "slabs");
   constexpr int kSlabs = 5;
-  std::vector<double> tones(kSlabs * kSlabs);
+  std::vector<double> tones(std::size_t{kSlabs} * kSlabs);
   for (double& tone : tones) tone = random.Uniform(-12.0, 12.0);
   const RandomField stains(6, 6, random);
   const RandomField fine(256, 256, random);

@@ -70,7 +70,7 @@ TexturePtr RoofTiles(Color tint, std::uint64_t seed) {
   Random random(seed, "tiles");
   constexpr int kRows = 8;
   constexpr int kColumns = 10;
-  std::vector<double> tones(kRows * kColumns);
+  std::vector<double> tones(std::size_t{kRows} * kColumns);
   for (double& tone : tones) tone = random.Uniform(-16.0, 16.0);
   const RandomField moss(6, 6, random);
   return Finish(Tinted(512, tint, [&](double x, double y) {

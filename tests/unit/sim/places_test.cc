@@ -134,6 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Places, BuiltIn, ::testing::ValuesIn(kExpected),
 
 TEST(BuiltInPlaces, AreAllInTheTableAbove) {
   std::vector<std::string> names;
+  names.reserve(std::size(kExpected));
   for (const Expected& each : kExpected) names.emplace_back(each.name);
   EXPECT_EQ(BuiltInPlaces(), names);
   EXPECT_FALSE(DescribePlace("moon"));
