@@ -43,7 +43,9 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   add("--ground", simulated.place.ground, "What robots stand on")
       ->check(CLI::IsMember({"mesh", "flat"}));
   if (scout) {
-    add("--speed", simulated.speed_mps, "How fast the scout is driven, m/s")
+    add("--speed", simulated.speed_mps,
+        "How fast the scout is driven, m/s; default: the place's own")
+        ->default_str("")
         ->check(CLI::Range(0.05, 2.0));
   }
   add("--sim-truth", options.truth, "Writes the true poses here, for a judge");

@@ -14,7 +14,7 @@ namespace trailcast::agent {
 
 struct FollowerOptions {
   FollowerLinkOptions link;
-  ReplaySessionOptions session;
+  ReplayMethodOptions session;
   // The device is a recording: every frame is looked at, whatever the follower makes of it.
   bool open_loop = false;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.

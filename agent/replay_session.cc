@@ -1,34 +1,20 @@
 #include "agent/replay_session.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "agent/confidence.h"
 #include "agent/frame_check.h"
 #include "agent/hand_over.h"
-#include "services/replay/funnel_follower.h"
-#include "services/replay/path_follower.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
 namespace {
 
-// With fewer features than this there is nothing to steer by.
-constexpr std::size_t kMinFeatures = 4;
-// So many of a segment's features have to agree with what was taught for the robot to be sure that
-// it is on the path. A handful can be found in any picture: a robot that follows those alone would
-// drive through the wrong building with confidence.
-constexpr double kSureShare = 0.4;
-constexpr double kSureFeatures_least = 5.0;
-constexpr double kSureFeatures_most = 8.0;
-// How far a robot that is not sure may go on, and how long one without odometry, or one that has
-// not found the route yet, may look around, before it is lost.
-constexpr double kBlindLimit_m = 2.5;
-constexpr int kBlindLimit_frames = 90;
 constexpr double kBlindSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
 constexpr int kLookAgain_frames = 5;
@@ -40,28 +26,20 @@ constexpr int kRefresh_frames = 6;
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
-constexpr double kBangBang_radps = 0.35;
-
-// The methods as printed; what this project adds is left out.
-bool AsPrinted(ReplayMethod method) { return method != ReplayMethod::kDefault; }
-
-std::unique_ptr<replay::Follower> MakeFollower(const ReplaySessionOptions& options,
-                                               bool by_odometry, int scout_width_px,
-                                               double magnification) {
-  if (options.method == ReplayMethod::kDefault && by_odometry) {
-    replay::PathFollowerOptions path;
-    path.limits = options.limits;
-    path.speed_factor = options.speed_factor;
-    return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
+// What a verdict is to those who watch the robot.
+ReplayState StateOf(Trust trust) {
+  switch (trust) {
+    case Trust::kSure:
+    case Trust::kUnsure:
+      return ReplayState::kFollowing;
+    case Trust::kBlind:
+    case Trust::kCovered:
+    case Trust::kSeeking:
+      return ReplayState::kBlind;
+    case Trust::kLost:
+      break;
   }
-  replay::FunnelFollowerOptions funnel;
-  if (options.method == ReplayMethod::kIcra2006) {
-    funnel.bang_bang_radps = kBangBang_radps;
-    funnel.compensate_roll = false;
-  }
-  funnel.limits = options.limits;
-  funnel.speed_factor = options.speed_factor;
-  return std::make_unique<replay::FunnelFollower>(scout_width_px, magnification, funnel);
+  return ReplayState::kLost;
 }
 
 }  // namespace
@@ -82,21 +60,8 @@ const char* ToString(ReplayState state) {
   return "UNKNOWN";
 }
 
-const std::vector<std::string>& ReplayMethodNames() {
-  static const std::vector<std::string> names = {"default", "paper", "icra2006"};
-  return names;
-}
-
-Result<ReplayMethod> FindReplayMethod(const std::string& name) {
-  if (name == "default") return ReplayMethod::kDefault;
-  if (name == "paper") return ReplayMethod::kPaper;
-  if (name == "icra2006") return ReplayMethod::kIcra2006;
-  return Fail(ErrorCode::kNotFound, "there is no method '{}'; there are: {}", name,
-              fmt::join(ReplayMethodNames(), ", "));
-}
-
 struct ReplaySession::State {
-  ReplaySessionOptions options;
+  ReplayMethodOptions options;
   int scout_width_px = 0;
   std::vector<route::Segment> segments;
   bool complete = false;
@@ -109,18 +74,17 @@ struct ReplaySession::State {
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
   int frames_since_find = 0;
-  bool sure_once = false;  // has been sure of the path before
-  // Since it was last sure.
-  double unsure_m = 0.0;
-  int unsure_frames = 0;
+  Confidence confidence;
+  Trust trust = Trust::kSeeking;
 
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
   void Begin(std::size_t index, const image::GrayImage& frame);
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
-  void Refresh(const image::GrayImage& frame);
-  void JudgeSight(std::size_t agreeing, const std::optional<motion::OdometryIncrement>& odometry,
+  void Refresh(const image::GrayImage& frame, int agreeing);
+  void JudgeSight(const replay::FollowStep& step,
+                  const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step) const;
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
@@ -164,7 +128,7 @@ void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
 }
 
 void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
-  if (unsure_frames % kLookAgain_frames != 0) return;
+  if (confidence.unsure_frames() % kLookAgain_frames != 0) return;
   const std::size_t here = follower->segment().index.value();
   const std::span<const route::Segment> ahead(segments.data() + here,
                                               std::min<std::size_t>(3, segments.size() - here));
@@ -177,56 +141,32 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
 }
 
 // Features once lost (blur, a passer-by) come back into view: look for them again.
-void ReplaySession::State::Refresh(const image::GrayImage& frame) {
+void ReplaySession::State::Refresh(const image::GrayImage& frame, int agreeing) {
   const route::Segment& segment = follower->segment();
   if (AsPrinted(options.method) || ++frames_since_find < kRefresh_frames ||
-      tracker.count() >= kEnoughShare * static_cast<double>(segment.features.size())) {
+      agreeing >= kEnoughShare * static_cast<double>(segment.features.size())) {
     return;
   }
   frames_since_find = 0;
   std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
-  if (static_cast<int>(found.size()) > tracker.count()) tracker.Follow(found);
+  if (static_cast<int>(found.size()) > agreeing) tracker.Follow(found);
 }
 
-// Sure of the path, or not: then on for a while, by the few features there are or by odometry
-// alone, slowly, looking for the route; then lost.
-void ReplaySession::State::JudgeSight(std::size_t agreeing,
+void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
-  const std::size_t taught = follower->segment().features.size();
-  if (taught < kMinFeatures) {  // nothing was to be seen here when it was taught
-    state = ReplayState::kFollowing;
-    reason = "this stretch was taught without features: on by odometry";
-    return;
-  }
-  const double wanted =
-      std::clamp(kSureShare * static_cast<double>(taught), kSureFeatures_least, kSureFeatures_most);
-  if (static_cast<double>(agreeing) >= std::min(wanted, static_cast<double>(taught))) {
-    state = ReplayState::kFollowing;
-    reason.clear();
-    sure_once = true;
-    unsure_m = 0.0;
-    unsure_frames = 0;
-    return;
-  }
-  unsure_m += odometry ? std::abs(odometry->distance_m) : 0.0;
-  ++unsure_frames;
-  const bool by_distance = odometry && sure_once;
-  const bool lost = by_distance ? unsure_m > kBlindLimit_m : unsure_frames > kBlindLimit_frames;
-  const bool steers = sure_once && agreeing >= kMinFeatures;
-  state = lost ? ReplayState::kLost : steers ? ReplayState::kFollowing : ReplayState::kBlind;
-  reason = fmt::format(
-      "{}{} of segment {}'s {} features in view for {}; {:.0f} are needed to be sure",
-      sure_once ? "" : "the route's start is not found: ", agreeing,
-      follower->segment().index.value(), taught,
-      by_distance ? fmt::format("{:.1f} m", unsure_m) : fmt::format("{} frames", unsure_frames),
-      wanted);
-  if (agreeing < kMinFeatures) LookAgain(frame);
+  const route::Segment& segment = follower->segment();
+  Verdict verdict = confidence.Judge(
+      {segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing}, odometry);
+  trust = verdict.trust;
+  state = StateOf(trust);
+  reason = std::move(verdict.reason);
+  if (trust == Trust::kBlind || trust == Trust::kSeeking) LookAgain(frame);
 }
 
 // Share of the method's speed that is driven: less when blind and before the route's end.
 double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
-  const double share = state == ReplayState::kBlind ? kBlindSpeedFactor : 1.0;
+  const double share = trust == Trust::kBlind ? kBlindSpeedFactor : 1.0;
   const route::Segment& segment = follower->segment();
   const bool last = complete && segment.index.value() + 1 == segments.size();
   if (AsPrinted(options.method) || !last || step.command.linear_mps <= 0.0) {
@@ -253,18 +193,21 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
   report.turn_rad = step.turn_rad;
   report.decision = step;
-  const bool drive = state == ReplayState::kFollowing ||
-                     (state == ReplayState::kBlind && sure_once && last_odometry.has_value());
-  if (drive) {
+  const bool drive = trust == Trust::kSure || trust == Trust::kUnsure ||
+                     (trust == Trust::kBlind && last_odometry && UsesOdometry(options.method));
+  if (drive && (state == ReplayState::kFollowing || state == ReplayState::kBlind)) {
     const double share = SpeedShare(step);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
   }
   return report;
 }
 
-ReplaySession::ReplaySession(const ReplaySessionOptions& options, const route::RouteInfo& route)
+ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route)
     : state_(std::make_unique<State>()) {
   state_->options = options;
+  ConfidenceOptions confidence;
+  confidence.stand_when_covered = !AsPrinted(options.method);
+  state_->confidence = Confidence(confidence);
   state_->scout_width_px = route.image_width_px;
 }
 
@@ -287,7 +230,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
   const image::GrayImage& frame = observation.image;
   const auto driven = s.OdometryStep(observation);
-  const auto odometry = s.options.method == ReplayMethod::kIcra2006 ? std::nullopt : driven;
+  const auto odometry = UsesOdometry(s.options.method) ? driven : std::nullopt;
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
   if (s.state == ReplayState::kArrived) return s.Report({});
   if (s.state == ReplayState::kWaiting) {
@@ -301,12 +244,12 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
     }
     s.Begin(next, frame);
     const replay::FollowStep first = s.follower->Step({s.tracker.Current(), odometry});
-    s.JudgeSight(static_cast<std::size_t>(first.agreeing), odometry, frame);
+    s.JudgeSight(first, odometry, frame);
     return s.Report(first);
   }
   const replay::FollowStep step = s.follower->Step({tracked, odometry});
-  s.JudgeSight(static_cast<std::size_t>(step.agreeing), odometry, frame);
-  s.Refresh(frame);
+  s.JudgeSight(step, odometry, frame);
+  s.Refresh(frame, step.agreeing);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
   if (s.state != ReplayState::kLost && (step.ended || (step.wants_next && next_is_here))) {
     s.EndSegment(frame);

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "agent/observation.h"
+#include "agent/replay_method.h"
 #include "services/base/result.h"
 #include "services/motion/motion.h"
 #include "services/replay/follower.h"
@@ -16,30 +16,14 @@ namespace trailcast::agent {
 enum class ReplayState {
   kWaiting,    // at the end of what is known of the route: standing until more comes
   kFollowing,  // by vision (and odometry, where there is any)
-  // Too few features: by odometry alone for a short way, slowly; standing, as long as the route's
-  // start has not been found.
+  // Too few features: by odometry alone for a short way, slowly; standing, where the route's start
+  // has not been found and where something covers the view.
   kBlind,
   kArrived,  // past the last milestone of a complete route
   kLost,     // cannot go on: `reason` says why; the command is "stop"
 };
 
 [[nodiscard]] const char* ToString(ReplayState state);
-
-enum class ReplayMethod {
-  kIcra2006,  // the paper's first version: vision alone, bang-bang, no roll compensation
-  kPaper,     // Chen & Birchfield 2009 as printed
-  kDefault,   // with what this project adds
-};
-
-[[nodiscard]] const std::vector<std::string>& ReplayMethodNames();
-// kNotFound lists the names there are.
-[[nodiscard]] Result<ReplayMethod> FindReplayMethod(const std::string& name);
-
-struct ReplaySessionOptions {
-  ReplayMethod method = ReplayMethod::kDefault;
-  motion::VelocityLimits limits{1.0, 0.8};
-  double speed_factor = 1.0;  // times the taught speed
-};
 
 struct ReplayStep {
   motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
@@ -60,7 +44,7 @@ struct ReplayStep {
 class ReplaySession {
  public:
   // `route` gives the size of the scout's frames; its segment_count and state are not looked at.
-  ReplaySession(const ReplaySessionOptions& options, const route::RouteInfo& route);
+  ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route);
   ~ReplaySession();
   ReplaySession(ReplaySession&&) noexcept;
 

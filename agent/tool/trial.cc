@@ -6,7 +6,6 @@
 
 #include "agent/tool/standstill_watch.h"
 #include "agent/tool/trial_teach.h"
-#include "services/route/digest.h"
 #include "services/sim/judge.h"
 #include "services/sim/random.h"
 #include "services/sim/simulated_robot.h"
@@ -133,19 +132,6 @@ class Replaying {
   std::string reason_;
 };
 
-// What a follower gets: the bytes that the scout made, opened again.
-Result<agent::ReplaySession> LoadRoute(const TrialSetup& setup, const Taught& taught) {
-  agent::ReplaySession session(setup.session, taught.info);
-  for (const route::SegmentPiece& piece : taught.pieces) {
-    auto segment = route::Open(piece);
-    if (!segment) return tl::unexpected(segment.error());
-    const auto added = session.AddSegment(std::move(*segment));
-    if (!added) return tl::unexpected(added.error());
-  }
-  session.MarkComplete();
-  return session;
-}
-
 TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uint64_t seed,
                   int trial, const Taught& taught) {
   TrialRow row;
@@ -175,7 +161,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   const auto robot = sim::SimulatedRobot::Create(
       setup.world, FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits()));
   if (!robot) return Wrap(robot.error(), "the follower");
-  auto session = LoadRoute(setup, *taught);
+  auto session = OpenSession(*taught, setup.session);
   if (!session) return tl::unexpected(session.error());
   Replaying replaying(**robot, *taught, std::move(*session), trial_case.push_m);
   for (int frame = 0;; ++frame) {

@@ -54,7 +54,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   setup.method = options.method;
   setup.session.method = *method;
   // A method as printed is taught as printed: by the 50 % rule alone.
-  if (*method != agent::ReplayMethod::kDefault) {
+  if (agent::AsPrinted(*method)) {
     setup.recorder.longest_m = std::numeric_limits<double>::infinity();
   }
   const auto scenario = ScenarioOf(options);

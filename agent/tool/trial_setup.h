@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "agent/replay_session.h"
+#include "agent/replay_method.h"
 #include "agent/tool/trial_options.h"
 #include "services/base/result.h"
 #include "services/sim/camera.h"
@@ -33,7 +33,7 @@ struct TrialSetup {
   std::vector<TrialCase> cases;  // at least one
   std::string method;
   teach::SegmentRecorderOptions recorder;
-  agent::ReplaySessionOptions session;
+  agent::ReplayMethodOptions session;
 };
 
 // Loads the world and looks up the names. Errors say which of them there are.

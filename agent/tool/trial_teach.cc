@@ -117,4 +117,17 @@ Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera
   }
 }
 
+Result<agent::ReplaySession> OpenSession(const Taught& taught,
+                                         const agent::ReplayMethodOptions& options) {
+  agent::ReplaySession session(options, taught.info);
+  for (const route::SegmentPiece& piece : taught.pieces) {
+    auto segment = route::Open(piece);
+    if (!segment) return tl::unexpected(segment.error());
+    const auto added = session.AddSegment(std::move(*segment));
+    if (!added) return tl::unexpected(added.error());
+  }
+  session.MarkComplete();
+  return session;
+}
+
 }  // namespace trailcast::tool

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "agent/replay_session.h"
 #include "agent/tool/path_judge.h"
 #include "agent/tool/trial_setup.h"
 #include "services/base/result.h"
@@ -24,5 +25,9 @@ struct Taught {
 [[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
                                        std::uint64_t seed,
                                        const std::function<bool(double share)>& on_progress);
+
+// What a follower gets: the bytes that the scout made, opened again.
+[[nodiscard]] Result<agent::ReplaySession> OpenSession(const Taught& taught,
+                                                       const agent::ReplayMethodOptions& options);
 
 }  // namespace trailcast::tool

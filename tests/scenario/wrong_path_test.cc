@@ -3,9 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "agent/replay_session.h"
 #include "agent/tool/trial_teach.h"
-#include "services/route/digest.h"
 #include "services/sim/judge.h"
 #include "services/sim/place.h"
 #include "services/sim/random.h"
@@ -52,11 +50,8 @@ Ending FollowIn(const sim::Place& place, const sim::CameraModel& camera, const T
   options.seed = seed;
   const auto robot = sim::SimulatedRobot::Create(place.world, options);
   EXPECT_TRUE(robot) << robot.error().message;
-  agent::ReplaySession session({}, taught.info);
-  for (const route::SegmentPiece& piece : taught.pieces) {
-    EXPECT_TRUE(session.AddSegment(*route::Open(piece)));
-  }
-  session.MarkComplete();
+  auto session = OpenSession(taught, {});
+  EXPECT_TRUE(session) << session.error().message;
   sim::Judge truth(**robot);
   Ending ending;
   Eigen::Vector2d at_m = motion::Position(truth.true_pose());
@@ -65,7 +60,7 @@ Ending FollowIn(const sim::Place& place, const sim::CameraModel& camera, const T
     time_s = Seconds(seen.stamp);
     ending.driven_m += (motion::Position(truth.true_pose()) - at_m).norm();
     at_m = motion::Position(truth.true_pose());
-    auto step = session.Observe({seen.stamp, std::move(seen.image), seen.odometry});
+    auto step = session->Observe({seen.stamp, std::move(seen.image), seen.odometry});
     EXPECT_TRUE(step) << step.error().message;
     ending.last = *step;
     if (ending.last.state == agent::ReplayState::kLost) break;

@@ -1,0 +1,72 @@
+#include "agent/confidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::agent {
+
+int Confidence::Wanted(const Sighting& seen) const {
+  const double wanted =
+      std::clamp(options_.sure_share * seen.taught, options_.sure_least, options_.sure_most);
+  return std::min(static_cast<int>(std::ceil(wanted)), seen.taught);
+}
+
+void Confidence::NoteView(const Sighting& seen) {
+  if (seen.agreeing >= options_.good_view * Wanted(seen)) {
+    frames_since_good_ = 0;
+  } else if (seen.segment != segment_) {
+    frames_since_good_.reset();
+  } else if (frames_since_good_) {
+    ++*frames_since_good_;
+  }
+  segment_ = seen.segment;
+}
+
+Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
+  if (covered_) {
+    return unsure_frames_ > options_.covered_limit_frames ? Trust::kLost : Trust::kCovered;
+  }
+  if (by_distance ? unsure_m_ > options_.blind_limit_m
+                  : unsure_frames_ > options_.blind_limit_frames) {
+    return Trust::kLost;
+  }
+  if (!sure_once_) return Trust::kSeeking;
+  return seen.agreeing >= options_.min_features ? Trust::kUnsure : Trust::kBlind;
+}
+
+std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
+  const char* what = covered_     ? "something covers the view: "
+                     : sure_once_ ? ""
+                                  : "the route's start is not found: ";
+  const std::string since = by_distance && !covered_ ? fmt::format("{:.1f} m", unsure_m_)
+                                                     : fmt::format("{} frames", unsure_frames_);
+  return fmt::format("{}{} of segment {}'s {} features in view for {}; {} are needed to be sure",
+                     what, seen.agreeing, seen.segment, seen.taught, since, Wanted(seen));
+}
+
+Verdict Confidence::Judge(const Sighting& seen,
+                          const std::optional<motion::OdometryIncrement>& moved) {
+  if (seen.taught < options_.min_features && sure_once_) {  // nothing was to be seen here
+    return {Trust::kSure, "this stretch was taught without features: on by odometry"};
+  }
+  NoteView(seen);
+  if (seen.agreeing >= Wanted(seen) && seen.taught >= options_.min_features) {
+    sure_once_ = true;
+    covered_ = false;
+    unsure_m_ = 0.0;
+    unsure_frames_ = 0;
+    return {Trust::kSure, ""};
+  }
+  unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
+  ++unsure_frames_;
+  const bool gone = seen.agreeing < options_.min_features;
+  covered_ =
+      covered_ || (options_.stand_when_covered && gone && sure_once_ && moved &&
+                   frames_since_good_ && *frames_since_good_ <= options_.covered_within_frames);
+  const bool by_distance = moved.has_value() && sure_once_;
+  return {Decide(seen, by_distance), Explain(seen, by_distance)};
+}
+
+}  // namespace trailcast::agent

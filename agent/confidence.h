@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "services/motion/motion.h"
+
+namespace trailcast::agent {
+
+// What is seen of the route in one frame.
+struct Sighting {
+  std::uint32_t segment = 0;
+  int taught = 0;    // features that the segment has
+  int agreeing = 0;  // of them in view, where the route says they are
+};
+
+// What a robot may do.
+enum class Trust {
+  kSure,    // of the path: follow
+  kUnsure,  // some of the features, too few to be sure: follow, for a short way
+  kBlind,   // next to none: on by odometry alone, slowly, for a short way
+  // A good view was gone all at once, as if somebody had stepped in front of the camera: stand
+  // still, for a while. Driving on might mean driving into it.
+  kCovered,
+  kSeeking,  // the route's start has not been found yet: stand still, for a while
+  kLost,     // none of these any longer: stop
+};
+
+struct Verdict {
+  Trust trust = Trust::kSeeking;
+  std::string reason;  // one line for people; empty when all is well
+};
+
+struct ConfidenceOptions {
+  // With fewer features than this there is nothing to steer by.
+  int min_features = 4;
+  // So many of a segment's features have to agree with what was taught for the robot to be sure
+  // that it is on the path. A handful can be found in any picture: a robot that follows those alone
+  // would drive through the wrong building with confidence.
+  double sure_share = 0.4;
+  double sure_least = 5.0;
+  double sure_most = 8.0;
+  // How far a robot that is not sure may go on, and how long one without odometry, or one that has
+  // not found the route yet, may look around, before it is lost.
+  double blind_limit_m = 2.5;
+  int blind_limit_frames = 90;
+  // A view of so many times the features it takes to be sure, gone within so many frames of one
+  // segment, was covered: a segment's features are those that stay in view to its end.
+  bool stand_when_covered = true;
+  double good_view = 1.5;
+  int covered_within_frames = 45;
+  int covered_limit_frames = 900;
+};
+
+// Says frame by frame how far a robot may trust what it sees. No clock: frames and metres count.
+class Confidence {
+ public:
+  explicit Confidence(const ConfidenceOptions& options = {}) : options_(options) {}
+
+  // `moved`: since the last frame; nothing on robots without odometry.
+  [[nodiscard]] Verdict Judge(const Sighting& seen,
+                              const std::optional<motion::OdometryIncrement>& moved);
+
+  [[nodiscard]] bool sure_once() const { return sure_once_; }
+  [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
+
+ private:
+  [[nodiscard]] int Wanted(const Sighting& seen) const;
+  void NoteView(const Sighting& seen);
+  [[nodiscard]] Trust Decide(const Sighting& seen, bool by_distance) const;
+  [[nodiscard]] std::string Explain(const Sighting& seen, bool by_distance) const;
+
+  ConfidenceOptions options_;
+  bool sure_once_ = false;
+  // Since it was last sure.
+  double unsure_m_ = 0.0;
+  int unsure_frames_ = 0;
+  bool covered_ = false;
+  std::uint32_t segment_ = 0;
+  std::optional<int> frames_since_good_;  // view of this segment; nothing: there was none
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/motion/motion.h"
+#include "services/replay/follower.h"
+
+namespace trailcast::agent {
+
+enum class ReplayMethod {
+  kDefault,   // with what this project adds
+  kPaper,     // Chen & Birchfield 2009 as printed
+  kIcra2006,  // the paper's first version: vision alone, bang-bang, no roll compensation
+};
+
+[[nodiscard]] const char* ToString(ReplayMethod method);
+[[nodiscard]] const std::vector<std::string>& ReplayMethodNames();
+// kNotFound lists the names there are.
+[[nodiscard]] Result<ReplayMethod> FindReplayMethod(const std::string& name);
+
+// The methods as printed; what this project adds to teaching and following is left out.
+[[nodiscard]] inline bool AsPrinted(ReplayMethod method) {
+  return method != ReplayMethod::kDefault;
+}
+[[nodiscard]] inline bool UsesOdometry(ReplayMethod method) {
+  return method != ReplayMethod::kIcra2006;
+}
+
+struct ReplayMethodOptions {
+  ReplayMethod method = ReplayMethod::kDefault;
+  motion::VelocityLimits limits{1.0, 0.8};
+  double speed_factor = 1.0;  // times the taught speed
+};
+
+// Without odometry, in the route or on the robot, the funnel lane alone steers by any method.
+[[nodiscard]] std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options,
+                                                             bool by_odometry, int scout_width_px,
+                                                             double magnification);
+
+}  // namespace trailcast::agent

@@ -1,0 +1,105 @@
+#include "agent/confidence.h"
+
+#include <gtest/gtest.h>
+
+namespace trailcast::agent {
+namespace {
+
+constexpr motion::OdometryIncrement kStep{0.02, 0.0};
+constexpr int kTaught = 40;
+
+// A robot on its way, frame by frame; `see` says how many of the segment's features agree.
+class ConfidenceTest : public ::testing::Test {
+ protected:
+  Verdict See(int agreeing, int frames = 1,
+              std::optional<motion::OdometryIncrement> moved = kStep) {
+    Verdict verdict;
+    for (int i = 0; i < frames; ++i) {
+      verdict = confidence_.Judge({segment_, taught_, agreeing}, moved);
+    }
+    return verdict;
+  }
+  void NextSegment(int taught) {
+    ++segment_;
+    taught_ = taught;
+  }
+
+  Confidence confidence_;
+  std::uint32_t segment_ = 0;
+  int taught_ = kTaught;
+};
+
+TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
+  const Verdict verdict = See(8);
+  EXPECT_EQ(verdict.trust, Trust::kSure);
+  EXPECT_EQ(verdict.reason, "");
+}
+
+TEST_F(ConfidenceTest, SeeksTheRouteStartStandingAndIsLostWithoutIt) {
+  EXPECT_EQ(See(7, 90).trust, Trust::kSeeking);
+  const Verdict verdict = See(7);
+  EXPECT_EQ(verdict.trust, Trust::kLost);
+  EXPECT_EQ(verdict.reason,
+            "the route's start is not found: 7 of segment 0's 40 features in view for 91 frames; 8 "
+            "are needed to be sure");
+}
+
+TEST_F(ConfidenceTest, GoesOnByAFewFeaturesForAShortWay) {
+  See(9);
+  EXPECT_EQ(See(5, 124).trust, Trust::kUnsure);
+  EXPECT_EQ(See(5, 2).trust, Trust::kLost);
+}
+
+TEST_F(ConfidenceTest, BeingSureAgainStartsTheWayAnew) {
+  See(9);
+  See(5, 100);
+  EXPECT_EQ(See(9).trust, Trust::kSure);
+  EXPECT_EQ(See(5, 100).trust, Trust::kUnsure);
+}
+
+TEST_F(ConfidenceTest, AViewThatFadesIsFollowedByBlindDriving) {
+  See(9);  // enough to be sure, but not a good view
+  EXPECT_EQ(See(0, 60).trust, Trust::kBlind);
+}
+
+TEST_F(ConfidenceTest, AGoodViewGoneAllAtOnceWasCovered) {
+  See(30);
+  EXPECT_EQ(See(0, 900).trust, Trust::kCovered);
+  EXPECT_EQ(See(30).trust, Trust::kSure);
+}
+
+TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {
+  See(30);
+  See(0, 900);
+  const Verdict verdict = See(0);
+  EXPECT_EQ(verdict.trust, Trust::kLost);
+  EXPECT_EQ(verdict.reason.find("something covers the view"), 0U) << verdict.reason;
+}
+
+TEST_F(ConfidenceTest, ASegmentThatIsNotFoundAtItsStartWasNotCovered) {
+  See(30);
+  NextSegment(kTaught);
+  EXPECT_EQ(See(0, 10).trust, Trust::kBlind);
+}
+
+TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {
+  See(30);
+  NextSegment(2);
+  const Verdict verdict = See(0, 500);
+  EXPECT_EQ(verdict.trust, Trust::kSure);
+  EXPECT_EQ(verdict.reason, "this stretch was taught without features: on by odometry");
+}
+
+TEST_F(ConfidenceTest, ARouteThatBeginsWithoutFeaturesIsSought) {
+  NextSegment(2);
+  EXPECT_EQ(See(2).trust, Trust::kSeeking);
+}
+
+TEST_F(ConfidenceTest, WithoutOdometryFramesCountInsteadOfMetres) {
+  See(9, 1, std::nullopt);
+  EXPECT_EQ(See(0, 90, std::nullopt).trust, Trust::kBlind);
+  EXPECT_EQ(See(0, 1, std::nullopt).trust, Trust::kLost);
+}
+
+}  // namespace
+}  // namespace trailcast::agent
