@@ -22,6 +22,10 @@ constexpr int kLookAgain_frames = 5;
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
 
+// What so many segments say of the scout's camera is enough; each costs a fraction of a
+// millisecond.
+constexpr std::size_t kMostLearnt = 200;
+
 // The route's end is approached ever more slowly, so that the robot stands where it is reached.
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
@@ -108,6 +112,8 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   if (!follower) {
     follower = MakeFollower(options, last_odometry.has_value() && segment.has_odometry,
                             scout_width_px, static_cast<double>(frame.width) / scout_width_px);
+    const std::size_t known = std::min(segments.size(), kMostLearnt);
+    for (std::size_t i = 0; i < known; ++i) follower->Learn(segments[i]);
   }
   follower->Begin(segment);
   tracker.Follow(hand_over->ToSegment(frame, *follower));
@@ -219,6 +225,7 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
     return Fail(ErrorCode::kInvalidArgument, "segment {} was given where {} comes next",
                 segment.index.value(), state_->segments.size());
   }
+  if (state_->follower && state_->segments.size() < kMostLearnt) state_->follower->Learn(segment);
   state_->segments.push_back(std::move(segment));
   return {};
 }

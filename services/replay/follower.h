@@ -49,6 +49,8 @@ class Follower {
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
+  // A segment of the route that is known before it is driven; in any order, each once.
+  virtual void Learn(const route::Segment& segment) = 0;
   // The first segment, the next one after Step said `ended`, or, for a robot that found itself
   // again, any.
   virtual void Begin(const route::Segment& segment) = 0;

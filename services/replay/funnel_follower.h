@@ -46,6 +46,7 @@ class FunnelFollower final : public Follower {
   FunnelFollower(int scout_width_px, double magnification,
                  const FunnelFollowerOptions& options = {});
 
+  void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
   void Begin(const route::Segment& segment) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override;
   // It has no idea how far off the path or the heading it is.

@@ -30,7 +30,7 @@ void PathEstimator::Begin(const route::Segment& segment) {
   last_heading_ = segment_.heading;
   last_length_m_ = segment_.length_m;
   segment_ = segment;
-  depths_ = flow_.Learn(segment_);
+  depths_ = flow_.Depths(segment_);
 }
 
 void PathEstimator::Restart(const route::Segment& segment) {
@@ -88,6 +88,7 @@ void PathEstimator::BeUnsure() {
   covariance_(kDistortion, kDistortion) = Square(options_.distortion);
   covariance_(kMountYaw, kMountYaw) = Square(options_.mount_yaw_rad);
   covariance_(kHeight, kHeight) = Square(options_.mount_height_m);
+  covariance_(kBias, kBias) = Square(options_.heading_bias_rad_per_m);
   covariance_(kRoll, kRoll) = Square(options_.roll_rad);
   covariance_(kPitch, kPitch) = Square(options_.pitch_rad);
 }
@@ -105,11 +106,11 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   state_[kAlong] += along_m;
   state_[kLeft] +=
       moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned);
-  state_[kHeading] += moved.heading_change_rad - turned;
+  state_[kHeading] += moved.heading_change_rad + state_[kBias] * moved.distance_m - turned;
 
   Covariance f = Covariance::Identity();
   f(kLeft, kHeading) = moved.distance_m;
-  f(kHeading, kAlong) = 0.0;
+  f(kHeading, kBias) = moved.distance_m;
   covariance_ = f * covariance_ * f.transpose();
   const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
   covariance_(kAlong, kAlong) += driven * Square(options_.along_noise);

@@ -23,8 +23,9 @@ struct PathEstimatorOptions {
   double start_along_m = 0.15;
   double start_magnification = 0.05;  // relative
   double distortion = 0.1;
-  double mount_yaw_rad = 0.035;  // between the scout's camera mount and this robot's
-  double mount_height_m = 0.05;  // the same
+  double mount_yaw_rad = 0.035;           // between the scout's camera mount and this robot's
+  double mount_height_m = 0.05;           // the same
+  double heading_bias_rad_per_m = 0.008;  // of this robot's odometry against the scout's
   // Of the odometry, per root metre, and what may change besides.
   double along_noise = 0.05;
   double left_noise_m = 0.01;
@@ -36,13 +37,16 @@ struct PathEstimatorOptions {
 
 // The widened funnel: the funnel lane's inequality made an equation. With its taught flow known,
 // each feature says not only on which side the robot is but how far: near ones speak of the offset,
-// far ones of the heading. An iterated Kalman filter over (offset, heading, progress,
-// magnification, mount yaw), and each frame's own roll and pitch. Pixels are those of the
+// far ones of the heading. An iterated Kalman filter over (offset, heading, progress), what differs
+// between the two cameras and their mounts, the odometry's bias, and each frame's own roll and
+// pitch. Pixels are those of the
 // follower's own camera, from its image centre.
 class PathEstimator {
  public:
   PathEstimator(int scout_width_px, double magnification, const PathEstimatorOptions& options = {});
 
+  // A segment of the route, before it is driven: what it says of the scout's camera.
+  void Learn(const route::Segment& segment) { flow_.Learn(segment); }
   // The next segment begins where the last one ends; its features are seen from here on, also while
   // its start is still ahead (`along_m` is negative until then).
   void Begin(const route::Segment& segment);
@@ -76,6 +80,7 @@ class PathEstimator {
     kDistortion,
     kMountYaw,
     kHeight,
+    kBias,
     kCarried,
     kRoll = kCarried,
     kPitch,

@@ -26,6 +26,7 @@ class PathFollower final : public Follower {
  public:
   PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
 
+  void Learn(const route::Segment& segment) override { estimator_.Learn(segment); }
   void Begin(const route::Segment& segment) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return estimator_.Expect();

@@ -16,6 +16,8 @@ constexpr double kSmallestShrink = 0.05;
 
 double Square(double x) { return x * x; }
 
+Eigen::Vector3d CubicBase(double s) { return {s, s * s, s * s * s}; }
+
 }  // namespace
 
 double InverseDepth::At(double along_m) const {
@@ -69,7 +71,8 @@ TaughtFlow::Landmark TaughtFlow::MakeLandmark(const route::Segment& segment,
     landmark.stretches.push_back(
         {0.5 * (from_m + to_m), to_m - from_m,
          route::HeadingAt(segment.heading, to_m) - route::HeadingAt(segment.heading, from_m),
-         0.5 * (a.u_px + b.u_px), 0.5 * (a.v_px + b.v_px), b.u_px - a.u_px, b.v_px - a.v_px});
+         CubicBase(b.s) - CubicBase(a.s), 0.5 * (a.u_px + b.u_px), 0.5 * (a.v_px + b.v_px),
+         b.u_px - a.u_px, b.v_px - a.v_px});
   }
   return landmark;
 }
@@ -83,7 +86,7 @@ TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
     const double rho = landmark.depth.At(s.middle_m);
     const double shrink =
         std::max(kSmallestShrink, 1.0 - landmark.depth.at_start_per_m * s.middle_m);
-    const double turn = s.turn_rad + unknowns[kDrift] * s.length_m;
+    const double turn = s.turn_rad + s.turn_error.dot(unknowns.tail<kHeading>());
     const double wide_u = s.u_px * s.u_px / f;
     const double wide_v = s.u_px * s.v_px / f;
     const double out_u = s.u_px - unknowns[kAheadU];
@@ -94,9 +97,9 @@ TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
     const double weight = 1.0 / (Square(noise_px_) * (1.0 + error2 / Square(kCauchySigmas)));
     Vector slope_u;
     slope_u << -rho * s.length_m, 0.0, turn * (f - c * wide_u), turn * wide_u,
-        s.length_m * (f + c * wide_u);
+        (f + c * wide_u) * s.turn_error;
     Vector slope_v;
-    slope_v << 0.0, -rho * s.length_m, -turn * c * wide_v, turn * wide_v, s.length_m * c * wide_v;
+    slope_v << 0.0, -rho * s.length_m, -turn * c * wide_v, turn * wide_v, c * wide_v * s.turn_error;
     const double depth_slope = s.length_m / Square(shrink);
     equations.Add(slope_u, depth_slope * out_u, residual_u, weight);
     equations.Add(slope_v, depth_slope * out_v, residual_v, weight);
@@ -105,28 +108,29 @@ TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
 }
 
 // One step of Gauss-Newton; the depths are eliminated first and follow from the rest.
-void TaughtFlow::Improve(std::vector<Landmark>& landmarks, double length_m, Vector& unknowns,
-                         Matrix& information) const {
+void TaughtFlow::Improve(Fit& fit, double length_m) const {
+  Matrix& information = fit.information;
   information.setZero();
   information.topLeftCorner<kCamera, kCamera>() = information_;
-  information(kDrift, kDrift) = 1.0 / Square(options_.heading_drift_rad_per_m);
-  Vector gradient = Vector::Zero();
-  gradient.head<kCamera>() = information_ * (mean_ - unknowns.head<kCamera>());
-  gradient[kDrift] = -information(kDrift, kDrift) * unknowns[kDrift];
+  information.bottomRightCorner<kHeading, kHeading>().diagonal().setConstant(
+      1.0 / Square(options_.heading_error_rad));
+  Vector prior = Vector::Zero();
+  prior.head<kCamera>() = mean_;
+  Vector gradient = information * (prior - fit.unknowns);
   std::vector<Equations> all;
-  all.reserve(landmarks.size());
-  for (const Landmark& landmark : landmarks) {
-    const Equations& e = all.emplace_back(Linearise(landmark, unknowns));
-    information += options_.trust * (e.common - e.mixed * e.mixed.transpose() / e.depth);
-    gradient += options_.trust * (e.common_gradient - e.mixed * (e.depth_gradient / e.depth));
+  all.reserve(fit.landmarks.size());
+  for (const Landmark& landmark : fit.landmarks) {
+    const Equations& e = all.emplace_back(Linearise(landmark, fit.unknowns));
+    information += e.common - e.mixed * e.mixed.transpose() / e.depth;
+    gradient += e.common_gradient - e.mixed * (e.depth_gradient / e.depth);
   }
   const Vector step = information.ldlt().solve(gradient);
-  unknowns += step;
+  fit.unknowns += step;
   const Matrix covariance = information.inverse();
   const double largest_per_m = 1.0 / (length_m + kNearest_m);
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const Equations& e = all[i];
-    InverseDepth& depth = landmarks[i].depth;
+    InverseDepth& depth = fit.landmarks[i].depth;
     const double change = (e.depth_gradient - e.mixed.dot(step)) / e.depth;
     depth.at_start_per_m = std::clamp(depth.at_start_per_m + change, 0.0, largest_per_m);
     const double variance = 1.0 / e.depth + e.mixed.dot(covariance * e.mixed) / Square(e.depth);
@@ -134,29 +138,35 @@ void TaughtFlow::Improve(std::vector<Landmark>& landmarks, double length_m, Vect
   }
 }
 
-std::vector<InverseDepth> TaughtFlow::Learn(const route::Segment& segment) {
-  std::vector<Landmark> landmarks;
-  landmarks.reserve(segment.features.size());
+TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment) const {
+  Fit fit;
+  fit.landmarks.reserve(segment.features.size());
   for (const route::Feature& feature : segment.features) {
-    landmarks.push_back(MakeLandmark(segment, feature));
+    fit.landmarks.push_back(MakeLandmark(segment, feature));
   }
-  Vector unknowns;
-  unknowns << mean_, 0.0;
-  Matrix information;
-  for (int i = 0; i < kIterations; ++i) {
-    Improve(landmarks, segment.length_m, unknowns, information);
-  }
-  if (unknowns.allFinite()) {
-    // The segment's own drift is no longer of interest.
-    const CameraVector mixed = information.topRightCorner<kCamera, 1>();
-    mean_ = unknowns.head<kCamera>();
-    information_ = information.topLeftCorner<kCamera, kCamera>() -
-                   mixed * mixed.transpose() / information(kDrift, kDrift);
-    Use(mean_);
-  }
+  fit.unknowns.head<kCamera>() = mean_;
+  for (int i = 0; i < kIterations; ++i) Improve(fit, segment.length_m);
+  return fit;
+}
+
+void TaughtFlow::Learn(const route::Segment& segment) {
+  const Fit fit = FitTo(segment);
+  if (!fit.unknowns.allFinite()) return;
+  // The error of the segment's own heading is no longer of interest.
+  const Eigen::Matrix<double, kCamera, kHeading> mixed =
+      fit.information.topRightCorner<kCamera, kHeading>();
+  const Eigen::Matrix<double, kHeading, kHeading> own =
+      fit.information.bottomRightCorner<kHeading, kHeading>();
+  mean_ = fit.unknowns.head<kCamera>();
+  information_ =
+      fit.information.topLeftCorner<kCamera, kCamera>() - mixed * own.inverse() * mixed.transpose();
+  Use(mean_);
+}
+
+std::vector<InverseDepth> TaughtFlow::Depths(const route::Segment& segment) const {
   std::vector<InverseDepth> depths;
-  depths.reserve(landmarks.size());
-  for (const Landmark& landmark : landmarks) depths.push_back(landmark.depth);
+  depths.reserve(segment.features.size());
+  for (const Landmark& landmark : FitTo(segment).landmarks) depths.push_back(landmark.depth);
   return depths;
 }
 

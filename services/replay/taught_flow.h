@@ -42,28 +42,36 @@ struct TaughtFlowOptions {
   double widening = 0.8;
   double widening_sigma = 0.5;
   double mount_sigma_rad = 0.05;
-  double heading_drift_rad_per_m = 0.02;  // of the scout's odometry, anew in each segment
-  double track_noise_px_at_320 = 0.7;     // of a stretch between two knots
-  // Share of what a segment tells that is believed: its tracks err together.
-  double trust = 0.05;
+  // Of the taught heading within a segment, in each of the three coefficients of its error: wheels
+  // slip, and the polynomial that is stored smooths what the robot did.
+  double heading_error_rad = 0.05;
+  double track_noise_px_at_320 = 0.7;  // of a stretch between two knots
 };
 
 // What taught tracks tell by their flow. A landmark's flow is what the turn makes of it, and, away
 // from the focus of expansion, what driving past it makes of it:
 //   du = turn f (1 + c u^2 / f^2) + rho (u - u0) ds        dv = turn c u v / f + rho (v - v0) ds
 // so that each feature's inverse depth rho comes out in the scout's own metres, and f, c and the
-// focus of expansion come out of the whole route: no calibration.
+// focus of expansion come out of the whole route: no calibration. The turn is odometry's, which
+// errs: a wrong turn would give features left and right of the camera opposite errors of depth and,
+// where the path is straight, any focal length. So its error is one of the unknowns.
 class TaughtFlow {
  public:
   explicit TaughtFlow(int scout_width_px, const TaughtFlowOptions& options = {});
 
-  // Learns from one more segment; the inverse depths of its features, in their order.
-  std::vector<InverseDepth> Learn(const route::Segment& segment);
+  // Learns the camera from one more segment of the route. The more of them before the first Depths,
+  // the better: bends tell what straight stretches do not.
+  void Learn(const route::Segment& segment);
+  // The inverse depths of a segment's features, in their order.
+  [[nodiscard]] std::vector<InverseDepth> Depths(const route::Segment& segment) const;
   [[nodiscard]] const ScoutCamera& camera() const { return camera_; }
 
  private:
-  // The camera's unknowns, and the segment's: drift of its heading.
-  enum Index { kAheadU, kAheadV, kLogFocal, kWidening, kCamera, kDrift = kCamera, kSize };
+  // The camera's unknowns, and the segment's: the error of its heading, a cubic without constant.
+  static constexpr int kCamera = 4;
+  static constexpr int kHeading = 3;
+  static constexpr int kSize = kCamera + kHeading;
+  enum Index { kAheadU, kAheadV, kLogFocal, kWidening };
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using CameraVector = Eigen::Matrix<double, kCamera, 1>;
@@ -74,6 +82,8 @@ class TaughtFlow {
     double middle_m = 0.0;
     double length_m = 0.0;
     double turn_rad = 0.0;
+    // What each coefficient of the heading's error adds to the turn.
+    Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();
     double u_px = 0.0;
     double v_px = 0.0;
     double du_px = 0.0;
@@ -84,10 +94,16 @@ class TaughtFlow {
     InverseDepth depth;
   };
   struct Equations;
+  // What a segment says of itself and of the camera.
+  struct Fit {
+    std::vector<Landmark> landmarks;
+    Vector unknowns = Vector::Zero();
+    Matrix information = Matrix::Zero();
+  };
   [[nodiscard]] static Landmark MakeLandmark(const route::Segment& segment,
                                              const route::Feature& feature);
-  void Improve(std::vector<Landmark>& landmarks, double length_m, Vector& unknowns,
-               Matrix& information) const;
+  [[nodiscard]] Fit FitTo(const route::Segment& segment) const;
+  void Improve(Fit& fit, double length_m) const;
   [[nodiscard]] Equations Linearise(const Landmark& landmark, const Vector& unknowns) const;
   void Use(const CameraVector& camera);
 

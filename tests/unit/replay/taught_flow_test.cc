@@ -8,7 +8,9 @@ namespace trailcast::replay {
 namespace {
 
 std::vector<InverseDepth> Depths(const route::Segment& segment) {
-  return TaughtFlow(320).Learn(segment);
+  TaughtFlow flow(320);
+  flow.Learn(segment);
+  return flow.Depths(segment);
 }
 
 TEST(TaughtFlow, TellsTheLandmarksDepthOnAStraight) {
@@ -58,10 +60,27 @@ TEST(TaughtFlow, LearnsTheFocalLengthFromBends) {
 TEST(TaughtFlow, LearnsWhereACrookedCameraIsGoing) {
   // A camera that looks 3 degrees to the left goes to the right of its image centre.
   const ScoutCamera camera = LearnOnBends({.yaw_rad = 0.0524});
-  // It is believed slowly: mounts are straight as a rule, and tracks err together.
-  EXPECT_GT(camera.ahead_u_px, 0.4 * 280.0 * 0.0524);
-  EXPECT_LT(camera.ahead_u_px, 1.1 * 280.0 * 0.0524);
+  EXPECT_NEAR(camera.ahead_u_px, 280.0 * 0.0524, 0.3 * 280.0 * 0.0524);
   EXPECT_NEAR(camera.ahead_v_px, 0.0, 2.0);
+}
+
+// Odometry says that the robot swung to one side and back while it drove straight on.
+TEST(TaughtFlow, IsNotLedAstrayByAFalseHeading) {
+  const test::LandmarkScene scene = test::LandmarkScene::Corridor(3.0, 20.0, 60, 7);
+  const auto run = test::TeachArcs(scene, {}, {{1.5, 0.0}});
+  const auto before = Depths(run.segment);
+  route::Segment swung = run.segment;
+  swung.heading.c = {0.05, -0.033, 0.0};
+  TaughtFlow flow(320);
+  const double focal_px = flow.camera().focal_px;
+  flow.Learn(swung);
+  EXPECT_NEAR(flow.camera().focal_px, focal_px, 0.1 * focal_px);
+  const auto depths = flow.Depths(swung);
+  ASSERT_EQ(depths.size(), before.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    EXPECT_NEAR(depths[i].at_start_per_m, before[i].at_start_per_m,
+                0.04 + 3.0 * depths[i].sigma_per_m);
+  }
 }
 
 TEST(TaughtFlow, ASegmentWithoutFeaturesTeachesNothing) {
@@ -69,7 +88,8 @@ TEST(TaughtFlow, ASegmentWithoutFeaturesTeachesNothing) {
   const double before_px = flow.camera().focal_px;
   route::Segment empty;
   empty.length_m = 1.0;
-  EXPECT_TRUE(flow.Learn(empty).empty());
+  flow.Learn(empty);
+  EXPECT_TRUE(flow.Depths(empty).empty());
   EXPECT_DOUBLE_EQ(flow.camera().focal_px, before_px);
 }
 
