@@ -1,5 +1,6 @@
 #include "agent/tool/trial.h"
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 #include <utility>
@@ -133,37 +134,81 @@ class Replaying {
 };
 
 TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uint64_t seed,
-                  int trial, const Taught& taught) {
+                  int trial, const Taught& taught, const TaughtRoute& route) {
   TrialRow row;
   row.scenario = setup.scenario;
-  row.method = setup.method;
+  row.method = agent::ToString(trial_case.method);
   row.scout_camera = trial_case.scout_camera.name;
   row.follower_camera = trial_case.follower_camera.name;
   row.push_m = trial_case.push_m;
   row.trial = trial;
   row.seed = seed;
   row.end_m = taught.path.end_m();
-  row.segments = static_cast<int>(taught.pieces.size());
+  row.segments = static_cast<int>(route.pieces.size());
   row.taught_m = taught.path.length_m();
-  row.bytes_per_m = static_cast<double>(taught.info.bytes) / row.taught_m;
+  row.bytes_per_m = static_cast<double>(route.info.bytes) / row.taught_m;
   return row;
+}
+
+std::uint64_t SeedOf(std::uint64_t first_seed, int trial) {
+  return first_seed + static_cast<std::uint64_t>(trial - 1);
 }
 
 }  // namespace
 
+Teachings::Teachings(const TrialSetup& setup, const TrialOptions& options)
+    : setup_(setup), first_seed_(options.seed) {
+  for (const TrialCase& each : setup.cases) {
+    const bool as_printed = agent::AsPrinted(each.method);
+    if (std::count(as_printed_.begin(), as_printed_.end(), as_printed) == 0) {
+      as_printed_.push_back(as_printed);
+    }
+  }
+}
+
+std::size_t Teachings::RouteOf(agent::ReplayMethod method) const {
+  const auto found = std::find(as_printed_.begin(), as_printed_.end(), agent::AsPrinted(method));
+  return static_cast<std::size_t>(found - as_printed_.begin());
+}
+
+Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case, int trial,
+                                                     const TrialProgress& on_progress) {
+  Drive* drive = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    drive = &drives_[{trial_case.scout_camera.name, trial}];
+  }
+  std::call_once(drive->once, [&] {
+    std::vector<teach::SegmentRecorderOptions> recorders;
+    for (const bool as_printed : as_printed_) {
+      recorders.push_back(
+          RecorderFor(as_printed ? agent::ReplayMethod::kPaper : agent::ReplayMethod::kDefault));
+    }
+    auto taught = TeachOnce(setup_, trial_case.scout_camera, recorders,
+                            sim::Random(SeedOf(first_seed_, trial), "scout").Bits(), on_progress);
+    if (taught) {
+      drive->taught = std::make_shared<const Taught>(std::move(*taught));
+    } else {
+      drive->taught = tl::unexpected(taught.error());
+    }
+  });
+  return drive->taught;
+}
+
 Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
-                              const TrialOptions& options, int trial,
+                              const TrialOptions& options, int trial, Teachings& teachings,
                               const TrialProgress& on_progress) {
-  const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(trial - 1);
-  auto taught = TeachOnce(setup, trial_case.scout_camera, sim::Random(seed, "scout").Bits(),
-                          [&](double share) { return on_progress(kTeachShare * share); });
+  const std::uint64_t seed = SeedOf(options.seed, trial);
+  const auto taught = teachings.Get(trial_case, trial,
+                                    [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
+  const TaughtRoute& route = (*taught)->routes[teachings.RouteOf(trial_case.method)];
   const auto robot = sim::SimulatedRobot::Create(
       setup.world, FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits()));
   if (!robot) return Wrap(robot.error(), "the follower");
-  auto session = OpenSession(*taught, setup.session);
+  auto session = OpenSession(route, {.method = trial_case.method});
   if (!session) return tl::unexpected(session.error());
-  Replaying replaying(**robot, *taught, std::move(*session), trial_case.push_m);
+  Replaying replaying(**robot, **taught, std::move(*session), trial_case.push_m);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");
@@ -173,7 +218,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
       return Fail(ErrorCode::kUnavailable, "interrupted");
     }
   }
-  TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, *taught), taught->path,
+  TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, **taught, route), (*taught)->path,
                        replaying.path()};
   replaying.Fill(outcome.row);
   return outcome;

@@ -16,6 +16,7 @@ class Batch {
       : setup_(setup),
         options_(options),
         on_progress_(on_progress),
+        teachings_(setup, options),
         outcomes_(setup.cases.size() * static_cast<std::size_t>(options.trials)),
         shares_(outcomes_.size(), 0.0) {}
 
@@ -27,7 +28,7 @@ class Batch {
       const auto trials = static_cast<std::size_t>(options_.trials);
       Result<TrialOutcome> outcome =
           RunTrial(setup_, setup_.cases[index / trials], options_,
-                   static_cast<int>(index % trials) + 1, [&](double share) {
+                   static_cast<int>(index % trials) + 1, teachings_, [&](double share) {
                      Note(index, share, nullptr);
                      return !broken_;
                    });
@@ -63,6 +64,7 @@ class Batch {
   const TrialSetup& setup_;
   const TrialOptions& options_;
   const BatchProgress& on_progress_;
+  Teachings teachings_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> broken_{false};
   std::mutex mutex_;  // guards what follows
@@ -79,7 +81,8 @@ Result<std::vector<TrialOutcome>> RunTrials(const TrialSetup& setup, const Trial
   Batch batch(setup, options, on_progress);
   {
     std::vector<std::jthread> threads;
-    const int jobs = std::clamp(options.jobs, 1, options.trials);
+    const int all = options.trials * static_cast<int>(setup.cases.size());
+    const int jobs = std::clamp(options.jobs, 1, all);
     threads.reserve(static_cast<std::size_t>(jobs));
     for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { batch.Work(); });
   }

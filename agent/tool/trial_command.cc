@@ -27,6 +27,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast trial --scenario cameras --trials 1 --csv pairs.csv\n"
     "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
+    "  trailcast trial --scenario paved --method default,paper,icra2006   # a column of Table I\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
@@ -58,8 +59,11 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
                  "What robots stand on: the world's surfaces, or z = 0")
       ->check(CLI::IsMember({"mesh", "flat"}))
       ->needs(world);
-  app.add_option("--method", options.method,
-                 fmt::format("How to follow: {}", fmt::join(agent::ReplayMethodNames(), ", ")));
+  app.add_option("--method", options.methods,
+                 fmt::format("How to follow: {}; several, with commas between, follow the same "
+                             "teachings side by side",
+                             fmt::join(agent::ReplayMethodNames(), ", ")))
+      ->delimiter(',');
   app.add_option("--scout-camera", options.scout_camera,
                  fmt::format("{}, or a camera file (.toml)", fmt::join(CameraNames(), ", ")));
   app.add_option("--follower-camera", options.follower_camera, "The same");

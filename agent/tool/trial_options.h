@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "services/sim/place.h"
 
@@ -14,11 +15,11 @@ struct TrialOptions {
   std::string scenario = "indoor";
   sim::PlaceOptions place;  // its world not empty: in place of the scenario
 
-  std::string method = "default";
+  std::vector<std::string> methods = {"default"};
   std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
   std::string follower_camera = "webcam";  // the same; some scenarios have cameras of their own
   double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
-  int trials = 10;                         // of each of the scenario's cases
+  int trials = 10;                         // of each method and each of the scenario's cases
   std::uint64_t seed = 1;                  // trial i of n is drawn from seed + i - 1 alone
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };

@@ -62,11 +62,12 @@ Result<void> WriteTrialPlot(const TrialSetup& setup, const std::vector<TrialOutc
                             const std::filesystem::path& file) {
   Plan plan;
   const TrialCase& first = setup.cases.front();
-  plan.title = fmt::format("{}, method {}: ", setup.scenario, setup.method);
-  plan.title += setup.cases.size() == 1
-                    ? fmt::format("taught by {}, followed by {}", first.scout_camera.name,
-                                  first.follower_camera.name)
-                    : fmt::format("{} cases", setup.cases.size());
+  plan.title = setup.scenario + ": ";
+  plan.title +=
+      setup.cases.size() == 1
+          ? fmt::format("method {}, taught by {}, followed by {}", agent::ToString(first.method),
+                        first.scout_camera.name, first.follower_camera.name)
+          : fmt::format("{} cases", setup.cases.size());
   plan.paths.push_back(
       {"taught (first trial)", PathColor(0), outcomes.front().taught.points_m(), true, false});
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -115,7 +115,8 @@ Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesys
 namespace {
 
 std::string CaseName(const TrialRow& row) {
-  std::string name = row.scout_camera + " > " + row.follower_camera;
+  std::string name =
+      fmt::format("{:<8} {} > {}", row.method, row.scout_camera, row.follower_camera);
   if (row.push_m != 0.0) name += fmt::format(", pushed {:+.0f} m", row.push_m);
   return name;
 }
@@ -152,17 +153,21 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
   return text;
 }
 
-// Several cases: a line each.
+// Several cases: a line each, the paper's own figures under those that it has.
 std::string CaseTable(const std::vector<std::vector<TrialRow>>& cases) {
-  std::string text = fmt::format("{:<32}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}\n", "case", "arrived",
+  std::string text = fmt::format("{:<36}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}\n", "case", "arrived",
                                  "accuracy", "repeat", "largest", "mean m", "max m", "found");
   for (const std::vector<TrialRow>& rows : cases) {
     const TrialSummary summary = Summarize(rows);
     text += fmt::format(
-        "{:<32}{:>9}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>6.0f}%\n", CaseName(rows.front()),
+        "{:<36}{:>9}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>6.0f}%\n", CaseName(rows.front()),
         fmt::format("{}/{}", summary.arrived, summary.trials), summary.accuracy_m,
         summary.repeatability_m, summary.largest_final_error_m, summary.mean_path_error_m,
         summary.max_path_error_m, 100.0 * summary.found_share);
+    if (const auto paper = PaperFiguresFor(rows.front())) {
+      text += fmt::format("{:<36}{:>9}{:>9.2f}{:>9.2f}{:>9.2f}\n", "  in the paper", "",
+                          paper->accuracy_m, paper->repeatability_m, paper->largest_final_error_m);
+    }
   }
   return text;
 }
@@ -207,8 +212,7 @@ std::string TrialTable(const std::vector<TrialRow>& rows) {
     text += '\n';
   }
   if (cases.size() == 1) return text + SummaryTable(rows);
-  return text + fmt::format("{}, method {}\n", rows.front().scenario, rows.front().method) +
-         CaseTable(cases);
+  return text + rows.front().scenario + "\n" + CaseTable(cases);
 }
 
 }  // namespace trailcast::tool

@@ -10,15 +10,32 @@
 namespace trailcast::tool {
 namespace {
 
+Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::string>& names) {
+  std::vector<agent::ReplayMethod> methods;
+  for (const std::string& name : names) {
+    const auto method = agent::FindReplayMethod(name);
+    if (!method) return tl::unexpected(method.error());
+    methods.push_back(*method);
+  }
+  return methods;
+}
+
+// Every method with every pair of cameras and every push.
 Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOptions& options) {
+  const auto methods = FindMethods(options.methods);
+  if (!methods) return tl::unexpected(methods.error());
   std::vector<TrialCase> cases;
-  for (const CameraPair& pair : scenario.cameras) {
-    auto scout = agent::CameraFromWord(pair.scout.empty() ? options.scout_camera : pair.scout);
-    if (!scout) return tl::unexpected(scout.error());
-    auto follower =
-        agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
-    if (!follower) return tl::unexpected(follower.error());
-    for (const double push_m : scenario.pushes_m) cases.push_back({*scout, *follower, push_m});
+  for (const agent::ReplayMethod method : *methods) {
+    for (const CameraPair& pair : scenario.cameras) {
+      auto scout = agent::CameraFromWord(pair.scout.empty() ? options.scout_camera : pair.scout);
+      if (!scout) return tl::unexpected(scout.error());
+      auto follower =
+          agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
+      if (!follower) return tl::unexpected(follower.error());
+      for (const double push_m : scenario.pushes_m) {
+        cases.push_back({method, *scout, *follower, push_m});
+      }
+    }
   }
   return cases;
 }
@@ -47,16 +64,14 @@ Result<Scenario> ScenarioOf(const TrialOptions& options) {
 
 }  // namespace
 
+teach::SegmentRecorderOptions RecorderFor(agent::ReplayMethod method) {
+  teach::SegmentRecorderOptions recorder;
+  if (agent::AsPrinted(method)) recorder.longest_m = std::numeric_limits<double>::infinity();
+  return recorder;
+}
+
 Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   TrialSetup setup;
-  const auto method = agent::FindReplayMethod(options.method);
-  if (!method) return tl::unexpected(method.error());
-  setup.method = options.method;
-  setup.session.method = *method;
-  // A method as printed is taught as printed: by the 50 % rule alone.
-  if (agent::AsPrinted(*method)) {
-    setup.recorder.longest_m = std::numeric_limits<double>::infinity();
-  }
   const auto scenario = ScenarioOf(options);
   if (!scenario) return tl::unexpected(scenario.error());
   setup.scenario = scenario->name;

@@ -17,10 +17,14 @@ namespace trailcast::tool {
 
 // What differs between the trials of one scenario, but for the seed.
 struct TrialCase {
+  agent::ReplayMethod method = agent::ReplayMethod::kDefault;
   sim::CameraModel scout_camera;
   sim::CameraModel follower_camera;
   double push_m = 0.0;  // to the left, half way; 0: none
 };
+
+// How a scout of that method cuts its segments: one as printed by the 50 % rule alone.
+[[nodiscard]] teach::SegmentRecorderOptions RecorderFor(agent::ReplayMethod method);
 
 // Everything that the trials of one command have in common, read and checked.
 struct TrialSetup {
@@ -31,9 +35,6 @@ struct TrialSetup {
   sim::Disturbances follower;
   bool sun_moves = false;        // between teaching and following
   std::vector<TrialCase> cases;  // at least one
-  std::string method;
-  teach::SegmentRecorderOptions recorder;
-  agent::ReplayMethodOptions session;
 };
 
 // Loads the world and looks up the names. Errors say which of them there are.

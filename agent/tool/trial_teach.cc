@@ -28,28 +28,66 @@ sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, const sim::Came
   return options;
 }
 
-class Teaching {
+// One recorder's session and what came of it.
+class RouteRecorder {
  public:
-  Teaching(const TrialSetup& setup, const sim::CameraModel& camera, sim::SimulatedRobot& robot)
-      : robot_(robot),
-        truth_(robot),
-        driver_(setup.path.points, {.speed_mps = setup.speed_mps}),
-        session_(setup.recorder) {
+  RouteRecorder(const std::string& name, const sim::CameraModel& camera,
+                const teach::SegmentRecorderOptions& options)
+      : session_(options) {
     // A trial's route is never stored or sent, so it needs no id that differs from others'.
     taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
-    taught_.info.name = setup.scenario;
+    taught_.info.name = name;
     taught_.info.camera = camera.name;
     taught_.info.image_width_px = camera.width;
     taught_.info.image_height_px = camera.height;
   }
 
-  // One frame. False when the drive is over.
-  Result<bool> Step() {
-    sim::Observation seen = robot_.Step(command_);
-    taught_.path.Add(motion::Position(truth_.true_pose()));
-    const auto step = session_.Observe({seen.stamp, std::move(seen.image), seen.odometry});
+  Result<void> Observe(const agent::Observation& seen) {
+    const auto step = session_.Observe(seen);
     if (!step) return tl::unexpected(step.error());
     Keep(step->finished);
+    return {};
+  }
+
+  Result<TaughtRoute> Finish() {
+    Keep(session_.Finish());
+    if (taught_.pieces.empty()) {
+      return Fail(ErrorCode::kUnavailable,
+                  "teaching gave no segment: the scout's camera saw nothing to hold on to");
+    }
+    taught_.info.state = route::RouteState::kComplete;
+    return std::move(taught_);
+  }
+
+ private:
+  void Keep(const std::optional<route::Segment>& segment) {
+    if (!segment) return;
+    taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
+    taught_.info.segment_count += 1;
+    taught_.info.length_m += segment->length_m;
+    taught_.info.bytes += taught_.pieces.back().bytes.size();
+  }
+
+  agent::TeachSession session_;
+  TaughtRoute taught_;
+};
+
+class Teaching {
+ public:
+  Teaching(const TrialSetup& setup, const sim::CameraModel& camera,
+           const std::vector<teach::SegmentRecorderOptions>& recorders, sim::SimulatedRobot& robot)
+      : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
+    for (const auto& options : recorders) recorders_.emplace_back(setup.scenario, camera, options);
+  }
+
+  // One frame. False when the drive is over.
+  Result<bool> Step() {
+    sim::Observation frame = robot_.Step(command_);
+    taught_.path.Add(motion::Position(truth_.true_pose()));
+    const agent::Observation seen{frame.stamp, std::move(frame.image), frame.odometry};
+    for (RouteRecorder& recorder : recorders_) {
+      if (auto kept = recorder.Observe(seen); !kept) return tl::unexpected(kept.error());
+    }
     taught_.duration_s = Seconds(seen.stamp);
     const bool over = driver_.arrived() && truth_.true_velocity() == motion::VelocityCommand{};
     command_ = driver_.Command(truth_.true_pose());
@@ -57,12 +95,11 @@ class Teaching {
   }
 
   Result<Taught> Finish() {
-    Keep(session_.Finish());
-    if (taught_.pieces.empty()) {
-      return Fail(ErrorCode::kUnavailable,
-                  "teaching gave no segment: the scout's camera saw nothing to hold on to");
+    for (RouteRecorder& recorder : recorders_) {
+      auto route = recorder.Finish();
+      if (!route) return tl::unexpected(route.error());
+      taught_.routes.push_back(std::move(*route));
     }
-    taught_.info.state = route::RouteState::kComplete;
     return std::move(taught_);
   }
 
@@ -75,18 +112,10 @@ class Teaching {
   }
 
  private:
-  void Keep(const std::optional<route::Segment>& segment) {
-    if (!segment) return;
-    taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
-    taught_.info.segment_count += 1;
-    taught_.info.length_m += segment->length_m;
-    taught_.info.bytes += taught_.pieces.back().bytes.size();
-  }
-
   sim::SimulatedRobot& robot_;
   sim::Judge truth_;
   sim::PathFollowDriver driver_;
-  agent::TeachSession session_;
+  std::vector<RouteRecorder> recorders_;
   motion::VelocityCommand command_;
   Taught taught_;
 };
@@ -94,10 +123,11 @@ class Teaching {
 }  // namespace
 
 Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
+                         const std::vector<teach::SegmentRecorderOptions>& recorders,
                          std::uint64_t seed, const std::function<bool(double share)>& on_progress) {
   const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, camera, seed));
   if (!robot) return Wrap(robot.error(), "the scout");
-  Teaching teaching(setup, camera, **robot);
+  Teaching teaching(setup, camera, recorders, **robot);
   StandstillWatch standstill;
   for (int frame = 0;; ++frame) {
     const Result<bool> more = teaching.Step();
@@ -117,7 +147,7 @@ Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera
   }
 }
 
-Result<agent::ReplaySession> OpenSession(const Taught& taught,
+Result<agent::ReplaySession> OpenSession(const TaughtRoute& taught,
                                          const agent::ReplayMethodOptions& options) {
   agent::ReplaySession session(options, taught.info);
   for (const route::SegmentPiece& piece : taught.pieces) {

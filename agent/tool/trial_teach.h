@@ -12,22 +12,29 @@
 
 namespace trailcast::tool {
 
-// What a scout left behind, as it travels, and where it truly drove.
-struct Taught {
+// A route as it travels.
+struct TaughtRoute {
   route::RouteInfo info;
   std::vector<route::SegmentPiece> pieces;
+};
+
+// What a scout left behind, and where it truly drove.
+struct Taught {
+  std::vector<TaughtRoute> routes;  // one a recorder
   TruePath path;
   double duration_s = 0.0;
 };
 
-// Drives a scout drawn from `seed` along the setup's path. `on_progress` gets the share of the path
-// driven; false ends the drive. kUnavailable when the robot cannot get along the path.
+// Drives a scout drawn from `seed` along the setup's path once, its frames cut by each of the
+// recorders. `on_progress` gets the share of the path driven; false ends the drive. kUnavailable
+// when the robot cannot get along the path.
 [[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
+                                       const std::vector<teach::SegmentRecorderOptions>& recorders,
                                        std::uint64_t seed,
                                        const std::function<bool(double share)>& on_progress);
 
 // What a follower gets: the bytes that the scout made, opened again.
-[[nodiscard]] Result<agent::ReplaySession> OpenSession(const Taught& taught,
+[[nodiscard]] Result<agent::ReplaySession> OpenSession(const TaughtRoute& taught,
                                                        const agent::ReplayMethodOptions& options);
 
 }  // namespace trailcast::tool

@@ -75,10 +75,11 @@ TrialSetup ShortTrip(const TrialOptions& options) {
   const Eigen::Vector2d start = setup->path.points[0];
   const Eigen::Vector2d ahead = (setup->path.points[1] - start).normalized();
   setup->path.points = {start, start + 1.5 * ahead};
-  TrialCase& only = setup->cases.front();
-  for (sim::CameraModel* camera : {&only.scout_camera, &only.follower_camera}) {
-    camera->width = 160;
-    camera->height = 120;
+  for (TrialCase& each : setup->cases) {
+    for (sim::CameraModel* camera : {&each.scout_camera, &each.follower_camera}) {
+      camera->width = 160;
+      camera->height = 120;
+    }
   }
   return *setup;
 }
@@ -109,6 +110,20 @@ TEST(Trial, OneTrialOfABatchCanBeRepeatedAloneByItsSeed) {
   EXPECT_EQ(Repeatable(alone), Repeatable({both[1]}));
 }
 
+TEST(Trial, MethodsSideBySideComeOutAsEachDoesAlone) {
+  TrialOptions options;
+  options.trials = 2;
+  options.methods = {"paper", "default"};
+  const std::vector<TrialRow> both = RunAll(ShortTrip(options), options);
+  ASSERT_EQ(both.size(), 4U);
+  std::string alone;
+  for (const char* method : {"paper", "default"}) {
+    options.methods = {method};
+    alone += Repeatable(RunAll(ShortTrip(options), options));
+  }
+  EXPECT_EQ(Repeatable(both), alone);
+}
+
 TEST(Trial, APathThroughAWallIsAnErrorThatSaysHowFarItGoes) {
   TrialOptions options;
   options.trials = 1;
@@ -130,7 +145,7 @@ TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
   scenario.scenario = "moon";
   EXPECT_THAT(message(scenario), AllOf(HasSubstr("moon"), HasSubstr("indoor")));
   TrialOptions method;
-  method.method = "magic";
+  method.methods = {"magic"};
   EXPECT_THAT(message(method), AllOf(HasSubstr("magic"), HasSubstr("default, paper, icra2006")));
   TrialOptions camera;
   camera.follower_camera = "periscope";

@@ -30,7 +30,7 @@ Taught TeachIn(const sim::Place& place, const sim::CameraModel& camera, std::uin
   setup.path = place.path;
   setup.path.points = {place.path.points.front(), sim::PointAlong(place.path.points, kTaught_m)};
   setup.speed_mps = 0.4;
-  auto taught = TeachOnce(setup, camera, seed, [](double) { return true; });
+  auto taught = TeachOnce(setup, camera, {{}}, seed, [](double) { return true; });
   EXPECT_TRUE(taught) << taught.error().message;
   return *taught;
 }
@@ -50,7 +50,7 @@ Ending FollowIn(const sim::Place& place, const sim::CameraModel& camera, const T
   options.seed = seed;
   const auto robot = sim::SimulatedRobot::Create(place.world, options);
   EXPECT_TRUE(robot) << robot.error().message;
-  auto session = OpenSession(taught, {});
+  auto session = OpenSession(taught.routes.front(), {});
   EXPECT_TRUE(session) << session.error().message;
   sim::Judge truth(**robot);
   Ending ending;
