@@ -10,6 +10,7 @@
 #include "agent/confidence.h"
 #include "agent/frame_check.h"
 #include "agent/hand_over.h"
+#include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -71,6 +72,7 @@ struct ReplaySession::State {
   bool complete = false;
 
   FrameCheck check;
+  vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
   std::optional<HandOver> hand_over;
   std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
@@ -235,7 +237,7 @@ void ReplaySession::MarkComplete() { state_->complete = true; }
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
   if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
-  const image::GrayImage& frame = observation.image;
+  const image::GrayImage& frame = s.unroller.Unroll(observation.image);
   const auto driven = s.OdometryStep(observation);
   const auto odometry = UsesOdometry(s.options.method) ? driven : std::nullopt;
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);

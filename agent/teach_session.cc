@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "agent/frame_check.h"
+#include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -18,6 +19,7 @@ constexpr std::size_t kMinFeatures = 8;
 struct TeachSession::State {
   explicit State(const teach::SegmentRecorderOptions& options) : recorder(options) {}
 
+  vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
   teach::SegmentRecorder recorder;
   FrameCheck check;
@@ -29,7 +31,8 @@ struct TeachSession::State {
 };
 
 bool TeachSession::State::SegmentEnds(const Observation& observation) {
-  const std::vector<route::TrackedFeature> tracked = tracker.Track(observation.image);
+  const std::vector<route::TrackedFeature> tracked =
+      tracker.Track(unroller.Unroll(observation.image));
   if (recording == Recording::kNothing) return false;
   if (recording == Recording::kFeatures) {
     return recorder.Add(observation.stamp, tracked, observation.odometry);

@@ -13,10 +13,15 @@ constexpr double kRimShareOfWidth = 0.06;  // features on the circle's rim belon
 
 }  // namespace
 
-cv::Mat FieldOfView(const cv::Mat& frame) {
+cv::Mat DarkPixels(const cv::Mat& frame) {
   cv::Mat dark;
   cv::blur(frame, dark, cv::Size(5, 5));
   cv::threshold(dark, dark, kDarkLevel, 1, cv::THRESH_BINARY_INV);
+  return dark;
+}
+
+std::optional<cv::Mat> DarkSurround(const cv::Mat& frame) {
+  cv::Mat dark = DarkPixels(frame);
   const std::array<cv::Point, 4> corners{cv::Point(0, 0), cv::Point(frame.cols - 1, 0),
                                          cv::Point(0, frame.rows - 1),
                                          cv::Point(frame.cols - 1, frame.rows - 1)};
@@ -28,13 +33,17 @@ cv::Mat FieldOfView(const cv::Mat& frame) {
   }
   cv::Mat surround = dark == 255;
   const double share = cv::countNonZero(surround) / static_cast<double>(frame.total());
-  if (dark_corners < kCornersNeeded || share > kLargestShare) {
-    return {frame.size(), CV_8UC1, cv::Scalar(255)};
-  }
+  if (dark_corners < kCornersNeeded || share > kLargestShare) return std::nullopt;
+  return surround;
+}
+
+cv::Mat FieldOfView(const cv::Mat& frame) {
+  std::optional<cv::Mat> surround = DarkSurround(frame);
+  if (!surround) return {frame.size(), CV_8UC1, cv::Scalar(255)};
   const int rim_px = std::max(2, static_cast<int>(kRimShareOfWidth * frame.cols));
-  cv::dilate(surround, surround,
+  cv::dilate(*surround, *surround,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rim_px + 1, 2 * rim_px + 1}));
-  return surround == 0;
+  return *surround == 0;
 }
 
 }  // namespace trailcast::vision

@@ -3,6 +3,7 @@
 // For vision's own sources: OpenCV's view of our pictures.
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "services/image/image.h"
 
@@ -18,6 +19,13 @@ namespace trailcast::vision {
 [[nodiscard]] inline cv::Point2f Centre(cv::Size size) {
   return {0.5F * static_cast<float>(size.width - 1), 0.5F * static_cast<float>(size.height - 1)};
 }
+
+// 1 where it is as good as black, else 0.
+[[nodiscard]] cv::Mat DarkPixels(const cv::Mat& frame);
+
+// 255 in the black surround that reaches the picture's corners, else 0; nothing where there is
+// none.
+[[nodiscard]] std::optional<cv::Mat> DarkSurround(const cv::Mat& frame);
 
 // 255 where there is a picture, 0 in the black surround that some lenses leave (a fisheye's circle
 // on a larger chip) and close to it. All 255 for a lens without one.
