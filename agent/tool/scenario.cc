@@ -45,9 +45,15 @@ std::vector<Scenario> MakeScenarios() {
   add("omni", "indoor's world through a 360 degree mirror", "indoor").cameras = {{"omni", "omni"}};
   add("twocams", "a parking lot with one camera, then with another", "paved").cameras = {
       {"webcam", "webcam"}, {"hd", "hd"}};
+  Scenario& swarm = add("swarm", "a scout teaches, others follow from the route server", "indoor");
+  swarm.cameras = {{"webcam", "firewire"}, {"webcam", "wide"}, {"webcam", "hd"}};
+  swarm.through_server = true;
   add("turns", "25 m round sharp corners", "turns");
   add("pushed", "shoved 1, 2 and 3 m off the path", "paved").pushes_m = {1.0, -2.0, 3.0};
   add("cameras", "every scout camera with every follower camera", "indoor").cameras = EveryPair();
+  add("corridor", "30 m of corridor, 4 m of it without texture", "corridor");
+  add("field", "30 m in the open, all features far away", "field");
+  add("dusk", "indoor, taught at noon and followed at dusk", "indoor").gain = 0.4;
   return all;
 }
 

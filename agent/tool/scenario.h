@@ -30,6 +30,8 @@ struct Scenario {
   std::vector<CameraPair> cameras = {{}};
   // The follower is shoved this far to the side, half way; its odometry does not notice.
   std::vector<double> pushes_m = {0.0};
+  bool through_server = false;           // followers replay what a route server gives them
+  std::optional<double> gain;            // exposure of the follower against the scout's; drawn
   std::optional<PaperFigures> paper;     // of the 2009 method
   std::optional<PaperFigures> icra2006;  // of the first version
 };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "agent/tool/served_route.h"
 #include "agent/tool/standstill_watch.h"
 #include "agent/tool/trial_teach.h"
 #include "services/sim/judge.h"
@@ -206,7 +207,10 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   const auto robot = sim::SimulatedRobot::Create(
       setup.world, FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits()));
   if (!robot) return Wrap(robot.error(), "the follower");
-  auto session = OpenSession(route, {.method = trial_case.method});
+  const Result<TaughtRoute> served =
+      trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);
+  if (!served) return tl::unexpected(served.error());
+  auto session = OpenSession(*served, {.method = trial_case.method});
   if (!session) return tl::unexpected(session.error());
   Replaying replaying(**robot, **taught, std::move(*session), trial_case.push_m);
   for (int frame = 0;; ++frame) {

@@ -33,7 +33,7 @@ Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOp
           agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
       if (!follower) return tl::unexpected(follower.error());
       for (const double push_m : scenario.pushes_m) {
-        cases.push_back({method, *scout, *follower, push_m});
+        cases.push_back({method, *scout, *follower, push_m, scenario.through_server});
       }
     }
   }
@@ -78,6 +78,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   auto cases = MakeCases(*scenario, options);
   if (!cases) return tl::unexpected(cases.error());
   setup.cases = std::move(*cases);
+  if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
   if (auto opened = OpenScene(*scenario, options, setup); !opened) {
     return tl::unexpected(opened.error());
   }

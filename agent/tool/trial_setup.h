@@ -21,6 +21,7 @@ struct TrialCase {
   sim::CameraModel scout_camera;
   sim::CameraModel follower_camera;
   double push_m = 0.0;  // to the left, half way; 0: none
+  bool through_server = false;
 };
 
 // How a scout of that method cuts its segments: one as printed by the 50 % rule alone.

@@ -37,6 +37,7 @@ class RouteRecorder {
     // A trial's route is never stored or sent, so it needs no id that differs from others'.
     taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
     taught_.info.name = name;
+    taught_.info.scout = AgentId("scout");
     taught_.info.camera = camera.name;
     taught_.info.image_width_px = camera.width;
     taught_.info.image_height_px = camera.height;
