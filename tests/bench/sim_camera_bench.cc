@@ -2,79 +2,102 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <map>
 
-#include "services/sim/indoor_world.h"
+#include "services/sim/place.h"
 #include "services/sim/simulated_robot.h"
 
-// Pictures a second of the simulator's cameras on one core, in the built-in indoor world: the
-// perfect view alone, with a sun and its shadows, and the whole step with blur and noise. Compare
-// CPU times.
+// Pictures a second of the simulator's cameras on one core: a robot's whole step (ground, perfect
+// view, blur, noise) in every built-in place, other cameras in two of them, and the perfect view
+// alone. Compare CPU times.
 
 namespace trailcast::sim {
 namespace {
 
-const Place& Indoor() {
-  static const Place indoor = [] {
-    auto made = MakeIndoorWorld();
-    if (!made) {
-      std::cerr << made.error().message << '\n';
+const Place& PlaceOf(const std::string& name) {
+  static std::map<std::string, Place> places;
+  if (const auto known = places.find(name); known != places.end()) return known->second;
+  PlaceOptions options;
+  options.world = name;
+  auto made = OpenPlace(options);
+  if (!made) {
+    std::cerr << made.error().message << '\n';
+    std::abort();
+  }
+  return places.emplace(name, std::move(*made)).first->second;
+}
+
+// Robots spread along the path, each facing along it.
+std::vector<std::unique_ptr<SimulatedRobot>> RobotsAlong(const Place& place, const char* camera) {
+  constexpr int kRobots = 8;
+  const Polyline& path = place.path.points;
+  std::vector<std::unique_ptr<SimulatedRobot>> robots;
+  for (int i = 0; i < kRobots; ++i) {
+    const double along_m = Length(path) * i / kRobots;
+    const Eigen::Vector2d at = PointAlong(path, along_m);
+    const Eigen::Vector2d ahead = PointAlong(path, along_m + 0.5) - at;
+    SimulatedRobotOptions options;
+    options.camera = *FindCamera(camera);
+    options.start = {at.x(), at.y(), std::atan2(ahead.y(), ahead.x())};
+    auto robot = SimulatedRobot::Create(place.world, options);
+    if (!robot) {
+      std::cerr << robot.error().message << '\n';
       std::abort();
     }
-    return *made;
-  }();
-  return indoor;
+    robots.push_back(std::move(*robot));
+  }
+  return robots;
 }
 
-Eigen::Isometry3d OnPath(double along_m, const CameraModel& camera) {
-  const Polyline& path = Indoor().path.points;
-  const Eigen::Vector2d at = PointAlong(path, along_m);
-  const Eigen::Vector2d ahead = PointAlong(path, along_m + 0.5) - at;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = Eigen::Vector3d(at.x(), at.y(), camera.height_m);
-  const double heading_rad = std::atan2(ahead.y(), ahead.x());
-  pose.linear() = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
-                  BodyFromCamera(0.0, 0.0);
-  return pose;
-}
-
-void RenderAlongPath(benchmark::State& state, const char* name, const Lighting& lighting) {
-  const auto camera = FindCamera(name);
-  CameraRenderer renderer(Indoor().world, *camera, lighting);
-  double along_m = 0.0;
+void WholeStep(benchmark::State& state, const std::string& place, const char* camera) {
+  const auto robots = RobotsAlong(PlaceOf(place), camera);
+  constexpr std::size_t kStepsInARow = 5;
+  std::size_t step = 0;
   for ([[maybe_unused]] auto _ : state) {
-    along_m = along_m > 14.0 ? 0.0 : along_m + 0.37;
-    benchmark::DoNotOptimize(renderer.Render(OnPath(along_m, *camera)).gray.data());
+    // To and fro, so that a long measurement stays where it began.
+    const double turn_radps = step / (kStepsInARow * robots.size()) % 2 == 0 ? 0.2 : -0.2;
+    SimulatedRobot& robot = *robots[step++ / kStepsInARow % robots.size()];
+    benchmark::DoNotOptimize(robot.Step({0.1, turn_radps}).image.pixels.data());
   }
   state.counters["frames/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-void PerfectViewOf(benchmark::State& state, const char* name) {
-  RenderAlongPath(state, name, Indoor().world->lighting());
+void PerfectView(benchmark::State& state, const std::string& place) {
+  const CameraModel camera = *FindCamera("webcam");
+  CameraRenderer renderer(PlaceOf(place).world, camera);
+  const motion::Pose2 start = StartPose(PlaceOf(place).path.points);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(start.x_m, start.y_m, camera.height_m);
+  const Eigen::AngleAxisd heading(start.heading_rad, Eigen::Vector3d::UnitZ());
+  pose.linear() = heading.toRotationMatrix() * BodyFromCamera(0.0, 0.0);
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(renderer.Render(pose).gray.data());
 }
-BENCHMARK_CAPTURE(PerfectViewOf, webcam, "webcam")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(PerfectViewOf, wide, "wide")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(PerfectViewOf, hd, "hd")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(PerfectViewOf, omni, "omni")->Unit(benchmark::kMillisecond);
 
-void PerfectViewInSunshine(benchmark::State& state) {
-  RenderAlongPath(state, "webcam", Lighting());
+void Register() {
+  const auto add = [](const std::string& name, auto&&... arguments) {
+    benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
+  };
+  for (const std::string& place : BuiltInPlaces()) {
+    add("WholeStep/" + place + "/webcam", WholeStep, place, "webcam");
+  }
+  for (const char* camera : {"wide", "hd", "omni"}) {
+    for (const char* place : {"indoor", "paved"}) {
+      add(std::string("WholeStep/") + place + "/" + camera, WholeStep, place, camera);
+    }
+  }
+  for (const char* place : {"indoor", "paved"}) {
+    add(std::string("PerfectView/") + place + "/webcam", PerfectView, place);
+  }
 }
-BENCHMARK(PerfectViewInSunshine)->Unit(benchmark::kMillisecond);
-
-void WholeStepInATurn(benchmark::State& state) {
-  SimulatedRobotOptions options;
-  options.camera = *FindCamera("webcam");
-  options.start = StartPose(Indoor().path.points);
-  auto robot = SimulatedRobot::Create(Indoor().world, options);
-  for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize((*robot)->Step({0.1, 0.4}).image.pixels.data());
-  state.counters["frames/s"] =
-      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-}
-BENCHMARK(WholeStepInATurn)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trailcast::sim
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  trailcast::sim::Register();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
