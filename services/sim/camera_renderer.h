@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -35,34 +36,51 @@ class CameraRenderer {
   [[nodiscard]] const PerfectView& Render(const Eigen::Isometry3d& world_from_camera);
 
   [[nodiscard]] const Lens& lens() const { return lens_; }
-  [[nodiscard]] bool InPicture(int x, int y) const { return rays_[Index(x, y)].valid; }
+  [[nodiscard]] bool InPicture(int x, int y) const { return rays_.spread[Index(x, y)] > 0.0F; }
 
  private:
-  struct PixelRay {
-    Eigen::Vector3f direction = Eigen::Vector3f::UnitZ();
-    float spread = 0.0F;                 // radians that the pixel covers
-    Eigen::Vector3f to_right, to_below;  // change of direction for one pixel
-    bool valid = false;
+  // One entry a pixel, row-major, in the camera's frame.
+  struct Rays {
+    std::vector<float> x, y, z;  // unit vectors
+    std::vector<float> spread;   // radians that the pixel covers; 0 outside the lens's picture
+  };
+  // Corners are where four pixels meet, known by the index of the one to their lower right.
+  using Four = std::array<std::size_t, 4>;
+  struct Edge {
+    std::size_t pixel = 0;
+    Four corners{};
   };
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.width) +
            static_cast<std::size_t>(x);
   }
-  [[nodiscard]] PixelRay MakeRay(int x, int y) const;
+  [[nodiscard]] Eigen::Vector3f Direction(std::size_t pixel) const {
+    return {rays_.x[pixel], rays_.y[pixel], rays_.z[pixel]};
+  }
+  void MakeRay(int x, int y);
   void RenderBlock(int x0, int y0);
   [[nodiscard]] bool OnOnePlane(std::size_t a, std::size_t b) const;
+  [[nodiscard]] bool IsEdge(int x, int y) const;
   void FindEdges();
+  [[nodiscard]] Four CornersOf(int x, int y) const;
+  [[nodiscard]] Four PixelsRound(std::size_t corner) const;
+  void AddCorner(std::size_t corner);
+  [[nodiscard]] float Borrow(std::size_t corner, std::uint32_t surface, float depth_m) const;
+  void TraceCorners();
   void SmoothEdges();
 
   std::shared_ptr<const World> world_;
   Lens lens_;
   ViewTracer tracer_;
-  std::vector<PixelRay> rays_;
+  Rays rays_;
   PerfectView view_;
-  std::vector<std::uint32_t> surface_;  // seen by each pixel
-  std::vector<std::size_t> edges_;      // pixels to be sampled more finely
-  Eigen::Matrix3f rotation_;            // of the camera being rendered
-  RayPacket packet_;
+  std::vector<std::uint32_t> surface_;   // seen by each pixel, its complement if in shadow
+  std::vector<std::uint32_t> material_;  // of that
+  std::vector<Edge> edges_;              // pixels to be sampled more finely
+  std::vector<std::size_t> corners_;     // of those, as far as they need a ray
+  std::vector<float> corner_gray_;
+  Eigen::Matrix3f rotation_;  // of the camera being rendered
+  Eigen::Vector3f origin_;
 };
 
 }  // namespace trailcast::sim

@@ -70,7 +70,7 @@ ImageFormation::ImageFormation(const CameraModel& camera, const SensorOptions& o
 float ImageFormation::Smeared(const PerfectView& view, int x, int y,
                               const Eigen::Vector2f& half_path) const {
   const float length = half_path.norm();
-  const int half_count = std::clamp(static_cast<int>(std::ceil(1.5F * length)), 1, 12);
+  const int half_count = std::clamp(static_cast<int>(1.5F * length) + 1, 1, 12);
   const Eigen::Vector2f step = half_path * (1.0F / static_cast<float>(half_count));
   float sum = view.gray[image::PixelIndex(x, y, width_)];
   for (int i = -half_count; i <= half_count; ++i) {
@@ -104,13 +104,16 @@ image::GrayImage ImageFormation::Form(const PerfectView& view, const CameraMotio
     float level = view.gray[i];
     if (moves && pixel.brightness > 0.0F) {
       // A point seen along d at depth z moves by -(turn x d + shift / z) against the camera.
-      const Eigen::Vector3f change = -turn.cross(pixel.direction) - shift / view.depth_m[i];
+      const Eigen::Vector3f change = pixel.direction.cross(turn) - (1.0F / view.depth_m[i]) * shift;
       Eigen::Vector2f half_path = pixel.pixels_per_step * change;
-      const float length = half_path.norm();
-      if (length > kLongestHalfPath_px) half_path *= kLongestHalfPath_px / length;
-      const int x = static_cast<int>(i) % width_;
-      const int y = static_cast<int>(i) / width_;
-      if (length > kShortestHalfPath_px) level = Smeared(view, x, y, half_path);
+      const float square = half_path.squaredNorm();
+      if (square > kLongestHalfPath_px * kLongestHalfPath_px) {
+        half_path *= kLongestHalfPath_px / std::sqrt(square);
+      }
+      if (square > kShortestHalfPath_px * kShortestHalfPath_px) {
+        const int x = static_cast<int>(i) % width_;
+        level = Smeared(view, x, static_cast<int>(i) / width_, half_path);
+      }
     }
     level = std::min(level * pixel.brightness, 255.0F);
     if (i % 4 == 0) bits = random.Bits();  // 12 bits a pixel

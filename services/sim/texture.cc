@@ -14,13 +14,30 @@ inline int FloorOf(float x) {
   return cut - (static_cast<float>(cut) > x ? 1 : 0);
 }
 
+constexpr float kFarthest = 1e6F;  // repeats; beyond, a float has no digits left for the texel
+
+// A coordinate in 2^-32 of the picture, repeating.
+inline std::uint32_t Fixed(float coordinate) {
+  const float bounded = std::max(-kFarthest, std::min(kFarthest, coordinate));
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(bounded * 0x1.0p32F));
+}
+
+// The texel before a place along one axis, and the next one's weight in 256ths.
+struct FixedTap {
+  int texel;
+  int weight;
+};
+inline FixedTap AlongFixedAxis(std::uint32_t at, int size, std::uint32_t half_texel) {
+  const std::uint64_t place = std::uint64_t{at - half_texel} * static_cast<std::uint32_t>(size);
+  return {static_cast<int>(place >> 32U), static_cast<int>((place >> 24U) & 0xFFU)};
+}
+
 // Where a lookup falls along one repeating axis: the texel before it and the next one's weight.
 struct AxisTap {
   int texel;
   float weight;
 };
 inline AxisTap AlongAxis(float coordinate, int size) {
-  constexpr float kFarthest = 1e6F;  // repeats; beyond, a float has no digits left for the texel
   const float bounded = std::min(std::max(coordinate, -kFarthest), kFarthest);
   const float share = bounded - static_cast<float>(FloorOf(bounded));
   // One picture further on, so that the half texel taken off leaves it above 0.
@@ -52,6 +69,8 @@ void Texture::FillGray(Level& level) {
     const std::uint8_t* p = &level.rgb[3 * i];
     return static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2] + 128) >> 8);
   };
+  level.half_texel = {0x80000000U / static_cast<std::uint32_t>(level.width),
+                      0x80000000U / static_cast<std::uint32_t>(level.height)};
   level.tiles_a_row = (level.width + Tile::kSide - 1) / Tile::kSide;
   const int tile_rows = (level.height + Tile::kSide - 1) / Tile::kSide;
   level.gray.reserve(static_cast<std::size_t>(level.tiles_a_row) *
@@ -95,32 +114,48 @@ Texture::Level Texture::Halve(const Level& level) {
   return half;
 }
 
-float Texture::GrayOnLevel(float u, float v, int level) const {
+Texture::Point Texture::PointAt(float u, float v) { return {Fixed(u), Fixed(v)}; }
+
+inline float Texture::GrayOnLevel(Point at, int level) const {
   const int top = static_cast<int>(levels_.size()) - 1;
   const Level& l = levels_[static_cast<std::size_t>(std::clamp(level, 0, top))];
-  const AxisTap x = AlongAxis(u, l.width);
-  const AxisTap y = AlongAxis(v, l.height);
+  const FixedTap x = AlongFixedAxis(at.u, l.width, l.half_texel.u);
+  const FixedTap y = AlongFixedAxis(at.v, l.height, l.half_texel.v);
   const int column = x.texel / Tile::kSide;
   const int row = y.texel / Tile::kSide;
   const Tile& tile = l.gray[image::PixelIndex(column, row, l.tiles_a_row)];
   const auto* texels = &tile.gray[image::PixelIndex(x.texel - Tile::kSide * column,
                                                     y.texel - Tile::kSide * row, Tile::kStride)];
   const auto* below = texels + Tile::kStride;
-  // In 256ths: whole numbers spare the conversion of each texel.
-  const int right = static_cast<int>(256.0F * x.weight);
-  const int lower = static_cast<int>(256.0F * y.weight);
-  const int upper_row = 256 * texels[0] + right * (texels[1] - texels[0]);
-  const int lower_row = 256 * below[0] + right * (below[1] - below[0]);
-  return static_cast<float>(256 * upper_row + lower * (lower_row - upper_row)) * (1.0F / 65536.0F);
+  const int upper_row = 256 * texels[0] + x.weight * (texels[1] - texels[0]);
+  const int lower_row = 256 * below[0] + x.weight * (below[1] - below[0]);
+  return static_cast<float>(256 * upper_row + y.weight * (lower_row - upper_row)) *
+         (1.0F / 65536.0F);
 }
 
 float Texture::Gray(float u, float v, float level) const {
   const float clamped = std::clamp(level, 0.0F, static_cast<float>(levels_.size() - 1));
   const int fine = static_cast<int>(clamped);
   const float share = clamped - static_cast<float>(fine);
-  const float value = GrayOnLevel(u, v, fine);
+  const Point at = PointAt(u, v);
+  const float value = GrayOnLevel(at, fine);
   if (share < 0.02F) return value;
-  return value + share * (GrayOnLevel(u, v, fine + 1) - value);
+  return value + share * (GrayOnLevel(at, fine + 1) - value);
+}
+
+float Texture::GrayAlong(const Eigen::Vector2f& middle, const Eigen::Vector2f& step, int count,
+                         float level) const {
+  const Eigen::Vector2f first = middle - 0.5F * static_cast<float>(count - 1) * step;
+  Point at = PointAt(first.x(), first.y());
+  const Point stride = PointAt(step.x(), step.y());
+  const float share = 1.0F / static_cast<float>(count);
+  float lookup_level = std::max(level, 0.0F) + 0.5F * share;
+  float sum = 0.0F;
+  for (int i = 0; i < count; ++i, lookup_level += share) {
+    sum += GrayOnLevel(at, static_cast<int>(lookup_level));
+    at = {at.u + stride.u, at.v + stride.v};
+  }
+  return sum * share;
 }
 
 Eigen::Vector3f Texture::Rgb(float u, float v, float level) const {

@@ -19,8 +19,11 @@ class Texture {
   // `picture` must not be empty.
   explicit Texture(const image::RgbImage& picture);
 
-  [[nodiscard]] float GrayOnLevel(float u, float v, int level) const;
   [[nodiscard]] float Gray(float u, float v, float level) const;
+  // The average of `count` lookups in line, `step` apart, their middle at `middle`: shared out
+  // between the two levels instead of blending each of them.
+  [[nodiscard]] float GrayAlong(const Eigen::Vector2f& middle, const Eigen::Vector2f& step,
+                                int count, float level) const;
   [[nodiscard]] Eigen::Vector3f Rgb(float u, float v, float level) const;
   [[nodiscard]] int width() const { return levels_.front().width; }
   [[nodiscard]] int height() const { return levels_.front().height; }
@@ -33,13 +36,21 @@ class Texture {
     static constexpr int kStride = 8;
     std::array<std::uint8_t, static_cast<std::size_t>(kStride* kStride)> gray;
   };
+  // In 2^-32 of width and height: whole numbers repeat by themselves.
+  struct Point {
+    std::uint32_t u = 0;
+    std::uint32_t v = 0;
+  };
   struct Level {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgb;
     std::vector<Tile> gray;
     int tiles_a_row = 0;
+    Point half_texel = {};
   };
+  static Point PointAt(float u, float v);
+  [[nodiscard]] float GrayOnLevel(Point at, int level) const;
   static Level Halve(const Level& level);
   static void FillGray(Level& level);
 

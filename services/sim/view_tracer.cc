@@ -34,141 +34,145 @@ float TextureGray(const Texture& texture, const Surface& surface, const Eigen::V
   if (lookups == 1) return texture.Gray(uv.x(), uv.y(), level);
   const Eigen::Vector3f along = direction - direction.dot(surface.normal) * surface.normal;
   const float length_m = width_m * std::min(stretch, kMostStretch);
-  const float share = 1.0F / static_cast<float>(lookups);
-  const Eigen::Vector3f step = along * (length_m * share / std::max(along.norm(), 1e-6F));
+  const float step_m = length_m / static_cast<float>(lookups);
+  const Eigen::Vector3f step = along * (step_m / std::max(along.norm(), 1e-6F));
   const Eigen::Vector2f uv_step(surface.grad_u.dot(step), surface.grad_v.dot(step));
-  Eigen::Vector2f at = uv - 0.5F * static_cast<float>(lookups - 1) * uv_step;
-  // The lookups are shared out between the two mip-map levels instead of blending each of them.
-  float lookup_level = std::max(level, 0.0F) + 0.5F * share;
-  float sum = 0.0F;
-  for (int i = 0; i < lookups; ++i, at += uv_step, lookup_level += share) {
-    sum += texture.GrayOnLevel(at.x(), at.y(), static_cast<int>(lookup_level));
-  }
-  return sum * share;
+  return texture.GrayAlong(uv, uv_step, lookups, level);
+}
+
+// What Embree wants to know of a ray besides where it is and where it goes.
+void FillDefaults(RTCRay16& rays) {
+  std::fill_n(rays.tnear, kSize, 0.0F);
+  std::fill_n(rays.tfar, kSize, std::numeric_limits<float>::infinity());
+  std::fill_n(rays.time, kSize, 0.0F);
+  std::fill_n(rays.mask, kSize, std::numeric_limits<unsigned>::max());
+  std::fill_n(rays.id, kSize, 0U);
+  std::fill_n(rays.flags, kSize, 0U);
+}
+
+RTCIntersectContext CoherentRays() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
 }
 
 }  // namespace
 
 struct ViewTracer::Lit {
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // towards the viewer
-  float albedo = 0.0F;                               // grey level in full light
-  float light = 0.0F;
-  float sun = 0.0F;  // to be added to `light` unless in shadow
-  bool glows = false;
+  RayPacket::Lanes<Eigen::Vector3f> normal;  // towards the viewer
+  RayPacket::Lanes<float> albedo{};          // grey level in full light
+  RayPacket::Lanes<float> light{};
+  RayPacket::Lanes<float> sun{};  // to be added to `light` unless in shadow
 };
 
-ViewTracer::Lit ViewTracer::Shade(const Surface& surface, const RayPacket& packet, std::size_t ray,
-                                  float distance, const Eigen::Vector2f& barycentric) const {
-  const Eigen::Vector3f& direction = packet.directions[ray];
-  const Material& material = world_.material(surface.material);
+PacketHits ViewTracer::FindHits(const RayPacket& packet) const {
+  alignas(64) std::array<int, kSize> valid{};
+  RTCRayHit16 query;
+  FillDefaults(query.ray);
+  std::fill_n(query.ray.org_x, kSize, packet.origin.x());
+  std::fill_n(query.ray.org_y, kSize, packet.origin.y());
+  std::fill_n(query.ray.org_z, kSize, packet.origin.z());
+  std::copy_n(packet.x.begin(), kSize, query.ray.dir_x);
+  std::copy_n(packet.y.begin(), kSize, query.ray.dir_y);
+  std::copy_n(packet.z.begin(), kSize, query.ray.dir_z);
+  std::fill_n(query.hit.geomID, kSize, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(query.hit.instID[0], kSize, RTC_INVALID_GEOMETRY_ID);
+  for (std::size_t i = 0; i < kSize; ++i) valid[i] = packet.spreads[i] > 0.0F ? -1 : 0;
+  RTCIntersectContext context = CoherentRays();
+  rtcIntersect16(valid.data(), world_.embree_scene(), &context, &query);
+
+  PacketHits hits;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const bool sky = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
+    hits.surface[i] = sky ? PacketHits::kSky : query.hit.primID[i];
+    hits.depth_m[i] = sky ? PacketHits::kSkyDepth_m : query.ray.tfar[i];
+  }
+  std::copy_n(query.hit.u, kSize, hits.b.begin());
+  std::copy_n(query.hit.v, kSize, hits.c.begin());
+  return hits;
+}
+
+void ViewTracer::ShadeSurface(const RayPacket& packet, const PacketHits& hits, std::size_t ray,
+                              Lit& lit) const {
+  const Surface& surface = world_.surfaces()[hits.surface[ray]];
+  const Paint& paint = world_.paint(surface.material);
+  const Eigen::Vector3f direction = packet.Direction(ray);
   const float facing = -direction.dot(surface.normal);
-  Lit lit;
-  lit.normal = facing < 0.0F ? Eigen::Vector3f(-surface.normal) : surface.normal;
-  lit.albedo = GrayOf(material.color);
-  lit.glows = material.glows;
-  const float b = barycentric.x();
-  const float c = barycentric.y();
-  if (material.texture) {
+  const Eigen::Vector3f normal = facing < 0.0F ? Eigen::Vector3f(-surface.normal) : surface.normal;
+  const float b = hits.b[ray];
+  const float c = hits.c[ray];
+  lit.normal[ray] = normal;
+  lit.albedo[ray] = paint.gray;
+  if (paint.texture != nullptr) {
     const Eigen::Vector2f uv = surface.uv + b * surface.uv_b + c * surface.uv_c;
-    lit.albedo *=
-        TextureGray(*material.texture, surface, direction, uv, distance * packet.spreads[ray],
-                    std::abs(facing), packet.most_lookups) /
-        255.0F;
+    const float width_m = hits.depth_m[ray] * packet.spreads[ray];
+    lit.albedo[ray] *= TextureGray(*paint.texture, surface, direction, uv, width_m,
+                                   std::abs(facing), packet.most_lookups);
+  }
+  if (paint.glows) {
+    lit.light[ray] = 1.0F;
+    return;
   }
   const float shade =
       (1.0F - b - c) * surface.shade[0] + b * surface.shade[1] + c * surface.shade[2];
-  lit.light = AmbientLight(lighting_, lit.normal) * shade;
-  lit.sun = lighting_.sun * std::max(0.0F, lit.normal.dot(lighting_.toward_sun));
-  return lit;
+  lit.light[ray] = AmbientLight(lighting_, normal) * shade;
+  lit.sun[ray] = lighting_.sun * std::max(0.0F, normal.dot(lighting_.toward_sun));
 }
 
-float ViewTracer::SkyGray(const Eigen::Vector3f& direction) const {
-  const float height = std::sqrt(std::clamp(direction.z(), 0.0F, 1.0F));
+float ViewTracer::SkyGray(float direction_z) const {
+  const float height = std::sqrt(std::clamp(direction_z, 0.0F, 1.0F));
   return GrayOf(lighting_.sky_horizon + height * (lighting_.sky_zenith - lighting_.sky_horizon));
 }
 
-void ViewTracer::CastShadows(const RayPacket& packet, std::array<SeenPoint, kSize>& seen,
-                             std::array<Lit, kSize>& lit) const {
-  alignas(32) std::array<int, kSize> valid{};
-  RTCRay8 rays;
+void ViewTracer::CastShadows(const RayPacket& packet, const PacketHits& hits, Lit& lit,
+                             RayPacket::Lanes<bool>& in_shadow) const {
+  alignas(64) std::array<int, kSize> valid{};
+  RTCRay16 rays;
+  FillDefaults(rays);
+  std::fill_n(rays.dir_x, kSize, lighting_.toward_sun.x());
+  std::fill_n(rays.dir_y, kSize, lighting_.toward_sun.y());
+  std::fill_n(rays.dir_z, kSize, lighting_.toward_sun.z());
   bool any = false;
   for (std::size_t i = 0; i < kSize; ++i) {
-    const bool wanted = seen[i].surface != SeenPoint::kSky && lit[i].sun > 0.0F;
+    const bool wanted = lit.sun[i] > 0.0F;
     valid[i] = wanted ? -1 : 0;
     any = any || wanted;
     const Eigen::Vector3f from =
-        packet.origin + seen[i].depth_m * packet.directions[i] + kShadowOffset_m * lit[i].normal;
+        packet.origin + hits.depth_m[i] * packet.Direction(i) + kShadowOffset_m * lit.normal[i];
     rays.org_x[i] = from.x();
     rays.org_y[i] = from.y();
     rays.org_z[i] = from.z();
-    rays.dir_x[i] = lighting_.toward_sun.x();
-    rays.dir_y[i] = lighting_.toward_sun.y();
-    rays.dir_z[i] = lighting_.toward_sun.z();
-    rays.tnear[i] = 0.0F;
-    rays.tfar[i] = std::numeric_limits<float>::infinity();
-    rays.time[i] = 0.0F;
-    rays.mask[i] = std::numeric_limits<unsigned>::max();
-    rays.id[i] = 0;
-    rays.flags[i] = 0;
   }
   if (!any) return;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded8(valid.data(), world_.embree_scene(), &context, &rays);
+  RTCIntersectContext context = CoherentRays();
+  rtcOccluded16(valid.data(), world_.embree_scene(), &context, &rays);
   for (std::size_t i = 0; i < kSize; ++i) {
     if (valid[i] == 0 || !(rays.tfar[i] < 0.0F)) continue;  // below 0 is how Embree says "hit"
-    lit[i].sun = 0.0F;
-    seen[i].in_shadow = true;
+    lit.sun[i] = 0.0F;
+    in_shadow[i] = true;
   }
 }
 
-std::array<SeenPoint, kSize> ViewTracer::Trace(const RayPacket& packet) const {
-  alignas(32) std::array<int, kSize> valid{};
-  RTCRayHit8 query;
+PacketView ViewTracer::Shade(const RayPacket& packet, const PacketHits& hits) const {
+  PacketView view;
+  Lit lit;
   for (std::size_t i = 0; i < kSize; ++i) {
-    valid[i] = packet.valid[i] ? -1 : 0;
-    query.ray.org_x[i] = packet.origin.x();
-    query.ray.org_y[i] = packet.origin.y();
-    query.ray.org_z[i] = packet.origin.z();
-    query.ray.dir_x[i] = packet.directions[i].x();
-    query.ray.dir_y[i] = packet.directions[i].y();
-    query.ray.dir_z[i] = packet.directions[i].z();
-    query.ray.tnear[i] = 0.0F;
-    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    query.ray.time[i] = 0.0F;
-    query.ray.mask[i] = std::numeric_limits<unsigned>::max();
-    query.ray.id[i] = 0;
-    query.ray.flags[i] = 0;
-    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid.data(), world_.embree_scene(), &context, &query);
-
-  std::array<SeenPoint, kSize> seen;
-  std::array<Lit, kSize> lit;
-  for (std::size_t i = 0; i < kSize; ++i) {
-    if (!packet.valid[i]) continue;
-    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-      seen[i].gray = SkyGray(packet.directions[i]);
-      continue;
+    lit.normal[i].setZero();
+    if (!(packet.spreads[i] > 0.0F)) continue;
+    if (hits.surface[i] == PacketHits::kSky) {
+      lit.albedo[i] = SkyGray(packet.z[i]);
+      lit.light[i] = 1.0F;
+    } else {
+      ShadeSurface(packet, hits, i, lit);
     }
-    seen[i].surface = query.hit.primID[i];
-    seen[i].depth_m = query.ray.tfar[i];
-    lit[i] = Shade(world_.surfaces()[seen[i].surface], packet, i, seen[i].depth_m,
-                   {query.hit.u[i], query.hit.v[i]});
   }
-  if (lighting_.sun > 0.0F) CastShadows(packet, seen, lit);
+  if (lighting_.sun > 0.0F) CastShadows(packet, hits, lit, view.in_shadow);
+  // Grey levels are about the square root of light (gamma 2), in textures and in pictures.
   for (std::size_t i = 0; i < kSize; ++i) {
-    if (seen[i].surface == SeenPoint::kSky) continue;
-    // Grey levels are about the square root of light (gamma 2), in textures and in pictures.
-    const float light = lit[i].glows ? 1.0F : std::sqrt(lit[i].light + lit[i].sun);
-    seen[i].gray = lit[i].albedo * light;
+    view.gray[i] = lit.albedo[i] * std::sqrt(lit.light[i] + lit.sun[i]);
   }
-  return seen;
+  return view;
 }
 
 }  // namespace trailcast::sim

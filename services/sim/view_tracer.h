@@ -8,27 +8,52 @@
 
 namespace trailcast::sim {
 
-// Eight rays from one place, traced together.
+// Sixteen rays from one place, traced together: the nearer to each other they are, the cheaper.
 struct RayPacket {
-  static constexpr std::size_t kSize = 8;
+  static constexpr std::size_t kSize = 16;
+  template <typename T>
+  using Lanes = std::array<T, kSize>;
+
   Eigen::Vector3f origin;
-  std::array<Eigen::Vector3f, kSize> directions;  // unit vectors
-  // Angle that the ray's pixel covers, radians: what textures are averaged over.
-  std::array<float, kSize> spreads{};
-  std::array<bool, kSize> valid{};
+  Lanes<float> x{}, y{}, z{};  // unit vectors
+  // Angle that the ray's pixel covers, radians: what textures are averaged over. 0: no ray.
+  Lanes<float> spreads{};
   // Of a texture along the long side of a slanted pixel's footprint; fewer where several rays share
   // a pixel.
   static constexpr int kMostLookups = 6;
   int most_lookups = kMostLookups;
+
+  [[nodiscard]] Eigen::Vector3f Direction(std::size_t ray) const {
+    return {x[ray], y[ray], z[ray]};
+  }
+  void SetRay(std::size_t ray, const Eigen::Vector3f& direction, float spread) {
+    x[ray] = direction.x();
+    y[ray] = direction.y();
+    z[ray] = direction.z();
+    spreads[ray] = spread;
+  }
 };
 
-// What one ray sees.
-struct SeenPoint {
+// What each ray of a packet meets first.
+struct PacketHits {
   static constexpr std::uint32_t kSky = 0xFFFFFFFFU;
-  float gray = 0.0F;     // 0..255 and above where it is brighter than white
-  float depth_m = 1e9F;  // along the ray
-  std::uint32_t surface = kSky;
-  bool in_shadow = false;
+  static constexpr float kSkyDepth_m = 1e9F;
+  RayPacket::Lanes<std::uint32_t> surface{};
+  RayPacket::Lanes<float> depth_m{};  // along the ray
+  RayPacket::Lanes<float> b{}, c{};   // barycentric: share of the surface's 2nd and 3rd corner
+
+  void CopyFrom(const PacketHits& other, std::size_t from, std::size_t to) {
+    surface[to] = other.surface[from];
+    depth_m[to] = other.depth_m[from];
+    b[to] = other.b[from];
+    c[to] = other.c[from];
+  }
+};
+
+// How that looks.
+struct PacketView {
+  RayPacket::Lanes<float> gray{};  // 0..255 and above where it is brighter than white
+  RayPacket::Lanes<bool> in_shadow{};
 };
 
 // Rays into a world, and what they see: texture filtered over the pixel's footprint, ambient light,
@@ -37,15 +62,16 @@ class ViewTracer {
  public:
   ViewTracer(const World& world, const Lighting& lighting) : world_(world), lighting_(lighting) {}
 
-  [[nodiscard]] std::array<SeenPoint, RayPacket::kSize> Trace(const RayPacket& packet) const;
+  [[nodiscard]] PacketHits FindHits(const RayPacket& packet) const;
+  [[nodiscard]] PacketView Shade(const RayPacket& packet, const PacketHits& hits) const;
 
  private:
-  struct Lit;  // a surface point between the primary ray and its shadow ray
-  [[nodiscard]] Lit Shade(const Surface& surface, const RayPacket& packet, std::size_t ray,
-                          float distance, const Eigen::Vector2f& barycentric) const;
-  [[nodiscard]] float SkyGray(const Eigen::Vector3f& direction) const;
-  void CastShadows(const RayPacket& packet, std::array<SeenPoint, RayPacket::kSize>& seen,
-                   std::array<Lit, RayPacket::kSize>& lit) const;
+  struct Lit;  // surface points, before it is known which of them the sun reaches
+  void ShadeSurface(const RayPacket& packet, const PacketHits& hits, std::size_t ray,
+                    Lit& lit) const;
+  [[nodiscard]] float SkyGray(float direction_z) const;
+  void CastShadows(const RayPacket& packet, const PacketHits& hits, Lit& lit,
+                   RayPacket::Lanes<bool>& in_shadow) const;
 
   const World& world_;
   Lighting lighting_;
@@ -56,10 +82,6 @@ class ViewTracer {
 [[nodiscard]] inline float AmbientLight(const Lighting& lighting, const Eigen::Vector3f& normal) {
   if (!lighting.ambient_by_direction) return lighting.ambient;
   return lighting.ambient * (0.80F + 0.14F * normal.z() + 0.09F * normal.x() + 0.05F * normal.y());
-}
-
-[[nodiscard]] inline float GrayOf(const Eigen::Vector3f& rgb) {
-  return 0.299F * rgb.x() + 0.587F * rgb.y() + 0.114F * rgb.z();
 }
 
 }  // namespace trailcast::sim

@@ -115,6 +115,11 @@ Result<std::shared_ptr<const World>> World::Build(Scene scene) {
   for (const Mesh& mesh : meshes) {
     for (const auto& corners : mesh.triangles) world->AddSurface(mesh, corners);
   }
+  for (const Material& material : world->scene_.materials) {
+    const float gray = GrayOf(material.color);
+    world->paints_.push_back(
+        {material.texture.get(), material.texture ? gray / 255.0F : gray, material.glows});
+  }
   if (world->surfaces_.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "the world {} has no triangles: expected at least one of non-zero area",

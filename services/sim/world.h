@@ -25,6 +25,13 @@ struct Surface {
   std::uint32_t material = 0;
 };
 
+// What shading needs of a material, in few bytes: it is looked at for every ray.
+struct Paint {
+  const Texture* texture = nullptr;  // none: plain
+  float gray = 0.0F;                 // of a plain colour; with a texture, what multiplies its grey
+  bool glows = false;
+};
+
 struct SurfaceHit {
   double distance_m = 0.0;
   Eigen::Vector3f normal;
@@ -61,6 +68,7 @@ class World {
   // For renderers: Embree's scene, whose one geometry's primitive ids index surfaces().
   [[nodiscard]] RTCSceneTy* embree_scene() const { return embree_scene_; }
   [[nodiscard]] const std::vector<Surface>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const Paint& paint(std::uint32_t material) const { return paints_[material]; }
   // The texture coordinates of a point on a surface.
   [[nodiscard]] Eigen::Vector2f TextureAt(std::uint32_t surface, const Eigen::Vector3f& at) const;
   [[nodiscard]] const Material& material(std::uint32_t index) const {
@@ -77,7 +85,12 @@ class World {
   Eigen::AlignedBox3f bounds_;
   std::vector<Eigen::Vector3f> corners_;  // three a triangle
   std::vector<Surface> surfaces_;
+  std::vector<Paint> paints_;  // one a material
   RTCSceneTy* embree_scene_ = nullptr;
 };
+
+[[nodiscard]] inline float GrayOf(const Eigen::Vector3f& rgb) {
+  return 0.299F * rgb.x() + 0.587F * rgb.y() + 0.114F * rgb.z();
+}
 
 }  // namespace trailcast::sim
