@@ -51,30 +51,26 @@ double PathEstimator::TaughtTurn(double from_m, double to_m) const {
   return TaughtHeading(to_m) - TaughtHeading(from_m);
 }
 
-// A feature's taught place: between its knots, each turned to the heading taught here, since in a
-// bend features do not go straight; before the segment's start, where its depth puts it.
+// A feature's taught place: from the knots before and behind, each moved to where its depth and the
+// heading taught here put it. On a straight line between them it would lag behind its true track,
+// which is bent outwards, and in a bend to the side.
 route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m) const {
   const route::Feature& feature = segment_.features[index];
   const ScoutCamera& camera = flow_.camera();
+  const Eigen::Vector2d ahead(camera.ahead_u_px, camera.ahead_v_px);
   const double heading_rad = TaughtHeading(along_m);
-  const auto turned = [&](double u, double v, double by_rad) -> Eigen::Vector2d {
-    return {u + by_rad * camera.TurnU(u), v + by_rad * camera.TurnV(u, v)};
+  const auto moved = [&](const route::TrackKnot& knot) -> Eigen::Vector2d {
+    const double knot_m = knot.s * segment_.length_m;
+    const double nearer = depths_[index].Growth(knot_m, along_m);
+    const Eigen::Vector2d place = ahead + nearer * (Eigen::Vector2d(knot.u_px, knot.v_px) - ahead);
+    const double turn_rad = heading_rad - route::HeadingAt(segment_.heading, knot_m);
+    return place +
+           turn_rad * Eigen::Vector2d(camera.TurnU(place.x()), camera.TurnV(place.x(), place.y()));
   };
-  Eigen::Vector2d place;
-  if (along_m < 0.0) {
-    const double shrink = 1.0 / (1.0 - depths_[index].at_start_per_m * along_m);
-    place = turned(camera.ahead_u_px + shrink * (feature.first().u_px - camera.ahead_u_px),
-                   camera.ahead_v_px + shrink * (feature.first().v_px - camera.ahead_v_px),
-                   heading_rad);
-  } else {
-    const double s = along_m / std::max(1e-3, segment_.length_m);
-    const route::TrackStretch stretch = route::StretchAt(feature, s);
-    const auto at = [&](const route::TrackKnot& knot) {
-      const double then_rad = route::HeadingAt(segment_.heading, knot.s * segment_.length_m);
-      return turned(knot.u_px, knot.v_px, heading_rad - then_rad);
-    };
-    place = (1.0 - stretch.weight) * at(stretch.before) + stretch.weight * at(stretch.after);
-  }
+  const double s = std::max(0.0, along_m) / std::max(1e-3, segment_.length_m);
+  const route::TrackStretch stretch = route::StretchAt(feature, s);
+  const Eigen::Vector2d place =
+      (1.0 - stretch.weight) * moved(stretch.before) + stretch.weight * moved(stretch.after);
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 

@@ -24,6 +24,11 @@ double InverseDepth::At(double along_m) const {
   return at_start_per_m / std::max(kSmallestShrink, 1.0 - at_start_per_m * along_m);
 }
 
+double InverseDepth::Growth(double from_m, double to_m) const {
+  return std::max(kSmallestShrink, 1.0 - at_start_per_m * from_m) /
+         std::max(kSmallestShrink, 1.0 - at_start_per_m * to_m);
+}
+
 // One landmark's share of the normal equations: of the unknowns all have in common, of its own
 // inverse depth, and between the two.
 struct TaughtFlow::Equations {

@@ -14,6 +14,8 @@ struct InverseDepth {
 
   // From the camera's place `along_m` into the segment; the landmark comes nearer.
   [[nodiscard]] double At(double along_m) const;
+  // How much larger it looks from one place than from another.
+  [[nodiscard]] double Growth(double from_m, double to_m) const;
 };
 
 // The scout's camera as the route itself shows it, in the scout's pixels from its image centre.
