@@ -21,9 +21,9 @@ int Run(int argc, char** argv) {
   trailcast::cli::CommonOptions common;
   common.name = "operator";
   trailcast::cli::AddCommonOptions(app, common);
-  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
-                                      trailcast::tool::AddTrialCommand(app),
-                                      trailcast::tool::AddRoutesCommand(app, common)};
+  const std::vector<Command> commands{
+      trailcast::tool::AddDemoCommand(app, common), trailcast::tool::AddTrialCommand(app),
+      trailcast::tool::AddFiguresCommand(app), trailcast::tool::AddRoutesCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

@@ -11,6 +11,7 @@
 #include "agent/tool/live_lines.h"
 #include "agent/tool/scenario.h"
 #include "agent/tool/trial_batch.h"
+#include "agent/tool/trial_csv.h"
 #include "agent/tool/trial_plot.h"
 
 namespace trailcast::tool {

@@ -2,21 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
-
-#include "agent/tool/scenario.h"
 
 namespace trailcast::tool {
 namespace {
-
-// The paper's figures for a scenario and one of its two methods; the default is measured against
-// the later one.
-std::optional<PaperFigures> PaperFiguresFor(const TrialRow& row) {
-  const auto scenario = FindScenario(row.scenario);
-  if (!scenario) return std::nullopt;
-  return row.method == "icra2006" ? scenario->icra2006 : scenario->paper;
-}
 
 template <typename Value>
 double Mean(const std::vector<TrialRow>& rows, Value value) {
@@ -30,16 +19,6 @@ double Largest(const std::vector<TrialRow>& rows, Value value) {
   double largest = 0.0;
   for (const TrialRow& row : rows) largest = std::max(largest, static_cast<double>(value(row)));
   return largest;
-}
-
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
 }
 
 std::string SummaryLine(const char* what, const std::string& ours, const std::string& paper) {
@@ -78,41 +57,11 @@ TrialSummary Summarize(const std::vector<TrialRow>& rows) {
   return summary;
 }
 
-std::string TrialCsvHeader() {
-  return "scenario,method,scout_camera,follower_camera,trial,seed,arrived,final_error_m,final_x_m,"
-         "final_y_m,end_x_m,end_y_m,mean_path_error_m,max_path_error_m,found_share,segments,"
-         "bytes_per_m,ms_per_frame,state,taught_m,driven_m,worst_path_error_m,frames,hand_overs,"
-         "push_m,after_push_m,reason";
+std::optional<PaperFigures> PaperFiguresFor(const TrialRow& row) {
+  const auto scenario = FindScenario(row.scenario);
+  if (!scenario) return std::nullopt;
+  return row.method == "icra2006" ? scenario->icra2006 : scenario->paper;
 }
-
-std::string TrialCsvLine(const TrialRow& row) {
-  const Verdict& verdict = row.verdict;
-  return fmt::format(
-      "{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f},"
-      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{}",
-      CsvText(row.scenario), row.method, CsvText(row.scout_camera), CsvText(row.follower_camera),
-      row.trial, row.seed, row.arrived ? 1 : 0, verdict.final_error_m, verdict.final_m.x(),
-      verdict.final_m.y(), row.end_m.x(), row.end_m.y(), verdict.mean_path_error_m,
-      verdict.max_path_error_m, row.found_share, row.segments, row.bytes_per_m, row.ms_per_frame,
-      row.state, row.taught_m, verdict.driven_m, verdict.worst_path_error_m, row.frames,
-      row.hand_overs, row.push_m,
-      verdict.after_push_m ? fmt::format("{:.4f}", *verdict.after_push_m) : "",
-      CsvText(row.reason));
-}
-
-Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::trunc);
-  out << TrialCsvHeader() << '\n';
-  for (const TrialRow& row : rows) out << TrialCsvLine(row) << '\n';
-  out.close();
-  if (!out) {
-    return Fail(ErrorCode::kUnavailable,
-                "cannot write {}: does its folder exist, is the disk full?", file.string());
-  }
-  return {};
-}
-
-namespace {
 
 std::string CaseName(const TrialRow& row) {
   std::string name =
@@ -121,7 +70,6 @@ std::string CaseName(const TrialRow& row) {
   return name;
 }
 
-// The rows of each case, in the order of their first ones.
 std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows) {
   std::vector<std::vector<TrialRow>> cases;
   for (const TrialRow& row : rows) {
@@ -132,6 +80,8 @@ std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows) {
   }
   return cases;
 }
+
+namespace {
 
 std::string RowTable(const std::vector<TrialRow>& rows) {
   std::string text =

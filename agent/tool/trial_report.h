@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "agent/tool/path_judge.h"
-#include "services/base/result.h"
+#include "agent/tool/scenario.h"
 
 namespace trailcast::tool {
 
@@ -50,14 +50,21 @@ struct TrialSummary {
 
 [[nodiscard]] TrialSummary Summarize(const std::vector<TrialRow>& rows);
 
-// Header and one line a row; the first columns are a contract, in this order (TrialCsvHeader).
-[[nodiscard]] std::string TrialCsvHeader();
-[[nodiscard]] std::string TrialCsvLine(const TrialRow& row);
-[[nodiscard]] Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows,
-                                         const std::filesystem::path& file);
+// What sets a trial's row apart from others of its scenario, besides the seed: method, cameras and
+// push; and the rows of each, in the order of their first ones.
+[[nodiscard]] std::string CaseName(const TrialRow& row);
+[[nodiscard]] std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows);
+
+// What the paper says of a scenario and method that it has; the default is measured against the
+// later of the paper's two.
+[[nodiscard]] std::optional<PaperFigures> PaperFiguresFor(const TrialRow& row);
 
 // For people: one line a trial, then the summary with the paper's figures beside it where the
 // scenario is one of the paper's.
 [[nodiscard]] std::string TrialTable(const std::vector<TrialRow>& rows);
+
+// In Markdown, of any number of scenarios: the paper's Table I with ours beside it, as far as there
+// are rows of it, then every case with all its figures.
+[[nodiscard]] std::string TrialMarkdown(const std::vector<TrialRow>& rows);
 
 }  // namespace trailcast::tool

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "agent/tool/trial_batch.h"
-#include "agent/tool/trial_report.h"
+#include "agent/tool/trial_csv.h"
 
 namespace trailcast::tool {
 namespace {

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/tool/command.h"
+#include "agent/tool/trial_csv.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  trailcast figures indoor.csv paved.csv rough.csv > figures.md\n"
+    "  trailcast figures tests/bench/results/*.csv";
+
+int Run(const CLI::App& app, const std::vector<std::string>& files) {
+  std::vector<TrialRow> rows;
+  for (const std::string& file : files) {
+    const auto read = ReadTrialCsv(file);
+    if (!read) return cli::Complain(app, read.error());
+    rows.insert(rows.end(), read->begin(), read->end());
+  }
+  std::fputs(TrialMarkdown(rows).c_str(), stdout);
+  return cli::kExitOk;
+}
+
+}  // namespace
+
+Command AddFiguresCommand(CLI::App& parent) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* app = parent.add_subcommand(
+      "figures", "Tables in Markdown from the CSV files that trials wrote, beside the paper's");
+  app->footer(kExamples);
+  app->add_option("files", *files, "What `trailcast trial --csv` wrote")
+      ->required()
+      ->check(CLI::ExistingFile);
+  return {app, [app, files] { return Run(*app, *files); }};
+}
+
+}  // namespace trailcast::tool
