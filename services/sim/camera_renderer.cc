@@ -81,13 +81,19 @@ void CameraRenderer::RenderBlock(int x0, int y0) {
   const PacketView seen = tracer_.Shade(packet, hits);
   for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
     if (packet.spreads[i] == 0.0F) continue;
-    const bool sky = hits.surface[i] == PacketHits::kSky;
     view_.gray[pixels[i]] = seen.gray[i];
     view_.depth_m[pixels[i]] = hits.depth_m[i];
-    material_[pixels[i]] = sky ? kNoMaterial : world_->surfaces()[hits.surface[i]].material;
+    material_[pixels[i]] = MaterialOf(hits.surface[i]);
     // A shadow's edge is an edge as well: lit and shaded parts count as different surfaces.
     surface_[pixels[i]] = seen.in_shadow[i] ? ~hits.surface[i] : hits.surface[i];
   }
+}
+
+// Enough to tell things apart: each part of an actor counts as of one material.
+std::uint32_t CameraRenderer::MaterialOf(std::uint32_t surface) const {
+  if (surface == PacketHits::kSky) return kNoMaterial;
+  const PlacedPart* part = tracer_.PartOf(surface);
+  return part == nullptr ? world_->surfaces()[surface].material : part->first_surface;
 }
 
 // Neighbouring triangles of one material in one plane: what differs there is the texture, which is
@@ -213,18 +219,32 @@ void CameraRenderer::SmoothEdges() {
   }
 }
 
-const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_camera) {
+void CameraRenderer::NoteMovers() {
+  for (std::size_t i = 0; i < surface_.size(); ++i) {
+    const std::uint32_t surface = std::min(surface_[i], ~surface_[i]);
+    const PlacedPart* part = tracer_.PartOf(surface);
+    if (part == nullptr) continue;
+    view_.movers.push_back({i, rotation_.transpose() * part->velocity_mps});
+  }
+}
+
+const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_camera,
+                                          std::span<const PlacedPart> actors) {
   rotation_ = world_from_camera.linear().cast<float>();
   origin_ = world_from_camera.translation().cast<float>();
+  tracer_.ShowActors(actors);
   // Where the size is no multiple of the block's, the last ones overlap those before.
   for (int y = 0; y < view_.height; y += kBlock) {
     for (int x = 0; x < view_.width; x += kBlock) {
       RenderBlock(std::min(x, view_.width - kBlock), std::min(y, view_.height - kBlock));
     }
   }
+  view_.movers.clear();
+  if (!actors.empty()) NoteMovers();
   FindEdges();
   TraceCorners();
   SmoothEdges();
+  tracer_.ShowActors({});
   return view_;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "services/sim/camera.h"
@@ -20,6 +21,12 @@ struct PerfectView {
   int height = 0;
   std::vector<float> gray;
   std::vector<float> depth_m;  // along the pixel's ray
+  // The pixels that see something which moves by itself.
+  struct Mover {
+    std::size_t pixel = 0;
+    Eigen::Vector3f velocity_mps;  // camera frame
+  };
+  std::vector<Mover> movers = {};
 };
 
 // One camera's rays, computed once, and its pictures of a world. Not for several threads at once.
@@ -31,9 +38,10 @@ class CameraRenderer {
   CameraRenderer(const std::shared_ptr<const World>& world, const CameraModel& camera)
       : CameraRenderer(world, camera, world->lighting()) {}
 
-  // The view from `world_from_camera` (camera frame: x right, y down, z ahead). The result is
-  // overwritten by the next call.
-  [[nodiscard]] const PerfectView& Render(const Eigen::Isometry3d& world_from_camera);
+  // The view from `world_from_camera` (camera frame: x right, y down, z ahead), with `actors` in
+  // the world. The result is overwritten by the next call.
+  [[nodiscard]] const PerfectView& Render(const Eigen::Isometry3d& world_from_camera,
+                                          std::span<const PlacedPart> actors = {});
 
   [[nodiscard]] const Lens& lens() const { return lens_; }
   [[nodiscard]] bool InPicture(int x, int y) const { return rays_.spread[Index(x, y)] > 0.0F; }
@@ -59,6 +67,8 @@ class CameraRenderer {
   }
   void MakeRay(int x, int y);
   void RenderBlock(int x0, int y0);
+  [[nodiscard]] std::uint32_t MaterialOf(std::uint32_t surface) const;
+  void NoteMovers();
   [[nodiscard]] bool OnOnePlane(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool IsEdge(int x, int y) const;
   void FindEdges();

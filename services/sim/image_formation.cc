@@ -98,13 +98,21 @@ image::GrayImage ImageFormation::Form(const PerfectView& view, const CameraMotio
   const Eigen::Vector3f shift = half_s * motion.linear_mps.cast<float>();
   const Eigen::Vector3f turn = half_s * motion.angular_radps.cast<float>();
   const bool moves = shift.squaredNorm() + turn.squaredNorm() > 1e-12F;
+  const bool anything_moves = moves || !view.movers.empty();
+  auto mover = view.movers.begin();
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < optics_.size(); ++i) {
     const PixelOptics& pixel = optics_[i];
     float level = view.gray[i];
-    if (moves && pixel.brightness > 0.0F) {
+    Eigen::Vector3f seen_shift = shift;
+    if (mover != view.movers.end() && mover->pixel == i) {
+      seen_shift -= half_s * mover->velocity_mps;
+      ++mover;
+    }
+    if (anything_moves && pixel.brightness > 0.0F) {
       // A point seen along d at depth z moves by -(turn x d + shift / z) against the camera.
-      const Eigen::Vector3f change = pixel.direction.cross(turn) - (1.0F / view.depth_m[i]) * shift;
+      const Eigen::Vector3f change =
+          pixel.direction.cross(turn) - (1.0F / view.depth_m[i]) * seen_shift;
       Eigen::Vector2f half_path = pixel.pixels_per_step * change;
       const float square = half_path.squaredNorm();
       if (square > kLongestHalfPath_px * kLongestHalfPath_px) {

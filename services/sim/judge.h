@@ -25,6 +25,8 @@ class Judge {
     return robot_.robot_.true_velocity();
   }
   [[nodiscard]] bool blocked() const { return robot_.robot_.blocked(); }
+  [[nodiscard]] bool blocked_by_actor() const { return robot_.robot_.blocked_by_actor(); }
+  [[nodiscard]] const Stage& stage() const { return robot_.stage_; }
 
   // Moves the robot as if pushed, by metres in its own frame (x ahead, y left); its wheels do not
   // turn, so odometry does not notice.

@@ -15,6 +15,7 @@
 #include "services/sim/parking_lot.h"
 #include "services/sim/ramp.h"
 #include "services/sim/rough_ground.h"
+#include "services/sim/traffic.h"
 
 namespace trailcast::sim {
 namespace {
@@ -23,15 +24,18 @@ struct BuiltInPlace {
   const char* name;
   const char* description;
   Result<Place> (*make)();
+  decltype(Place::traffic) traffic = nullptr;
 };
 constexpr std::array kPlaces = {
     BuiltInPlace{"indoor", "15 m through a furnished laboratory", MakeIndoorWorld},
-    BuiltInPlace{"paved", "60 m over a parking lot with cars, trees and buildings", MakePavedWorld},
+    BuiltInPlace{"paved", "60 m over a parking lot with cars, trees and buildings", MakePavedWorld,
+                 PavementTraffic},
     BuiltInPlace{"rough", "40 m over rough ground, roll and pitch to 5 degrees", MakeRoughWorld},
     BuiltInPlace{"desks", "10 m between chairs and desks, tight", MakeDesksWorld},
     BuiltInPlace{"loop", "380 m round a large parking lot, back to the start", MakeLoopWorld},
     BuiltInPlace{"ramp", "40 m up and down a slanted ramp beside walls", MakeRampWorld},
-    BuiltInPlace{"road", "80 m of narrow road between fences, hedges and houses", MakeRoadWorld},
+    BuiltInPlace{"road", "80 m of narrow road between fences, hedges and houses", MakeRoadWorld,
+                 RoadTraffic},
     BuiltInPlace{"turns", "25 m round the corners of an office", MakeTurnsWorld},
     BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
     BuiltInPlace{"field", "30 m in the open, all features far away", MakeFieldWorld},
@@ -82,6 +86,7 @@ Result<Place> OpenPlace(const PlaceOptions& options) {
     auto built = built_in->make();
     if (!built) return built;
     place = std::move(*built);
+    if (options.path.empty()) place.traffic = built_in->traffic;  // it goes by that path
   } else if (options.path.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "the world {} has no path of its own: give --path FILE with the header x_m,y_m "

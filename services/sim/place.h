@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -7,10 +8,13 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/sim/actor.h"
 #include "services/sim/path.h"
 #include "services/sim/world.h"
 
 namespace trailcast::sim {
+
+enum class Role { kScout, kFollower };
 
 // A world and the path that a scout is driven along through it.
 struct Place {
@@ -18,6 +22,8 @@ struct Place {
   DrivenPath path;
   double speed_mps = 0.4;  // of a scout on the straight
   double slip = 0.02;      // of wheels on this ground (Disturbances::slip)
+  // Who moves there (traffic.h); nothing: nobody does.
+  Result<Actors> (*traffic)(const Place& place, Role role, std::uint64_t seed) = nullptr;
 };
 
 // Places by the words of a command line.

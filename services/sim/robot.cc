@@ -39,7 +39,8 @@ DifferentialDriveRobot::DifferentialDriveRobot(std::shared_ptr<const World> worl
   StandOnGround();
 }
 
-void DifferentialDriveRobot::Drive(const motion::VelocityCommand& command, double duration_s) {
+void DifferentialDriveRobot::Drive(const motion::VelocityCommand& command, double duration_s,
+                                   const Stage* actors) {
   const double half_base_m = body_.wheel_base_m / 2.0;
   const double turning_mps = command.angular_radps * half_base_m;
   // Turning comes first: what the wheels cannot do is taken from the speed ahead.
@@ -61,15 +62,17 @@ void DifferentialDriveRobot::Drive(const motion::VelocityCommand& command, doubl
       (true_left_m + true_right_m) / 2.0,
       (true_right_m - true_left_m) / (body_.wheel_base_m * errors_.wheel_base)};
   step.heading_change_rad += errors_.heading_bias_rad_per_m * step.distance_m;
-  blocked_ = SomethingAhead(step.distance_m);
-  if (blocked_) step.distance_m = 0.0;
+  blocked_by_ = FeelAhead(step.distance_m, actors);
+  if (blocked()) step.distance_m = 0.0;
   pose_ = motion::Advance(pose_, step);
   velocity_ = {step.distance_m / duration_s, step.heading_change_rad / duration_s};
   StandOnGround();
 }
 
-bool DifferentialDriveRobot::SomethingAhead(double step_m) const {
-  if (std::abs(step_m) < 1e-9) return false;
+DifferentialDriveRobot::Obstacle DifferentialDriveRobot::FeelAhead(double step_m,
+                                                                   const Stage* actors) const {
+  if (std::abs(step_m) < 1e-9) return Obstacle::kNone;
+  const double reach_m = body_.radius_m + std::abs(step_m);
   const double travel_rad = pose_.heading_rad + (step_m < 0.0 ? Radians(180.0) : 0.0);
   for (int i = 0; i < kBumperRays; ++i) {
     const double off_rad = 2.0 * Radians(180.0) * i / kBumperRays;
@@ -77,13 +80,14 @@ bool DifferentialDriveRobot::SomethingAhead(double step_m) const {
     const Eigen::Vector3f direction(static_cast<float>(std::cos(travel_rad + off_rad)),
                                     static_cast<float>(std::sin(travel_rad + off_rad)), 0.0F);
     for (const double height_m : kBumperHeights_m) {
-      const Eigen::Vector3d from(pose_.x_m, pose_.y_m, z_m_ + height_m);
-      const auto hit =
-          world_->CastRay(from.cast<float>(), direction, body_.radius_m + std::abs(step_m));
-      if (hit && std::abs(hit->normal.z()) < kSteepNormalZ) return true;
+      const Eigen::Vector3f from =
+          Eigen::Vector3d(pose_.x_m, pose_.y_m, z_m_ + height_m).cast<float>();
+      const auto hit = world_->CastRay(from, direction, reach_m);
+      if (hit && std::abs(hit->normal.z()) < kSteepNormalZ) return Obstacle::kWorld;
+      if (actors != nullptr && actors->CastRay(from, direction, reach_m)) return Obstacle::kActor;
     }
   }
-  return false;
+  return Obstacle::kNone;
 }
 
 void DifferentialDriveRobot::StandOnGround() {

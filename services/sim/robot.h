@@ -7,6 +7,7 @@
 #include "services/motion/motion.h"
 #include "services/sim/disturbances.h"
 #include "services/sim/random.h"
+#include "services/sim/stage.h"
 #include "services/sim/world.h"
 
 namespace trailcast::sim {
@@ -29,7 +30,9 @@ class DifferentialDriveRobot {
                          std::uint64_t seed);
 
   // Drives for `duration_s` with the wheels heading for the commanded speeds.
-  void Drive(const motion::VelocityCommand& command, double duration_s);
+  // `actors` stand in its way as walls do.
+  void Drive(const motion::VelocityCommand& command, double duration_s,
+             const Stage* actors = nullptr);
 
   // What the robot itself knows: wheel odometry from where it was switched on.
   [[nodiscard]] const motion::Pose2& odometry() const { return odometry_; }
@@ -41,12 +44,14 @@ class DifferentialDriveRobot {
   // True linear (along x) and angular velocity during the last step.
   [[nodiscard]] const motion::VelocityCommand& true_velocity() const { return velocity_; }
   // Stood against something in the last step; the wheels turned all the same.
-  [[nodiscard]] bool blocked() const { return blocked_; }
+  [[nodiscard]] bool blocked() const { return blocked_by_ != Obstacle::kNone; }
+  [[nodiscard]] bool blocked_by_actor() const { return blocked_by_ == Obstacle::kActor; }
   // Carried to another place by hand; odometry does not notice.
   void PlaceAt(const motion::Pose2& pose);
 
  private:
-  [[nodiscard]] bool SomethingAhead(double step_m) const;
+  enum class Obstacle { kNone, kWorld, kActor };
+  [[nodiscard]] Obstacle FeelAhead(double step_m, const Stage* actors) const;
   void StandOnGround();
 
   std::shared_ptr<const World> world_;
@@ -61,7 +66,7 @@ class DifferentialDriveRobot {
   double z_m_ = 0.0;
   double roll_rad_ = 0.0;   // right side down is positive
   double pitch_rad_ = 0.0;  // nose down is positive
-  bool blocked_ = false;
+  Obstacle blocked_by_ = Obstacle::kNone;
 };
 
 }  // namespace trailcast::sim

@@ -57,14 +57,17 @@ SimulatedRobot::SimulatedRobot(const std::shared_ptr<const World>& world,
     : period_s_(1.0 / options.rate_hz),
       body_from_camera_(Mount(options.camera, errors)),
       robot_(world, options.body, errors, TrueStart(options, errors), z_max_m, options.seed),
+      stage_(world, options.actors),
       renderer_(world, options.camera, options.lighting.value_or(world->lighting())),
       sensor_(options.camera, WithGain(options.sensor, errors.gain)),
       noise_(options.seed, "pixels") {}
 
 Observation SimulatedRobot::Step(const motion::VelocityCommand& command) {
-  robot_.Drive(command, period_s_);
+  robot_.Drive(command, period_s_, &stage_);
+  const double time_s = static_cast<double>(steps_) * period_s_;
+  stage_.Advance(time_s, robot_.true_pose());
   Observation observation;
-  observation.stamp = FromSeconds(static_cast<double>(steps_) * period_s_);
+  observation.stamp = FromSeconds(time_s);
   observation.odometry = robot_.odometry();
   observation.blocked = robot_.blocked();
   observation.image = Look();
@@ -78,7 +81,9 @@ image::GrayImage SimulatedRobot::Look() {
   CameraMotion motion;
   motion.linear_mps = camera_from_body * Eigen::Vector3d(velocity.linear_mps, 0.0, 0.0);
   motion.angular_radps = camera_from_body * Eigen::Vector3d(0.0, 0.0, velocity.angular_radps);
-  return sensor_.Form(renderer_.Render(robot_.WorldFromBody() * body_from_camera_), motion, noise_);
+  const PerfectView& view =
+      renderer_.Render(robot_.WorldFromBody() * body_from_camera_, stage_.parts());
+  return sensor_.Form(view, motion, noise_);
 }
 
 }  // namespace trailcast::sim

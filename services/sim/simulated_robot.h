@@ -12,6 +12,7 @@
 #include "services/sim/disturbances.h"
 #include "services/sim/image_formation.h"
 #include "services/sim/robot.h"
+#include "services/sim/stage.h"
 #include "services/sim/world.h"
 
 namespace trailcast::sim {
@@ -27,6 +28,7 @@ struct SimulatedRobotOptions {
   SensorOptions sensor;
   double rate_hz = 30.0;
   std::optional<Lighting> lighting;  // nothing: the world's own
+  Actors actors;                     // by this robot's clock; the world itself stays as it is
 };
 
 // What a robot gets to know in a step, and all that it gets to know.
@@ -60,6 +62,7 @@ class SimulatedRobot {
   double period_s_;
   Eigen::Isometry3d body_from_camera_;
   DifferentialDriveRobot robot_;
+  Stage stage_;
   CameraRenderer renderer_;
   ImageFormation sensor_;
   Random noise_;

@@ -1,16 +1,16 @@
 #include "services/sim/view_tracer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+
+#include "services/sim/packet_rays.h"
 
 namespace trailcast::sim {
 namespace {
 
 constexpr std::size_t kSize = RayPacket::kSize;
+static_assert(kSize == kRays);
 // Of a pixel's footprint: longer ones see coarser texture.
 constexpr float kMostStretch = 2.0F * RayPacket::kMostLookups;
 constexpr float kShadowOffset_m = 2e-3F;
@@ -40,21 +40,34 @@ float TextureGray(const Texture& texture, const Surface& surface, const Eigen::V
   return texture.GrayAlong(uv, uv_step, lookups, level);
 }
 
-// What Embree wants to know of a ray besides where it is and where it goes.
-void FillDefaults(RTCRay16& rays) {
-  std::fill_n(rays.tnear, kSize, 0.0F);
-  std::fill_n(rays.tfar, kSize, std::numeric_limits<float>::infinity());
-  std::fill_n(rays.time, kSize, 0.0F);
-  std::fill_n(rays.mask, kSize, std::numeric_limits<unsigned>::max());
-  std::fill_n(rays.id, kSize, 0U);
-  std::fill_n(rays.flags, kSize, 0U);
+// Replaces the hits of rays that meet the part sooner.
+void FindOnPart(const PlacedPart& part, const RTCRayHit16& query, const RayMask& mask,
+                PacketHits& hits) {
+  RTCRayHit16 own = query;
+  std::copy_n(hits.depth_m.begin(), kSize, own.ray.tfar);
+  const RayMask near = PassingNear(part, own.ray, mask);
+  if (!near.any()) return;
+  own.ray = InPartFrame(part, own.ray);
+  std::fill_n(own.hit.geomID, kSize, RTC_INVALID_GEOMETRY_ID);
+  RTCIntersectContext context = CoherentRays();
+  rtcIntersect16(near.lanes.data(), part.body->embree_scene(), &context, &own);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    if (near.lanes[i] == 0 || own.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    hits.surface[i] = part.first_surface + own.hit.primID[i];
+    hits.depth_m[i] = own.ray.tfar[i];
+    hits.b[i] = own.hit.u[i];
+    hits.c[i] = own.hit.v[i];
+  }
 }
 
-RTCIntersectContext CoherentRays() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
+// Marks the rays that the part stands in the way of as Embree does: by an end below 0.
+void ShadowOfPart(const PlacedPart& part, const RayMask& mask, RTCRay16& rays) {
+  const RayMask near = PassingNear(part, rays, mask);
+  if (!near.any()) return;
+  RTCRay16 own = InPartFrame(part, rays);
+  RTCIntersectContext context = CoherentRays();
+  rtcOccluded16(near.lanes.data(), part.body->embree_scene(), &context, &own);
+  std::copy_n(own.tfar, kSize, rays.tfar);
 }
 
 }  // namespace
@@ -67,7 +80,7 @@ struct ViewTracer::Lit {
 };
 
 PacketHits ViewTracer::FindHits(const RayPacket& packet) const {
-  alignas(64) std::array<int, kSize> valid{};
+  RayMask valid;
   RTCRayHit16 query;
   FillDefaults(query.ray);
   std::fill_n(query.ray.org_x, kSize, packet.origin.x());
@@ -78,9 +91,9 @@ PacketHits ViewTracer::FindHits(const RayPacket& packet) const {
   std::copy_n(packet.z.begin(), kSize, query.ray.dir_z);
   std::fill_n(query.hit.geomID, kSize, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(query.hit.instID[0], kSize, RTC_INVALID_GEOMETRY_ID);
-  for (std::size_t i = 0; i < kSize; ++i) valid[i] = packet.spreads[i] > 0.0F ? -1 : 0;
+  for (std::size_t i = 0; i < kSize; ++i) valid.lanes[i] = packet.spreads[i] > 0.0F ? -1 : 0;
   RTCIntersectContext context = CoherentRays();
-  rtcIntersect16(valid.data(), world_.embree_scene(), &context, &query);
+  rtcIntersect16(valid.lanes.data(), world_.embree_scene(), &context, &query);
 
   PacketHits hits;
   for (std::size_t i = 0; i < kSize; ++i) {
@@ -90,16 +103,30 @@ PacketHits ViewTracer::FindHits(const RayPacket& packet) const {
   }
   std::copy_n(query.hit.u, kSize, hits.b.begin());
   std::copy_n(query.hit.v, kSize, hits.c.begin());
+  for (const PlacedPart& part : actors_) FindOnPart(part, query, valid, hits);
   return hits;
+}
+
+const PlacedPart* ViewTracer::PartOf(std::uint32_t surface) const {
+  if (surface < world_.surfaces().size()) return nullptr;
+  const auto found = std::find_if(actors_.begin(), actors_.end(), [&](const PlacedPart& part) {
+    return surface < part.first_surface + part.body->surfaces().size();
+  });
+  return found == actors_.end() ? nullptr : &*found;
 }
 
 void ViewTracer::ShadeSurface(const RayPacket& packet, const PacketHits& hits, std::size_t ray,
                               Lit& lit) const {
-  const Surface& surface = world_.surfaces()[hits.surface[ray]];
-  const Paint& paint = world_.paint(surface.material);
-  const Eigen::Vector3f direction = packet.Direction(ray);
+  const PlacedPart* part = PartOf(hits.surface[ray]);
+  const World& body = part == nullptr ? world_ : *part->body;
+  const Surface& surface =
+      body.surfaces()[hits.surface[ray] - (part == nullptr ? 0U : part->first_surface)];
+  const Paint& paint = body.paint(surface.material);
+  Eigen::Vector3f direction = packet.Direction(ray);
+  if (part != nullptr) direction = part->part_from_world.linear() * direction;
   const float facing = -direction.dot(surface.normal);
-  const Eigen::Vector3f normal = facing < 0.0F ? Eigen::Vector3f(-surface.normal) : surface.normal;
+  Eigen::Vector3f normal = facing < 0.0F ? Eigen::Vector3f(-surface.normal) : surface.normal;
+  if (part != nullptr) normal = part->world_from_part.linear() * normal;
   const float b = hits.b[ray];
   const float c = hits.c[ray];
   lit.normal[ray] = normal;
@@ -127,28 +154,26 @@ float ViewTracer::SkyGray(float direction_z) const {
 
 void ViewTracer::CastShadows(const RayPacket& packet, const PacketHits& hits, Lit& lit,
                              RayPacket::Lanes<bool>& in_shadow) const {
-  alignas(64) std::array<int, kSize> valid{};
+  RayMask wanted;
   RTCRay16 rays;
   FillDefaults(rays);
   std::fill_n(rays.dir_x, kSize, lighting_.toward_sun.x());
   std::fill_n(rays.dir_y, kSize, lighting_.toward_sun.y());
   std::fill_n(rays.dir_z, kSize, lighting_.toward_sun.z());
-  bool any = false;
   for (std::size_t i = 0; i < kSize; ++i) {
-    const bool wanted = lit.sun[i] > 0.0F;
-    valid[i] = wanted ? -1 : 0;
-    any = any || wanted;
+    wanted.lanes[i] = lit.sun[i] > 0.0F ? -1 : 0;
     const Eigen::Vector3f from =
         packet.origin + hits.depth_m[i] * packet.Direction(i) + kShadowOffset_m * lit.normal[i];
     rays.org_x[i] = from.x();
     rays.org_y[i] = from.y();
     rays.org_z[i] = from.z();
   }
-  if (!any) return;
+  if (!wanted.any()) return;
   RTCIntersectContext context = CoherentRays();
-  rtcOccluded16(valid.data(), world_.embree_scene(), &context, &rays);
+  rtcOccluded16(wanted.lanes.data(), world_.embree_scene(), &context, &rays);
+  for (const PlacedPart& part : actors_) ShadowOfPart(part, wanted, rays);
   for (std::size_t i = 0; i < kSize; ++i) {
-    if (valid[i] == 0 || !(rays.tfar[i] < 0.0F)) continue;  // below 0 is how Embree says "hit"
+    if (wanted.lanes[i] == 0 || !(rays.tfar[i] < 0.0F)) continue;
     lit.sun[i] = 0.0F;
     in_shadow[i] = true;
   }

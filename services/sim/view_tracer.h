@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "services/sim/stage.h"
 #include "services/sim/world.h"
 
 namespace trailcast::sim {
@@ -57,13 +59,19 @@ struct PacketView {
 };
 
 // Rays into a world, and what they see: texture filtered over the pixel's footprint, ambient light,
-// sun with its shadows. Keeps a reference to the world.
+// sun with its shadows. Keeps a reference to the world. Surfaces of actors count on from the
+// world's.
 class ViewTracer {
  public:
   ViewTracer(const World& world, const Lighting& lighting) : world_(world), lighting_(lighting) {}
 
+  // Who is there besides the world, until the next call; not copied.
+  void ShowActors(std::span<const PlacedPart> parts) { actors_ = parts; }
+
   [[nodiscard]] PacketHits FindHits(const RayPacket& packet) const;
   [[nodiscard]] PacketView Shade(const RayPacket& packet, const PacketHits& hits) const;
+  // The actor's part that a surface belongs to; none: the world's own.
+  [[nodiscard]] const PlacedPart* PartOf(std::uint32_t surface) const;
 
  private:
   struct Lit;  // surface points, before it is known which of them the sun reaches
@@ -74,6 +82,7 @@ class ViewTracer {
                    RayPacket::Lanes<bool>& in_shadow) const;
 
   const World& world_;
+  std::span<const PlacedPart> actors_;
   Lighting lighting_;
 };
 
