@@ -41,6 +41,9 @@ std::vector<Scenario> MakeScenarios() {
   add("desks", "10 m between chairs and desks, tight", "desks");
   add("loop", "380 m round a parking lot", "loop");
   add("ramp", "40 m over a slanted ramp", "ramp");
+  add("traffic", "80 m of narrow road, a pedestrian passes, then a van", "road").traffic = true;
+  add("occlusion", "a person stands in front of the camera for ten seconds", "indoor")
+      .somebody_in_the_way = true;
   add("wide", "indoor's world through a 110 degree lens", "indoor").cameras = {{"wide", "wide"}};
   add("omni", "indoor's world through a 360 degree mirror", "indoor").cameras = {{"omni", "omni"}};
   add("twocams", "a parking lot with one camera, then with another", "paved").cameras = {

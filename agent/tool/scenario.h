@@ -32,6 +32,10 @@ struct Scenario {
   std::vector<double> pushes_m = {0.0};
   bool through_server = false;           // followers replay what a route server gives them
   std::optional<double> gain;            // exposure of the follower against the scout's; drawn
+  // Others move about while the robots drive: the place's traffic, and somebody who stands in the
+  // follower's way for ten seconds.
+  bool traffic = false;
+  bool somebody_in_the_way = false;
   std::optional<PaperFigures> paper;     // of the 2009 method
   std::optional<PaperFigures> icra2006;  // of the first version
 };

@@ -29,14 +29,18 @@ double ThreadCpuMs() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-sim::SimulatedRobotOptions FollowerOptions(const TrialSetup& setup, const TrialCase& trial_case,
-                                           std::uint64_t seed) {
+Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
+                                                   const TrialCase& trial_case,
+                                                   std::uint64_t seed) {
   sim::SimulatedRobotOptions options;
   options.camera = trial_case.follower_camera;
   options.start = sim::StartPose(setup.path.points);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
   options.seed = seed;
+  auto actors = setup.actors(sim::Role::kFollower, seed);
+  if (!actors) return tl::unexpected(actors.error());
+  options.actors = std::move(*actors);
   if (setup.sun_moves) options.lighting = sim::WithMovedSun(setup.world->lighting(), seed);
   return options;
 }
@@ -204,8 +208,10 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
                                     [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
   const TaughtRoute& route = (*taught)->routes[teachings.RouteOf(trial_case.method)];
-  const auto robot = sim::SimulatedRobot::Create(
-      setup.world, FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits()));
+  const auto options_of_follower =
+      FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits());
+  if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
+  const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");
   const Result<TaughtRoute> served =
       trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);

@@ -6,6 +6,7 @@
 
 #include "agent/camera_file.h"
 #include "agent/tool/scenario.h"
+#include "services/sim/traffic.h"
 
 namespace trailcast::tool {
 namespace {
@@ -40,16 +41,36 @@ Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOp
   return cases;
 }
 
+Result<sim::Actors> DrawActors(const Scenario& scenario, const sim::Place& place, sim::Role role,
+                               std::uint64_t seed) {
+  sim::Actors actors;
+  if (scenario.traffic) {
+    auto traffic = sim::TrafficFor(place, role, seed);
+    if (!traffic) return traffic;
+    actors = std::move(*traffic);
+  }
+  if (scenario.somebody_in_the_way && role == sim::Role::kFollower) {
+    auto somebody = sim::SomebodyInTheWay(place, seed);
+    if (!somebody) return tl::unexpected(somebody.error());
+    actors.push_back(std::move(*somebody));
+  }
+  return actors;
+}
+
 // A world and a path of the user's own, or the scenario's place.
 Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, TrialSetup& setup) {
   sim::PlaceOptions where = options.place;
   if (where.world.empty()) where.world = scenario.place;
   auto place = sim::OpenPlace(where);
   if (!place) return tl::unexpected(place.error());
-  setup.world = std::move(place->world);
-  setup.path = std::move(place->path);
-  setup.speed_mps = options.speed_mps > 0.0 ? options.speed_mps : place->speed_mps;
+  if (options.speed_mps > 0.0) place->speed_mps = options.speed_mps;
+  setup.world = place->world;
+  setup.path = place->path;
+  setup.speed_mps = place->speed_mps;
   setup.follower.slip = place->slip;
+  setup.actors = [scenario, place = *place](sim::Role role, std::uint64_t seed) {
+    return DrawActors(scenario, place, role, seed);
+  };
   setup.sun_moves = options.place.world.empty() && setup.world->lighting().sun > 0.0F;
   return {};
 }

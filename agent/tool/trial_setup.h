@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "services/sim/camera.h"
 #include "services/sim/disturbances.h"
 #include "services/sim/path.h"
+#include "services/sim/place.h"
 #include "services/sim/world.h"
 #include "services/teach/segment_recorder.h"
 
@@ -34,7 +37,10 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
-  bool sun_moves = false;        // between teaching and following
+  bool sun_moves = false;  // between teaching and following
+  // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
+  std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
+      [](sim::Role, std::uint64_t) { return sim::Actors{}; };
   std::vector<TrialCase> cases;  // at least one
 };
 

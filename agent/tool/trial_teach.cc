@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kProgressEvery = 15;  // frames
 
-sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, const sim::CameraModel& camera,
-                                        std::uint64_t seed) {
+Result<sim::SimulatedRobotOptions> ScoutOptions(const TrialSetup& setup,
+                                                const sim::CameraModel& camera,
+                                                std::uint64_t seed) {
   sim::SimulatedRobotOptions options;
   options.camera = camera;
   options.start = sim::StartPose(setup.path.points);
@@ -25,6 +26,9 @@ sim::SimulatedRobotOptions ScoutOptions(const TrialSetup& setup, const sim::Came
   options.disturbances = sim::Disturbances::ForScout();
   options.disturbances.slip = setup.follower.slip;  // it is the same ground
   options.seed = seed;
+  auto actors = setup.actors(sim::Role::kScout, seed);
+  if (!actors) return tl::unexpected(actors.error());
+  options.actors = std::move(*actors);
   return options;
 }
 
@@ -126,7 +130,9 @@ class Teaching {
 Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
                          const std::vector<teach::SegmentRecorderOptions>& recorders,
                          std::uint64_t seed, const std::function<bool(double share)>& on_progress) {
-  const auto robot = sim::SimulatedRobot::Create(setup.world, ScoutOptions(setup, camera, seed));
+  const auto options = ScoutOptions(setup, camera, seed);
+  if (!options) return Wrap(options.error(), "the scout");
+  const auto robot = sim::SimulatedRobot::Create(setup.world, *options);
   if (!robot) return Wrap(robot.error(), "the scout");
   Teaching teaching(setup, camera, recorders, **robot);
   StandstillWatch standstill;

@@ -25,6 +25,33 @@ RTCIntersectContext CoherentRays() {
   return context;
 }
 
+RayBundle BundleOf(const RTCRay16& rays, const RayMask& mask) {
+  RayBundle bundle;
+  bool first = true;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    if (mask.lanes[i] == 0) continue;
+    const Eigen::Vector3f origin(rays.org_x[i], rays.org_y[i], rays.org_z[i]);
+    const Eigen::Vector3f direction(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
+    if (first) {
+      bundle.origin = origin;
+      bundle.direction = direction;
+    }
+    first = false;
+    bundle.origins_off_m = std::max(bundle.origins_off_m, (origin - bundle.origin).norm());
+    bundle.directions_off = std::max(bundle.directions_off, (direction - bundle.direction).norm());
+  }
+  return bundle;
+}
+
+bool MayMeet(const RayBundle& bundle, const PlacedPart& part) {
+  const Eigen::Vector3f to_middle = part.middle - bundle.origin;
+  const float distance_m = to_middle.norm();
+  const float reach_m =
+      part.radius_m + bundle.origins_off_m + bundle.directions_off * (distance_m + part.radius_m);
+  const float along_m = to_middle.dot(bundle.direction);
+  return along_m > -reach_m && distance_m * distance_m - along_m * along_m < reach_m * reach_m;
+}
+
 RayMask PassingNear(const PlacedPart& part, const RTCRay16& rays, const RayMask& mask) {
   RayMask near;
   for (std::size_t i = 0; i < kRays; ++i) {

@@ -21,6 +21,16 @@ struct alignas(64) RayMask {
 void FillDefaults(RTCRay16& rays);
 [[nodiscard]] RTCIntersectContext CoherentRays();
 
+// One of the rays, and how far the others are from it: tells quickly that none comes near a part.
+struct RayBundle {
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+  Eigen::Vector3f direction = Eigen::Vector3f::Zero();
+  float origins_off_m = 0.0F;
+  float directions_off = 0.0F;
+};
+[[nodiscard]] RayBundle BundleOf(const RTCRay16& rays, const RayMask& mask);
+[[nodiscard]] bool MayMeet(const RayBundle& bundle, const PlacedPart& part);
+
 // Those of `mask` that come near the part before they end.
 [[nodiscard]] RayMask PassingNear(const PlacedPart& part, const RTCRay16& rays,
                                   const RayMask& mask);

@@ -103,7 +103,11 @@ PacketHits ViewTracer::FindHits(const RayPacket& packet) const {
   }
   std::copy_n(query.hit.u, kSize, hits.b.begin());
   std::copy_n(query.hit.v, kSize, hits.c.begin());
-  for (const PlacedPart& part : actors_) FindOnPart(part, query, valid, hits);
+  if (actors_.empty()) return hits;
+  const RayBundle bundle = BundleOf(query.ray, valid);
+  for (const PlacedPart& part : actors_) {
+    if (MayMeet(bundle, part)) FindOnPart(part, query, valid, hits);
+  }
   return hits;
 }
 
@@ -171,7 +175,12 @@ void ViewTracer::CastShadows(const RayPacket& packet, const PacketHits& hits, Li
   if (!wanted.any()) return;
   RTCIntersectContext context = CoherentRays();
   rtcOccluded16(wanted.lanes.data(), world_.embree_scene(), &context, &rays);
-  for (const PlacedPart& part : actors_) ShadowOfPart(part, wanted, rays);
+  if (!actors_.empty()) {
+    const RayBundle bundle = BundleOf(rays, wanted);
+    for (const PlacedPart& part : actors_) {
+      if (MayMeet(bundle, part)) ShadowOfPart(part, wanted, rays);
+    }
+  }
   for (std::size_t i = 0; i < kSize; ++i) {
     if (wanted.lanes[i] == 0 || !(rays.tfar[i] < 0.0F)) continue;
     lit.sun[i] = 0.0F;
