@@ -30,8 +30,8 @@ struct Scenario {
   std::vector<CameraPair> cameras = {{}};
   // The follower is shoved this far to the side, half way; its odometry does not notice.
   std::vector<double> pushes_m = {0.0};
-  bool through_server = false;           // followers replay what a route server gives them
-  std::optional<double> gain;            // exposure of the follower against the scout's; drawn
+  bool through_server = false;  // followers replay what a route server gives them
+  std::optional<double> gain;   // exposure of the follower against the scout's; drawn
   // Others move about while the robots drive: the place's traffic, and somebody who stands in the
   // follower's way for ten seconds.
   bool traffic = false;
