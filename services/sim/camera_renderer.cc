@@ -1,7 +1,6 @@
 #include "services/sim/camera_renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,7 +10,7 @@ namespace {
 
 // Blocks of 4 x 4 pixels keep the rays of a packet together.
 constexpr int kBlock = 4;
-static_assert(kBlock * kBlock == RayPacket::kSize);
+static_assert(std::size_t{kBlock} * kBlock == RayPacket::kSize);
 // Edges are collected by larger squares, so that neighbouring ones are traced together too.
 constexpr int kSquare = 16;
 // Neighbours on different triangles that differ by less (grey levels) need no finer sampling.
