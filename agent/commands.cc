@@ -72,6 +72,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.stop = [] { return cli::StopSignal::requested(); };
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
+  follower.diagnosis = replay.diagnosis;
   follower.open_loop = !replay.device.is_simulated();
   return follower;
 }
@@ -100,6 +101,16 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRoute(command, replay.route);
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
+  command.add_option("--log", replay.diagnosis.log,
+                     "Writes what the robot saw and why it did what it did here, while it runs; "
+                     "'trailcast explain FILE' tells its story");
+  CLI::Option* view =
+      command.add_option("--view", replay.diagnosis.view,
+                         "Draws what the robot saw: one picture a frame into this folder");
+  command
+      .add_option("--view-every", replay.diagnosis.view_every, "Only every so many frames of them")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(view);
   command
       .add_option("--method", replay.method,
                   "The project's best, the 2009 method as printed, or its first version of 2006")
@@ -155,6 +166,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   auto written = Tell(outcome->summary, options);
   if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);
   if (written) written = opened->WriteTruth(replay.device);
+  if (written) written = outcome->diagnosed;
   if (outcome->error) return tl::unexpected(*outcome->error);
   if (!written) return tl::unexpected(written.error());
   if (outcome->success) return cli::kExitOk;

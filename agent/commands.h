@@ -28,6 +28,7 @@ struct ReplayCommand {
   DeviceOptions device;
   std::string route;
   std::filesystem::path csv;
+  DiagnosisOptions diagnosis;
   std::string method = "default";
   double wait_s = 30.0;
   bool wait_for_route = false;

@@ -7,6 +7,24 @@
 
 namespace trailcast::agent {
 
+const char* ToString(Trust trust) {
+  switch (trust) {
+    case Trust::kSure:
+      return "sure";
+    case Trust::kUnsure:
+      return "unsure";
+    case Trust::kBlind:
+      return "blind";
+    case Trust::kCovered:
+      return "covered";
+    case Trust::kSeeking:
+      return "seeking";
+    case Trust::kLost:
+      break;
+  }
+  return "lost";
+}
+
 int Confidence::Wanted(const Sighting& seen) const {
   const double wanted =
       std::clamp(options_.sure_share * seen.taught, options_.sure_least, options_.sure_most);

@@ -27,6 +27,8 @@ enum class Trust {
   kLost,     // none of these any longer: stop
 };
 
+[[nodiscard]] const char* ToString(Trust trust);
+
 struct Verdict {
   Trust trust = Trust::kSeeking;
   std::string reason;  // one line for people; empty when all is well

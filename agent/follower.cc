@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "agent/progress_watch.h"
 #include "agent/standstill.h"
 
 namespace trailcast::agent {
@@ -23,32 +24,15 @@ double CpuMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// Notices that a robot gets no further.
-class ProgressWatch {
- public:
-  explicit ProgressWatch(std::chrono::seconds limit) : limit_(limit) {}
-
-  [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step) {
-    const double place = step.segment.value() + step.fraction;
-    const bool further = place > furthest_ + 1e-3;
-    if (further || step.state == ReplayState::kWaiting || !since_) {
-      furthest_ = std::max(furthest_, place);
-      since_ = stamp;
-    }
-    return stamp - *since_ > limit_;
-  }
-
- private:
-  std::chrono::seconds limit_;
-  double furthest_ = -1.0;
-  std::optional<SensorTime> since_;
-};
-
 // The control loop and what it knows.
 class Loop {
  public:
-  Loop(RobotDevice& device, const FollowerOptions& options, FollowerLink& link)
-      : device_(device), options_(options), link_(link), watch_(options.stuck_after) {}
+  Loop(RobotDevice& device, const FollowerOptions& options, FollowerLink& link, Diagnosis diagnosis)
+      : device_(device),
+        options_(options),
+        link_(link),
+        diagnosis_(std::move(diagnosis)),
+        watch_(options.stuck_after) {}
 
   // Ends when there is no more to do; the error is final.
   [[nodiscard]] Result<void> Run();
@@ -66,6 +50,7 @@ class Loop {
   RobotDevice& device_;
   const FollowerOptions& options_;
   FollowerLink& link_;
+  Diagnosis diagnosis_;
   ProgressWatch watch_;
   std::optional<ReplaySession> session_;
   std::uint32_t segments_ = 0;  // given to the session
@@ -82,12 +67,15 @@ Result<void> Loop::TakeFeed() {
     fed_ = true;
     if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
       session_.emplace(options_.session, *route);
+      diagnosis_.Begin({*route, options_.link.agent.value(), device_.camera(),
+                        ToString(options_.session.method)});
     } else if (auto* segment = std::get_if<route::Segment>(&*item)) {
       if (auto added = session_->AddSegment(std::move(*segment)); !added) return added;
       ++segments_;
     } else if (std::get_if<RouteComplete>(&*item) != nullptr) {
       session_->MarkComplete();
       complete_ = true;
+      diagnosis_.Note("complete", fmt::format("all {} segments are known", segments_));
     } else if (auto* error = std::get_if<Error>(&*item)) {
       return tl::unexpected(*error);
     }
@@ -154,6 +142,8 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
   log_.Add(observation.stamp, *step, cpu_ms);
+  diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, observation.image,
+                 *session_, *step);
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;
@@ -193,6 +183,7 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   outcome.success = arrived || to_its_end;
   outcome.state = state_;
   outcome.reason = reason_;
+  outcome.diagnosed = diagnosis_.End(state_, reason_);
   const ReplayStep last = last_.value_or(ReplayStep{});
   Summary& summary = outcome.summary;
   summary.Add("arrived", arrived ? "1" : "0");
@@ -230,9 +221,11 @@ Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options
                              std::unique_ptr<store::RouteStore> store,
                              std::unique_ptr<exchange::RouteExchange> exchange) {
   const Standstill standstill(device);
+  auto diagnosis = Diagnosis::Open(options.diagnosis);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
   FollowerLink link(options.link, std::move(store), std::move(exchange));
   if (auto started = link.Start(); !started) return tl::unexpected(started.error());
-  Loop loop(device, options, link);
+  Loop loop(device, options, link, std::move(*diagnosis));
   const auto ran = loop.Run();
   link.Finish();
   ReplayOutcome outcome = std::move(loop).Outcome(ran, link.route());

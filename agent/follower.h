@@ -6,6 +6,7 @@
 #include <string>
 
 #include "agent/device.h"
+#include "agent/diagnosis/diagnosis.h"
 #include "agent/follower_link.h"
 #include "agent/replay_log.h"
 #include "agent/summary.h"
@@ -15,6 +16,7 @@ namespace trailcast::agent {
 struct FollowerOptions {
   FollowerLinkOptions link;
   ReplayMethodOptions session;
+  DiagnosisOptions diagnosis;
   // The device is a recording: every frame is looked at, whatever the follower makes of it.
   bool open_loop = false;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.
@@ -27,12 +29,14 @@ struct ReplayOutcome {
   std::string reason;          // one line for people
   std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;
+  Result<void> diagnosed;  // whether log and pictures are complete
   ReplayLog log;
 };
 
 // Follows a route with `device` until it arrives, is lost, or `options.link.stop` says so. Frames
 // are asked of the device only while there is something to follow. `exchange` may be null: then the
-// route comes from `store` alone. The error: another agent has the name.
+// route comes from `store` alone. The errors: another agent has the name; the log
+// cannot be made.
 [[nodiscard]] Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
                                            std::unique_ptr<store::RouteStore> store,
                                            std::unique_ptr<exchange::RouteExchange> exchange);

@@ -46,6 +46,7 @@ vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
 std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& frame,
                                                        replay::Follower& follower) {
   const route::Segment& segment = follower.segment();
+  last_was_wide_ = false;
   if (segment.features.empty()) return {};
   const auto stored = static_cast<double>(segment.features.size());
   vision::FindResult found =
@@ -53,7 +54,8 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
                        Around(follower.expected_within_px_at_320(), scout_width_px_));
   if (any_camera_ && static_cast<double>(found.features.size()) < kEnoughShare * stored) {
     vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0);
-    if (elsewhere.features.size() > found.features.size()) found = std::move(elsewhere);
+    last_was_wide_ = elsewhere.features.size() > found.features.size();
+    if (last_was_wide_) found = std::move(elsewhere);
   }
   if (any_camera_ && static_cast<double>(found.features.size()) >= kShareToLearn * stored) {
     Learn(found, follower);

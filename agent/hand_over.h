@@ -40,6 +40,8 @@ class HandOver {
                                                  double magnification,
                                                  std::span<const route::Segment> ahead) const;
 
+  // Whether the last ToSegment found them by a search of the whole picture.
+  [[nodiscard]] bool last_was_wide() const { return last_was_wide_; }
   // Share of stored features found, mean over the hand-overs so far.
   [[nodiscard]] double found_share() const { return count_ > 0 ? share_sum_ / count_ : 0.0; }
   [[nodiscard]] int count() const { return count_; }
@@ -53,6 +55,7 @@ class HandOver {
   bool any_camera_;
   int scout_width_px_;
   std::deque<double> seen_magnifications_;
+  bool last_was_wide_ = false;
   double share_sum_ = 0.0;
   int count_ = 0;
 };

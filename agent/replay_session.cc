@@ -31,39 +31,7 @@ constexpr std::size_t kMostLearnt = 200;
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
-// What a verdict is to those who watch the robot.
-ReplayState StateOf(Trust trust) {
-  switch (trust) {
-    case Trust::kSure:
-    case Trust::kUnsure:
-      return ReplayState::kFollowing;
-    case Trust::kBlind:
-    case Trust::kCovered:
-    case Trust::kSeeking:
-      return ReplayState::kBlind;
-    case Trust::kLost:
-      break;
-  }
-  return ReplayState::kLost;
-}
-
 }  // namespace
-
-const char* ToString(ReplayState state) {
-  switch (state) {
-    case ReplayState::kWaiting:
-      return "WAITING";
-    case ReplayState::kFollowing:
-      return "FOLLOWING";
-    case ReplayState::kBlind:
-      return "BLIND";
-    case ReplayState::kArrived:
-      return "ARRIVED";
-    case ReplayState::kLost:
-      return "LOST";
-  }
-  return "UNKNOWN";
-}
 
 struct ReplaySession::State {
   ReplayMethodOptions options;
@@ -82,10 +50,12 @@ struct ReplaySession::State {
   int frames_since_find = 0;
   Confidence confidence;
   Trust trust = Trust::kSeeking;
+  std::vector<Search> searches;  // in this frame
 
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
   void Begin(std::size_t index, const image::GrayImage& frame);
+  void NoteSearch(SearchKind kind, std::size_t found, bool wide);
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
   void Refresh(const image::GrayImage& frame, int agreeing);
@@ -119,7 +89,14 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   }
   follower->Begin(segment);
   tracker.Follow(hand_over->ToSegment(frame, *follower));
+  NoteSearch(SearchKind::kHandOver, tracker.Current().size(), hand_over->last_was_wide());
   frames_since_find = 0;
+}
+
+void ReplaySession::State::NoteSearch(SearchKind kind, std::size_t found, bool wide) {
+  const route::Segment& segment = follower->segment();
+  searches.push_back({kind, segment.index, static_cast<int>(segment.features.size()),
+                      static_cast<int>(found), wide, segment.length_m, segment.speed_mps()});
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -146,6 +123,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
     follower->Begin(ahead[seen->segment]);
   }
   tracker.Follow(seen->features);
+  NoteSearch(SearchKind::kRecovered, seen->features.size(), true);
 }
 
 // Features once lost (blur, a passer-by) come back into view: look for them again.
@@ -157,7 +135,9 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame, int agreeing) 
   }
   frames_since_find = 0;
   std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
-  if (static_cast<int>(found.size()) > agreeing) tracker.Follow(found);
+  if (static_cast<int>(found.size()) <= agreeing) return;
+  tracker.Follow(found);
+  NoteSearch(SearchKind::kLookedAgain, found.size(), false);
 }
 
 void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
@@ -188,6 +168,8 @@ double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
 ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   ReplayStep report;
   report.state = state;
+  report.trust = trust;
+  report.sight = {0, tracker.losses(), searches};
   report.reason = reason;
   if (hand_over) {
     report.found_share = hand_over->found_share();
@@ -196,6 +178,8 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.features = tracker.count();
   if (!follower) return report;
   report.segment = follower->segment().index;
+  report.sight.stored = static_cast<int>(follower->segment().features.size());
+  report.magnification = follower->magnification();
   report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
   report.progress =
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
@@ -241,6 +225,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   const auto driven = s.OdometryStep(observation);
   const auto odometry = UsesOdometry(s.options.method) ? driven : std::nullopt;
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
+  s.searches.clear();
   if (s.state == ReplayState::kArrived) return s.Report({});
   if (s.state == ReplayState::kWaiting) {
     const std::size_t next = s.follower ? s.follower->segment().index.value() + 1 : 0;
@@ -256,14 +241,22 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
     s.JudgeSight(first, odometry, frame);
     return s.Report(first);
   }
-  const replay::FollowStep step = s.follower->Step({tracked, odometry});
+  const SegmentIndex before = s.follower->segment().index;
+  replay::FollowStep step = s.follower->Step({tracked, odometry});
   s.JudgeSight(step, odometry, frame);
   s.Refresh(frame, step.agreeing);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
   if (s.state != ReplayState::kLost && (step.ended || (step.wants_next && next_is_here))) {
     s.EndSegment(frame);
   }
+  // A segment that has just begun is not as far along as the last one was.
+  if (s.follower->segment().index != before) step.fraction = 0.0;
   return s.Report(step);
+}
+
+std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
+  if (!state_->follower) return {};
+  return replay::ViewFeatures(*state_->follower, state_->tracker.Current(), step.decision.roll_rad);
 }
 
 }  // namespace trailcast::agent

@@ -4,30 +4,23 @@
 #include <optional>
 #include <string>
 
+#include "agent/confidence.h"
 #include "agent/observation.h"
 #include "agent/replay_method.h"
+#include "agent/replay_state.h"
+#include "agent/sight.h"
 #include "services/base/result.h"
 #include "services/motion/motion.h"
+#include "services/replay/feature_view.h"
 #include "services/replay/follower.h"
 #include "services/route/route.h"
 
 namespace trailcast::agent {
 
-enum class ReplayState {
-  kWaiting,    // at the end of what is known of the route: standing until more comes
-  kFollowing,  // by vision (and odometry, where there is any)
-  // Too few features: by odometry alone for a short way, slowly; standing, where the route's start
-  // has not been found and where something covers the view.
-  kBlind,
-  kArrived,  // past the last milestone of a complete route
-  kLost,     // cannot go on: `reason` says why; the command is "stop"
-};
-
-[[nodiscard]] const char* ToString(ReplayState state);
-
 struct ReplayStep {
   motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
   ReplayState state = ReplayState::kWaiting;
+  Trust trust = Trust::kSeeking;
   SegmentIndex segment;      // the one being followed
   double fraction = 0.0;     // of that segment, 0..1
   double progress = 0.0;     // of the route as far as it is known, 0..1, by segment count
@@ -35,8 +28,10 @@ struct ReplayStep {
   double turn_rad = 0.0;     // desired heading change theta_d, positive to the right
   double found_share = 0.0;  // of stored features found, mean over hand-overs so far
   int hand_overs = 0;
+  double magnification = 1.0;   // the follower's pixels per scout's
   replay::FollowStep decision;  // what the method saw and asked for
-  std::string reason;           // kLost, kBlind, kWaiting: one line for people
+  Sight sight;
+  std::string reason;  // kLost, kBlind, kWaiting: one line for people
 };
 
 // Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's
@@ -55,6 +50,9 @@ class ReplaySession {
 
   // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
+
+  // The features as of `step`, the last one that Observe returned: for those who draw them.
+  [[nodiscard]] std::vector<replay::FeatureView> ViewFeatures(const ReplayStep& step) const;
 
  private:
   struct State;

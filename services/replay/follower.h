@@ -21,6 +21,14 @@ struct PathOffset {
   double left_m = 0.0;       // e: to the left of the path
   double heading_rad = 0.0;  // alpha: to the left of the taught heading
   double along_m = 0.0;      // s: driven of the segment
+  double left_sigma_m = 0.0;
+};
+
+// How the features in view fit what the route says.
+struct Agreement {
+  int agreeing = 0;
+  int rejected = 0;             // too far from where they should be: a mismatch, or a drift
+  double rejected_by_px = 0.0;  // how far, on average; in the scout's pixels
 };
 
 struct FollowStep {
@@ -36,6 +44,8 @@ struct FollowStep {
   std::optional<PathOffset> offset;  // where the method estimates it
   double mount_yaw_rad = 0.0;        // of this robot's camera against the scout's, the same
   int agreeing = 0;                  // features that fit what the route says
+  int rejected = 0;                  // that do not, where the method tells them apart
+  double rejected_by_px = 0.0;       // and by how much, as in Agreement
   double fraction = 0.0;             // of the segment, 0..1
   bool ended = false;                // the milestone has been passed
   // Few of this segment's features are left in view: go on with the next one's, if they are there.
@@ -59,6 +69,8 @@ class Follower {
   // How far along u they may be from there, in scout's pixels of a picture 320 px wide; along v
   // half as far.
   [[nodiscard]] virtual double expected_within_px_at_320() const = 0;
+  // A feature further from where it should be, in the scout's pixels, is not believed.
+  [[nodiscard]] virtual double outlier_px() const = 0;
   // The follower's pixels per scout's pixel, and what the matches at a hand-over say it is.
   [[nodiscard]] virtual double magnification() const = 0;
   virtual void SetMagnification(double magnification) = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "services/motion/motion.h"
@@ -51,6 +52,10 @@ class FunnelFollower final : public Follower {
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override;
   // It has no idea how far off the path or the heading it is.
   [[nodiscard]] double expected_within_px_at_320() const override { return 56.0; }
+  // The paper believes all that it tracks.
+  [[nodiscard]] double outlier_px() const override {
+    return std::numeric_limits<double>::infinity();
+  }
   [[nodiscard]] double magnification() const override { return magnification_; }
   void SetMagnification(double magnification) override { magnification_ = magnification; }
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;

@@ -16,6 +16,15 @@ constexpr double kCurvatureStep_m = 0.1;
 
 double Square(double x) { return x * x; }
 
+void Count(double residual_px, double outlier_px, Agreement& agreement) {
+  if (residual_px < outlier_px) {
+    ++agreement.agreeing;
+    return;
+  }
+  ++agreement.rejected;
+  agreement.rejected_by_px += (residual_px - agreement.rejected_by_px) / agreement.rejected;
+}
+
 }  // namespace
 
 PathEstimator::PathEstimator(int scout_width_px, double magnification,
@@ -170,22 +179,22 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   return p;
 }
 
-int PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
+Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
   const Covariance prior_information = covariance_.inverse();
   const State prior = state_;
   const double scale = state_[kMagnification];
-  int agreeing = 0;
+  Agreement agreement;
   Covariance information = prior_information;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     information = prior_information;
     State gradient = prior_information * (prior - state_);
-    agreeing = 0;
+    agreement = {};
     for (const route::TrackedFeature& feature : seen) {
       const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state_);
       const double ru = feature.u_px - p.u_px;
       const double rv = feature.v_px - p.v_px;
       const double residual_px = std::hypot(ru, rv) / scale;
-      agreeing += residual_px < options_.outlier_px ? 1 : 0;
+      Count(residual_px, options_.outlier_px, agreement);
       // Cauchy's weight: a mismatch counts for little, wherever it is.
       const double robust = 1.0 / (1.0 + Square(residual_px / options_.cauchy_px));
       const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
@@ -197,11 +206,11 @@ int PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
     state_ += information.ldlt().solve(gradient);
   }
   covariance_ = information.inverse();
-  return agreeing;
+  return agreement;
 }
 
 PathOffset PathEstimator::offset() const {
-  return {state_[kLeft], state_[kHeading], state_[kAlong]};
+  return {state_[kLeft], state_[kHeading], state_[kAlong], offset_sigma_m()};
 }
 
 double PathEstimator::offset_sigma_m() const { return std::sqrt(covariance_(kLeft, kLeft)); }

@@ -56,8 +56,8 @@ class PathEstimator {
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);
 
-  // What it sees; returns how many features agree with the taught path.
-  int Update(const std::vector<route::TrackedFeature>& seen);
+  // What it sees; returns how it agrees with the taught path.
+  Agreement Update(const std::vector<route::TrackedFeature>& seen);
 
   [[nodiscard]] PathOffset offset() const;
   [[nodiscard]] double offset_sigma_m() const;

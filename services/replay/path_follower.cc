@@ -33,7 +33,10 @@ void PathFollower::SetMagnification(double magnification) {
 FollowStep PathFollower::Step(const FollowInput& input) {
   FollowStep step;
   if (input.odometry) estimator_.Predict(*input.odometry);
-  step.agreeing = estimator_.Update(input.features);
+  const Agreement agreement = estimator_.Update(input.features);
+  step.agreeing = agreement.agreeing;
+  step.rejected = agreement.rejected;
+  step.rejected_by_px = agreement.rejected_by_px;
   step.roll_rad = estimator_.roll_rad();
   const PathOffset offset = estimator_.offset();
   step.offset = offset;

@@ -34,6 +34,7 @@ class PathFollower final : public Follower {
   // At the start 4 degrees of heading, mount yaw and pitch and a few centimetres beside near
   // features; afterwards what parallax and a bend leave over.
   [[nodiscard]] double expected_within_px_at_320() const override { return settled_ ? 28.0 : 45.0; }
+  [[nodiscard]] double outlier_px() const override { return options_.estimator.outlier_px; }
   [[nodiscard]] double magnification() const override { return estimator_.magnification(); }
   // Taken as the first guess; after that the estimate is better than any one hand-over's.
   void SetMagnification(double magnification) override;

@@ -45,6 +45,7 @@ struct FeatureTracker::State {
   Pyramid next;  // kept for its memory
   std::vector<int> ids;
   std::vector<cv::Point2f> points;  // OpenCV pixel coordinates in the last frame
+  TrackLosses losses;
 
   [[nodiscard]] cv::Size window() const { return {options.window_px, options.window_px}; }
   [[nodiscard]] Flow FlowTo(const Pyramid& from, const Pyramid& to,
@@ -72,7 +73,14 @@ void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow&
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool returned = forward.found[i] != 0 && backward.found[i] != 0 &&
                           cv::norm(backward.points[i] - points[i]) <= options.forward_backward_px;
-    if (!returned || !inside.contains(forward.points[i])) continue;
+    if (!inside.contains(forward.points[i])) {
+      ++losses.left_picture;
+      continue;
+    }
+    if (!returned) {
+      ++losses.not_returned;
+      continue;
+    }
     ids[kept] = ids[i];
     points[kept] = forward.points[i];
     ++kept;
@@ -105,6 +113,7 @@ std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage&
   cv::buildOpticalFlowPyramid(View(frame), s.next, s.window(), s.options.pyramid_levels,
                               /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
                               /*tryReuseInputImage=*/false);
+  s.losses = {};
   if (!s.points.empty()) {
     const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
     const Flow backward = s.FlowTo(s.next, s.last, forward.points, s.points);
@@ -150,6 +159,8 @@ void FeatureTracker::Follow(const std::vector<route::TrackedFeature>& features) 
 std::vector<route::TrackedFeature> FeatureTracker::Current() const { return state_->Current(); }
 
 int FeatureTracker::count() const { return static_cast<int>(state_->points.size()); }
+
+TrackLosses FeatureTracker::losses() const { return state_->losses; }
 
 std::vector<route::DescribedFeature> FeatureTracker::Describe() const {
   const cv::Mat& frame = state_->last.front();

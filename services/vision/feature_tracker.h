@@ -21,6 +21,12 @@ struct FeatureTrackerOptions {
   double forward_backward_px = 0.7;
 };
 
+// What became of the features that a frame lost.
+struct TrackLosses {
+  int left_picture = 0;
+  int not_returned = 0;  // failed the check forward and backward: covered, blurred, slid off
+};
+
 // Shi-Tomasi features followed from frame to frame by pyramidal KLT. A lost feature vanishes from
 // the result and never comes back. All frames must have the size of the first. Deterministic.
 class FeatureTracker {
@@ -41,6 +47,8 @@ class FeatureTracker {
   // Those followed at present, in the last frame.
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
   [[nodiscard]] int count() const;
+  // Of the last Track.
+  [[nodiscard]] TrackLosses losses() const;
 
   // What the current features look like in the last frame; those too near its edge are left out.
   [[nodiscard]] std::vector<route::DescribedFeature> Describe() const;

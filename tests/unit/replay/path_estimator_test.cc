@@ -21,8 +21,10 @@ PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, doubl
   estimator.Begin(run.segment);
   estimator.Predict({1.0, 0.0});
   for (int i = 0; i < 5; ++i) {
-    EXPECT_GE(estimator.Update(test::Matched(kScene, run, pose, roll_rad,
-                                             magnification * test::LandmarkScene::kFocal_px)),
+    EXPECT_GE(estimator
+                  .Update(test::Matched(kScene, run, pose, roll_rad,
+                                        magnification * test::LandmarkScene::kFocal_px))
+                  .agreeing,
               10);
   }
   return estimator.offset();
@@ -62,8 +64,10 @@ TEST(PathEstimator, PassesOverMismatches) {
   auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
   ASSERT_GE(seen.size(), 20U);
   for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
-  const int agreeing = estimator.Update(seen);
-  EXPECT_EQ(agreeing, static_cast<int>(seen.size() - seen.size() / 5));
+  const Agreement agreement = estimator.Update(seen);
+  EXPECT_EQ(agreement.agreeing, static_cast<int>(seen.size() - seen.size() / 5));
+  EXPECT_EQ(agreement.rejected, static_cast<int>(seen.size() / 5));
+  EXPECT_GT(agreement.rejected_by_px, PathEstimatorOptions{}.outlier_px);
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
 }
 
@@ -73,7 +77,7 @@ TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
   estimator.Begin(run.segment);
   for (int i = 0; i < 50; ++i) {
     estimator.Predict({0.01, 0.003});
-    EXPECT_EQ(estimator.Update({}), 0);
+    EXPECT_EQ(estimator.Update({}).agreeing, 0);
   }
   EXPECT_NEAR(estimator.offset().along_m, 0.5, 0.01);
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.01);

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/diagnosis/run_log_file.h"
+#include "agent/diagnosis/run_recorder.h"
+
+namespace trailcast::agent {
+
+struct DiagnosisOptions {
+  std::filesystem::path log;   // a file; empty: none
+  std::filesystem::path view;  // a folder for pictures of the frames; empty: none
+  int view_every = 1;          // frames
+};
+
+// What a replay tells of itself while it runs: a log, and pictures of what it saw. A disk that
+// fails stops neither the robot nor the loop; the error comes at the end. Pictures are drawn and
+// written by the caller's thread: for robots that have the time, recorded and simulated ones.
+class Diagnosis {
+ public:
+  // Errors: the log's file or the pictures' folder cannot be made.
+  [[nodiscard]] static Result<Diagnosis> Open(const DiagnosisOptions& options);
+
+  void Begin(const RunFacts& facts);
+  // After each Observe. `frame` is the image that `session` was given.
+  void Add(const RunFrame& seen, const image::GrayImage& frame, const ReplaySession& session,
+           const ReplayStep& step);
+  void Note(const std::string& what, const std::string& text);
+  [[nodiscard]] Result<void> End(const std::string& state, const std::string& reason);
+
+ private:
+  explicit Diagnosis(DiagnosisOptions options) : options_(std::move(options)) {}
+  void Draw(const image::GrayImage& frame, const ReplaySession& session, const ReplayStep& step);
+
+  DiagnosisOptions options_;
+  std::unique_ptr<RunLogFile> file_;
+  RunRecorder recorder_;
+  bool begun_ = false;
+  int frames_ = 0;
+  Result<void> view_result_;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,52 @@
+#include "agent/diagnosis/run_log.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace trailcast::agent {
+namespace {
+
+struct NamedPhase {
+  const char* name;
+  Phase phase;
+};
+constexpr std::array kPhases = {
+    NamedPhase{"waiting", Phase::kWaiting}, NamedPhase{"seeking", Phase::kSeeking},
+    NamedPhase{"sure", Phase::kSure},       NamedPhase{"unsure", Phase::kUnsure},
+    NamedPhase{"blind", Phase::kBlind},     NamedPhase{"covered", Phase::kCovered},
+    NamedPhase{"arrived", Phase::kArrived}, NamedPhase{"lost", Phase::kLost}};
+
+}  // namespace
+
+const char* ToString(Phase phase) {
+  const auto* found = std::find_if(kPhases.begin(), kPhases.end(),
+                                   [&](const NamedPhase& each) { return each.phase == phase; });
+  return found == kPhases.end() ? "unknown" : found->name;
+}
+
+std::optional<Phase> ParsePhase(const std::string& word) {
+  for (const NamedPhase& each : kPhases) {
+    if (word == each.name) return each.phase;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Fields::Find(const std::string& key) const {
+  const auto found =
+      std::find_if(all_.begin(), all_.end(), [&](const auto& each) { return each.first == key; });
+  if (found == all_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<double> Fields::Number(const std::string& key) const {
+  const auto text = Find(key);
+  if (!text) return std::nullopt;
+  double value = 0.0;
+  const char* end = text->data() + text->size();
+  const auto read = std::from_chars(text->data(), end, value);
+  if (read.ec != std::errc{} || read.ptr != end) return std::nullopt;
+  return value;
+}
+
+}  // namespace trailcast::agent

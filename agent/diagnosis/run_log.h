@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trailcast::agent {
+
+// A replay's log as values; run_log_format.h has the text.
+
+// What the robot was at in a frame: ReplayState and Trust in one word.
+enum class Phase { kWaiting, kSeeking, kSure, kUnsure, kBlind, kCovered, kArrived, kLost };
+
+[[nodiscard]] const char* ToString(Phase phase);
+[[nodiscard]] std::optional<Phase> ParsePhase(const std::string& word);
+
+// Named values in the order in which they were said.
+class Fields {
+ public:
+  void Add(std::string key, std::string value) {
+    all_.emplace_back(std::move(key), std::move(value));
+  }
+  [[nodiscard]] std::optional<std::string> Find(const std::string& key) const;
+  // Nothing where there is none, or no number.
+  [[nodiscard]] std::optional<double> Number(const std::string& key) const;
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& all() const { return all_; }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> all_;
+};
+
+// One frame. Empty: the robot or the method has no such thing.
+struct FrameRow {
+  int frame = 0;
+  double t_s = 0.0;
+  int segment = 0;
+  double fraction = 0.0;  // of the segment
+  double progress = 0.0;  // of the route
+  Phase phase = Phase::kWaiting;
+  // Features: of the segment, followed, agreeing with the route, not agreeing and by how much, and
+  // lost since the frame before.
+  int stored = 0;
+  int tracked = 0;
+  int agreeing = 0;
+  int rejected = 0;
+  double rejected_by_px = 0.0;
+  int left_picture = 0;
+  int not_returned = 0;
+  // Turns asked for, positive to the right.
+  double turn_rad = 0.0;
+  std::optional<double> vision_turn_rad;
+  std::optional<double> odometry_turn_rad;
+  std::optional<double> delta;
+  std::optional<double> delta_minus;
+  // Estimated place beside the path, positive to the left.
+  std::optional<double> left_m;
+  std::optional<double> left_sigma_m;
+  std::optional<double> heading_rad;
+  std::optional<double> along_m;
+  std::optional<double> mount_yaw_rad;
+  double magnification = 1.0;
+  // By odometry, in its own frame.
+  std::optional<double> driven_m;
+  std::optional<double> x_m;
+  std::optional<double> y_m;
+  double linear_mps = 0.0;
+  double angular_radps = 0.0;
+  double cpu_ms = 0.0;
+  std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
+};
+
+struct RunEvent {
+  int frame = 0;
+  double t_s = 0.0;
+  std::string what;
+  Fields fields;
+  std::string text;  // for people; may be empty
+};
+
+// A line that could not be read, counted from 1.
+struct Damage {
+  std::size_t line = 0;
+  std::string what;
+};
+
+struct RunLog {
+  Fields header;
+  std::vector<FrameRow> frames;
+  std::vector<RunEvent> events;
+  std::vector<Damage> damage;      // the first of them
+  std::size_t damaged_lines = 0;   // all of them
+  std::optional<RunEvent> ending;  // nothing: the log breaks off
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,63 @@
+#include "agent/diagnosis/run_log_file.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace trailcast::agent {
+namespace {
+
+constexpr std::chrono::milliseconds kWriteEvery{250};
+
+}  // namespace
+
+Result<std::unique_ptr<RunLogFile>> RunLogFile::Create(const std::filesystem::path& file) {
+  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  if (stream == nullptr) {
+    return Fail(ErrorCode::kUnavailable,
+                "cannot write {}: does its folder exist, and may this user write there?",
+                file.string());
+  }
+  return std::unique_ptr<RunLogFile>(new RunLogFile(stream, file));
+}
+
+RunLogFile::RunLogFile(std::FILE* stream, std::filesystem::path file)
+    : file_(std::move(file)), stream_(stream), thread_([this] { Write(); }) {}
+
+RunLogFile::~RunLogFile() { std::ignore = Close(); }
+
+void RunLogFile::Put(std::string text) {
+  if (dropped_ > 0) {
+    text = fmt::format("# dropped {} lines: the disk did not keep up\n", dropped_) + text;
+  }
+  const bool put = texts_.TryPut(std::move(text));
+  dropped_ = put ? 0 : dropped_ + 1;
+}
+
+void RunLogFile::WriteWaiting() {
+  while (const auto text = texts_.TryGet()) {
+    failed_ = failed_ || std::fwrite(text->data(), 1, text->size(), stream_) != text->size();
+  }
+  failed_ = std::fflush(stream_) != 0 || failed_;
+}
+
+void RunLogFile::Write() {
+  while (!ending_.load()) {
+    ending_bell_.Wait(kWriteEvery);
+    WriteWaiting();
+  }
+  WriteWaiting();
+}
+
+Result<void> RunLogFile::Close() {
+  if (thread_.joinable()) {
+    ending_.store(true);
+    ending_bell_.Ring();
+    thread_.join();
+    failed_ = std::fclose(stream_) != 0 || failed_;
+  }
+  if (!failed_) return {};
+  return Fail(ErrorCode::kUnavailable, "{} is not complete: is the disk full?", file_.string());
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "agent/diagnosis/run_log.h"
+#include "agent/replay_session.h"
+#include "services/base/time.h"
+#include "services/motion/motion.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+// What a log says of the run before its first frame.
+struct RunFacts {
+  route::RouteInfo route;  // as far as it is known by then
+  std::string robot;
+  std::string camera;  // the robot's
+  std::string method;
+};
+
+// One frame as the control loop saw it.
+struct RunFrame {
+  SensorTime stamp{0};
+  std::optional<motion::Pose2> odometry;
+  double cpu_ms = 0.0;
+  std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
+};
+
+// Makes a replay's log out of its steps: text, in the format of run_log_format.h. No disk, no
+// clock.
+class RunRecorder {
+ public:
+  [[nodiscard]] std::string Begin(const RunFacts& facts) const;
+  // The frame's row, and the events in it.
+  [[nodiscard]] std::string Add(const RunFrame& frame, const ReplayStep& step);
+  // Something that the control loop alone knows of.
+  [[nodiscard]] std::string Note(const std::string& what, const std::string& text) const;
+  [[nodiscard]] std::string End(const std::string& state, const std::string& reason) const;
+
+ private:
+  [[nodiscard]] FrameRow RowOf(const RunFrame& frame, const ReplayStep& step) const;
+  [[nodiscard]] RunEvent EventNow(const std::string& what) const;
+  [[nodiscard]] std::string SearchText(const Search& search, double magnification) const;
+
+  int frames_ = 0;
+  double t_s_ = 0.0;
+  double driven_m_ = 0.0;
+  std::optional<motion::Pose2> odometry_;
+  std::optional<Phase> phase_;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "agent/replay_session.h"
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+
+// Notices that a robot gets no further.
+class ProgressWatch {
+ public:
+  explicit ProgressWatch(std::chrono::seconds limit) : limit_(limit) {}
+
+  [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step) {
+    const double place = step.segment.value() + step.fraction;
+    const bool further = place > furthest_ + 1e-3;
+    if (further || step.state == ReplayState::kWaiting || !since_) {
+      furthest_ = std::max(furthest_, place);
+      since_ = stamp;
+    }
+    return stamp - *since_ > limit_;
+  }
+
+ private:
+  std::chrono::seconds limit_;
+  double furthest_ = -1.0;
+  std::optional<SensorTime> since_;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "services/base/ids.h"
+#include "services/vision/feature_tracker.h"
+
+namespace trailcast::agent {
+
+// How a segment's stored features were sought.
+enum class SearchKind {
+  kHandOver,     // at the segment's start
+  kLookedAgain,  // near by, because many were lost
+  kRecovered,    // far and wide and in the segments ahead, by a robot that had lost them all
+};
+
+// A search that changed which features are followed.
+struct Search {
+  SearchKind kind = SearchKind::kHandOver;
+  SegmentIndex segment;
+  int stored = 0;  // features that the segment has
+  int found = 0;
+  bool wide = false;      // over the whole picture, not only where they were expected
+  double length_m = 0.0;  // of the segment, as it was taught
+  double speed_mps = 0.0;
+};
+
+// What became of the segment's features in one frame.
+struct Sight {
+  int stored = 0;  // features that the segment has
+  vision::TrackLosses lost;
+  std::vector<Search> searches;
+};
+
+}  // namespace trailcast::agent
