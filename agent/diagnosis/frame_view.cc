@@ -64,14 +64,17 @@ void DrawTurn(Canvas& canvas, double turn_rad, double y) {
   canvas.Line({{half, y - 6.0}, {half, y + 6.0}}, kInk, 1.0);
 }
 
-void DrawLegend(Canvas& canvas, std::span<const replay::FeatureView> features, double baseline) {
+void DrawLegend(Canvas& canvas, const ReplayStep& step,
+                std::span<const replay::FeatureView> features, double baseline) {
   struct Entry {
     const char* text;
     FeatureVerdict verdict;
   };
-  double x = kMargin_px;
-  for (const Entry& entry : {Entry{"in its funnel lane", FeatureVerdict::kInside},
-                             Entry{"asks for left", FeatureVerdict::kAsksLeft},
+  const std::string all = fmt::format("{} of {}:", features.size(), step.sight.stored);
+  canvas.Text(all, {kMargin_px, baseline}, kTextHeight_px, kInk);
+  double x = kMargin_px + Canvas::TextWidth(all, kTextHeight_px) + 12.0;
+  for (const Entry& entry : {Entry{"in funnel lane", FeatureVerdict::kInside},
+                             Entry{"ask for left", FeatureVerdict::kAsksLeft},
                              Entry{"for right", FeatureVerdict::kAsksRight},
                              Entry{"rejected", FeatureVerdict::kRejected}}) {
     const auto count = std::count_if(features.begin(), features.end(), [&](const auto& feature) {
@@ -80,14 +83,13 @@ void DrawLegend(Canvas& canvas, std::span<const replay::FeatureView> features, d
     canvas.Disc({x + 4.0, baseline - 0.5 * kTextHeight_px}, 4.0, VerdictColor(entry.verdict));
     const std::string text = fmt::format("{} {}", count, entry.text);
     canvas.Text(text, {x + 14.0, baseline}, kTextHeight_px, kInk);
-    x += Canvas::TextWidth(text, kTextHeight_px) + 34.0;
+    x += Canvas::TextWidth(text, kTextHeight_px) + 30.0;
   }
 }
 
 std::string Where(const ReplayStep& step) {
-  return fmt::format("{} ({})   segment {}, {:.0f} % of it   {} of {} features   {:.2f} m/s",
-                     ToString(step.state), ToString(step.trust), step.segment.value(),
-                     100.0 * step.fraction, step.features, step.sight.stored,
+  return fmt::format("{} ({})   segment {}, {:.0f} % of it   {:.2f} m/s", ToString(step.state),
+                     ToString(step.trust), step.segment.value(), 100.0 * step.fraction,
                      step.command.linear_mps);
 }
 
@@ -142,7 +144,7 @@ image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& s
   double y = height + 38.0;
   canvas.Text(Where(step), {kMargin_px, y}, kTextHeight_px, kInk);
   canvas.Text(Turn(step), {kMargin_px, y += kLine_px}, kTextHeight_px, kInk);
-  DrawLegend(canvas, features, y + kLine_px);
+  DrawLegend(canvas, step, features, y + kLine_px);
   return canvas.picture();
 }
 

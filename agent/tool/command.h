@@ -19,6 +19,7 @@ struct Command {
 [[nodiscard]] Command AddDemoCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);
+[[nodiscard]] Command AddExplainCommand(CLI::App& parent);
 [[nodiscard]] Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common);
 
 }  // namespace trailcast::tool

@@ -8,6 +8,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast demo                         # a scout teaches three robots with other cameras\n"
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
+    "  trailcast explain run.log              # what happened in a replay, and why\n"
     "  trailcast routes                       # what the route server keeps\n"
     "Each subcommand has its own --help.";
 
@@ -23,7 +24,8 @@ int Run(int argc, char** argv) {
   trailcast::cli::AddCommonOptions(app, common);
   const std::vector<Command> commands{
       trailcast::tool::AddDemoCommand(app, common), trailcast::tool::AddTrialCommand(app),
-      trailcast::tool::AddFiguresCommand(app), trailcast::tool::AddRoutesCommand(app, common)};
+      trailcast::tool::AddFiguresCommand(app), trailcast::tool::AddExplainCommand(app),
+      trailcast::tool::AddRoutesCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

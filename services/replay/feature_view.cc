@@ -25,15 +25,15 @@ FeatureVerdict Judge(const FeatureView& view, double roll_rad, double outlier_px
 std::vector<FeatureView> ViewFeatures(const Follower& follower,
                                       const std::vector<route::TrackedFeature>& seen,
                                       double roll_rad) {
-  const double k = follower.magnification();
   const std::vector<route::TrackedFeature> expected = follower.Expect();
+  const std::vector<route::TrackedFeature> milestone = follower.ExpectAtMilestone();
+  const double outlier_px = follower.magnification() * follower.outlier_px();
   std::vector<FeatureView> views;
   views.reserve(seen.size());
   for (const route::TrackedFeature& at : seen) {
     const auto index = static_cast<std::size_t>(at.id);
-    const route::TrackKnot& last = follower.segment().features.at(index).milestone();
-    FeatureView view{at, expected.at(index), {at.id, k * last.u_px, k * last.v_px}};
-    view.verdict = Judge(view, roll_rad, k * follower.outlier_px());
+    FeatureView view{at, expected.at(index), milestone.at(index)};
+    view.verdict = Judge(view, roll_rad, outlier_px);
     views.push_back(view);
   }
   return views;

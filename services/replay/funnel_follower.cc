@@ -81,10 +81,10 @@ void FunnelFollower::Begin(const route::Segment& segment) {
   begun_ = true;
 }
 
-std::vector<route::TrackedFeature> FunnelFollower::Expect() const {
+std::vector<route::TrackedFeature> FunnelFollower::ExpectAt(double fraction) const {
   std::vector<route::TrackedFeature> places;
   for (std::size_t i = 0; i < segment_.features.size(); ++i) {
-    const route::TrackKnot taught = route::TaughtPlace(segment_.features[i], fraction_);
+    const route::TrackKnot taught = route::TaughtPlace(segment_.features[i], fraction);
     places.push_back(
         {static_cast<int>(i), magnification_ * taught.u_px, magnification_ * taught.v_px});
   }

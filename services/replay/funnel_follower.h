@@ -49,7 +49,12 @@ class FunnelFollower final : public Follower {
 
   void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
   void Begin(const route::Segment& segment) override;
-  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override;
+  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
+    return ExpectAt(fraction_);
+  }
+  [[nodiscard]] std::vector<route::TrackedFeature> ExpectAtMilestone() const override {
+    return ExpectAt(1.0);
+  }
   // It has no idea how far off the path or the heading it is.
   [[nodiscard]] double expected_within_px_at_320() const override { return 56.0; }
   // The paper believes all that it tracks.
@@ -64,6 +69,7 @@ class FunnelFollower final : public Follower {
  private:
   struct Matched;
 
+  [[nodiscard]] std::vector<route::TrackedFeature> ExpectAt(double fraction) const;
   [[nodiscard]] Matched Match(const std::vector<route::TrackedFeature>& features) const;
   [[nodiscard]] double VisionTurn(const Matched& matched) const;
   [[nodiscard]] double OdometryTurn(double speed_mps) const;

@@ -215,13 +215,20 @@ PathOffset PathEstimator::offset() const {
 
 double PathEstimator::offset_sigma_m() const { return std::sqrt(covariance_(kLeft, kLeft)); }
 
-std::vector<route::TrackedFeature> PathEstimator::Expect() const {
+std::vector<route::TrackedFeature> PathEstimator::ExpectIn(const State& state) const {
   std::vector<route::TrackedFeature> places;
   for (std::size_t i = 0; i < segment_.features.size(); ++i) {
-    const Prediction p = PredictFeature(i, state_);
+    const Prediction p = PredictFeature(i, state);
     places.push_back({static_cast<int>(i), p.u_px, p.v_px});
   }
   return places;
+}
+
+std::vector<route::TrackedFeature> PathEstimator::ExpectAtMilestone() const {
+  State there = state_;
+  there[kLeft] = there[kHeading] = there[kRoll] = 0.0;
+  there[kAlong] = segment_.length_m;
+  return ExpectIn(there);
 }
 
 }  // namespace trailcast::replay

@@ -69,7 +69,9 @@ class PathEstimator {
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
-  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const;
+  [[nodiscard]] std::vector<route::TrackedFeature> Expect() const { return ExpectIn(state_); }
+  // And at the segment's end, for this camera on the path itself.
+  [[nodiscard]] std::vector<route::TrackedFeature> ExpectAtMilestone() const;
 
  private:
   enum Index {
@@ -98,6 +100,7 @@ class PathEstimator {
     double depth_sigma_px = 0.0;  // what not knowing the depth makes of it
   };
   void BeUnsure();
+  [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
   [[nodiscard]] double TaughtHeading(double along_m) const;
   [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;

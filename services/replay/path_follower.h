@@ -31,6 +31,9 @@ class PathFollower final : public Follower {
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return estimator_.Expect();
   }
+  [[nodiscard]] std::vector<route::TrackedFeature> ExpectAtMilestone() const override {
+    return estimator_.ExpectAtMilestone();
+  }
   // At the start 4 degrees of heading, mount yaw and pitch and a few centimetres beside near
   // features; afterwards what parallax and a bend leave over.
   [[nodiscard]] double expected_within_px_at_320() const override { return settled_ ? 28.0 : 45.0; }

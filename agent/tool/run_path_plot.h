@@ -1,0 +1,14 @@
+#pragma once
+
+#include "agent/diagnosis/run_log.h"
+#include "agent/tool/strip_chart.h"
+
+namespace trailcast::tool {
+
+// How high a panel of this width has to be for the path: none without odometry.
+[[nodiscard]] double PathPanelHeight(const agent::RunLog& log, double width_px);
+
+// The path by odometry into `box`, north of nowhere: x and y are the odometry's own.
+void DrawPathPanel(image::Canvas& canvas, const PixelBox& box, const agent::RunLog& log);
+
+}  // namespace trailcast::tool

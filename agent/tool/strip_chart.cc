@@ -1,0 +1,160 @@
+#include "agent/tool/strip_chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::tool {
+namespace {
+
+using image::Canvas;
+using image::Color;
+using image::PixelPoint;
+
+constexpr Color kInk{40, 40, 40};
+constexpr Color kGrid{225, 225, 225};
+constexpr Color kBorder{170, 170, 170};
+constexpr double kTextHeight_px = 10.0;
+constexpr double kTitleHeight_px = 11.0;
+// A robot that stands takes no room on an axis of metres: its band is to be seen all the same.
+constexpr double kNarrowestBand_px = 4.0;
+
+struct Range {
+  double from = 0.0;
+  double to = 1.0;
+
+  [[nodiscard]] double ShareOf(double value) const {
+    return to > from ? (value - from) / (to - from) : 0.0;
+  }
+};
+
+Range XRange(const ChartAxis& axis) {
+  if (axis.x.empty()) return {};
+  return {axis.x.front(), std::max(axis.x.back(), axis.x.front() + 1e-6)};
+}
+
+Range YRange(const StripChart& chart) {
+  Range range{chart.least_y, chart.largest_y};
+  for (const Curve& curve : chart.curves) {
+    for (const auto& value : curve.values) {
+      range.from = std::min(range.from, value.value_or(range.from));
+      range.to = std::max(range.to, value.value_or(range.to));
+    }
+  }
+  return range;
+}
+
+struct Scale {
+  PixelBox box;
+  Range x;
+  Range y;
+
+  [[nodiscard]] double AtX(double value) const { return box.left + box.width * x.ShareOf(value); }
+  [[nodiscard]] double AtY(double value) const {
+    return box.bottom() - box.height * y.ShareOf(value);
+  }
+};
+
+void DrawBands(Canvas& canvas, const Scale& scale, const std::vector<Band>& bands) {
+  const PixelBox& box = scale.box;
+  for (const Band& band : bands) {
+    const double from = std::clamp(scale.AtX(band.from_x), box.left, box.right());
+    const double to =
+        std::min(box.right(), std::max(scale.AtX(band.to_x), from + kNarrowestBand_px));
+    canvas.FillPolygon({{from, box.top}, {to, box.top}, {to, box.bottom()}, {from, box.bottom()}},
+                       band.color);
+  }
+}
+
+void DrawYAxis(Canvas& canvas, const Scale& scale) {
+  const PixelBox& box = scale.box;
+  for (const double y : RoundTicks(scale.y.from, scale.y.to, 4.0)) {
+    const double at = scale.AtY(y);
+    canvas.Line({{box.left, at}, {box.right(), at}}, y == 0.0 ? kBorder : kGrid, 1.0);
+    const std::string text = fmt::format("{:g}", y);
+    canvas.Text(text, {box.left - 6.0 - Canvas::TextWidth(text, kTextHeight_px), at + 4.0},
+                kTextHeight_px, kInk);
+  }
+}
+
+void DrawCurve(Canvas& canvas, const Scale& scale, const ChartAxis& axis, const Curve& curve) {
+  std::vector<PixelPoint> points;
+  const auto draw = [&] {
+    if (points.size() > 1) canvas.Line(points, curve.color, curve.width_px, curve.dashed);
+    points.clear();
+  };
+  for (std::size_t i = 0; i < std::min(axis.x.size(), curve.values.size()); ++i) {
+    if (curve.values[i]) {
+      points.push_back({scale.AtX(axis.x[i]), scale.AtY(*curve.values[i])});
+    } else {
+      draw();
+    }
+  }
+  draw();
+}
+
+void DrawLegend(Canvas& canvas, const PixelBox& box, const StripChart& chart) {
+  const double baseline = box.top - 7.0;
+  canvas.Text(chart.title, {box.left, baseline}, kTitleHeight_px, kInk);
+  double x = box.right();
+  for (auto curve = chart.curves.rbegin(); curve != chart.curves.rend(); ++curve) {
+    if (curve->label.empty()) continue;
+    x -= Canvas::TextWidth(curve->label, kTextHeight_px);
+    canvas.Text(curve->label, {x, baseline}, kTextHeight_px, kInk);
+    x -= 30.0;
+    canvas.Line({{x, baseline - 4.0}, {x + 24.0, baseline - 4.0}}, curve->color,
+                std::max(2.0, curve->width_px), curve->dashed);
+    x -= 14.0;
+  }
+}
+
+}  // namespace
+
+std::vector<double> RoundTicks(double from, double to, double count) {
+  const double raw = std::max(1e-9, (to - from) / count);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (raw <= factor * power * 1.0001) step = factor * power;
+  }
+  std::vector<double> ticks;
+  const auto first = static_cast<std::int64_t>(std::ceil(from / step - 1e-9));
+  const auto last = static_cast<std::int64_t>(std::floor(to / step + 1e-9));
+  for (std::int64_t i = first; i <= last; ++i) ticks.push_back(static_cast<double>(i) * step);
+  return ticks;
+}
+
+void DrawStrip(Canvas& canvas, const PixelBox& box, const ChartAxis& axis,
+               const StripChart& chart) {
+  const Scale scale{box, XRange(axis), YRange(chart)};
+  DrawBands(canvas, scale, axis.bands);
+  DrawYAxis(canvas, scale);
+  for (const double x : axis.borders) {
+    canvas.Line({{scale.AtX(x), box.top}, {scale.AtX(x), box.bottom()}}, kBorder, 1.0);
+  }
+  for (const Curve& curve : chart.curves) DrawCurve(canvas, scale, axis, curve);
+  canvas.Line({{box.left, box.top},
+               {box.right(), box.top},
+               {box.right(), box.bottom()},
+               {box.left, box.bottom()},
+               {box.left, box.top}},
+              kInk, 1.0);
+  DrawLegend(canvas, box, chart);
+}
+
+void DrawChartAxis(Canvas& canvas, const PixelBox& box, const ChartAxis& axis) {
+  const Scale scale{box, XRange(axis), {}};
+  for (const double x : RoundTicks(scale.x.from, scale.x.to, 10.0)) {
+    const double at = scale.AtX(x);
+    canvas.Line({{at, box.bottom()}, {at, box.bottom() + 5.0}}, kInk, 1.0);
+    const std::string text = fmt::format("{:g}", x);
+    canvas.Text(text, {at - 0.5 * Canvas::TextWidth(text, kTextHeight_px), box.bottom() + 19.0},
+                kTextHeight_px, kInk);
+  }
+  canvas.Text(axis.label,
+              {box.right() - Canvas::TextWidth(axis.label, kTextHeight_px), box.bottom() + 36.0},
+              kTextHeight_px, kInk);
+}
+
+}  // namespace trailcast::tool
