@@ -119,9 +119,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
                                               std::min<std::size_t>(3, segments.size() - here));
   const auto seen = hand_over->Recover(frame, follower->magnification(), ahead);
   if (!seen) return;
-  if (seen->segment != 0) {
-    follower->Begin(ahead[seen->segment]);
-  }
+  if (seen->segment != 0) follower->Begin(ahead[seen->segment]);
   tracker.Follow(seen->features);
   NoteSearch(SearchKind::kRecovered, seen->features.size(), true);
 }
@@ -233,9 +231,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
       if (s.complete && s.follower) s.state = ReplayState::kArrived;
       return s.Report({});
     }
-    if (!s.hand_over) {
-      s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
-    }
+    if (!s.hand_over) s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
     s.Begin(next, frame);
     const replay::FollowStep first = s.follower->Step({s.tracker.Current(), odometry});
     s.JudgeSight(first, odometry, frame);
@@ -246,9 +242,9 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.JudgeSight(step, odometry, frame);
   s.Refresh(frame, step.agreeing);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
-  if (s.state != ReplayState::kLost && (step.ended || (step.wants_next && next_is_here))) {
-    s.EndSegment(frame);
-  }
+  // What covers this segment's features covers the next one's too.
+  const bool wants_next = step.wants_next && next_is_here && s.trust != Trust::kCovered;
+  if (s.state != ReplayState::kLost && (step.ended || wants_next)) s.EndSegment(frame);
   // A segment that has just begun is not as far along as the last one was.
   if (s.follower->segment().index != before) step.fraction = 0.0;
   return s.Report(step);

@@ -74,8 +74,8 @@ void DrawLegend(Canvas& canvas, const ReplayStep& step,
   canvas.Text(all, {kMargin_px, baseline}, kTextHeight_px, kInk);
   double x = kMargin_px + Canvas::TextWidth(all, kTextHeight_px) + 12.0;
   for (const Entry& entry : {Entry{"in funnel lane", FeatureVerdict::kInside},
-                             Entry{"ask for left", FeatureVerdict::kAsksLeft},
-                             Entry{"for right", FeatureVerdict::kAsksRight},
+                             Entry{"ask left", FeatureVerdict::kAsksLeft},
+                             Entry{"ask right", FeatureVerdict::kAsksRight},
                              Entry{"rejected", FeatureVerdict::kRejected}}) {
     const auto count = std::count_if(features.begin(), features.end(), [&](const auto& feature) {
       return feature.verdict == entry.verdict;
@@ -83,7 +83,7 @@ void DrawLegend(Canvas& canvas, const ReplayStep& step,
     canvas.Disc({x + 4.0, baseline - 0.5 * kTextHeight_px}, 4.0, VerdictColor(entry.verdict));
     const std::string text = fmt::format("{} {}", count, entry.text);
     canvas.Text(text, {x + 14.0, baseline}, kTextHeight_px, kInk);
-    x += Canvas::TextWidth(text, kTextHeight_px) + 30.0;
+    x += Canvas::TextWidth(text, kTextHeight_px) + 26.0;
   }
 }
 

@@ -86,8 +86,9 @@ FrameRow RunRecorder::RowOf(const RunFrame& frame, const ReplayStep& step) const
   row.phase = PhaseOf(step);
   row.stored = step.sight.stored;
   row.tracked = step.features;
-  // At a hand-over the method has not judged the new segment's features yet.
-  row.agreeing = std::min(step.decision.agreeing, step.features);
+  // At a hand-over the method has judged the last segment's features, not yet this one's.
+  const bool judged = step.sight.searches.empty() || frames_ == 0;
+  row.agreeing = judged ? step.decision.agreeing : step.features;
   row.rejected = step.decision.rejected;
   row.rejected_by_px = step.decision.rejected_by_px;
   row.left_picture = step.sight.lost.left_picture;

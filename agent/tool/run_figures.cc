@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -130,14 +131,15 @@ void AddOffset(const RunLog& log, std::vector<std::string>& lines) {
   if (offset.count > 0) {
     const Spread sigma = Over(log, [](const FrameRow& row) { return row.left_sigma_m; });
     const FrameRow& last = log.frames.back();
+    const double yaw_deg = last.mount_yaw_rad.value_or(0.0) * 180.0 / std::numbers::pi;
     lines.push_back(Line("beside the path",
                          fmt::format("{:.3f} m by its own estimate on average, largest {:.3f} (+- "
                                      "{:.3f})",
                                      offset.mean, offset.largest, sigma.mean)));
-    lines.push_back(Line(
-        "camera", fmt::format("{:.2f} times the scout's magnification, mounted "
-                              "{:.1f} degrees further left",
-                              last.magnification, last.mount_yaw_rad.value_or(0.0) * 57.29578)));
+    lines.push_back(Line("camera", fmt::format("{:.2f} times the scout's magnification, mounted "
+                                               "{:.1f} degrees further {}",
+                                               last.magnification, std::abs(yaw_deg),
+                                               yaw_deg > 0.0 ? "left" : "right")));
   }
   const Spread truth = Over(log, [](const FrameRow& row) { return row.true_off_m; });
   if (truth.count == 0) return;
@@ -157,9 +159,9 @@ std::vector<FrameKind> KindsOf(const RunLog& log) {
   for (const RunEvent& event : log.events) {
     const bool again = event.what == "looked-again" || event.what == "recovered";
     if (kinds.empty() || (event.what != "hand-over" && !again)) continue;
-    kinds[RowOfFrame(log, event.frame)] = again                                   ? kAgain
-                                          : event.fields.Find("search") == "wide" ? kWide
-                                                                                  : kNear;
+    FrameKind& kind = kinds[RowOfFrame(log, event.frame)];
+    if (kind == kSearching) continue;  // that is what takes the time
+    kind = again ? kAgain : event.fields.Find("search") == "wide" ? kWide : kNear;
   }
   return kinds;
 }

@@ -25,6 +25,7 @@ constexpr double kTextHeight_px = 10.0;
 constexpr double kHighest_px = 420.0;
 constexpr double kLowest_px = 120.0;
 constexpr double kScaleBar_px = 140.0;
+constexpr double kLeastDriven_m = 0.1;  // less is no path to look at
 // Offsets below this are all well: a run without trouble shall not look colourful.
 constexpr double kLeastFullScale_m = 0.1;
 
@@ -110,8 +111,9 @@ void DrawPath(Canvas& canvas, const Map& map, const RunLog& log, double full_sca
       if (!before.x_m || !before.y_m || !row.x_m || !row.y_m) continue;
       const bool plain = row.phase == Phase::kSure || row.phase == Phase::kArrived;
       if (under && plain) continue;
-      const Color color = under ? PhaseColor(row.phase)
-                                : OffsetColor(std::abs(row.left_m.value_or(0.0)) / full_scale_m);
+      const Color color = under        ? PhaseColor(row.phase)
+                          : row.left_m ? OffsetColor(std::abs(*row.left_m) / full_scale_m)
+                                       : kInk;
       const PixelPoint at = map.At(*row.x_m, *row.y_m);
       canvas.Line({map.At(*before.x_m, *before.y_m), at}, color, under ? 12.0 : 3.0);
       // A robot that stands draws no line.
@@ -153,7 +155,7 @@ void DrawOffsetScale(Canvas& canvas, const PixelBox& box, double full_scale_m) {
 
 double PathPanelHeight(const RunLog& log, double width_px) {
   const Extent extent = ExtentOf(log);
-  if (extent.max_x < extent.min_x) return 0.0;
+  if (!HasOdometry(log) || PlaceOf(log.frames.back()) < kLeastDriven_m) return 0.0;
   const double height = width_px * (extent.max_y - extent.min_y) / (extent.max_x - extent.min_x);
   return std::clamp(height, kLowest_px, kHighest_px);
 }

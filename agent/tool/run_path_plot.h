@@ -5,7 +5,8 @@
 
 namespace trailcast::tool {
 
-// How high a panel of this width has to be for the path: none without odometry.
+// How high a panel of this width has to be for the path: none without odometry, or
+// where it stood.
 [[nodiscard]] double PathPanelHeight(const agent::RunLog& log, double width_px);
 
 // The path by odometry into `box`, north of nowhere: x and y are the odometry's own.

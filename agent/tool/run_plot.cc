@@ -38,6 +38,7 @@ constexpr double kGap_px = 38.0;  // between panels: a title and a legend fit
 constexpr double kStripHeight_px = 150.0;
 constexpr double kAxis_px = 48.0;
 constexpr double kTextHeight_px = 11.0;
+constexpr double kLeastDriven_m = 0.1;
 
 Curve CurveOf(const RunLog& log, const std::string& label, Color color,
               std::optional<double> (*value)(const FrameRow&)) {
@@ -123,14 +124,18 @@ std::vector<StripChart> Charts(const RunLog& log) {
   return {Turns(log), Features(log), estimated ? Estimate(log) : Delta(log), Speed(log)};
 }
 
+// Metres; seconds for a robot that never got going, frames for one without odometry.
 ChartAxis Axis(const RunLog& log) {
+  const bool moved = HasOdometry(log) && PlaceOf(log.frames.back()) >= kLeastDriven_m;
+  const bool stood = HasOdometry(log) && !moved;
+  const auto place = [stood](const FrameRow& row) { return stood ? row.t_s : PlaceOf(row); };
   ChartAxis axis;
-  axis.label = HasOdometry(log) ? "driven [m]" : "frame";
-  for (const FrameRow& row : log.frames) axis.x.push_back(PlaceOf(row));
-  for (const Stay& stay : StaysOf(log)) axis.borders.push_back(PlaceOf(log.frames[stay.first]));
+  axis.label = moved ? "driven [m]" : stood ? "time [s]" : "frame";
+  for (const FrameRow& row : log.frames) axis.x.push_back(place(row));
+  for (const Stay& stay : StaysOf(log)) axis.borders.push_back(place(log.frames[stay.first]));
   for (const Spell& spell : SpellsOf(log)) {
     if (spell.phase == Phase::kSure) continue;
-    axis.bands.push_back({PlaceOf(log.frames[spell.first]), PlaceOf(log.frames[spell.end - 1]),
+    axis.bands.push_back({place(log.frames[spell.first]), place(log.frames[spell.end - 1]),
                           PhaseColor(spell.phase)});
   }
   return axis;

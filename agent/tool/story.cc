@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "agent/diagnosis/run_log_format.h"
 #include "agent/tool/incidents.h"
 #include "agent/tool/run_figures.h"
 #include "agent/tool/run_index.h"
@@ -16,6 +17,7 @@ using agent::FrameRow;
 using agent::RunLog;
 
 constexpr std::size_t kMostIncidents = 14;
+constexpr std::size_t kWidth = 110;  // of a line, in characters
 
 std::string Known(const RunLog& log, const std::string& key) {
   const auto value = log.header.Find(key);
@@ -34,31 +36,39 @@ std::string HowFar(const RunLog& log) {
 
 // The weightiest, in the order in which they happened.
 std::vector<Incident> Shortened(std::vector<Incident> incidents) {
-  std::vector<double> weights;
-  for (const Incident& incident : incidents) weights.push_back(incident.weight);
-  if (weights.size() <= kMostIncidents) return incidents;
-  std::nth_element(weights.begin(), weights.begin() + kMostIncidents - 1, weights.end(),
-                   std::greater<>());
-  const double least = weights[kMostIncidents - 1];
-  std::size_t room = kMostIncidents;
-  std::erase_if(incidents, [&](const Incident& incident) {
-    if (incident.weight < least || room == 0) return true;
-    --room;
-    return false;
-  });
+  std::stable_sort(incidents.begin(), incidents.end(),
+                   [](const Incident& a, const Incident& b) { return a.weight > b.weight; });
+  incidents.resize(std::min(incidents.size(), kMostIncidents));
+  std::stable_sort(incidents.begin(), incidents.end(),
+                   [](const Incident& a, const Incident& b) { return a.first < b.first; });
   return incidents;
+}
+
+// Longer lines go on below, under their own beginning.
+std::string Wrapped(const std::string& place, const std::string& text) {
+  std::string lines = place;
+  std::size_t width = place.size();
+  for (const std::string_view word : agent::Words(text)) {
+    if (width + 1 + word.size() > kWidth) {
+      lines += fmt::format("\n{:{}}", "", place.size());
+      width = place.size();
+    }
+    lines += fmt::format(" {}", word);
+    width += 1 + word.size();
+  }
+  return lines + "\n";
 }
 
 std::string Tell(const RunLog& log, const Incident& incident) {
   const FrameRow& first = log.frames[incident.first];
-  std::string text = fmt::format("  {} {}", PlaceText(first), incident.text);
+  std::string text = incident.text;
   if (incident.times > 1) {
     const FrameRow& last = log.frames[incident.last];
-    text += last.driven_m
-                ? fmt::format(" [{} times until {:.2f} m]", incident.times, *last.driven_m)
-                : fmt::format(" [{} times until frame {}]", incident.times, last.frame);
+    const std::string until = last.driven_m ? fmt::format("{:.2f} m", *last.driven_m)
+                                            : fmt::format("frame {}", last.frame);
+    text += fmt::format(" [{} times until {}]", incident.times, until);
   }
-  return text + "\n";
+  return Wrapped(fmt::format("  {}", PlaceText(first)), text);
 }
 
 std::string WhatHappened(const RunLog& log, bool all) {

@@ -42,6 +42,10 @@ Range YRange(const StripChart& chart) {
       range.to = std::max(range.to, value.value_or(range.to));
     }
   }
+  // A curve on the frame's own line cannot be seen.
+  const double room = 0.05 * (range.to - range.from);
+  if (range.from < chart.least_y) range.from -= room;
+  if (range.to > chart.largest_y) range.to += room;
   return range;
 }
 

@@ -5,8 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "agent/diagnosis/diagnosis.h"
 #include "agent/tool/served_route.h"
 #include "agent/tool/standstill_watch.h"
+#include "agent/tool/trial_log.h"
 #include "agent/tool/trial_teach.h"
 #include "services/sim/judge.h"
 #include "services/sim/random.h"
@@ -49,11 +51,12 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
 class Replaying {
  public:
   Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
-            double push_m)
+            agent::Diagnosis diagnosis, double push_m)
       : robot_(robot),
         truth_(robot),
         judge_(taught.path),
         session_(std::move(session)),
+        diagnosis_(std::move(diagnosis)),
         push_at_m_(0.5 * taught.path.length_m()),
         push_m_(push_m),
         limit_s_(kPatience * taught.duration_s + kPatience_s) {}
@@ -65,11 +68,15 @@ class Replaying {
     const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
     const double off_m = judge_.Observe(position_m);
     const double began_ms = ThreadCpuMs();
-    auto step = session_.Observe({seen.stamp, std::move(seen.image), seen.odometry});
-    cpu_ms_ += ThreadCpuMs() - began_ms;
+    const agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
+    auto step = session_.Observe(observation);
+    const double cpu_ms = ThreadCpuMs() - began_ms;
+    cpu_ms_ += cpu_ms;
     ++frames_;
     if (!step) return tl::unexpected(step.error());
     last_ = std::move(*step);
+    diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, observation.image,
+                   session_, last_);
     return !Ended(position_m, off_m, Seconds(seen.stamp));
   }
 
@@ -86,9 +93,11 @@ class Replaying {
     row.arrived = state_ == "arrived";
   }
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
+  [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
 
  private:
   void Push() {
+    diagnosis_.Note("pushed", fmt::format("{:.2f} m to the left, by the trial", push_m_));
     truth_.Shove({0.0, push_m_, 0.0});
     judge_.NotePush();
     push_m_ = 0.0;
@@ -127,6 +136,7 @@ class Replaying {
   sim::Judge truth_;
   PathJudge judge_;
   agent::ReplaySession session_;
+  agent::Diagnosis diagnosis_;
   double push_at_m_;
   double push_m_;  // 0: none, or done
   double limit_s_;
@@ -218,7 +228,10 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   if (!served) return tl::unexpected(served.error());
   auto session = OpenSession(*served, {.method = trial_case.method});
   if (!session) return tl::unexpected(session.error());
-  Replaying replaying(**robot, **taught, std::move(*session), trial_case.push_m);
+  auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  Replaying replaying(**robot, **taught, std::move(*session), std::move(*diagnosis),
+                      trial_case.push_m);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");
@@ -228,6 +241,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
       return Fail(ErrorCode::kUnavailable, "interrupted");
     }
   }
+  if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
   TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, **taught, route), (*taught)->path,
                        replaying.path()};
   replaying.Fill(outcome.row);

@@ -31,6 +31,7 @@ constexpr const char* kExamples =
     "  trailcast trial --scenario paved --method default,paper,icra2006   # a column of Table I\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
+    "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.log\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
 
 std::string ScenarioHelp() {
@@ -75,6 +76,9 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
   app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
       ->check(CLI::Range(1, 256));
   app.add_option("--csv", files.csv, "Where one row a trial goes");
+  app.add_option("--log", options.log_folder,
+                 "Folder for one log a trial, named by scenario, method, cameras and trial: see "
+                 "'trailcast explain'");
   app.add_option("--plot", files.plot, "Where a picture (PNG) of the paths goes");
 }
 

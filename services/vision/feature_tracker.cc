@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -25,6 +26,18 @@ struct Flow {
   std::vector<cv::Point2f> points;
   std::vector<std::uint8_t> found;
 };
+
+cv::Point2f MedianOf(const std::vector<cv::Point2f>& points) {
+  if (points.empty()) return {};
+  const auto median = [&](float cv::Point2f::*coordinate) {
+    std::vector<float> values;
+    for (const cv::Point2f& point : points) values.push_back(point.*coordinate);
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  return {median(&cv::Point2f::x), median(&cv::Point2f::y)};
+}
 
 // Whether there is more around the point than noise.
 bool StandsOut(const cv::Mat& smoothed, cv::Point2f point, int window_px) {
@@ -69,24 +82,28 @@ void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow&
   const cv::Size size = last.front().size();
   const cv::Rect2f inside(kEdge_px, kEdge_px, static_cast<float>(size.width - 2 * kEdge_px),
                           static_cast<float>(size.height - 2 * kEdge_px));
+  std::vector<cv::Point2f> moved;
+  std::vector<cv::Point2f> gone;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool returned = forward.found[i] != 0 && backward.found[i] != 0 &&
                           cv::norm(backward.points[i] - points[i]) <= options.forward_backward_px;
-    if (!inside.contains(forward.points[i])) {
-      ++losses.left_picture;
+    if (!returned || !inside.contains(forward.points[i])) {
+      gone.push_back(points[i]);
       continue;
     }
-    if (!returned) {
-      ++losses.not_returned;
-      continue;
-    }
+    moved.push_back(forward.points[i] - points[i]);
     ids[kept] = ids[i];
     points[kept] = forward.points[i];
     ++kept;
   }
   ids.resize(kept);
   points.resize(kept);
+  // Where a lost feature went is not known: the others' motion says whether it can be in view.
+  const cv::Point2f shift = MedianOf(moved);
+  losses.left_picture = static_cast<int>(std::count_if(
+      gone.begin(), gone.end(), [&](cv::Point2f at) { return !inside.contains(at + shift); }));
+  losses.not_returned = static_cast<int>(gone.size()) - losses.left_picture;
 }
 
 std::vector<route::TrackedFeature> FeatureTracker::State::Current() const {

@@ -71,6 +71,22 @@ TEST(FeatureTracker, LosesEverythingWhenTheViewChangesAltogether) {
   EXPECT_LE(after.size(), before.size() / 4);
 }
 
+TEST(FeatureTracker, SaysHowManyLeftThePictureAndHowManyDidNotReturn) {
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({}));
+  const auto before = tracker.Detect();
+  const auto after = tracker.Track(kWall.Photograph({.du_px = 25.0}));
+  const TrackLosses aside = tracker.losses();
+  EXPECT_EQ(static_cast<std::size_t>(aside.left_picture + aside.not_returned),
+            before.size() - after.size());
+  EXPECT_GT(aside.left_picture, 0);
+  const auto elsewhere = tracker.Track(test::PaintedWall(99).Photograph({}));
+  EXPECT_GT(tracker.losses().not_returned, static_cast<int>(after.size()) / 2);
+  tracker.Follow({});
+  tracker.Track(kWall.Photograph({}));
+  EXPECT_EQ(tracker.losses().not_returned, 0) << "of the last frame only";
+}
+
 TEST(FeatureTracker, FindsNothingInANoisyBlankOrDarkImage) {
   for (const double gain : {0.0, 1.0}) {
     FeatureTracker tracker;

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <sstream>
+#include <string>
+
+#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/run_log_reader.h"
+
+namespace trailcast::test {
+
+// A replay's log in the making, as a small language: a robot that goes straight on at 0.4 m/s, ten
+// frames a second, and what befalls it.
+class SampleRun {
+ public:
+  SampleRun() {
+    agent::Fields header;
+    header.Add("route", "hall");
+    header.Add("segments", "5");
+    header.Add("length_m", "10.00");
+    header.Add("scout", "scout");
+    header.Add("scout_camera", "webcam 320x240");
+    header.Add("robot", "robot2");
+    header.Add("camera", "wide 320x240");
+    header.Add("method", "default");
+    text_ = agent::FirstLine() + agent::HeaderText(header);
+    row_.stored = 30;
+    row_.tracked = row_.agreeing = 25;
+    row_.linear_mps = 0.4;
+    row_.left_m = 0.02;
+    row_.left_sigma_m = 0.01;
+    row_.cpu_ms = 1.0;
+    row_.driven_m = row_.x_m = row_.y_m = 0.0;
+    row_.phase = agent::Phase::kSure;
+  }
+
+  agent::FrameRow& row() { return row_; }  // what the next frames will be like
+
+  SampleRun& HandOver(int segment, int found, const std::string& search = "near",
+                      double length_m = 2.0) {
+    row_.segment = segment;
+    row_.fraction = 0.0;
+    Frame();
+    agent::RunEvent event{row_.frame - 1, row_.t_s, "hand-over", {}, ""};
+    event.fields.Add("segment", std::to_string(segment));
+    event.fields.Add("found", std::to_string(found));
+    event.fields.Add("stored", std::to_string(row_.stored));
+    event.fields.Add("search", search);
+    event.fields.Add("length_m", std::to_string(length_m));
+    event.fields.Add("speed_mps", "0.4");
+    text_ += agent::EventText(event);
+    return *this;
+  }
+  SampleRun& Frame() {
+    text_ += agent::RowText(row_);
+    ++row_.frame;
+    row_.t_s += 0.1;
+    if (row_.driven_m) row_.driven_m = *row_.driven_m + 0.1 * row_.linear_mps;
+    if (row_.x_m) row_.x_m = row_.driven_m;
+    row_.progress += 0.004;
+    row_.left_picture = row_.not_returned = 0;
+    return *this;
+  }
+  SampleRun& Frames(int count) {
+    for (int i = 0; i < count; ++i) Frame();
+    return *this;
+  }
+  SampleRun& Phase(agent::Phase phase, const std::string& reason) {
+    row_.phase = phase;
+    agent::RunEvent event{row_.frame, row_.t_s, "phase", {}, reason};
+    event.fields.Add("to", ToString(phase));
+    text_ += agent::EventText(event);
+    return *this;
+  }
+  SampleRun& End(const std::string& state, const std::string& reason) {
+    agent::RunEvent event{row_.frame, row_.t_s, "end", {}, reason};
+    event.fields.Add("state", state);
+    text_ += agent::EventText(event);
+    return *this;
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] agent::RunLog Log() const {
+    std::istringstream stream(text_);
+    return agent::ReadRunLog(stream).value();
+  }
+
+ private:
+  agent::FrameRow row_;
+  std::string text_;
+};
+
+}  // namespace trailcast::test

@@ -1,0 +1,84 @@
+#include "agent/diagnosis/run_log_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::steady_clock;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string TextOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TEST(RunLogFile, WhatWasPutIsOnTheDiskWhileTheRunGoesOn) {
+  const test::TempDir folder;
+  auto file = RunLogFile::Create(folder / "run.log");
+  ASSERT_TRUE(file) << file.error().message;
+  (*file)->Put("first\n");
+  (*file)->Put("second\n");
+  const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+  while (TextOf(folder / "run.log").size() < 13 && steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(TextOf(folder / "run.log"), "first\nsecond\n") << "not closed yet";
+}
+
+TEST(RunLogFile, ClosedItHoldsAllThatWasPutInOrder) {
+  const test::TempDir folder;
+  auto file = RunLogFile::Create(folder / "run.log");
+  ASSERT_TRUE(file);
+  std::string all;
+  for (int i = 0; i < 5000; ++i) {
+    (*file)->Put(std::to_string(i) + "\n");
+    all += std::to_string(i) + "\n";
+  }
+  EXPECT_TRUE((*file)->Close());
+  EXPECT_EQ(TextOf(folder / "run.log"), all);
+}
+
+TEST(RunLogFile, MoreThanFitsIsDroppedAndSaidSo) {
+  const test::TempDir folder;
+  auto file = RunLogFile::Create(folder / "run.log");
+  ASSERT_TRUE(file);
+  // Far faster than its thread wakes up.
+  for (int i = 0; i < 40'000; ++i) (*file)->Put("line\n");
+  const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+  while (TextOf(folder / "run.log").empty() && steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  (*file)->Put("last\n");
+  EXPECT_TRUE((*file)->Close());
+  EXPECT_THAT(TextOf(folder / "run.log"), StartsWith("line\nline\n"));
+  EXPECT_THAT(TextOf(folder / "run.log"), HasSubstr("# dropped "));
+  EXPECT_THAT(TextOf(folder / "run.log"), EndsWith("last\n"));
+}
+
+TEST(RunLogFile, AFullDiskIsToldAtTheEnd) {
+  auto file = RunLogFile::Create("/dev/full");
+  if (!file) GTEST_SKIP() << "no /dev/full here";
+  (*file)->Put("text\n");
+  const auto closed = (*file)->Close();
+  ASSERT_FALSE(closed);
+  EXPECT_THAT(closed.error().message, HasSubstr("is the disk full?"));
+}
+
+TEST(RunLogFile, AFolderThatIsNotThereIsNamed) {
+  const auto file = RunLogFile::Create("/nowhere/run.log");
+  ASSERT_FALSE(file);
+  EXPECT_THAT(file.error().message, HasSubstr("/nowhere/run.log"));
+}
+
+}  // namespace
+}  // namespace trailcast::agent
