@@ -55,7 +55,6 @@ struct ReplaySession::State {
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
   void Begin(std::size_t index, const image::GrayImage& frame);
-  void NoteSearch(SearchKind kind, std::size_t found, bool wide);
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
   void Refresh(const image::GrayImage& frame, int agreeing);
@@ -89,14 +88,9 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   }
   follower->Begin(segment);
   tracker.Follow(hand_over->ToSegment(frame, *follower));
-  NoteSearch(SearchKind::kHandOver, tracker.Current().size(), hand_over->last_was_wide());
+  searches.push_back(
+      SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over->last_was_wide()));
   frames_since_find = 0;
-}
-
-void ReplaySession::State::NoteSearch(SearchKind kind, std::size_t found, bool wide) {
-  const route::Segment& segment = follower->segment();
-  searches.push_back({kind, segment.index, static_cast<int>(segment.features.size()),
-                      static_cast<int>(found), wide, segment.length_m, segment.speed_mps()});
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -121,7 +115,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   if (!seen) return;
   if (seen->segment != 0) follower->Begin(ahead[seen->segment]);
   tracker.Follow(seen->features);
-  NoteSearch(SearchKind::kRecovered, seen->features.size(), true);
+  searches.push_back(SearchOf(SearchKind::kRecovered, follower->segment(), tracker.count(), true));
 }
 
 // Features once lost (blur, a passer-by) come back into view: look for them again.
@@ -135,7 +129,7 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame, int agreeing) 
   std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
   if (static_cast<int>(found.size()) <= agreeing) return;
   tracker.Follow(found);
-  NoteSearch(SearchKind::kLookedAgain, found.size(), false);
+  searches.push_back(SearchOf(SearchKind::kLookedAgain, segment, tracker.count(), false));
 }
 
 void ReplaySession::State::JudgeSight(const replay::FollowStep& step,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "services/base/ids.h"
+#include "services/route/route.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -24,6 +25,17 @@ struct Search {
   double length_m = 0.0;  // of the segment, as it was taught
   double speed_mps = 0.0;
 };
+
+[[nodiscard]] inline Search SearchOf(SearchKind kind, const route::Segment& segment, int found,
+                                     bool wide) {
+  return {kind,
+          segment.index,
+          static_cast<int>(segment.features.size()),
+          found,
+          wide,
+          segment.length_m,
+          segment.speed_mps()};
+}
 
 // What became of the segment's features in one frame.
 struct Sight {

@@ -37,11 +37,5 @@ TEST(TrialLogName, StaysInItsFolderWhateverThingsAreCalled) {
             ".._my_shop-paper-a_b-c-trial1.log");
 }
 
-TEST(OpenTrialLog, WithoutAFolderNothingIsWritten) {
-  auto diagnosis = OpenTrialLog(SetupOf("indoor"), CaseOf("a", "b", 0.0), {}, 1, {});
-  ASSERT_TRUE(diagnosis);
-  EXPECT_TRUE(diagnosis->End("arrived", ""));
-}
-
 }  // namespace
 }  // namespace trailcast::tool
