@@ -66,7 +66,7 @@ std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
 
 Verdict Confidence::Judge(const Sighting& seen,
                           const std::optional<motion::OdometryIncrement>& moved) {
-  if (seen.taught < options_.min_features && sure_once_) {  // nothing was to be seen here
+  if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }
   NoteView(seen);

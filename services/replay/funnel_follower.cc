@@ -154,8 +154,8 @@ bool FunnelFollower::Ended(const Matched& matched, bool by_odometry, FollowStep&
   step.delta_minus = transition_.delta_minus();
   step.fraction = fraction_ = Fraction(matched, by_odometry);
   const double longest_m = segment_.length_m * (1.0 + options_.overrun_share) + options_.overrun_m;
-  return fallen || (by_odometry ? driven_.distance_m > longest_m
-                                : fraction_ >= options_.end_fraction_without_odometry);
+  if (by_odometry) return fallen || driven_.distance_m > longest_m;
+  return TellsProgress(matched) && (fallen || fraction_ >= options_.end_fraction_without_odometry);
 }
 
 double FunnelFollower::OdometryTurn(double speed_mps) const {
@@ -175,12 +175,18 @@ TransitionErrors FunnelFollower::OdometryErrors() const {
   return errors;
 }
 
+bool FunnelFollower::TellsProgress(const Matched& matched) const {
+  const double stored = static_cast<double>(segment_.features.size());
+  const double least = std::max(1.0, std::floor(options_.share_to_tell_progress * stored));
+  return static_cast<double>(matched.current.size()) >= least;
+}
+
 double FunnelFollower::Fraction(const Matched& matched, bool by_odometry) {
   if (by_odometry) {
     return segment_.length_m > 0.0 ? std::clamp(driven_.distance_m / segment_.length_m, 0.0, 1.0)
                                    : 1.0;
   }
-  if (matched.current.empty()) return fraction_;
+  if (!TellsProgress(matched)) return fraction_;
   const double seen = EstimateProgress(segment_, matched.Features()).fraction;
   return std::min(1.0, visual_fraction_.Add(seen));
 }

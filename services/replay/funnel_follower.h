@@ -30,6 +30,9 @@ struct FunnelFollowerOptions {
   // the segment then also ends at this much of the taught tracks, a little early, because past the
   // milestone its features ask for the wrong turn.
   double end_fraction_without_odometry = 0.85;
+  // And a smaller share of the segment's features than this says nothing of how far along it is: any
+  // two tracks can be matched somewhere.
+  double share_to_tell_progress = 0.143;
   // A milestone that went by unnoticed: the segment ends so far past its taught length.
   double overrun_share = 0.25;
   double overrun_m = 0.3;
@@ -74,6 +77,7 @@ class FunnelFollower final : public Follower {
   [[nodiscard]] double VisionTurn(const Matched& matched) const;
   [[nodiscard]] double OdometryTurn(double speed_mps) const;
   [[nodiscard]] TransitionErrors OdometryErrors() const;
+  [[nodiscard]] bool TellsProgress(const Matched& matched) const;
   [[nodiscard]] double Fraction(const Matched& matched, bool by_odometry);
   [[nodiscard]] bool Ended(const Matched& matched, bool by_odometry, FollowStep& step);
 

@@ -1,83 +1,12 @@
 // Runs that nobody here recorded: taught on one, replayed on the other, open loop, by vision alone.
 // What must hold is in ../shared/data/README.md; skipped, visibly, where that data is absent.
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
-
-#include "tests/scenario/programs.h"
+#include "tests/scenario/recorded_runs.h"
 
 namespace trailcast::test {
 namespace {
 
 using testing::HasSubstr;
-
-struct Frame {
-  int segment = 0;
-  double turn_rad = 0.0;
-  std::string state;
-};
-
-class RecordedRunsTest : public ProgramsTest {
- protected:
-  static std::filesystem::path Data(const std::string& name) {
-    return std::filesystem::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "data" / name;
-  }
-  static bool Absent(const std::string& name) { return !std::filesystem::is_directory(Data(name)); }
-
-  // One CSV row a frame, in the contract's columns.
-  static std::vector<Frame> ReadCsv(const std::string& file) {
-    std::ifstream stream(file);
-    std::string line;
-    std::getline(stream, line);
-    EXPECT_EQ(line.rfind("frame,segment,progress,features,turn_rad,state", 0), 0U) << line;
-    std::vector<Frame> frames;
-    while (std::getline(stream, line)) {
-      std::vector<std::string> fields;
-      std::istringstream row(line);
-      for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
-      frames.push_back({std::stoi(fields.at(1)), std::stod(fields.at(4)), fields.at(5)});
-    }
-    return frames;
-  }
-
-  struct Replayed {
-    std::vector<Frame> frames;
-    int segments = 0;  // of the route
-  };
-  Replayed TeachAndReplay(const std::filesystem::path& teach, const std::filesystem::path& replay) {
-    const auto taught = RunAgent({"teach", "--frames", teach.string(), "--route", "run", "--store",
-                                  Path("route.db"), "--report", Path("taught.txt")});
-    EXPECT_EQ(taught.status, 0) << taught.output;
-    EXPECT_THAT(taught.output, HasSubstr("no odometry"));
-    const auto seen = RunAgent({"replay", "--frames", replay.string(), "--route", "run", "--store",
-                                Path("route.db"), "--csv", Path("out.csv")});
-    EXPECT_TRUE(seen.status == 0 || seen.status == 3) << seen.output;
-    return {ReadCsv(Path("out.csv")), Reported("taught.txt", "segments")};
-  }
-  int Reported(const std::string& file, const std::string& key) {
-    std::ifstream stream(Path(file));
-    for (std::string line; std::getline(stream, line);) {
-      if (line.rfind(key + "=", 0) == 0) return std::stoi(line.substr(key.size() + 1));
-    }
-    ADD_FAILURE() << "no " << key << " in " << file;
-    return 0;
-  }
-};
-
-std::map<int, double> ReadSteering(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);  // frame,steering,throttle
-  std::map<int, double> steering;
-  while (std::getline(stream, line)) {
-    const auto comma = line.find(',');
-    steering[std::stoi(line)] = std::stod(line.substr(comma + 1));
-  }
-  return steering;
-}
 
 TEST_F(RecordedRunsTest, DonkeyTrackGoesRoundAndTurnsAsItsDriverDid) {
   if (Absent("donkey_track")) GTEST_SKIP() << "no recorded runs at " << Data("donkey_track");
@@ -95,29 +24,31 @@ TEST_F(RecordedRunsTest, DonkeyTrackGoesRoundAndTurnsAsItsDriverDid) {
   // Steering above 0 is to the right and leads the image by 2 to 5 frames; counted while following.
   const auto steering = ReadSteering(Data("donkey_track") / "replay_steering.csv");
   for (const int lead : {2, 3, 4, 5}) {
-    int asked = 0;
-    int agreed = 0;
-    for (int i = lead; i < static_cast<int>(run.frames.size()); ++i) {
-      const Frame& frame = run.frames[static_cast<std::size_t>(i)];
-      const auto steered = steering.find(i - lead);
-      if (steered == steering.end() || std::abs(steered->second) <= 0.3) continue;
-      if (frame.state == "ARRIVED") continue;
-      ++asked;
-      agreed += steered->second * frame.turn_rad > 0.0 ? 1 : 0;
-    }
-    ASSERT_GT(asked, 150);
-    EXPECT_GE(agreed, 0.85 * asked) << agreed << " of " << asked << " at a lead of " << lead;
+    const Steered steered = AgreementWithDriver(run.frames, steering, lead);
+    ASSERT_GT(steered.asked, 150);
+    EXPECT_GE(steered.agreed, 0.85 * steered.asked)
+        << steered.agreed << " of " << steered.asked << " at a lead of " << lead;
   }
 }
 
-// How many frames ask for a turn to the right, and how many to the left.
-std::pair<int, int> RightAndLeft(const std::vector<Frame>& frames) {
-  const auto right = std::count_if(frames.begin(), frames.end(),
-                                   [](const Frame& frame) { return frame.turn_rad > 0.0; });
-  const auto left = std::count_if(frames.begin(), frames.end(),
-                                  [](const Frame& frame) { return frame.turn_rad < 0.0; });
-  return {static_cast<int>(right), static_cast<int>(left)};
+class PatioLapsTest : public RecordedRunsTest, public testing::WithParamInterface<int> {};
+
+TEST_P(PatioLapsTest, AnotherLapUnderOtherLightGoesAllTheWayRound) {
+  if (Absent("patio_laps")) GTEST_SKIP() << "no recorded runs at " << Data("patio_laps");
+  const std::string lap = "lap" + std::to_string(GetParam());
+  const Replayed run = TeachAndReplay(Data("patio_laps") / "lap0", Data("patio_laps") / lap);
+  ASSERT_GT(run.frames.size(), 300U);
+  int furthest = 0;
+  for (const Frame& frame : run.frames) {
+    EXPECT_GE(frame.segment, furthest - 1) << "progress went back more than one segment";
+    furthest = std::max(furthest, frame.segment);
+  }
+  // lap4 ends two thirds of the way round.
+  EXPECT_GE(furthest, GetParam() == 4 ? 55 * run.segments / 100 : run.segments - 1);
+  EXPECT_NE(run.frames.back().state, "LOST");
 }
+
+INSTANTIATE_TEST_SUITE_P(Laps, PatioLapsTest, testing::Values(1, 2, 3, 4));
 
 TEST_F(RecordedRunsTest, CorridorWalkedOnTheLeftAsksForRight) {
   if (Absent("corridor_offset")) GTEST_SKIP() << "no recorded runs at " << Data("corridor_offset");

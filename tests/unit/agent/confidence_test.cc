@@ -90,6 +90,13 @@ TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {
   EXPECT_EQ(verdict.reason, "this stretch was taught without features: on by odometry");
 }
 
+TEST_F(ConfidenceTest, WithoutOdometryAStretchTaughtWithoutFeaturesLeavesItBlind) {
+  See(9, 1, std::nullopt);
+  NextSegment(1);
+  EXPECT_EQ(See(0, 1, std::nullopt).trust, Trust::kBlind) << "nothing carries it on";
+  EXPECT_EQ(See(0, 90, std::nullopt).trust, Trust::kLost);
+}
+
 TEST_F(ConfidenceTest, ARouteThatBeginsWithoutFeaturesIsSought) {
   NextSegment(2);
   EXPECT_EQ(See(2).trust, Trust::kSeeking);

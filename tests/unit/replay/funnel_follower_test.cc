@@ -125,5 +125,22 @@ TEST(FunnelFollower, CommandStaysWithinTheLimits) {
   EXPECT_LE(std::abs(step.command.angular_radps), 0.05);
 }
 
+TEST(FunnelFollower, WithoutOdometryAHandfulOfFeaturesDoesNotEndASegment) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const std::size_t stored = run.segment.features.size();
+  ASSERT_GE(stored, 21U);
+  // At the milestone, as seen by few of the features and by many.
+  const auto at_end = test::Matched(kScene, run, {2.0, 0.0, 0.0});
+  for (const bool few : {true, false}) {
+    FunnelFollower follower(320, 1.0);
+    follower.Begin(run.segment);
+    auto seen = at_end;
+    if (few) seen.resize(2);
+    bool ended = false;
+    for (int i = 0; i < 10; ++i) ended = ended || follower.Step({seen, std::nullopt}).ended;
+    EXPECT_EQ(ended, !few);
+  }
+}
+
 }  // namespace
 }  // namespace trailcast::replay

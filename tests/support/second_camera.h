@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include "services/image/image.h"
+
+namespace trailcast::test {
+
+// Another camera than the one that recorded a run, as far as its pictures can tell: it magnifies
+// more, bends towards the edge, answers to light otherwise, and has another resolution.
+struct SecondCamera {
+  int width = 320;
+  int height = 240;
+  double magnification = 1.3;  // of the picture's content, beside the change of resolution
+  // Barrel: what is at radius r (in halves of the picture's width) comes to lie at
+  // r (1 - barrel r^2).
+  double barrel = 0.1;
+  double gamma = 0.6;  // brightens: 255 (grey / 255)^gamma
+};
+
+// What that camera would have recorded in place of `frame`.
+[[nodiscard]] image::GrayImage Through(const SecondCamera& camera, const image::GrayImage& frame);
+
+// A whole run, a folder of pictures, into another folder, which is made; throws std::runtime_error
+// where a picture cannot be read or written.
+void RecordThrough(const SecondCamera& camera, const std::filesystem::path& frames,
+                   const std::filesystem::path& into);
+
+}  // namespace trailcast::test
