@@ -85,11 +85,15 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
 }
 
 std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
-                                                     double magnification,
-                                                     std::span<const route::Segment> ahead) const {
-  Recovered best;
-  const auto keep_better = [&](std::size_t segment, vision::FindResult found) {
-    if (found.features.size() > best.features.size()) best = {segment, std::move(found.features)};
+                                                     replay::Follower& follower,
+                                                     std::span<const route::Segment> ahead) {
+  const double magnification = follower.magnification();
+  vision::FindResult best;
+  std::size_t segment = 0;
+  const auto keep_better = [&](std::size_t i, vision::FindResult found) {
+    if (found.features.size() <= best.features.size()) return;
+    best = std::move(found);
+    segment = i;
   };
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     if (ahead[i].features.empty()) continue;
@@ -102,7 +106,11 @@ std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& fra
     }
   }
   if (best.features.size() < kEnoughToRecover) return std::nullopt;
-  return best;
+  const double stored = static_cast<double>(ahead[segment].features.size());
+  if (any_camera_ && static_cast<double>(best.features.size()) >= kShareToLearn * stored) {
+    Learn(best, follower);
+  }
+  return Recovered{segment, std::move(best.features)};
 }
 
 }  // namespace trailcast::agent

@@ -35,10 +35,11 @@ class HandOver {
     std::size_t segment = 0;  // position in `ahead`
     std::vector<route::TrackedFeature> features;
   };
-  // Anywhere in the segments `ahead`, for a robot that lost its features.
+  // Anywhere in the segments `ahead`, for a robot that lost its features, or never had any: tells
+  // the follower the magnification it saw, too.
   [[nodiscard]] std::optional<Recovered> Recover(const image::GrayImage& frame,
-                                                 double magnification,
-                                                 std::span<const route::Segment> ahead) const;
+                                                 replay::Follower& follower,
+                                                 std::span<const route::Segment> ahead);
 
   // Whether the last ToSegment found them by a search of the whole picture.
   [[nodiscard]] bool last_was_wide() const { return last_was_wide_; }

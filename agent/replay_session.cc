@@ -111,7 +111,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   const std::size_t here = follower->segment().index.value();
   const std::span<const route::Segment> ahead(segments.data() + here,
                                               std::min<std::size_t>(3, segments.size() - here));
-  const auto seen = hand_over->Recover(frame, follower->magnification(), ahead);
+  const auto seen = hand_over->Recover(frame, *follower, ahead);
   if (!seen) return;
   if (seen->segment != 0) follower->Begin(ahead[seen->segment]);
   tracker.Follow(seen->features);
