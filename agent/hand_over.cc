@@ -13,6 +13,11 @@ constexpr double kShareToLearn = 0.35;      // and from a small share of them no
 constexpr std::size_t kMagnificationsKept = 15;
 constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
+// How many segments a lost robot looks for, the present one among them.
+constexpr std::size_t kAhead = 3;
+constexpr std::size_t kFurthestAhead = 10;
+constexpr std::size_t kNothingToSee = 4;  // a segment with fewer features
+constexpr int kFramesASegment = 5;        // hardly any is shorter
 // Around what the wide search says, in scout's pixels of a picture 320 px wide.
 constexpr double kAfterWide_px = 16.0;
 constexpr double kRecover_px = 56.0;
@@ -34,6 +39,18 @@ std::vector<route::TrackedFeature> Places(const route::Segment& segment, double 
 }
 
 }  // namespace
+
+std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> segments,
+                                             SegmentIndex here, bool has_odometry,
+                                             int lost_frames) {
+  const auto ahead = segments.subspan(here.value());
+  std::size_t reach = kAhead;
+  // Nothing says when a stretch without features is over, but those that come after it.
+  if (!has_odometry && ahead.front().features.size() < kNothingToSee) {
+    reach += static_cast<std::size_t>(lost_frames / kFramesASegment);
+  }
+  return ahead.first(std::min({reach, kFurthestAhead, ahead.size()}));
+}
 
 vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
                                           const route::Segment& segment, double s) const {

@@ -13,6 +13,12 @@
 
 namespace trailcast::agent {
 
+// The segments, from `here` on, that a robot may be in which has lost its features for so many
+// frames.
+[[nodiscard]] std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> segments,
+                                                           SegmentIndex here, bool has_odometry,
+                                                           int lost_frames);
+
 // Finds a segment's stored features in the follower's picture, whatever its camera, and learns how
 // the two cameras' magnifications compare.
 class HandOver {

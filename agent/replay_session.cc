@@ -22,7 +22,6 @@ constexpr int kLookAgain_frames = 5;
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
-
 // What so many segments say of the scout's camera is enough; each costs a fraction of a
 // millisecond.
 constexpr std::size_t kMostLearnt = 200;
@@ -108,9 +107,8 @@ void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
 
 void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   if (confidence.unsure_frames() % kLookAgain_frames != 0) return;
-  const std::size_t here = follower->segment().index.value();
-  const std::span<const route::Segment> ahead(segments.data() + here,
-                                              std::min<std::size_t>(3, segments.size() - here));
+  const auto ahead = WhereItMayBe(segments, follower->segment().index, last_odometry.has_value(),
+                                  confidence.unsure_frames());
   const auto seen = hand_over->Recover(frame, *follower, ahead);
   if (!seen) return;
   if (seen->segment != 0) follower->Begin(ahead[seen->segment]);

@@ -31,7 +31,10 @@ void Diagnosis::Begin(const RunFacts& facts) {
 void Diagnosis::Add(const RunFrame& seen, const image::GrayImage& frame,
                     const ReplaySession& session, const ReplayStep& step) {
   if (file_) file_->Put(recorder_.Add(seen, step));
-  if (!options_.view.empty() && frames_ % options_.view_every == 0) Draw(frame, session, step);
+  if (!options_.view.empty()) {
+    const image::GrayImage& unrolled = unroller_.Unroll(frame);
+    if (frames_ % options_.view_every == 0) Draw(unrolled, session, step);
+  }
   ++frames_;
 }
 

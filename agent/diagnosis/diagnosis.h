@@ -7,6 +7,7 @@
 
 #include "agent/diagnosis/run_log_file.h"
 #include "agent/diagnosis/run_recorder.h"
+#include "services/vision/donut.h"
 
 namespace trailcast::agent {
 
@@ -38,6 +39,7 @@ class Diagnosis {
   DiagnosisOptions options_;
   std::unique_ptr<RunLogFile> file_;
   RunRecorder recorder_;
+  vision::DonutUnroller unroller_;  // features are where the session's own one puts them
   bool begun_ = false;
   int frames_ = 0;
   Result<void> view_result_;
