@@ -54,9 +54,11 @@ class RecordedRunsTest : public ProgramsTest {
     EXPECT_THAT(taught.output, testing::HasSubstr("no odometry"));
     std::filesystem::path frames = replay;
     if (camera) RecordThrough(*camera, replay, frames = Path("second"));
-    const auto seen = RunAgent({"replay", "--frames", frames.string(), "--route", "run", "--store",
-                                Path("route.db"), "--csv", Path("out.csv")});
-    EXPECT_TRUE(seen.status == 0 || seen.status == 3) << seen.output;
+    const auto replaying = Agent({"replay", "--frames", frames.string(), "--route", "run",
+                                  "--store", Path("route.db"), "--csv", Path("out.csv")});
+    // Looking far and wide in larger pictures takes its time.
+    const int status = replaying->Wait(std::chrono::seconds(200)).value_or(-1);
+    EXPECT_TRUE(status == 0 || status == 3) << status << ": " << replaying->output();
     return {ReadCsv(Path("out.csv")), Reported("taught.txt", "segments")};
   }
   int Reported(const std::string& file, const std::string& key) {

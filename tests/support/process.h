@@ -70,8 +70,8 @@ class Process {
   }
 
   // The exit status, or 128 and the signal that ended it; nothing if it goes on beyond the bound.
-  [[nodiscard]] std::optional<int> Wait() {
-    WaitUntil([&] { return Ended(); });
+  [[nodiscard]] std::optional<int> Wait(std::chrono::seconds bound = kBound) {
+    WaitUntil([&] { return Ended(); }, bound);
     return status_;
   }
   [[nodiscard]] bool Ended() {
@@ -84,8 +84,8 @@ class Process {
 
  private:
   template <typename Predicate>
-  static bool WaitUntil(Predicate predicate) {
-    const auto deadline = std::chrono::steady_clock::now() + kBound;
+  static bool WaitUntil(Predicate predicate, std::chrono::seconds bound = kBound) {
+    const auto deadline = std::chrono::steady_clock::now() + bound;
     while (!predicate()) {
       if (std::chrono::steady_clock::now() > deadline) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
