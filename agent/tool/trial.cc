@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "agent/diagnosis/diagnosis.h"
 #include "agent/tool/served_route.h"
 #include "agent/tool/standstill_watch.h"
 #include "agent/tool/trial_log.h"

@@ -68,8 +68,8 @@ class Follower {
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
   // Where they will be at the segment's end for a robot that gets there as it was taught.
   [[nodiscard]] virtual std::vector<route::TrackedFeature> ExpectAtMilestone() const = 0;
-  // How far along u they may be from where Expect says, in scout's pixels of a picture 320 px wide; along v
-  // half as far.
+  // How far along u they may be from where Expect says, in scout's pixels of a picture 320 px wide;
+  // along v half as far.
   [[nodiscard]] virtual double expected_within_px_at_320() const = 0;
   // A feature further from where it should be, in the scout's pixels, is not believed.
   [[nodiscard]] virtual double outlier_px() const = 0;

@@ -30,8 +30,8 @@ struct FunnelFollowerOptions {
   // the segment then also ends at this much of the taught tracks, a little early, because past the
   // milestone its features ask for the wrong turn.
   double end_fraction_without_odometry = 0.85;
-  // And a smaller share of the segment's features than this says nothing of how far along it is: any
-  // two tracks can be matched somewhere.
+  // And a smaller share of the segment's features than this says nothing of how far along it is:
+  // any two tracks can be matched somewhere.
   double share_to_tell_progress = 0.143;
   // A milestone that went by unnoticed: the segment ends so far past its taught length.
   double overrun_share = 0.25;

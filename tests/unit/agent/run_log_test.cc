@@ -121,7 +121,7 @@ TEST(RunLog, DamagedLinesAreNamedAndTheOthersKept) {
   std::istringstream stream(run.text());
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   const std::size_t first = lines.size() - 6;  // the first row
-  lines[first + 1][0] = 'x';        // no number
+  lines[first + 1][0] = 'x';                   // no number
   lines[first + 2].resize(40);                 // values are missing
   lines[first + 3] = std::string("\0\x01\xff", 3);
   lines[first + 4] = std::string(kLongestLogLine + 1, '7');
