@@ -53,6 +53,9 @@ struct ConfidenceOptions {
   double good_view = 1.5;
   int covered_within_frames = 45;
   int covered_limit_frames = 900;
+  // A good view that is going is not to be given up for the next segment's before it is clear
+  // whether it is being covered.
+  int going_within_frames = 20;
 };
 
 // Says frame by frame how far a robot may trust what it sees. No clock: frames and metres count.
@@ -64,6 +67,11 @@ class Confidence {
   [[nodiscard]] Verdict Judge(const Sighting& seen,
                               const std::optional<motion::OdometryIncrement>& moved);
 
+  // A good view of the segment is a moment ago.
+  [[nodiscard]] bool view_is_going() const {
+    return options_.stand_when_covered && frames_since_good_ && *frames_since_good_ > 0 &&
+           *frames_since_good_ <= options_.going_within_frames;
+  }
   [[nodiscard]] bool sure_once() const { return sure_once_; }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
 

@@ -1,6 +1,7 @@
 #include "agent/hand_over.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "services/route/track.h"
@@ -13,6 +14,7 @@ constexpr double kShareToLearn = 0.35;      // and from a small share of them no
 constexpr std::size_t kMagnificationsKept = 15;
 constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
+constexpr double kShareToSkip = 0.5;  // of a later segment's features, to go on from there
 // How many segments a lost robot looks for, the present one among them.
 constexpr std::size_t kAhead = 3;
 constexpr std::size_t kFurthestAhead = 10;
@@ -104,30 +106,28 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
 std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
                                                      replay::Follower& follower,
                                                      std::span<const route::Segment> ahead) {
+  constexpr std::array kOfTheFirst = {0.0, 0.5, 1.0};
+  const std::size_t places = kOfTheFirst.size() + ahead.size() - 1;
+  const std::size_t place = turn_++ % places;
+  const std::size_t i = place < kOfTheFirst.size() ? 0 : place - kOfTheFirst.size() + 1;
+  const double s = i == 0 ? kOfTheFirst.at(place) : 0.0;
+  const route::Segment& segment = ahead[i];
+  if (segment.features.empty()) return std::nullopt;
   const double magnification = follower.magnification();
-  vision::FindResult best;
-  std::size_t segment = 0;
-  const auto keep_better = [&](std::size_t i, vision::FindResult found) {
-    if (found.features.size() <= best.features.size()) return;
-    best = std::move(found);
-    segment = i;
-  };
-  for (std::size_t i = 0; i < ahead.size(); ++i) {
-    if (ahead[i].features.empty()) continue;
-    for (const double s : {0.0, 0.5, 1.0}) {
-      if (i > 0 && s > 0.0) continue;
-      keep_better(i, finder_.FindNear(frame, ahead[i].features,
-                                      Places(ahead[i], s, {magnification, 0.0, 0.0}), magnification,
-                                      Around(kRecover_px, scout_width_px_)));
-      if (any_camera_) keep_better(i, FindAnywhere(frame, ahead[i], s));
-    }
+  vision::FindResult found =
+      finder_.FindNear(frame, segment.features, Places(segment, s, {magnification, 0.0, 0.0}),
+                       magnification, Around(kRecover_px, scout_width_px_));
+  if (any_camera_ && found.features.size() < kEnoughToRecover) {
+    found = FindAnywhere(frame, segment, s);
   }
-  if (best.features.size() < kEnoughToRecover) return std::nullopt;
-  const double stored = static_cast<double>(ahead[segment].features.size());
-  if (any_camera_ && static_cast<double>(best.features.size()) >= kShareToLearn * stored) {
-    Learn(best, follower);
+  const auto stored = static_cast<double>(segment.features.size());
+  const double share = static_cast<double>(found.features.size()) / stored;
+  // What is ahead may be seen from afar: to go on from there, most of it must be.
+  if (found.features.size() < kEnoughToRecover || (i > 0 && share < kShareToSkip)) {
+    return std::nullopt;
   }
-  return Recovered{segment, std::move(best.features)};
+  if (any_camera_ && share >= kShareToLearn) Learn(found, follower);
+  return Recovered{i, std::move(found.features)};
 }
 
 }  // namespace trailcast::agent

@@ -41,8 +41,10 @@ class HandOver {
     std::size_t segment = 0;  // position in `ahead`
     std::vector<route::TrackedFeature> features;
   };
-  // Anywhere in the segments `ahead`, for a robot that lost its features, or never had any: tells
-  // the follower the magnification it saw, too.
+  // Somewhere in the segments `ahead`, for a robot that lost its features, or never had any: tells
+  // the follower the magnification it saw, too. A search of the whole picture takes the time of
+  // several frames, so each call looks for one place only: the first segment's beginning, middle or
+  // end, or a later one's beginning, by turns.
   [[nodiscard]] std::optional<Recovered> Recover(const image::GrayImage& frame,
                                                  replay::Follower& follower,
                                                  std::span<const route::Segment> ahead);
@@ -65,6 +67,7 @@ class HandOver {
   bool last_was_wide_ = false;
   double share_sum_ = 0.0;
   int count_ = 0;
+  std::size_t turn_ = 0;  // of Recover
 };
 
 }  // namespace trailcast::agent

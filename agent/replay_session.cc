@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kBlindSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
-constexpr int kLookAgain_frames = 5;
+constexpr int kLookAgain_frames = 3;
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
@@ -235,7 +235,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.Refresh(frame, step.agreeing);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
   // What covers this segment's features covers the next one's too.
-  const bool wants_next = step.wants_next && next_is_here && s.trust != Trust::kCovered;
+  const bool covered = s.trust == Trust::kCovered || s.confidence.view_is_going();
+  const bool wants_next = step.wants_next && next_is_here && !covered;
   if (s.state != ReplayState::kLost && (step.ended || wants_next)) s.EndSegment(frame);
   // A segment that has just begun is not as far along as the last one was.
   if (s.follower->segment().index != before) step.fraction = 0.0;

@@ -68,6 +68,15 @@ TEST_F(ConfidenceTest, AGoodViewGoneAllAtOnceWasCovered) {
   EXPECT_EQ(See(30).trust, Trust::kSure);
 }
 
+TEST_F(ConfidenceTest, AGoodViewIsGoingForAMomentAfterIt) {
+  See(30);
+  EXPECT_FALSE(confidence_.view_is_going());
+  See(9, 20);
+  EXPECT_TRUE(confidence_.view_is_going());
+  See(9);
+  EXPECT_FALSE(confidence_.view_is_going());
+}
+
 TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {
   See(30);
   See(0, 900);
