@@ -34,10 +34,13 @@ int Confidence::Wanted(const Sighting& seen) const {
 void Confidence::NoteView(const Sighting& seen) {
   if (seen.agreeing >= options_.good_view * Wanted(seen)) {
     frames_since_good_ = 0;
+    good_features_ = seen.agreeing;
+    vanished_ = 0;
   } else if (seen.segment != segment_) {
     frames_since_good_.reset();
   } else if (frames_since_good_) {
     ++*frames_since_good_;
+    vanished_ += seen.vanished;
   }
   segment_ = seen.segment;
 }
@@ -80,9 +83,9 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
   ++unsure_frames_;
   const bool gone = seen.agreeing < options_.min_features;
-  covered_ =
-      covered_ || (options_.stand_when_covered && gone && sure_once_ && moved &&
-                   frames_since_good_ && *frames_since_good_ <= options_.covered_within_frames);
+  covered_ = covered_ ||
+             (options_.stand_when_covered && gone && sure_once_ && moved && frames_since_good_ &&
+              *frames_since_good_ <= options_.covered_within_frames && VanishedInPlace());
   const bool by_distance = moved.has_value() && sure_once_;
   return {Decide(seen, by_distance), Explain(seen, by_distance)};
 }

@@ -13,6 +13,7 @@ struct Sighting {
   std::uint32_t segment = 0;
   int taught = 0;    // features that the segment has
   int agreeing = 0;  // of them in view, where the route says they are
+  int vanished = 0;  // lost in this frame by tracking, in the middle of the picture
 };
 
 // What a robot may do.
@@ -48,11 +49,13 @@ struct ConfidenceOptions {
   double blind_limit_m = 2.5;
   int blind_limit_frames = 90;
   // A view of so many times the features it takes to be sure, gone within so many frames of one
-  // segment, was covered: a segment's features are those that stay in view to its end.
+  // segment, was covered, if this share of its features vanished where they were: in a bend a
+  // camera with a narrow view loses them as fast, over the picture's edge.
   bool stand_when_covered = true;
   double good_view = 1.5;
   int covered_within_frames = 45;
-  int covered_limit_frames = 900;
+  double vanished_share = 0.5;
+  int covered_limit_frames = 540;
   // A good view that is going is not to be given up for the next segment's before it is clear
   // whether it is being covered.
   int going_within_frames = 20;
@@ -67,10 +70,10 @@ class Confidence {
   [[nodiscard]] Verdict Judge(const Sighting& seen,
                               const std::optional<motion::OdometryIncrement>& moved);
 
-  // A good view of the segment is a moment ago.
+  // A good view of the segment is a moment ago, and it is not over the edge that its features went.
   [[nodiscard]] bool view_is_going() const {
     return options_.stand_when_covered && frames_since_good_ && *frames_since_good_ > 0 &&
-           *frames_since_good_ <= options_.going_within_frames;
+           *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
   }
   [[nodiscard]] bool sure_once() const { return sure_once_; }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
@@ -78,6 +81,9 @@ class Confidence {
  private:
   [[nodiscard]] int Wanted(const Sighting& seen) const;
   void NoteView(const Sighting& seen);
+  [[nodiscard]] bool VanishedInPlace() const {
+    return vanished_ >= options_.vanished_share * good_features_;
+  }
   [[nodiscard]] Trust Decide(const Sighting& seen, bool by_distance) const;
   [[nodiscard]] std::string Explain(const Sighting& seen, bool by_distance) const;
 
@@ -89,6 +95,8 @@ class Confidence {
   bool covered_ = false;
   std::uint32_t segment_ = 0;
   std::optional<int> frames_since_good_;  // view of this segment; nothing: there was none
+  int good_features_ = 0;                 // then
+  int vanished_ = 0;                      // since then
 };
 
 }  // namespace trailcast::agent

@@ -134,8 +134,10 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
-  Verdict verdict = confidence.Judge(
-      {segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing}, odometry);
+  Verdict verdict =
+      confidence.Judge({segment.index.value(), static_cast<int>(segment.features.size()),
+                        step.agreeing, tracker.losses().not_returned},
+                       odometry);
   trust = verdict.trust;
   state = StateOf(trust);
   reason = std::move(verdict.reason);

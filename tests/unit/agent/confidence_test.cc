@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace trailcast::agent {
 namespace {
 
@@ -15,7 +17,7 @@ class ConfidenceTest : public ::testing::Test {
               std::optional<motion::OdometryIncrement> moved = kStep) {
     Verdict verdict;
     for (int i = 0; i < frames; ++i) {
-      verdict = confidence_.Judge({segment_, taught_, agreeing}, moved);
+      verdict = confidence_.Judge({segment_, taught_, agreeing, std::exchange(vanish_, 0)}, moved);
     }
     return verdict;
   }
@@ -24,9 +26,13 @@ class ConfidenceTest : public ::testing::Test {
     taught_ = taught;
   }
 
+  // So many features vanish in the next frame, in the middle of the picture.
+  void Vanish(int features) { vanish_ = features; }
+
   Confidence confidence_;
   std::uint32_t segment_ = 0;
   int taught_ = kTaught;
+  int vanish_ = 0;
 };
 
 TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
@@ -62,15 +68,23 @@ TEST_F(ConfidenceTest, AViewThatFadesIsFollowedByBlindDriving) {
   EXPECT_EQ(See(0, 60).trust, Trust::kBlind);
 }
 
+TEST_F(ConfidenceTest, AViewThatLeavesOverTheEdgeWasNotCovered) {
+  See(30);
+  Vanish(14);
+  EXPECT_EQ(See(0, 40).trust, Trust::kBlind);
+}
+
 TEST_F(ConfidenceTest, AGoodViewGoneAllAtOnceWasCovered) {
   See(30);
-  EXPECT_EQ(See(0, 900).trust, Trust::kCovered);
+  Vanish(30);
+  EXPECT_EQ(See(0, 540).trust, Trust::kCovered);
   EXPECT_EQ(See(30).trust, Trust::kSure);
 }
 
 TEST_F(ConfidenceTest, AGoodViewIsGoingForAMomentAfterIt) {
   See(30);
   EXPECT_FALSE(confidence_.view_is_going());
+  Vanish(16);
   See(9, 20);
   EXPECT_TRUE(confidence_.view_is_going());
   See(9);
@@ -79,7 +93,8 @@ TEST_F(ConfidenceTest, AGoodViewIsGoingForAMomentAfterIt) {
 
 TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {
   See(30);
-  See(0, 900);
+  Vanish(30);
+  See(0, 540);
   const Verdict verdict = See(0);
   EXPECT_EQ(verdict.trust, Trust::kLost);
   EXPECT_EQ(verdict.reason.find("something covers the view"), 0U) << verdict.reason;
