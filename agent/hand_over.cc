@@ -103,31 +103,42 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
   follower.SetMagnification(*middle);
 }
 
-std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
-                                                     replay::Follower& follower,
-                                                     std::span<const route::Segment> ahead) {
-  constexpr std::array kOfTheFirst = {0.0, 0.5, 1.0};
-  const std::size_t places = kOfTheFirst.size() + ahead.size() - 1;
-  const std::size_t place = turn_++ % places;
-  const std::size_t i = place < kOfTheFirst.size() ? 0 : place - kOfTheFirst.size() + 1;
-  const double s = i == 0 ? kOfTheFirst.at(place) : 0.0;
-  const route::Segment& segment = ahead[i];
-  if (segment.features.empty()) return std::nullopt;
-  const double magnification = follower.magnification();
-  vision::FindResult found =
+vision::FindResult HandOver::FindAt(const image::GrayImage& frame, const route::Segment& segment,
+                                    double s, double magnification) const {
+  vision::FindResult near =
       finder_.FindNear(frame, segment.features, Places(segment, s, {magnification, 0.0, 0.0}),
                        magnification, Around(kRecover_px, scout_width_px_));
-  if (any_camera_ && found.features.size() < kEnoughToRecover) {
-    found = FindAnywhere(frame, segment, s);
+  if (!any_camera_) return near;
+  vision::FindResult anywhere = FindAnywhere(frame, segment, s);
+  return anywhere.features.size() > near.features.size() ? anywhere : near;
+}
+
+std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
+                                                     replay::Follower& follower,
+                                                     std::span<const route::Segment> ahead,
+                                                     bool can_wait) {
+  constexpr std::array kOfTheFirst = {0.0, 0.5, 1.0};
+  const std::size_t places = kOfTheFirst.size() + ahead.size() - 1;
+  const std::size_t from = can_wait ? turn_++ % places : 0;
+  const std::size_t to = can_wait ? from + 1 : places;
+  vision::FindResult best;
+  std::size_t segment = 0;
+  for (std::size_t place = from; place < to; ++place) {
+    const std::size_t i = place < kOfTheFirst.size() ? 0 : place - kOfTheFirst.size() + 1;
+    if (ahead[i].features.empty()) continue;
+    const double s = i == 0 ? kOfTheFirst.at(place) : 0.0;
+    vision::FindResult found = FindAt(frame, ahead[i], s, follower.magnification());
+    if (found.features.size() <= best.features.size()) continue;
+    best = std::move(found);
+    segment = i;
   }
-  const auto stored = static_cast<double>(segment.features.size());
-  const double share = static_cast<double>(found.features.size()) / stored;
+  const double share = static_cast<double>(best.features.size()) /
+                       std::max(1.0, static_cast<double>(ahead[segment].features.size()));
   // What is ahead may be seen from afar: to go on from there, most of it must be.
-  if (found.features.size() < kEnoughToRecover || (i > 0 && share < kShareToSkip)) {
-    return std::nullopt;
-  }
-  if (any_camera_ && share >= kShareToLearn) Learn(found, follower);
-  return Recovered{i, std::move(found.features)};
+  const bool too_far = can_wait && segment > 0 && share < kShareToSkip;
+  if (best.features.size() < kEnoughToRecover || too_far) return std::nullopt;
+  if (any_camera_ && share >= kShareToLearn) Learn(best, follower);
+  return Recovered{segment, std::move(best.features)};
 }
 
 }  // namespace trailcast::agent

@@ -42,12 +42,14 @@ class HandOver {
     std::vector<route::TrackedFeature> features;
   };
   // Somewhere in the segments `ahead`, for a robot that lost its features, or never had any: tells
-  // the follower the magnification it saw, too. A search of the whole picture takes the time of
-  // several frames, so each call looks for one place only: the first segment's beginning, middle or
-  // end, or a later one's beginning, by turns.
+  // the follower the magnification it saw, too. The places are the first segment's beginning,
+  // middle and end and the later ones' beginnings. A search of the whole picture for one of them
+  // takes the time of several frames: a robot that can wait, knowing how far it drives meanwhile,
+  // takes one place a call, by turns.
   [[nodiscard]] std::optional<Recovered> Recover(const image::GrayImage& frame,
                                                  replay::Follower& follower,
-                                                 std::span<const route::Segment> ahead);
+                                                 std::span<const route::Segment> ahead,
+                                                 bool can_wait);
 
   // Whether the last ToSegment found them by a search of the whole picture.
   [[nodiscard]] bool last_was_wide() const { return last_was_wide_; }
@@ -56,6 +58,9 @@ class HandOver {
   [[nodiscard]] int count() const { return count_; }
 
  private:
+  [[nodiscard]] vision::FindResult FindAt(const image::GrayImage& frame,
+                                          const route::Segment& segment, double s,
+                                          double magnification) const;
   [[nodiscard]] vision::FindResult FindAnywhere(const image::GrayImage& frame,
                                                 const route::Segment& segment, double s) const;
   void Learn(const vision::FindResult& found, replay::Follower& follower);
@@ -67,7 +72,7 @@ class HandOver {
   bool last_was_wide_ = false;
   double share_sum_ = 0.0;
   int count_ = 0;
-  std::size_t turn_ = 0;  // of Recover
+  std::size_t turn_ = 0;  // of Recover, where it can wait
 };
 
 }  // namespace trailcast::agent

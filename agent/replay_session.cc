@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kBlindSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
-constexpr int kLookAgain_frames = 3;
+constexpr int kLookAgain_frames = 5;
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
@@ -109,7 +109,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   if (confidence.unsure_frames() % kLookAgain_frames != 0) return;
   const auto ahead = WhereItMayBe(segments, follower->segment().index, last_odometry.has_value(),
                                   confidence.unsure_frames());
-  const auto seen = hand_over->Recover(frame, *follower, ahead);
+  const auto seen = hand_over->Recover(frame, *follower, ahead, last_odometry.has_value());
   if (!seen) return;
   if (seen->segment != 0) follower->Begin(ahead[seen->segment]);
   tracker.Follow(seen->features);

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 
 #include "agent/tool/trial_batch.h"
 #include "agent/tool/trial_csv.h"
@@ -42,6 +43,10 @@ struct Quality {
   const char* follower_camera;
   std::uint64_t seed;
   double final_m, mean_m, max_m;
+
+  friend std::ostream& operator<<(std::ostream& out, const Quality& quality) {
+    return out << quality.scenario << " with " << quality.follower_camera;
+  }
 };
 
 class FollowingQuality : public ::testing::TestWithParam<Quality> {};
