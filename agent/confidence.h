@@ -75,7 +75,6 @@ class Confidence {
     return options_.stand_when_covered && frames_since_good_ && *frames_since_good_ > 0 &&
            *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
   }
-  [[nodiscard]] bool sure_once() const { return sure_once_; }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
 
  private:

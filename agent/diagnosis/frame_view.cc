@@ -135,11 +135,9 @@ image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& s
   canvas.Paste(Grey(frame), 0, 0, width, height);
   DrawFeatures(canvas, enlarged, features);
   // What lies outside the picture (a milestone often does) shall not cross the text.
-  canvas.FillPolygon({{0.0, static_cast<double>(height)},
-                      {static_cast<double>(width), static_cast<double>(height)},
-                      {static_cast<double>(width), static_cast<double>(height + kPanelHeight_px)},
-                      {0.0, static_cast<double>(height + kPanelHeight_px)}},
-                     kPanel);
+  canvas.FillBox({0.0, static_cast<double>(height)},
+                 {static_cast<double>(width), static_cast<double>(height + kPanelHeight_px)},
+                 kPanel);
   DrawTurn(canvas, step.turn_rad, height + 12.0);
   double y = height + 38.0;
   canvas.Text(Where(step), {kMargin_px, y}, kTextHeight_px, kInk);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "agent/tool/plot_style.h"
+
 namespace trailcast::tool {
 namespace {
 
@@ -14,9 +16,6 @@ using image::Canvas;
 using image::Color;
 using image::PixelPoint;
 
-constexpr Color kWhite{255, 255, 255};
-constexpr Color kInk{40, 40, 40};
-constexpr Color kGrid{225, 225, 225};
 constexpr double kTextHeight_px = 12.0;
 constexpr double kTitleHeight_px = 15.0;
 constexpr double kLegendLine_px = 20.0;
@@ -40,27 +39,9 @@ struct Frame {
   [[nodiscard]] double height_px() const { return area.size_m().y() * px_per_m; }
 };
 
-// 1, 2 or 5 times a power of ten, such that about eight ticks fit.
-double TickStep(double length_m) {
-  const double raw = length_m / 8.0;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (raw <= factor * power) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-std::vector<double> Ticks(double from_m, double to_m, double step_m) {
-  std::vector<double> ticks;
-  const auto first = static_cast<int>(std::ceil(from_m / step_m));
-  const auto last = static_cast<int>(std::floor(to_m / step_m));
-  for (int i = first; i <= last; ++i) ticks.push_back(i * step_m);
-  return ticks;
-}
-
 void DrawAxes(Canvas& canvas, const Frame& frame, bool grid) {
   const PlanArea& area = frame.area;
-  const double step_m = TickStep(std::max(area.size_m().x(), area.size_m().y()));
+  const double step_m = TickStep(std::max(area.size_m().x(), area.size_m().y()), 8.0);
   const double bottom = kTop_px + frame.height_px();
   const double right = kLeft_px + frame.width_px();
   for (const double x_m : Ticks(area.min_m.x(), area.max_m.x(), step_m)) {
@@ -178,13 +159,8 @@ image::RgbImage DrawPlan(const Plan& plan) {
 }
 
 image::Color PathColor(std::size_t index) {
-  static constexpr std::array<Color, 7> kColors{{{0, 0, 0},
-                                                 {213, 94, 0},
-                                                 {0, 114, 178},
-                                                 {0, 158, 115},
-                                                 {204, 121, 167},
-                                                 {230, 159, 0},
-                                                 {86, 180, 233}}};
+  static constexpr std::array<Color, 7> kColors{
+      {kBlack, kOrange, kBlue, kGreen, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
   return index == 0 ? kColors[0] : kColors[1 + (index - 1) % (kColors.size() - 1)];
 }
 

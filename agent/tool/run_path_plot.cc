@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "agent/tool/plot_style.h"
 #include "agent/tool/run_index.h"
 #include "agent/tool/run_plot.h"
 
@@ -19,8 +20,7 @@ using image::Canvas;
 using image::Color;
 using image::PixelPoint;
 
-constexpr Color kInk{40, 40, 40};
-constexpr Color kGrid{232, 232, 232};
+constexpr Color kPaleGrid{232, 232, 232};  // the path is thin
 constexpr double kTextHeight_px = 10.0;
 constexpr double kHighest_px = 420.0;
 constexpr double kLowest_px = 120.0;
@@ -88,14 +88,14 @@ void DrawGrid(Canvas& canvas, const Map& map) {
   const double mid_y = 0.5 * (map.extent.min_y + map.extent.max_y);
   for (const double x_m : RoundTicks(mid_x - half_width_m, mid_x + half_width_m, 10.0)) {
     const double x = map.At(x_m, 0.0).x;
-    canvas.Line({{x, map.box.top}, {x, map.box.bottom()}}, kGrid, 1.0);
+    canvas.Line({{x, map.box.top}, {x, map.box.bottom()}}, kPaleGrid, 1.0);
     const std::string text = fmt::format("{:g}", x_m);
     canvas.Text(text, {x - 0.5 * Canvas::TextWidth(text, kTextHeight_px), map.box.bottom() + 16.0},
                 kTextHeight_px, kInk);
   }
   for (const double y_m : RoundTicks(mid_y - half_height_m, mid_y + half_height_m, 4.0)) {
     const double y = map.At(0.0, y_m).y;
-    canvas.Line({{map.box.left, y}, {map.box.right(), y}}, kGrid, 1.0);
+    canvas.Line({{map.box.left, y}, {map.box.right(), y}}, kPaleGrid, 1.0);
     const std::string text = fmt::format("{:g}", y_m);
     canvas.Text(text, {map.box.left - 6.0 - Canvas::TextWidth(text, kTextHeight_px), y + 4.0},
                 kTextHeight_px, kInk);
@@ -169,12 +169,7 @@ void DrawPathPanel(Canvas& canvas, const PixelBox& box, const RunLog& log) {
   DrawGrid(canvas, map);
   DrawPath(canvas, map, log, full_scale_m);
   DrawSegments(canvas, map, log);
-  canvas.Line({{box.left, box.top},
-               {box.right(), box.top},
-               {box.right(), box.bottom()},
-               {box.left, box.bottom()},
-               {box.left, box.top}},
-              kInk, 1.0);
+  canvas.OutlineBox({box.left, box.top}, {box.right(), box.bottom()}, kInk, 1.0);
   canvas.Text("path by odometry, x and y [m], with the segments' starts", {box.left, box.top - 7.0},
               11.0, kInk);
   const bool estimated = std::any_of(log.frames.begin(), log.frames.end(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "agent/tool/plot_style.h"
 #include "agent/tool/run_index.h"
 #include "agent/tool/run_path_plot.h"
 #include "agent/tool/story.h"
@@ -22,13 +23,7 @@ using agent::RunLog;
 using image::Canvas;
 using image::Color;
 
-constexpr Color kWhite{255, 255, 255};
-constexpr Color kInk{40, 40, 40};
-constexpr Color kBlack{0, 0, 0};
-constexpr Color kOrange{213, 94, 0};
-constexpr Color kBlue{0, 114, 178};
 constexpr Color kPale{150, 190, 215};
-constexpr Color kGreen{0, 158, 115};
 
 constexpr int kWidth_px = 1200;
 constexpr double kLeft_px = 62.0;
@@ -148,8 +143,7 @@ void DrawHead(Canvas& canvas, const RunLog& log) {
   double x = kLeft_px;
   for (const Phase phase : {Phase::kUnsure, Phase::kBlind, Phase::kCovered, Phase::kSeeking,
                             Phase::kWaiting, Phase::kArrived, Phase::kLost}) {
-    canvas.FillPolygon({{x, 50.0}, {x + 22.0, 50.0}, {x + 22.0, 62.0}, {x, 62.0}},
-                       PhaseColor(phase));
+    canvas.FillBox({x, 50.0}, {x + 22.0, 62.0}, PhaseColor(phase));
     canvas.Text(ToString(phase), {x + 28.0, 60.0}, 10.0, kInk);
     x += 46.0 + Canvas::TextWidth(ToString(phase), 10.0);
   }

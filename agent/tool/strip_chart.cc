@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "agent/tool/plot_style.h"
 
 namespace trailcast::tool {
 namespace {
@@ -12,8 +13,6 @@ using image::Canvas;
 using image::Color;
 using image::PixelPoint;
 
-constexpr Color kInk{40, 40, 40};
-constexpr Color kGrid{225, 225, 225};
 constexpr Color kBorder{170, 170, 170};
 constexpr double kTextHeight_px = 10.0;
 constexpr double kTitleHeight_px = 11.0;
@@ -66,8 +65,7 @@ void DrawBands(Canvas& canvas, const Scale& scale, const std::vector<Band>& band
     const double from = std::clamp(scale.AtX(band.from_x), box.left, box.right());
     const double to =
         std::min(box.right(), std::max(scale.AtX(band.to_x), from + kNarrowestBand_px));
-    canvas.FillPolygon({{from, box.top}, {to, box.top}, {to, box.bottom()}, {from, box.bottom()}},
-                       band.color);
+    canvas.FillBox({from, box.top}, {to, box.bottom()}, band.color);
   }
 }
 
@@ -115,20 +113,6 @@ void DrawLegend(Canvas& canvas, const PixelBox& box, const StripChart& chart) {
 
 }  // namespace
 
-std::vector<double> RoundTicks(double from, double to, double count) {
-  const double raw = std::max(1e-9, (to - from) / count);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  double step = 10.0 * power;
-  for (const double factor : {5.0, 2.0, 1.0}) {
-    if (raw <= factor * power * 1.0001) step = factor * power;
-  }
-  std::vector<double> ticks;
-  const auto first = static_cast<std::int64_t>(std::ceil(from / step - 1e-9));
-  const auto last = static_cast<std::int64_t>(std::floor(to / step + 1e-9));
-  for (std::int64_t i = first; i <= last; ++i) ticks.push_back(static_cast<double>(i) * step);
-  return ticks;
-}
-
 void DrawStrip(Canvas& canvas, const PixelBox& box, const ChartAxis& axis,
                const StripChart& chart) {
   const Scale scale{box, XRange(axis), YRange(chart)};
@@ -138,12 +122,7 @@ void DrawStrip(Canvas& canvas, const PixelBox& box, const ChartAxis& axis,
     canvas.Line({{scale.AtX(x), box.top}, {scale.AtX(x), box.bottom()}}, kBorder, 1.0);
   }
   for (const Curve& curve : chart.curves) DrawCurve(canvas, scale, axis, curve);
-  canvas.Line({{box.left, box.top},
-               {box.right(), box.top},
-               {box.right(), box.bottom()},
-               {box.left, box.bottom()},
-               {box.left, box.top}},
-              kInk, 1.0);
+  canvas.OutlineBox({box.left, box.top}, {box.right(), box.bottom()}, kInk, 1.0);
   DrawLegend(canvas, box, chart);
 }
 

@@ -56,7 +56,4 @@ void DrawStrip(image::Canvas& canvas, const PixelBox& box, const ChartAxis& axis
 // The ticks and the label of the common axis, below `box`.
 void DrawChartAxis(image::Canvas& canvas, const PixelBox& box, const ChartAxis& axis);
 
-// Ticks at 1, 2 or 5 times a power of ten, about `count` of them.
-[[nodiscard]] std::vector<double> RoundTicks(double from, double to, double count);
-
 }  // namespace trailcast::tool

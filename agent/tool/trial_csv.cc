@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 
+#include "agent/text_file.h"
+
 namespace trailcast::tool {
 namespace {
 
@@ -125,15 +127,9 @@ std::string TrialCsvLine(const TrialRow& row) {
 }
 
 Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::trunc);
-  out << TrialCsvHeader() << '\n';
-  for (const TrialRow& row : rows) out << TrialCsvLine(row) << '\n';
-  out.close();
-  if (!out) {
-    return Fail(ErrorCode::kUnavailable,
-                "cannot write {}: does its folder exist, is the disk full?", file.string());
-  }
-  return {};
+  std::string text = TrialCsvHeader() + '\n';
+  for (const TrialRow& row : rows) text += TrialCsvLine(row) + '\n';
+  return agent::WriteTextFile(file, text);
 }
 
 Result<std::vector<TrialRow>> ReadTrialCsv(const std::filesystem::path& file) {

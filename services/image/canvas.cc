@@ -94,6 +94,14 @@ void Canvas::FillPolygon(const std::vector<PixelPoint>& corners, Color color) {
   cv::fillPoly(view, polygons, ToScalar(color), cv::LINE_AA, kShift);
 }
 
+void Canvas::FillBox(PixelPoint from, PixelPoint to, Color color) {
+  FillPolygon({from, {to.x, from.y}, to, {from.x, to.y}}, color);
+}
+
+void Canvas::OutlineBox(PixelPoint from, PixelPoint to, Color color, double width_px) {
+  Line({from, {to.x, from.y}, to, {from.x, to.y}, from}, color, width_px);
+}
+
 void Canvas::Disc(PixelPoint center, double radius_px, Color color) {
   cv::Mat view = View(picture_);
   const int radius = std::max(1, static_cast<int>(std::lround(radius_px * kShiftScale)));

@@ -24,6 +24,9 @@ class Canvas {
   void Line(const std::vector<PixelPoint>& points, Color color, double width_px,
             bool dashed = false);
   void FillPolygon(const std::vector<PixelPoint>& corners, Color color);
+  // Upright, between two opposite corners.
+  void FillBox(PixelPoint from, PixelPoint to, Color color);
+  void OutlineBox(PixelPoint from, PixelPoint to, Color color, double width_px);
   void Disc(PixelPoint center, double radius_px, Color color);
   void Cross(PixelPoint center, double radius_px, Color color, double width_px);
   // Baseline-left at `at`; height of a capital letter in pixels.

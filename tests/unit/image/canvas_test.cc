@@ -40,6 +40,20 @@ TEST(Canvas, PolygonFillsItsInsideOnly) {
   EXPECT_EQ(At(canvas, 18, 10), kWhite);
 }
 
+TEST(Canvas, ABoxIsFilledOrOutlined) {
+  Canvas filled(20, 20, kWhite);
+  filled.FillBox({5, 5}, {15, 12}, kRed);
+  EXPECT_EQ(At(filled, 10, 8), kRed);
+  EXPECT_EQ(At(filled, 10, 16), kWhite);
+  Canvas outlined(20, 20, kWhite);
+  outlined.OutlineBox({4, 4}, {16, 15}, kRed, 3.0);
+  EXPECT_EQ(At(outlined, 10, 10), kWhite);
+  for (const auto& [x, y] :
+       {std::pair(10, 4), std::pair(10, 15), std::pair(4, 10), std::pair(16, 10)}) {
+    EXPECT_EQ(At(outlined, x, y), kRed) << x << ", " << y;
+  }
+}
+
 TEST(Canvas, DashedLineLeavesGapsThatAFullLineDoesNot) {
   Canvas full(100, 9, kWhite);
   full.Line({{0, 4}, {99, 4}}, kRed, 1.0);

@@ -35,6 +35,14 @@ SimulatedRobotOptions Options(Actors actors) {
   return options;
 }
 
+// For minutes of driving in which nobody looks at the pictures.
+SimulatedRobotOptions DriveOptions(Actors actors) {
+  SimulatedRobotOptions options = Options(std::move(actors));
+  options.camera.width = 32;
+  options.camera.height = 24;
+  return options;
+}
+
 // Mean grey difference of two pictures over columns [from, to).
 double Difference(const image::GrayImage& a, const image::GrayImage& b, int from, int to) {
   double sum = 0.0;
@@ -99,7 +107,8 @@ TEST(Stage, APersonsShadowFallsOnTheGroundAwayFromTheSun) {
 }
 
 TEST(Stage, APersonHoldsTheRobotAsAWallDoesAndTheJudgeCanTell) {
-  const auto robot = *SimulatedRobot::Create(SmallWorld().Build(), Options({Standing(1.0, 0.0)}));
+  const auto robot =
+      *SimulatedRobot::Create(SmallWorld().Build(), DriveOptions({Standing(1.0, 0.0)}));
   Observation seen;
   for (int step = 0; step < 150; ++step) seen = robot->Step({0.4, 0.0});
   EXPECT_TRUE(seen.blocked);
@@ -110,7 +119,7 @@ TEST(Stage, APersonHoldsTheRobotAsAWallDoesAndTheJudgeCanTell) {
 
 TEST(Stage, AWallIsNotAnActor) {
   const auto world = SmallWorld().WhiteBox({1, -1, 0}, {1.2F, 1, 1}).Build();
-  const auto robot = *SimulatedRobot::Create(world, Options({Standing(5.0, 3.0)}));
+  const auto robot = *SimulatedRobot::Create(world, DriveOptions({Standing(5.0, 3.0)}));
   for (int step = 0; step < 150; ++step) (void)robot->Step({0.4, 0.0});
   EXPECT_TRUE(Judge(*robot).blocked());
   EXPECT_FALSE(Judge(*robot).blocked_by_actor());
@@ -119,8 +128,8 @@ TEST(Stage, AWallIsNotAnActor) {
 TEST(Stage, SomebodyStepsInWhenTheRobotComesAndLetsItGoAfterTenSeconds) {
   Encounter encounter;
   encounter.place = {3.0, 0.0};
-  const auto robot = *SimulatedRobot::Create(SmallWorld().Build(),
-                                             Options({Actor{Person(), std::nullopt, encounter}}));
+  const auto robot = *SimulatedRobot::Create(
+      SmallWorld().Build(), DriveOptions({Actor{Person(), std::nullopt, encounter}}));
   const Judge judge(*robot);
   double seen_first_at_m = 0.0;
   double held_s = 0.0;

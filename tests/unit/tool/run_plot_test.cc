@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agent/tool/plot_style.h"
 #include "agent/tool/strip_chart.h"
 #include "tests/support/sample_run.h"
 
