@@ -13,6 +13,8 @@ const char* ToString(Trust trust) {
       return "sure";
     case Trust::kUnsure:
       return "unsure";
+    case Trust::kDistant:
+      return "distant";
     case Trust::kBlind:
       return "blind";
     case Trust::kCovered:
@@ -45,6 +47,18 @@ void Confidence::NoteView(const Sighting& seen) {
   segment_ = seen.segment;
 }
 
+// Of a robot that sees what it should: does that tell where it is?
+Verdict Confidence::JudgePlace(const Sighting& seen) const {
+  if (!seen.left_sigma_m || *seen.left_sigma_m < options_.distant_sigma_m ||
+      driven_m_ < options_.settle_m) {
+    return {Trust::kSure, ""};
+  }
+  return {*seen.left_sigma_m < options_.lost_sigma_m ? Trust::kDistant : Trust::kLost,
+          fmt::format("only distant features are in view: the place beside the path is known to "
+                      "{:.2f} m at best",
+                      *seen.left_sigma_m)};
+}
+
 Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
   if (covered_) {
     return unsure_frames_ > options_.covered_limit_frames ? Trust::kLost : Trust::kCovered;
@@ -69,6 +83,7 @@ std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
 
 Verdict Confidence::Judge(const Sighting& seen,
                           const std::optional<motion::OdometryIncrement>& moved) {
+  driven_m_ += moved ? std::abs(moved->distance_m) : 0.0;
   if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }
@@ -78,7 +93,7 @@ Verdict Confidence::Judge(const Sighting& seen,
     covered_ = false;
     unsure_m_ = 0.0;
     unsure_frames_ = 0;
-    return {Trust::kSure, ""};
+    return JudgePlace(seen);
   }
   unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
   ++unsure_frames_;

@@ -14,13 +14,18 @@ struct Sighting {
   int taught = 0;    // features that the segment has
   int agreeing = 0;  // of them in view, where the route says they are
   int vanished = 0;  // lost in this frame by tracking, in the middle of the picture
+  // How well the place beside the path is known; nothing where it is not estimated.
+  std::optional<double> left_sigma_m = std::nullopt;
 };
 
 // What a robot may do.
 enum class Trust {
   kSure,    // of the path: follow
   kUnsure,  // some of the features, too few to be sure: follow, for a short way
-  kBlind,   // next to none: on by odometry alone, slowly, for a short way
+  // Features enough, but all so far away that they tell the heading and not the place beside the
+  // path: follow, slowly, as long as the path is still under the robot.
+  kDistant,
+  kBlind,  // next to none: on by odometry alone, slowly, for a short way
   // A good view was gone all at once, as if somebody had stepped in front of the camera: stand
   // still, for a while. Driving on might mean driving into it.
   kCovered,
@@ -44,6 +49,11 @@ struct ConfidenceOptions {
   double sure_share = 0.4;
   double sure_least = 5.0;
   double sure_most = 8.0;
+  // Near features tell the place beside the path to a centimetre or two. Past the first of these
+  // there are only distant ones; past the second the path may be anywhere.
+  double distant_sigma_m = 0.07;
+  double lost_sigma_m = 0.5;
+  double settle_m = 1.0;  // of driving, until the start's own uncertainty is over
   // How far a robot that is not sure may go on, and how long one without odometry, or one that has
   // not found the route yet, may look around, before it is lost.
   double blind_limit_m = 2.5;
@@ -83,11 +93,13 @@ class Confidence {
   [[nodiscard]] bool VanishedInPlace() const {
     return vanished_ >= options_.vanished_share * good_features_;
   }
+  [[nodiscard]] Verdict JudgePlace(const Sighting& seen) const;
   [[nodiscard]] Trust Decide(const Sighting& seen, bool by_distance) const;
   [[nodiscard]] std::string Explain(const Sighting& seen, bool by_distance) const;
 
   ConfidenceOptions options_;
   bool sure_once_ = false;
+  double driven_m_ = 0.0;
   // Since it was last sure.
   double unsure_m_ = 0.0;
   int unsure_frames_ = 0;

@@ -16,7 +16,7 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kBlindSpeedFactor = 0.6;
+constexpr double kUncertainSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
 constexpr int kLookAgain_frames = 5;
 // With a smaller share of the segment's features than this they are sought again, every so often.
@@ -134,19 +134,21 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
-  Verdict verdict =
-      confidence.Judge({segment.index.value(), static_cast<int>(segment.features.size()),
-                        step.agreeing, tracker.losses().not_returned},
-                       odometry);
+  Sighting seen{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
+                tracker.losses().not_returned};
+  if (step.offset) seen.left_sigma_m = step.offset->left_sigma_m;
+  Verdict verdict = confidence.Judge(seen, odometry);
   trust = verdict.trust;
   state = StateOf(trust);
   reason = std::move(verdict.reason);
   if (trust == Trust::kBlind || trust == Trust::kSeeking) LookAgain(frame);
 }
 
-// Share of the method's speed that is driven: less when blind and before the route's end.
+// Share of the method's speed that is driven: less when it is not known how far beside the path
+// the robot is, and before the route's end.
 double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
-  const double share = trust == Trust::kBlind ? kBlindSpeedFactor : 1.0;
+  const double share =
+      trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
   const route::Segment& segment = follower->segment();
   const bool last = complete && segment.index.value() + 1 == segments.size();
   if (AsPrinted(options.method) || !last || step.command.linear_mps <= 0.0) {
@@ -177,7 +179,7 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
   report.turn_rad = step.turn_rad;
   report.decision = step;
-  const bool drive = trust == Trust::kSure || trust == Trust::kUnsure ||
+  const bool drive = trust == Trust::kSure || trust == Trust::kUnsure || trust == Trust::kDistant ||
                      (trust == Trust::kBlind && last_odometry && UsesOdometry(options.method));
   if (drive && (state == ReplayState::kFollowing || state == ReplayState::kBlind)) {
     const double share = SpeedShare(step);

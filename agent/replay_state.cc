@@ -22,6 +22,7 @@ ReplayState StateOf(Trust trust) {
   switch (trust) {
     case Trust::kSure:
     case Trust::kUnsure:
+    case Trust::kDistant:
       return ReplayState::kFollowing;
     case Trust::kBlind:
     case Trust::kCovered:

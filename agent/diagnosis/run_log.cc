@@ -14,8 +14,9 @@ struct NamedPhase {
 constexpr std::array kPhases = {
     NamedPhase{"waiting", Phase::kWaiting}, NamedPhase{"seeking", Phase::kSeeking},
     NamedPhase{"sure", Phase::kSure},       NamedPhase{"unsure", Phase::kUnsure},
-    NamedPhase{"blind", Phase::kBlind},     NamedPhase{"covered", Phase::kCovered},
-    NamedPhase{"arrived", Phase::kArrived}, NamedPhase{"lost", Phase::kLost}};
+    NamedPhase{"distant", Phase::kDistant}, NamedPhase{"blind", Phase::kBlind},
+    NamedPhase{"covered", Phase::kCovered}, NamedPhase{"arrived", Phase::kArrived},
+    NamedPhase{"lost", Phase::kLost}};
 
 }  // namespace
 

@@ -11,7 +11,17 @@ namespace trailcast::agent {
 // A replay's log as values; run_log_format.h has the text.
 
 // What the robot was at in a frame: ReplayState and Trust in one word.
-enum class Phase { kWaiting, kSeeking, kSure, kUnsure, kBlind, kCovered, kArrived, kLost };
+enum class Phase {
+  kWaiting,
+  kSeeking,
+  kSure,
+  kUnsure,
+  kDistant,
+  kBlind,
+  kCovered,
+  kArrived,
+  kLost
+};
 
 [[nodiscard]] const char* ToString(Phase phase);
 [[nodiscard]] std::optional<Phase> ParsePhase(const std::string& word);

@@ -18,6 +18,8 @@ Phase PhaseOf(const ReplayStep& step) {
       return Phase::kSure;
     case Trust::kUnsure:
       return Phase::kUnsure;
+    case Trust::kDistant:
+      return Phase::kDistant;
     case Trust::kBlind:
       return Phase::kBlind;
     case Trust::kCovered:

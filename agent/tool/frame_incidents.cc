@@ -51,7 +51,7 @@ std::vector<Incident> Find(const RunLog& log, const Stretches& what) {
 }
 
 bool Driving(const FrameRow& row) {
-  return row.phase == Phase::kSure || row.phase == Phase::kUnsure;
+  return row.phase == Phase::kSure || row.phase == Phase::kUnsure || row.phase == Phase::kDistant;
 }
 
 Stretches Disagreeing(const RunLog& log) {

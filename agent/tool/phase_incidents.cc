@@ -25,6 +25,8 @@ double WeightOf(Phase phase) {
     case Phase::kSeeking:
     case Phase::kWaiting:
       return 40.0;
+    case Phase::kDistant:
+      return 30.0;
     case Phase::kUnsure:
       return 20.0;
     case Phase::kSure:
@@ -83,6 +85,8 @@ const char* Meaning(Phase phase) {
   switch (phase) {
     case Phase::kSeeking:
       return "looking for the route's start";
+    case Phase::kDistant:
+      return "only distant features, slowly on";
     case Phase::kBlind:
       return "blind, on by odometry";
     case Phase::kCovered:
@@ -101,6 +105,13 @@ std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
                       : fmt::format(" for {} frames", spell.end - spell.first);
   if (spell.phase == Phase::kWaiting)
     return fmt::format("{}: {}", text, ReasonAt(log, spell.first));
+  if (spell.phase == Phase::kDistant) {
+    double worst_m = 0.0;
+    for (std::size_t i = spell.first; i < spell.end; ++i) {
+      worst_m = std::max(worst_m, log.frames[i].left_sigma_m.value_or(0.0));
+    }
+    return fmt::format("{}: the place beside the path was known to {:.2f} m", text, worst_m);
+  }
   const auto least = std::min_element(
       log.frames.begin() + static_cast<std::ptrdiff_t>(spell.first),
       log.frames.begin() + static_cast<std::ptrdiff_t>(spell.end),

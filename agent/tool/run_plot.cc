@@ -141,8 +141,8 @@ void DrawHead(Canvas& canvas, const RunLog& log) {
   canvas.Text(WhoFollowedWhat(log), {kLeft_px, 22.0}, kTextHeight_px, kInk);
   canvas.Text(Outcome(log), {kLeft_px, 42.0}, kTextHeight_px, kInk);
   double x = kLeft_px;
-  for (const Phase phase : {Phase::kUnsure, Phase::kBlind, Phase::kCovered, Phase::kSeeking,
-                            Phase::kWaiting, Phase::kArrived, Phase::kLost}) {
+  for (const Phase phase : {Phase::kUnsure, Phase::kDistant, Phase::kBlind, Phase::kCovered,
+                            Phase::kSeeking, Phase::kWaiting, Phase::kArrived, Phase::kLost}) {
     canvas.FillBox({x, 50.0}, {x + 22.0, 62.0}, PhaseColor(phase));
     canvas.Text(ToString(phase), {x + 28.0, 60.0}, 10.0, kInk);
     x += 46.0 + Canvas::TextWidth(ToString(phase), 10.0);
@@ -159,6 +159,8 @@ Color PhaseColor(Phase phase) {
       return {190, 220, 250};
     case Phase::kUnsure:
       return {255, 236, 170};
+    case Phase::kDistant:
+      return {225, 235, 205};
     case Phase::kBlind:
       return {255, 200, 140};
     case Phase::kCovered:

@@ -13,6 +13,7 @@ constexpr int kIterations = 6;
 constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer is ever in view
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
+constexpr std::size_t kFewestWithASpread = 5;
 
 double Square(double x) { return x * x; }
 
@@ -27,6 +28,33 @@ double InverseDepth::At(double along_m) const {
 double InverseDepth::Growth(double from_m, double to_m) const {
   return std::max(kSmallestShrink, 1.0 - at_start_per_m * from_m) /
          std::max(kSmallestShrink, 1.0 - at_start_per_m * to_m);
+}
+
+void DrawTogether(std::vector<InverseDepth>& depths) {
+  if (depths.size() < kFewestWithASpread) return;
+  double weights = 0.0;
+  double mean_per_m = 0.0;
+  for (const InverseDepth& depth : depths) {
+    const double weight = 1.0 / Square(depth.sigma_per_m);
+    weights += weight;
+    mean_per_m += (depth.at_start_per_m - mean_per_m) * weight / weights;
+  }
+  // The sure ones tell the spread; the square of the weight is what it takes for the least noise.
+  double excess = 0.0;
+  double squares = 0.0;
+  for (const InverseDepth& depth : depths) {
+    const double variance = Square(depth.sigma_per_m);
+    excess +=
+        (Square(depth.at_start_per_m - mean_per_m) - variance + 1.0 / weights) / Square(variance);
+    squares += 1.0 / Square(variance);
+  }
+  const double spread = std::max(0.0, excess / squares);
+  for (InverseDepth& depth : depths) {
+    const double variance = Square(depth.sigma_per_m);
+    const double kept = spread / (spread + variance);
+    depth.at_start_per_m = mean_per_m + kept * (depth.at_start_per_m - mean_per_m);
+    depth.sigma_per_m = std::sqrt(kept * variance + Square(1.0 - kept) / weights);
+  }
 }
 
 // One landmark's share of the normal equations: of the unknowns all have in common, of its own
@@ -172,6 +200,7 @@ std::vector<InverseDepth> TaughtFlow::Depths(const route::Segment& segment) cons
   std::vector<InverseDepth> depths;
   depths.reserve(segment.features.size());
   for (const Landmark& landmark : FitTo(segment).landmarks) depths.push_back(landmark.depth);
+  DrawTogether(depths);
   return depths;
 }
 

@@ -37,6 +37,12 @@ struct ScoutCamera {
   }
 };
 
+// Noise alone makes depths differ, and depths that differ seem to say how far beside the path a
+// camera is. So each is drawn towards their mean, the more so the less sure it is against the
+// spread that noise does not explain (empirical Bayes): landmarks that are all far away come out
+// at one distance, those at many distances stay where they are. Fewer than five stay as well.
+void DrawTogether(std::vector<InverseDepth>& depths);
+
 struct TaughtFlowOptions {
   // What is believed before anything was seen: a usual webcam, and how far from one it may be.
   double focal_share = 0.87;  // of the picture's width

@@ -17,7 +17,8 @@ class ConfidenceTest : public ::testing::Test {
               std::optional<motion::OdometryIncrement> moved = kStep) {
     Verdict verdict;
     for (int i = 0; i < frames; ++i) {
-      verdict = confidence_.Judge({segment_, taught_, agreeing, std::exchange(vanish_, 0)}, moved);
+      verdict = confidence_.Judge(
+          {segment_, taught_, agreeing, std::exchange(vanish_, 0), left_sigma_m_}, moved);
     }
     return verdict;
   }
@@ -30,6 +31,7 @@ class ConfidenceTest : public ::testing::Test {
   void Vanish(int features) { vanish_ = features; }
 
   Confidence confidence_;
+  std::optional<double> left_sigma_m_;
   std::uint32_t segment_ = 0;
   int taught_ = kTaught;
   int vanish_ = 0;
@@ -104,6 +106,24 @@ TEST_F(ConfidenceTest, ASegmentThatIsNotFoundAtItsStartWasNotCovered) {
   See(30);
   NextSegment(kTaught);
   EXPECT_EQ(See(0, 10).trust, Trust::kBlind);
+}
+
+TEST_F(ConfidenceTest, DistantFeaturesAloneDoNotTellThePlace) {
+  left_sigma_m_ = 0.1;
+  EXPECT_EQ(See(30, 49).trust, Trust::kSure) << "the start's own uncertainty";
+  const Verdict verdict = See(30, 400);
+  EXPECT_EQ(verdict.trust, Trust::kDistant);
+  EXPECT_EQ(verdict.reason,
+            "only distant features are in view: the place beside the path is known to 0.10 m at "
+            "best");
+  left_sigma_m_ = 0.03;
+  EXPECT_EQ(See(30).trust, Trust::kSure);
+}
+
+TEST_F(ConfidenceTest, IsLostWhenThePathMayBeAnywhere) {
+  See(30, 100);
+  left_sigma_m_ = 0.6;
+  EXPECT_EQ(See(30).trust, Trust::kLost);
 }
 
 TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {

@@ -38,6 +38,34 @@ TEST(TaughtFlow, IsUnsureNearTheImageCentre) {
   EXPECT_GT(depths[0].sigma_per_m, 5 * depths[1].sigma_per_m);
 }
 
+TEST(DrawTogether, MakesOneDistanceOfDepthsThatOnlyNoiseTellsApart) {
+  std::vector<InverseDepth> depths = {
+      {0.008, 0.005}, {0.016, 0.005}, {0.012, 0.004}, {0.010, 0.004}, {0.1, 0.2}};
+  DrawTogether(depths);
+  for (const InverseDepth& depth : depths) {
+    EXPECT_NEAR(depth.at_start_per_m, 0.0114, 0.001);
+    EXPECT_NEAR(depth.sigma_per_m, 0.0022, 0.0005);  // of the mean
+  }
+}
+
+TEST(DrawTogether, LeavesNearAndFarWhereTheyAre) {
+  std::vector<InverseDepth> depths = {
+      {0.02, 0.005}, {0.25, 0.005}, {0.5, 0.005}, {0.1, 0.005}, {0.3, 0.3}};
+  DrawTogether(depths);
+  EXPECT_NEAR(depths[0].at_start_per_m, 0.02, 0.002);
+  EXPECT_NEAR(depths[1].at_start_per_m, 0.25, 0.002);
+  EXPECT_NEAR(depths[2].at_start_per_m, 0.5, 0.002);
+  EXPECT_NEAR(depths[0].sigma_per_m, 0.005, 0.0005);
+  EXPECT_LT(depths[4].sigma_per_m, 0.25);  // that it is one of these is something known of it
+}
+
+TEST(DrawTogether, LeavesAFewAlone) {
+  std::vector<InverseDepth> few = {{0.01, 0.1}, {0.2, 0.1}};
+  DrawTogether(few);
+  EXPECT_EQ(few[0].at_start_per_m, 0.01);
+  EXPECT_EQ(few[1].sigma_per_m, 0.1);
+}
+
 // What a route of bends teaches of a camera.
 ScoutCamera LearnOnBends(const test::ScoutEye& eye) {
   const test::LandmarkScene scene = test::LandmarkScene::Corridor(3.0, 20.0, 300, 7);

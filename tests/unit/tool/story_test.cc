@@ -78,6 +78,15 @@ TEST(Story, TellsThatItStoodWhereSomethingCoveredTheView) {
   EXPECT_THAT(story, HasSubstr("23 of 25 features gone at once: 23 lost in tracking"));
 }
 
+TEST(Story, SaysWhereOnlyDistantFeaturesWereInView) {
+  SampleRun run;
+  run.HandOver(0, 27).Frames(10);
+  run.row().left_sigma_m = 0.13;
+  run.Phase(Phase::kDistant, "only distant features are in view").Frames(20);
+  EXPECT_THAT(LineWith(TellStory(run.Log(), false), "only distant features"),
+              HasSubstr("known to 0.13 m"));
+}
+
 TEST(Story, NamesHandOversThatFoundLittleAndMilestonesDrivenPast) {
   SampleRun run;
   run.HandOver(0, 27).Frames(80);  // 3.2 m in a segment of 2 m
