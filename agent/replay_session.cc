@@ -199,6 +199,7 @@ ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::Ro
 
 ReplaySession::~ReplaySession() = default;
 ReplaySession::ReplaySession(ReplaySession&&) noexcept = default;
+ReplaySession& ReplaySession::operator=(ReplaySession&&) noexcept = default;
 
 Result<void> ReplaySession::AddSegment(route::Segment segment) {
   if (segment.index.value() != state_->segments.size()) {

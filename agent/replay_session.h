@@ -42,6 +42,7 @@ class ReplaySession {
   ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route);
   ~ReplaySession();
   ReplaySession(ReplaySession&&) noexcept;
+  ReplaySession& operator=(ReplaySession&&) noexcept;
 
   // In order from index 0; kInvalidArgument otherwise.
   [[nodiscard]] Result<void> AddSegment(route::Segment segment);

@@ -32,6 +32,7 @@ struct Verdict {
   Eigen::Vector2d final_m = Eigen::Vector2d::Zero();
   double final_error_m = 0.0;       // from the taught end
   double mean_path_error_m = 0.0;   // from the taught path, over the metres driven
+  double p90_path_error_m = 0.0;    // nine tenths of the metres driven were within it
   double max_path_error_m = 0.0;    // after the first kSettlingDistance_m
   double worst_path_error_m = 0.0;  // from the start on
   double driven_m = 0.0;
@@ -67,7 +68,13 @@ class PathJudge {
   std::optional<Eigen::Vector2d> last_m_;
   double last_error_m_ = 0.0;
   double driven_m_ = 0.0;
-  double error_integral_ = 0.0;  // metres of error times metres driven
+  struct Stretch {
+    double error_m = 0.0;
+    double driven_m = 0.0;
+  };
+  [[nodiscard]] double WithinFor(double share) const;
+
+  std::vector<Stretch> stretches_;
   std::optional<double> max_settled_m_;
   double worst_m_ = 0.0;
   std::optional<double> pushed_at_m_;  // driven until then

@@ -1,9 +1,10 @@
 #include "agent/tool/trial.h"
 
-#include <algorithm>
 #include <ctime>
+#include <functional>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "agent/tool/served_route.h"
 #include "agent/tool/standstill_watch.h"
@@ -46,19 +47,24 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
   return options;
 }
 
-// A follower in closed loop, frame by frame, until it has ended one way or the other.
+using SessionOpener = std::function<Result<agent::ReplaySession>()>;
+
+// A follower in closed loop, frame by frame, until it has ended one way or the other: lap after
+// lap, each with a session of its own, from where the one before has left the robot.
 class Replaying {
  public:
   Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
-            agent::Diagnosis diagnosis, double push_m)
+            SessionOpener open_next, int laps, agent::Diagnosis diagnosis, double push_m)
       : robot_(robot),
         truth_(robot),
         judge_(taught.path),
         session_(std::move(session)),
+        open_next_(std::move(open_next)),
+        laps_(laps),
         diagnosis_(std::move(diagnosis)),
         push_at_m_(0.5 * taught.path.length_m()),
         push_m_(push_m),
-        limit_s_(kPatience * taught.duration_s + kPatience_s) {}
+        limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
   // One frame. False when the replay is over; `state` and `reason` then say how.
   Result<bool> Step() {
@@ -76,13 +82,19 @@ class Replaying {
     last_ = std::move(*step);
     diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, observation.image,
                    session_, last_);
-    return !Ended(position_m, off_m, Seconds(seen.stamp));
+    if (Ended(position_m, off_m, Seconds(seen.stamp))) return false;
+    if (last_.state == ReplayState::kArrived) return BeginLap();
+    return true;
   }
 
-  [[nodiscard]] const ReplayStep& last() const { return last_; }
+  // Of all laps.
+  [[nodiscard]] double progress() const {
+    return (static_cast<double>(lap_ends_m_.size()) + last_.progress) / laps_;
+  }
   // Everything of the row that the replay decides.
   void Fill(TrialRow& row) const {
     row.verdict = judge_.verdict();
+    row.lap_ends_m = lap_ends_m_;
     row.found_share = last_.found_share;
     row.hand_overs = last_.hand_overs;
     row.frames = frames_;
@@ -101,12 +113,24 @@ class Replaying {
     judge_.NotePush();
     push_m_ = 0.0;
   }
+  Result<bool> BeginLap() {
+    auto next = open_next_();
+    if (!next) return tl::unexpected(next.error());
+    session_ = std::move(*next);
+    diagnosis_.Note("lap", fmt::format("{} of {} begins", lap_ends_m_.size() + 1, laps_));
+    last_ = {};
+    return true;
+  }
   bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
-    const std::string where = fmt::format("at segment {}, {:.0f} % of the way",
+    const std::string lap = laps_ > 1 ? fmt::format("lap {}, ", lap_ends_m_.size() + 1) : "";
+    const std::string where = fmt::format("at {}segment {}, {:.0f} % of the way", lap,
                                           last_.segment.value(), 100.0 * last_.progress);
     if (last_.state == ReplayState::kArrived) {
       const double error_m = judge_.verdict().final_error_m;
-      if (error_m <= kArrivalRadius_m) return End("arrived", "");
+      lap_ends_m_.push_back(error_m);
+      if (error_m <= kArrivalRadius_m) {
+        return static_cast<int>(lap_ends_m_.size()) == laps_ && End("arrived", "");
+      }
       return End("misplaced", fmt::format("says it arrived {:.1f} m from the end", error_m));
     }
     if (last_.state == ReplayState::kLost) {
@@ -135,6 +159,9 @@ class Replaying {
   sim::Judge truth_;
   PathJudge judge_;
   agent::ReplaySession session_;
+  SessionOpener open_next_;
+  int laps_;
+  std::vector<double> lap_ends_m_;  // how far from the taught end each lap ended
   agent::Diagnosis diagnosis_;
   double push_at_m_;
   double push_m_;  // 0: none, or done
@@ -164,59 +191,16 @@ TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uin
   return row;
 }
 
-std::uint64_t SeedOf(std::uint64_t first_seed, int trial) {
-  return first_seed + static_cast<std::uint64_t>(trial - 1);
-}
-
 }  // namespace
-
-Teachings::Teachings(const TrialSetup& setup, const TrialOptions& options)
-    : setup_(setup), first_seed_(options.seed) {
-  for (const TrialCase& each : setup.cases) {
-    const bool as_printed = agent::AsPrinted(each.method);
-    if (std::count(as_printed_.begin(), as_printed_.end(), as_printed) == 0) {
-      as_printed_.push_back(as_printed);
-    }
-  }
-}
-
-std::size_t Teachings::RouteOf(agent::ReplayMethod method) const {
-  const auto found = std::find(as_printed_.begin(), as_printed_.end(), agent::AsPrinted(method));
-  return static_cast<std::size_t>(found - as_printed_.begin());
-}
-
-Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case, int trial,
-                                                     const TrialProgress& on_progress) {
-  Drive* drive = nullptr;
-  {
-    const std::scoped_lock lock(mutex_);
-    drive = &drives_[{trial_case.scout_camera.name, trial}];
-  }
-  std::call_once(drive->once, [&] {
-    std::vector<teach::SegmentRecorderOptions> recorders;
-    for (const bool as_printed : as_printed_) {
-      recorders.push_back(
-          RecorderFor(as_printed ? agent::ReplayMethod::kPaper : agent::ReplayMethod::kDefault));
-    }
-    auto taught = TeachOnce(setup_, trial_case.scout_camera, recorders,
-                            sim::Random(SeedOf(first_seed_, trial), "scout").Bits(), on_progress);
-    if (taught) {
-      drive->taught = std::make_shared<const Taught>(std::move(*taught));
-    } else {
-      drive->taught = tl::unexpected(taught.error());
-    }
-  });
-  return drive->taught;
-}
 
 Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
                               const TrialOptions& options, int trial, Teachings& teachings,
                               const TrialProgress& on_progress) {
-  const std::uint64_t seed = SeedOf(options.seed, trial);
+  const std::uint64_t seed = SeedOf(options, trial);
   const auto taught = teachings.Get(trial_case, trial,
                                     [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
-  const TaughtRoute& route = (*taught)->routes[teachings.RouteOf(trial_case.method)];
+  const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
   const auto options_of_follower =
       FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits());
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
@@ -225,17 +209,18 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   const Result<TaughtRoute> served =
       trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);
   if (!served) return tl::unexpected(served.error());
-  auto session = OpenSession(*served, {.method = trial_case.method});
+  const auto open = [&] { return OpenSession(*served, {.method = trial_case.method}); };
+  auto session = open();
   if (!session) return tl::unexpected(session.error());
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  Replaying replaying(**robot, **taught, std::move(*session), std::move(*diagnosis),
-                      trial_case.push_m);
+  Replaying replaying(**robot, **taught, std::move(*session), open, setup.laps,
+                      std::move(*diagnosis), trial_case.push_m);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");
     if (!*more) break;
-    const double share = kTeachShare + (1.0 - kTeachShare) * replaying.last().progress;
+    const double share = kTeachShare + (1.0 - kTeachShare) * replaying.progress();
     if (frame % kProgressEvery == 0 && !on_progress(share)) {
       return Fail(ErrorCode::kUnavailable, "interrupted");
     }

@@ -30,6 +30,7 @@ constexpr const char* kExamples =
     "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
     "  trailcast trial --scenario paved --method default,paper,icra2006   # a column of Table I\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
+    "  trailcast trial --scenario loop --laps 10 --trials 1   # does it drift from lap to lap?\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.log\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
@@ -72,6 +73,10 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));
+  app.add_option("--laps", options.laps,
+                 "How often each follower drives the route, without a pause, of a path that ends "
+                 "where it begins")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--seed", options.seed, "Trial i is drawn from this plus i - 1");
   app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
       ->check(CLI::Range(1, 256));

@@ -1,11 +1,13 @@
 #include "agent/tool/trial_csv.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "agent/text_file.h"
 
@@ -54,15 +56,24 @@ class Line {
   [[nodiscard]] const std::string& Text(const std::string& name) { return cells_[name]; }
   template <typename Number>
   void Read(const std::string& name, Number& number) {
-    const std::string& text = cells_[name];
+    Parse(name, cells_[name], number);
+  }
+  // Numbers with blanks between.
+  void ReadAll(const std::string& name, std::vector<double>& numbers) {
+    std::istringstream words(cells_[name]);
+    for (std::string word; words >> word;) Parse(name, word, numbers.emplace_back());
+  }
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
+ private:
+  template <typename Number>
+  void Parse(const std::string& name, const std::string& text, Number& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if ((error != std::errc() || end != text.data() + text.size()) && trouble_.empty()) {
       trouble_ = fmt::format("{} is '{}', expected a number", name, text);
     }
   }
-  [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
- private:
   std::map<std::string, std::string> cells_;
   std::string trouble_;
 };
@@ -98,6 +109,8 @@ TrialRow RowOf(Line& line) {
   if (!line.Text("after_push_m").empty()) {
     line.Read("after_push_m", verdict.after_push_m.emplace());
   }
+  line.Read("p90_path_error_m", verdict.p90_path_error_m);
+  line.ReadAll("lap_ends_m", row.lap_ends_m);
   row.reason = line.Text("reason");
   return row;
 }
@@ -108,14 +121,14 @@ std::string TrialCsvHeader() {
   return "scenario,method,scout_camera,follower_camera,trial,seed,arrived,final_error_m,final_x_m,"
          "final_y_m,end_x_m,end_y_m,mean_path_error_m,max_path_error_m,found_share,segments,"
          "bytes_per_m,ms_per_frame,state,taught_m,driven_m,worst_path_error_m,frames,hand_overs,"
-         "push_m,after_push_m,reason";
+         "push_m,after_push_m,p90_path_error_m,lap_ends_m,reason";
 }
 
 std::string TrialCsvLine(const TrialRow& row) {
   const Verdict& verdict = row.verdict;
   return fmt::format(
       "{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f},"
-      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{}",
+      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{:.4f},{:.4f},{}",
       CsvText(row.scenario), row.method, CsvText(row.scout_camera), CsvText(row.follower_camera),
       row.trial, row.seed, row.arrived ? 1 : 0, verdict.final_error_m, verdict.final_m.x(),
       verdict.final_m.y(), row.end_m.x(), row.end_m.y(), verdict.mean_path_error_m,
@@ -123,7 +136,7 @@ std::string TrialCsvLine(const TrialRow& row) {
       row.state, row.taught_m, verdict.driven_m, verdict.worst_path_error_m, row.frames,
       row.hand_overs, row.push_m,
       verdict.after_push_m ? fmt::format("{:.4f}", *verdict.after_push_m) : "",
-      CsvText(row.reason));
+      verdict.p90_path_error_m, fmt::join(row.lap_ends_m, " "), CsvText(row.reason));
 }
 
 Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesystem::path& file) {

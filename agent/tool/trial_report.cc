@@ -1,5 +1,7 @@
 #include "agent/tool/trial_report.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -48,6 +50,8 @@ TrialSummary Summarize(const std::vector<TrialRow>& rows) {
       Largest(rows, [](const TrialRow& row) { return row.verdict.final_error_m; });
   summary.mean_path_error_m =
       Mean(rows, [](const TrialRow& row) { return row.verdict.mean_path_error_m; });
+  summary.p90_path_error_m =
+      Largest(rows, [](const TrialRow& row) { return row.verdict.p90_path_error_m; });
   summary.max_path_error_m =
       Largest(rows, [](const TrialRow& row) { return row.verdict.max_path_error_m; });
   summary.found_share = Mean(rows, [](const TrialRow& row) { return row.found_share; });
@@ -98,6 +102,9 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
                                 *row.verdict.after_push_m, row.push_m)
                   : fmt::format("  pushed {:+.0f} m", row.push_m);
     }
+    if (row.lap_ends_m.size() > 1) {
+      text += fmt::format("  laps end {:.2f} m off", fmt::join(row.lap_ends_m, ", "));
+    }
     text += row.reason.empty() ? "\n" : fmt::format("  {}\n", row.reason);
   }
   return text;
@@ -140,6 +147,7 @@ std::string SummaryTable(const std::vector<TrialRow>& rows) {
   text += SummaryLine("largest final error", meters(summary.largest_final_error_m),
                       beside(&PaperFigures::largest_final_error_m));
   text += SummaryLine("mean distance from the path", meters(summary.mean_path_error_m), "");
+  text += SummaryLine("nine tenths of the way within", meters(summary.p90_path_error_m), "");
   text += SummaryLine("largest distance from the path", meters(summary.max_path_error_m), "");
   text += SummaryLine("arrived", fmt::format("{} of {}", summary.arrived, summary.trials), "");
   text += SummaryLine("features found at hand-over",

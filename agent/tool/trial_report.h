@@ -30,7 +30,8 @@ struct TrialRow {
   double taught_m = 0.0;
   int frames = 0;
   int hand_overs = 0;
-  std::string reason;  // why it ended, if it did not arrive
+  std::vector<double> lap_ends_m;  // how far from the taught end each lap ended
+  std::string reason;              // why it ended, if it did not arrive
 };
 
 // Over all trials; a failed one counts with the distance at which it ended.
@@ -41,6 +42,7 @@ struct TrialSummary {
   double repeatability_m = 0.0;  // RMS distance of the final positions to their mean
   double largest_final_error_m = 0.0;
   double mean_path_error_m = 0.0;
+  double p90_path_error_m = 0.0;  // the largest of all trials'
   double max_path_error_m = 0.0;
   double found_share = 0.0;
   double segments = 0.0;

@@ -11,6 +11,8 @@
 namespace trailcast::tool {
 namespace {
 
+constexpr double kLapGap_m = 1.0;
+
 Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::string>& names) {
   std::vector<agent::ReplayMethod> methods;
   for (const std::string& name : names) {
@@ -66,6 +68,15 @@ Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, Tr
   if (options.speed_mps > 0.0) place->speed_mps = options.speed_mps;
   setup.world = place->world;
   setup.path = place->path;
+  const double gap_m = (setup.path.points.back() - setup.path.points.front()).norm();
+  if (options.laps > 1 && gap_m > kLapGap_m) {
+    return Fail(
+        ErrorCode::kInvalidArgument,
+        "{} laps were asked for, but the path ends {:.1f} m from where it begins; laps need "
+        "one that comes back to within {:g} m",
+        options.laps, gap_m, kLapGap_m);
+  }
+  setup.laps = options.laps;
   setup.speed_mps = place->speed_mps;
   setup.follower.slip = place->slip;
   setup.actors = [scenario, place = *place](sim::Role role, std::uint64_t seed) {

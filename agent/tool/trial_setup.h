@@ -37,6 +37,7 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
+  int laps = 1;            // that each follower drives, one after the other
   bool sun_moves = false;  // between teaching and following
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =

@@ -1,5 +1,5 @@
-// Where the paper says that its method fails (end of section IV): the robot goes on all the same, or
-// says that it cannot.
+// Where the paper says that its method fails (end of section IV): the robot goes on all the same,
+// or says that it cannot.
 #include <gtest/gtest.h>
 
 #include <algorithm>

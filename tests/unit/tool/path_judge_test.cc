@@ -37,6 +37,13 @@ TEST(PathJudge, AConstantOffsetIsMeanAndLargestError) {
   EXPECT_NEAR(verdict.driven_m, 10.0, 1e-9);
 }
 
+TEST(PathJudge, NineTenthsAreOfTheMetresDriven) {
+  PathJudge judge(StraightPath(10.0));
+  for (int i = 0; i <= 100; ++i) judge.Observe({0.1 * i, i > 95 ? 0.5 : 0.1});
+  EXPECT_NEAR(judge.verdict().p90_path_error_m, 0.1, 1e-9);
+  EXPECT_NEAR(judge.verdict().max_path_error_m, 0.5, 1e-9);
+}
+
 TEST(PathJudge, TheStartErrorCountsAsWorstButNotAsLargest) {
   PathJudge judge(StraightPath(10.0));
   for (int i = 0; i <= 100; ++i) {

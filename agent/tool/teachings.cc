@@ -1,0 +1,49 @@
+#include "agent/tool/teachings.h"
+
+#include <algorithm>
+
+#include "services/sim/random.h"
+
+namespace trailcast::tool {
+
+Teachings::Teachings(const TrialSetup& setup, const TrialOptions& options)
+    : setup_(setup), options_(options) {
+  for (const TrialCase& each : setup.cases) {
+    if (CutOf(each.method) == cuts_.size()) cuts_.push_back(each.method);
+  }
+}
+
+std::size_t Teachings::CutOf(agent::ReplayMethod method) const {
+  const auto found = std::find_if(cuts_.begin(), cuts_.end(), [&](agent::ReplayMethod each) {
+    return agent::AsPrinted(each) == agent::AsPrinted(method);
+  });
+  return static_cast<std::size_t>(found - cuts_.begin());
+}
+
+const TaughtRoute& Teachings::RouteFor(agent::ReplayMethod method, const Taught& taught) const {
+  return taught.routes[CutOf(method)];
+}
+
+Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case, int trial,
+                                                     const TrialProgress& on_progress) {
+  Drive* drive = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    drive = &drives_[{trial_case.scout_camera.name, trial}];
+  }
+  std::call_once(drive->once, [&] {
+    std::vector<teach::SegmentRecorderOptions> recorders;
+    recorders.reserve(cuts_.size());
+    for (const agent::ReplayMethod method : cuts_) recorders.push_back(RecorderFor(method));
+    auto taught = TeachOnce(setup_, trial_case.scout_camera, recorders,
+                            sim::Random(SeedOf(options_, trial), "scout").Bits(), on_progress);
+    if (taught) {
+      drive->taught = std::make_shared<const Taught>(std::move(*taught));
+    } else {
+      drive->taught = tl::unexpected(taught.error());
+    }
+  });
+  return drive->taught;
+}
+
+}  // namespace trailcast::tool
