@@ -59,6 +59,14 @@ Verdict Confidence::JudgePlace(const Sighting& seen) const {
                       *seen.left_sigma_m)};
 }
 
+// Of a view that is gone.
+bool Confidence::CoveredNow() const {
+  if (!options_.stand_when_covered) return false;
+  if (frames_since_covered_ && *frames_since_covered_ <= options_.still_about_frames) return true;
+  return frames_since_good_ && *frames_since_good_ <= options_.covered_within_frames &&
+         VanishedInPlace();
+}
+
 Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
   if (covered_) {
     return unsure_frames_ > options_.covered_limit_frames ? Trust::kLost : Trust::kCovered;
@@ -88,6 +96,7 @@ Verdict Confidence::Judge(const Sighting& seen,
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }
   NoteView(seen);
+  if (frames_since_covered_) ++*frames_since_covered_;
   if (seen.agreeing >= Wanted(seen) && seen.taught >= options_.min_features) {
     sure_once_ = true;
     covered_ = false;
@@ -98,9 +107,8 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
   ++unsure_frames_;
   const bool gone = seen.agreeing < options_.min_features;
-  covered_ = covered_ ||
-             (options_.stand_when_covered && gone && sure_once_ && moved && frames_since_good_ &&
-              *frames_since_good_ <= options_.covered_within_frames && VanishedInPlace());
+  covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow());
+  if (covered_) frames_since_covered_ = 0;
   const bool by_distance = moved.has_value() && sure_once_;
   return {Decide(seen, by_distance), Explain(seen, by_distance)};
 }

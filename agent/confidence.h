@@ -66,6 +66,9 @@ struct ConfidenceOptions {
   int covered_within_frames = 45;
   double vanished_share = 0.5;
   int covered_limit_frames = 540;
+  // Whoever covered the view so many frames ago is still about: a view that is gone again, if only
+  // at the next segment's start, was covered again.
+  int still_about_frames = 150;
   // A good view that is going is not to be given up for the next segment's before it is clear
   // whether it is being covered.
   int going_within_frames = 20;
@@ -90,6 +93,7 @@ class Confidence {
  private:
   [[nodiscard]] int Wanted(const Sighting& seen) const;
   void NoteView(const Sighting& seen);
+  [[nodiscard]] bool CoveredNow() const;
   [[nodiscard]] bool VanishedInPlace() const {
     return vanished_ >= options_.vanished_share * good_features_;
   }
@@ -104,6 +108,7 @@ class Confidence {
   double unsure_m_ = 0.0;
   int unsure_frames_ = 0;
   bool covered_ = false;
+  std::optional<int> frames_since_covered_;
   std::uint32_t segment_ = 0;
   std::optional<int> frames_since_good_;  // view of this segment; nothing: there was none
   int good_features_ = 0;                 // then

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Quality{"dusk", "webcam", 3, 0.06, 0.03, 0.08},      // taught in daylight
                       Quality{"corridor", "webcam", 1, 0.06, 0.03, 0.08},  // 4 m without texture
                       // A person in front of the camera for ten seconds: it arrives all the same.
-                      Quality{"occlusion", "webcam", 2, 0.20, 0.20, 1.50}),
+                      Quality{"occlusion", "webcam", 2, 0.06, 0.05, 0.12}),
     [](const auto& test) {
       return std::string(test.param.scenario) + "_" + test.param.follower_camera;
     });

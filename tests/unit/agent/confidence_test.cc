@@ -93,6 +93,18 @@ TEST_F(ConfidenceTest, AGoodViewIsGoingForAMomentAfterIt) {
   EXPECT_FALSE(confidence_.view_is_going());
 }
 
+TEST_F(ConfidenceTest, WhoeverCoveredTheViewIsStillAboutAtTheNextHandOver) {
+  See(30);
+  Vanish(28);
+  EXPECT_EQ(See(1).trust, Trust::kCovered);
+  EXPECT_EQ(See(12, 30).trust, Trust::kSure) << "beside the one who stands there";
+  NextSegment(20);
+  EXPECT_EQ(See(0).trust, Trust::kCovered);
+  EXPECT_EQ(See(15, 200).trust, Trust::kSure) << "gone now";
+  NextSegment(20);
+  EXPECT_EQ(See(0).trust, Trust::kBlind);
+}
+
 TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {
   See(30);
   Vanish(30);
