@@ -35,6 +35,7 @@ std::vector<Scenario> MakeScenarios() {
   Scenario& paved = add("paved", "60 m over a parking lot (Table I)", "paved");
   paved.paper = {0.60, 0.55, 1.20};
   paved.icra2006 = {0.77, 0.74, 1.20};
+  paved.traffic = true;
   Scenario& rough = add("rough", "40 m over rough ground (Table I)", "rough");
   rough.paper = {1.47, 0.66, 1.76};
   rough.icra2006 = {3.87, 1.85, 5.68};
@@ -46,13 +47,16 @@ std::vector<Scenario> MakeScenarios() {
       .somebody_in_the_way = true;
   add("wide", "indoor's world through a 110 degree lens", "indoor").cameras = {{"wide", "wide"}};
   add("omni", "indoor's world through a 360 degree mirror", "indoor").cameras = {{"omni", "omni"}};
-  add("twocams", "a parking lot with one camera, then with another", "paved").cameras = {
-      {"webcam", "webcam"}, {"hd", "hd"}};
+  Scenario& twocams = add("twocams", "a parking lot with one camera, then with another", "paved");
+  twocams.cameras = {{"webcam", "webcam"}, {"hd", "hd"}};
+  twocams.traffic = true;
   Scenario& swarm = add("swarm", "a scout teaches, others follow from the route server", "indoor");
   swarm.cameras = {{"webcam", "firewire"}, {"webcam", "wide"}, {"webcam", "hd"}};
   swarm.through_server = true;
   add("turns", "25 m round sharp corners", "turns");
-  add("pushed", "shoved 1, 2 and 3 m off the path", "paved").pushes_m = {1.0, -2.0, 3.0};
+  Scenario& pushed = add("pushed", "shoved 1, 2 and 3 m off the path", "paved");
+  pushed.pushes_m = {1.0, -2.0, 3.0};
+  pushed.traffic = true;
   add("cameras", "every scout camera with every follower camera", "indoor").cameras = EveryPair();
   add("corridor", "30 m of corridor, 4 m of it without texture", "corridor");
   add("field", "30 m in the open, all features far away", "field");

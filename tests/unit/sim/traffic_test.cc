@@ -8,12 +8,14 @@
 namespace trailcast::sim {
 namespace {
 
+Place Open(const char* name) {
+  PlaceOptions options;
+  options.world = name;
+  return *OpenPlace(options);
+}
+
 const Place& Road() {
-  static const Place road = [] {
-    PlaceOptions options;
-    options.world = "road";
-    return *OpenPlace(options);
-  }();
+  static const Place road = Open("road");
   return road;
 }
 
@@ -67,6 +69,23 @@ TEST(RoadTraffic, SameSeedSameTrafficOtherSeedOther) {
   };
   EXPECT_EQ(at(5), at(5));
   EXPECT_NE(at(5), at(6));
+}
+
+TEST(PavementTraffic, PeopleWalkInSightAndOutOfTheWayOthersEachTime) {
+  const Place lot = Open("paved");
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto taught = TrafficFor(lot, Role::kScout, seed);
+    const auto followed = TrafficFor(lot, Role::kFollower, seed);
+    ASSERT_TRUE(taught && followed);
+    EXPECT_FALSE(taught->empty());
+    ASSERT_FALSE(followed->empty());
+    EXPECT_NE(followed->front().timetable->until_s(), taught->front().timetable->until_s());
+    for (const Actor& actor : *followed) {
+      const Nearby nearest = NearestTo(lot, actor);
+      EXPECT_GT(nearest.distance_m, 5.0);
+      EXPECT_LT(nearest.distance_m, 40.0);
+    }
+  }
 }
 
 TEST(SomebodyInTheWay, StandsOnTheMiddleOfThePath) {
