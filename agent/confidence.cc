@@ -28,8 +28,8 @@ const char* ToString(Trust trust) {
 }
 
 int Confidence::Wanted(const Sighting& seen) const {
-  const double wanted =
-      std::clamp(options_.sure_share * seen.taught, options_.sure_least, options_.sure_most);
+  const double wanted = std::clamp(options_.sure_share * seen.in_picture.value_or(seen.taught),
+                                   options_.sure_least, options_.sure_most);
   return std::min(static_cast<int>(std::ceil(wanted)), seen.taught);
 }
 
@@ -60,8 +60,11 @@ Verdict Confidence::JudgePlace(const Sighting& seen) const {
 }
 
 // Of a view that is gone.
-bool Confidence::CoveredNow() const {
-  if (!options_.stand_when_covered) return false;
+bool Confidence::CoveredNow(const Sighting& seen) const {
+  if (!options_.stand_when_covered ||
+      seen.in_picture.value_or(seen.taught) < options_.covered_least_expected) {
+    return false;
+  }
   if (frames_since_covered_ && *frames_since_covered_ <= options_.still_about_frames) return true;
   return frames_since_good_ && *frames_since_good_ <= options_.covered_within_frames &&
          VanishedInPlace();
@@ -107,7 +110,7 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
   ++unsure_frames_;
   const bool gone = seen.agreeing < options_.min_features;
-  covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow());
+  covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
   if (covered_) frames_since_covered_ = 0;
   const bool by_distance = moved.has_value() && sure_once_;
   return {Decide(seen, by_distance), Explain(seen, by_distance)};

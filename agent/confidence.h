@@ -14,6 +14,9 @@ struct Sighting {
   int taught = 0;    // features that the segment has
   int agreeing = 0;  // of them in view, where the route says they are
   int vanished = 0;  // lost in this frame by tracking, in the middle of the picture
+  // Of those taught, how many this camera should have in its picture where the robot is thought to
+  // be: a narrower one than the scout's loses some. Nothing where that is not estimated: all.
+  std::optional<int> in_picture = std::nullopt;
   // How well the place beside the path is known; nothing where it is not estimated.
   std::optional<double> left_sigma_m = std::nullopt;
 };
@@ -43,9 +46,9 @@ struct Verdict {
 struct ConfidenceOptions {
   // With fewer features than this there is nothing to steer by.
   int min_features = 4;
-  // So many of a segment's features have to agree with what was taught for the robot to be sure
-  // that it is on the path. A handful can be found in any picture: a robot that follows those alone
-  // would drive through the wrong building with confidence.
+  // So many of the features that should be in the picture have to agree with what was taught for
+  // the robot to be sure that it is on the path. A handful can be found in any picture: a robot
+  // that follows those alone would drive through the wrong building with confidence.
   double sure_share = 0.4;
   double sure_least = 5.0;
   double sure_most = 8.0;
@@ -54,6 +57,9 @@ struct ConfidenceOptions {
   double distant_sigma_m = 0.07;
   double lost_sigma_m = 0.5;
   double settle_m = 1.0;  // of driving, until the start's own uncertainty is over
+  // With fewer than so many that should be in the picture, their absence says nothing of somebody
+  // who covers it.
+  int covered_least_expected = 10;
   // How far a robot that is not sure may go on, and how long one without odometry, or one that has
   // not found the route yet, may look around, before it is lost.
   double blind_limit_m = 2.5;
@@ -93,7 +99,7 @@ class Confidence {
  private:
   [[nodiscard]] int Wanted(const Sighting& seen) const;
   void NoteView(const Sighting& seen);
-  [[nodiscard]] bool CoveredNow() const;
+  [[nodiscard]] bool CoveredNow(const Sighting& seen) const;
   [[nodiscard]] bool VanishedInPlace() const {
     return vanished_ >= options_.vanished_share * good_features_;
   }

@@ -30,6 +30,14 @@ constexpr std::size_t kMostLearnt = 200;
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
+// How many of these places, from the image centre, are in the picture.
+std::ptrdiff_t InPicture(const std::vector<route::TrackedFeature>& places,
+                         const image::GrayImage& frame) {
+  return std::count_if(places.begin(), places.end(), [&](const route::TrackedFeature& place) {
+    return std::abs(place.u_px) < 0.5 * frame.width && std::abs(place.v_px) < 0.5 * frame.height;
+  });
+}
+
 }  // namespace
 
 struct ReplaySession::State {
@@ -136,7 +144,10 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
   const route::Segment& segment = follower->segment();
   Sighting seen{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
                 tracker.losses().not_returned};
-  if (step.offset) seen.left_sigma_m = step.offset->left_sigma_m;
+  if (step.offset) {
+    seen.left_sigma_m = step.offset->left_sigma_m;
+    seen.in_picture = static_cast<int>(InPicture(follower->Expect(), frame));
+  }
   Verdict verdict = confidence.Judge(seen, odometry);
   trust = verdict.trust;
   state = StateOf(trust);

@@ -18,7 +18,8 @@ class ConfidenceTest : public ::testing::Test {
     Verdict verdict;
     for (int i = 0; i < frames; ++i) {
       verdict = confidence_.Judge(
-          {segment_, taught_, agreeing, std::exchange(vanish_, 0), left_sigma_m_}, moved);
+          {segment_, taught_, agreeing, std::exchange(vanish_, 0), in_picture_, left_sigma_m_},
+          moved);
     }
     return verdict;
   }
@@ -31,6 +32,7 @@ class ConfidenceTest : public ::testing::Test {
   void Vanish(int features) { vanish_ = features; }
 
   Confidence confidence_;
+  std::optional<int> in_picture_;
   std::optional<double> left_sigma_m_;
   std::uint32_t segment_ = 0;
   int taught_ = kTaught;
@@ -91,6 +93,20 @@ TEST_F(ConfidenceTest, AGoodViewIsGoingForAMomentAfterIt) {
   EXPECT_TRUE(confidence_.view_is_going());
   See(9);
   EXPECT_FALSE(confidence_.view_is_going());
+}
+
+TEST_F(ConfidenceTest, ANarrowCameraNeedNotSeeWhatIsOutsideItsPicture) {
+  EXPECT_EQ(See(6).trust, Trust::kSeeking);
+  in_picture_ = 12;
+  EXPECT_EQ(See(6).trust, Trust::kSure);
+  EXPECT_EQ(See(4).trust, Trust::kUnsure);
+}
+
+TEST_F(ConfidenceTest, AViewThatShouldBeNearlyEmptyIsNotCovered) {
+  See(30);
+  Vanish(28);
+  in_picture_ = 5;
+  EXPECT_EQ(See(1).trust, Trust::kBlind);
 }
 
 TEST_F(ConfidenceTest, WhoeverCoveredTheViewIsStillAboutAtTheNextHandOver) {
