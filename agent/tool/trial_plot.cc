@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "services/image/files.h"
 #include "services/sim/plan_view.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr double kMargin_m = 1.5;
 constexpr int kPaleness = 150;          // of 255: how far towards white the world is drawn
 constexpr double kPlanCut_m = 1.6;      // above the floor
-constexpr std::size_t kMaxLegend = 12;  // replays named one by one
+constexpr std::size_t kMaxLegend = 12;  // replays, or cases, named one by one
 
 std::uint8_t Pale(std::uint8_t value) {
   return static_cast<std::uint8_t>(value + (255 - value) * kPaleness / 255);
@@ -46,7 +47,48 @@ image::RgbImage Crop(const sim::PlanView& plan, const PlanArea& area) {
   return crop;
 }
 
+std::string Label(const TrialRow& row) {
+  return fmt::format("trial {}: {}, {:.2f} m from the end, {:.2f} m from the path in the mean",
+                     row.trial, row.state, row.verdict.final_error_m,
+                     row.verdict.mean_path_error_m);
+}
+
+std::string Label(const std::vector<TrialRow>& rows) {
+  const TrialSummary summary = Summarize(rows);
+  return fmt::format("{}: {} of {} arrived, {:.2f} m from the end, {:.2f} m from the path",
+                     CaseName(rows.front()), summary.arrived, summary.trials, summary.accuracy_m,
+                     summary.mean_path_error_m);
+}
+
 }  // namespace
+
+std::vector<PlottedPath> ReplayedPaths(const std::vector<TrialOutcome>& outcomes) {
+  std::vector<TrialRow> rows;
+  rows.reserve(outcomes.size());
+  for (const TrialOutcome& outcome : outcomes) rows.push_back(outcome.row);
+  std::vector<std::string> lines;  // of the legend
+  const auto cases = Cases(rows);
+  if (cases.size() == 1) {
+    for (const TrialRow& row : rows) lines.push_back(Label(row));
+  } else {
+    for (const std::vector<TrialRow>& each : cases) lines.push_back(Label(each));
+  }
+  std::vector<bool> named(lines.size(), false);
+  std::vector<PlottedPath> paths;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto of_case =
+        std::find_if(cases.begin(), cases.end(), [&](const std::vector<TrialRow>& each) {
+          return CaseName(each.front()) == CaseName(rows[i]);
+        });
+    const std::size_t line =
+        cases.size() == 1 ? i : static_cast<std::size_t>(of_case - cases.begin());
+    const bool in_legend = line < kMaxLegend && !named[line];
+    named[line] = true;
+    paths.push_back({in_legend ? lines[line] : "", PathColor(line + 1),
+                     outcomes[i].replayed.points_m(), false, !rows[i].arrived});
+  }
+  return paths;
+}
 
 Backdrop WorldBackdrop(const sim::World& world, const std::vector<PlottedPath>& paths) {
   const PlanArea area = AreaAround(paths, kMargin_m);
@@ -70,14 +112,7 @@ Result<void> WriteTrialPlot(const TrialSetup& setup, const std::vector<TrialOutc
           : fmt::format("{} cases", setup.cases.size());
   plan.paths.push_back(
       {"taught (first trial)", PathColor(0), outcomes.front().taught.points_m(), true, false});
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const TrialRow& row = outcomes[i].row;
-    const std::string label =
-        fmt::format("trial {}: {}, {:.2f} m from the end, {:.2f} m from the path in the mean",
-                    row.trial, row.state, row.verdict.final_error_m, row.verdict.mean_path_error_m);
-    plan.paths.push_back({i < kMaxLegend ? label : "", PathColor(i + 1),
-                          outcomes[i].replayed.points_m(), false, !row.arrived});
-  }
+  for (PlottedPath& path : ReplayedPaths(outcomes)) plan.paths.push_back(std::move(path));
   plan.backdrop = WorldBackdrop(*setup.world, plan.paths);
   return image::WritePng(DrawPlan(plan), file);
 }

@@ -10,6 +10,10 @@
 
 namespace trailcast::tool {
 
+// What was driven, in the order of the outcomes: of one case, each replay in its own colour; of
+// several, a colour and a line of the legend for each of them.
+[[nodiscard]] std::vector<PlottedPath> ReplayedPaths(const std::vector<TrialOutcome>& outcomes);
+
 // The part of the world that lies around the paths, seen from above and made pale.
 [[nodiscard]] Backdrop WorldBackdrop(const sim::World& world,
                                      const std::vector<PlottedPath>& paths);
