@@ -190,9 +190,9 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
   report.turn_rad = step.turn_rad;
   report.decision = step;
-  const bool drive = trust == Trust::kSure || trust == Trust::kUnsure || trust == Trust::kDistant ||
-                     (trust == Trust::kBlind && last_odometry && UsesOdometry(options.method));
-  if (drive && (state == ReplayState::kFollowing || state == ReplayState::kBlind)) {
+  const bool on_by_odometry = state == ReplayState::kBlind && trust == Trust::kBlind &&
+                              last_odometry && UsesOdometry(options.method);
+  if (state == ReplayState::kFollowing || on_by_odometry) {
     const double share = SpeedShare(step);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
   }

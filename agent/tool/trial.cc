@@ -121,10 +121,12 @@ class Replaying {
     last_ = {};
     return true;
   }
-  bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
+  [[nodiscard]] std::string Where() const {
     const std::string lap = laps_ > 1 ? fmt::format("lap {}, ", lap_ends_m_.size() + 1) : "";
-    const std::string where = fmt::format("at {}segment {}, {:.0f} % of the way", lap,
-                                          last_.segment.value(), 100.0 * last_.progress);
+    return fmt::format("at {}segment {}, {:.0f} % of the way", lap, last_.segment.value(),
+                       100.0 * last_.progress);
+  }
+  bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
     if (last_.state == ReplayState::kArrived) {
       const double error_m = judge_.verdict().final_error_m;
       lap_ends_m_.push_back(error_m);
@@ -134,18 +136,18 @@ class Replaying {
       return End("misplaced", fmt::format("says it arrived {:.1f} m from the end", error_m));
     }
     if (last_.state == ReplayState::kLost) {
-      return End("lost", fmt::format("{}: {}", where, last_.reason));
+      return End("lost", fmt::format("{}: {}", Where(), last_.reason));
     }
     if (off_m > kStrayLimit_m) {
-      return End("strayed", fmt::format("{}: over {:.0f} m off the path", where, kStrayLimit_m));
+      return End("strayed", fmt::format("{}: over {:.0f} m off the path", Where(), kStrayLimit_m));
     }
     if (standstill_.Stuck(position_m, time_s)) {
       return End("stuck",
-                 fmt::format("{}: no further for {:.0f} s{}{}", where, StandstillWatch::kBound_s,
+                 fmt::format("{}: no further for {:.0f} s{}{}", Where(), StandstillWatch::kBound_s,
                              last_.reason.empty() ? "" : ": ", last_.reason));
     }
     if (time_s > limit_s_) {
-      return End("timeout", fmt::format("{}: still under way after {:.0f} s", where, limit_s_));
+      return End("timeout", fmt::format("{}: still under way after {:.0f} s", Where(), limit_s_));
     }
     return false;
   }

@@ -28,8 +28,7 @@ std::string CaseLine(const std::vector<TrialRow>& rows) {
   const TrialSummary s = Summarize(rows);
   std::string line = fmt::format(
       "| `{}` | {} | {} of {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.0f} % | "
-      "{:.0f} | "
-      "{:.0f} | {:.2f} |",
+      "{:.0f} | {:.0f} | {:.2f} |",
       rows.front().scenario, CaseName(rows.front()), s.arrived, s.trials, s.accuracy_m,
       s.repeatability_m, s.largest_final_error_m, s.mean_path_error_m, s.p90_path_error_m,
       s.max_path_error_m, 100.0 * s.found_share, s.segments, s.bytes_per_m, s.ms_per_frame);
