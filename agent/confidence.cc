@@ -53,6 +53,11 @@ Verdict Confidence::JudgePlace(const Sighting& seen) const {
       driven_m_ < options_.settle_m) {
     return {Trust::kSure, ""};
   }
+  if (carried_at_m_ && driven_m_ - *carried_at_m_ < options_.carried_settle_m) {
+    return {Trust::kDistant,
+            fmt::format("carried off the path: where to is known to {:.2f} m so far",
+                        *seen.left_sigma_m)};
+  }
   return {*seen.left_sigma_m < options_.lost_sigma_m ? Trust::kDistant : Trust::kLost,
           fmt::format("only distant features are in view: the place beside the path is known to "
                       "{:.2f} m at best",
@@ -95,6 +100,7 @@ std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
 Verdict Confidence::Judge(const Sighting& seen,
                           const std::optional<motion::OdometryIncrement>& moved) {
   driven_m_ += moved ? std::abs(moved->distance_m) : 0.0;
+  if (seen.carried_off) carried_at_m_ = driven_m_;
   if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }

@@ -19,6 +19,8 @@ struct Sighting {
   std::optional<int> in_picture = std::nullopt;
   // How well the place beside the path is known; nothing where it is not estimated.
   std::optional<double> left_sigma_m = std::nullopt;
+  // What is seen says that somebody carried the robot off just now.
+  bool carried_off = false;
 };
 
 // What a robot may do.
@@ -57,6 +59,8 @@ struct ConfidenceOptions {
   double distant_sigma_m = 0.07;
   double lost_sigma_m = 0.5;
   double settle_m = 1.0;  // of driving, until the start's own uncertainty is over
+  // A robot that was carried off knows its new place only roughly, until it has driven so far.
+  double carried_settle_m = 3.0;
   // With fewer than so many that should be in the picture, their absence says nothing of somebody
   // who covers it.
   int covered_least_expected = 10;
@@ -110,6 +114,7 @@ class Confidence {
   ConfidenceOptions options_;
   bool sure_once_ = false;
   double driven_m_ = 0.0;
+  std::optional<double> carried_at_m_;  // of what it has driven; nothing: it was not carried off
   // Since it was last sure.
   double unsure_m_ = 0.0;
   int unsure_frames_ = 0;

@@ -64,7 +64,7 @@ struct ReplaySession::State {
   void Begin(std::size_t index, const image::GrayImage& frame);
   void EndSegment(const image::GrayImage& frame);
   void LookAgain(const image::GrayImage& frame);
-  void Refresh(const image::GrayImage& frame, int agreeing);
+  void Refresh(const image::GrayImage& frame, const replay::FollowStep& step);
   void JudgeSight(const replay::FollowStep& step,
                   const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
@@ -124,16 +124,16 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
   searches.push_back(SearchOf(SearchKind::kRecovered, follower->segment(), tracker.count(), true));
 }
 
-// Features once lost (blur, a passer-by) come back into view: look for them again.
-void ReplaySession::State::Refresh(const image::GrayImage& frame, int agreeing) {
+// Features once lost (blur, a passer-by) come back into view, and to a robot that was carried off
+// they are elsewhere: look for them again.
+void ReplaySession::State::Refresh(const image::GrayImage& frame, const replay::FollowStep& step) {
   const route::Segment& segment = follower->segment();
-  if (AsPrinted(options.method) || ++frames_since_find < kRefresh_frames ||
-      agreeing >= kEnoughShare * static_cast<double>(segment.features.size())) {
-    return;
-  }
+  const bool few = step.agreeing < kEnoughShare * static_cast<double>(segment.features.size());
+  const bool due = ++frames_since_find >= kRefresh_frames && few;
+  if (AsPrinted(options.method) || (!due && !step.carried_left_m)) return;
   frames_since_find = 0;
   std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
-  if (static_cast<int>(found.size()) <= agreeing) return;
+  if (static_cast<int>(found.size()) <= step.agreeing) return;
   tracker.Follow(found);
   searches.push_back(SearchOf(SearchKind::kLookedAgain, segment, tracker.count(), false));
 }
@@ -144,6 +144,7 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
   const route::Segment& segment = follower->segment();
   Sighting seen{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
                 tracker.losses().not_returned};
+  seen.carried_off = step.carried_left_m.has_value();
   if (step.offset) {
     seen.left_sigma_m = step.offset->left_sigma_m;
     seen.in_picture = static_cast<int>(InPicture(follower->Expect(), frame));
@@ -248,7 +249,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   const SegmentIndex before = s.follower->segment().index;
   replay::FollowStep step = s.follower->Step({tracked, odometry});
   s.JudgeSight(step, odometry, frame);
-  s.Refresh(frame, step.agreeing);
+  s.Refresh(frame, step);
   const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
   // What covers this segment's features covers the next one's too.
   const bool covered = s.trust == Trust::kCovered || s.confidence.view_is_going();

@@ -141,6 +141,12 @@ std::string RunRecorder::Add(const RunFrame& frame, const ReplayStep& step) {
   const FrameRow row = RowOf(frame, step);
   ++frames_;
   std::string text = RowText(row);
+  if (step.decision.carried_left_m) {
+    RunEvent carried = EventNow("carried");
+    carried.fields.Add("segment", std::to_string(row.segment));
+    carried.fields.Add("left_m", fmt::format("{:.2f}", *step.decision.carried_left_m));
+    text += EventText(carried);
+  }
   for (const Search& search : step.sight.searches) text += SearchText(search, step.magnification);
   if (phase_ != row.phase) {
     RunEvent change = EventNow("phase");

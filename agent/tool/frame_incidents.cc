@@ -153,12 +153,27 @@ std::vector<Incident> LookedAgain(const RunLog& log) {
   return incidents;
 }
 
+std::vector<Incident> CarriedOff(const RunLog& log) {
+  std::vector<Incident> incidents;
+  if (log.frames.empty()) return incidents;
+  for (const RunEvent& event : log.events) {
+    const auto left_m = event.what == "carried" ? event.fields.Number("left_m") : std::nullopt;
+    if (!left_m) continue;
+    const std::size_t row = RowOfFrame(log, event.frame);
+    incidents.push_back({event.what, row, row, 40.0,
+                         fmt::format("carried off, by what it sees: {:.2f} m further to the {}",
+                                     std::abs(*left_m), *left_m > 0.0 ? "left" : "right")});
+  }
+  return incidents;
+}
+
 }  // namespace
 
 std::vector<Incident> FrameIncidents(const RunLog& log) {
   std::vector<Incident> all;
-  for (const auto& found : {Drops(log), Find(log, Disagreeing(log)), Find(log, Beside(log)),
-                            Find(log, BesideInTruth(log)), Slow(log), LookedAgain(log)}) {
+  for (const auto& found :
+       {Drops(log), Find(log, Disagreeing(log)), Find(log, Beside(log)),
+        Find(log, BesideInTruth(log)), Slow(log), LookedAgain(log), CarriedOff(log)}) {
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;

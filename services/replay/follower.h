@@ -29,6 +29,9 @@ struct Agreement {
   int agreeing = 0;
   int rejected = 0;             // too far from where they should be: a mismatch, or a drift
   double rejected_by_px = 0.0;  // how far, on average; in the scout's pixels
+  // What is seen says that the robot is so far to the left of where it was thought to be: somebody
+  // carried it there.
+  std::optional<double> carried_left_m;
 };
 
 struct FollowStep {
@@ -41,13 +44,14 @@ struct FollowStep {
   double roll_rad = 0.0;
   double delta = 0.0;  // equation (2), where the method has it
   double delta_minus = 0.0;
-  std::optional<PathOffset> offset;  // where the method estimates it
-  double mount_yaw_rad = 0.0;        // of this robot's camera against the scout's, the same
-  int agreeing = 0;                  // features that fit what the route says
-  int rejected = 0;                  // that do not, where the method tells them apart
-  double rejected_by_px = 0.0;       // and by how much, as in Agreement
-  double fraction = 0.0;             // of the segment, 0..1
-  bool ended = false;                // the milestone has been passed
+  std::optional<PathOffset> offset;      // where the method estimates it
+  double mount_yaw_rad = 0.0;            // of this robot's camera against the scout's, the same
+  int agreeing = 0;                      // features that fit what the route says
+  int rejected = 0;                      // that do not, where the method tells them apart
+  double rejected_by_px = 0.0;           // and by how much, as in Agreement
+  std::optional<double> carried_left_m;  // the same, of one that was carried off
+  double fraction = 0.0;                 // of the segment, 0..1
+  bool ended = false;                    // the milestone has been passed
   // Few of this segment's features are left in view: go on with the next one's, if they are there.
   bool wants_next = false;
 };

@@ -179,34 +179,43 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   return p;
 }
 
-Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
-  const Covariance prior_information = covariance_.inverse();
-  const State prior = state_;
-  const double scale = state_[kMagnification];
-  Agreement agreement;
-  Covariance information = prior_information;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    information = prior_information;
-    State gradient = prior_information * (prior - state_);
-    agreement = {};
-    for (const route::TrackedFeature& feature : seen) {
-      const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state_);
-      const double ru = feature.u_px - p.u_px;
-      const double rv = feature.v_px - p.v_px;
-      const double residual_px = std::hypot(ru, rv) / scale;
-      Count(residual_px, options_.outlier_px, agreement);
-      // Cauchy's weight: a mismatch counts for little, wherever it is.
-      const double robust = 1.0 / (1.0 + Square(residual_px / options_.cauchy_px));
-      const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
-      const double noise_v = Square(scale * options_.feature_noise_px);
-      information +=
-          robust * (p.du.transpose() * p.du / noise_u + p.dv.transpose() * p.dv / noise_v);
-      gradient += robust * (p.du.transpose() * ru / noise_u + p.dv.transpose() * rv / noise_v);
-    }
-    state_ += information.ldlt().solve(gradient);
+PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prior& prior,
+                                                  const std::vector<route::TrackedFeature>& seen,
+                                                  double cauchy_px) const {
+  const double scale = prior.mean[kMagnification];
+  Equations equations{prior.information, prior.information * (prior.mean - state), {}};
+  for (const route::TrackedFeature& feature : seen) {
+    const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state);
+    const double ru = feature.u_px - p.u_px;
+    const double rv = feature.v_px - p.v_px;
+    const double residual_px = std::hypot(ru, rv) / scale;
+    Count(residual_px, options_.outlier_px, equations.agreement);
+    // Cauchy's weight: a mismatch counts for little, wherever it is.
+    const double robust = 1.0 / (1.0 + Square(residual_px / cauchy_px));
+    const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
+    const double noise_v = Square(scale * options_.feature_noise_px);
+    equations.information +=
+        robust * (p.du.transpose() * p.du / noise_u + p.dv.transpose() * p.dv / noise_v);
+    equations.gradient +=
+        robust * (p.du.transpose() * ru / noise_u + p.dv.transpose() * rv / noise_v);
   }
-  covariance_ = information.inverse();
-  return agreement;
+  return equations;
+}
+
+Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
+  const State before = state_;
+  const Covariance covariance_before = covariance_;
+  const Prior prior{before, covariance_before.inverse()};
+  Equations equations;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    equations = Linearise(state_, prior, seen, options_.cauchy_px);
+    state_ += equations.information.ldlt().solve(equations.gradient);
+  }
+  covariance_ = equations.information.inverse();
+  if (++looks_ % options_.carried_every_looks == 0) {
+    equations.agreement.carried_left_m = FindIfCarriedOff(before, covariance_before, seen);
+  }
+  return equations.agreement;
 }
 
 PathOffset PathEstimator::offset() const {

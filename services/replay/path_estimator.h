@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "services/motion/motion.h"
@@ -33,14 +34,22 @@ struct PathEstimatorOptions {
   double magnification_noise = 0.001;
   double roll_rad = 0.05;  // of each frame alone, as pitch
   double pitch_rad = 0.05;
+  // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
+  // place at least so far from the believed one has to explain what is seen. Asked every so many
+  // looks: it costs as much as a few of them.
+  double carried_left_m = 2.0;
+  double carried_heading_rad = 0.15;
+  double carried_along_m = 0.5;
+  double carried_least_m = 0.4;
+  double carried_gain = 3.0;
+  int carried_every_looks = 5;
 };
 
 // The widened funnel: the funnel lane's inequality made an equation. With its taught flow known,
 // each feature says not only on which side the robot is but how far: near ones speak of the offset,
 // far ones of the heading. An iterated Kalman filter over (offset, heading, progress), what differs
 // between the two cameras and their mounts, the odometry's bias, and each frame's own roll and
-// pitch. Pixels are those of the
-// follower's own camera, from its image centre.
+// pitch. Pixels are those of the follower's own camera, from its image centre.
 class PathEstimator {
  public:
   PathEstimator(int scout_width_px, double magnification, const PathEstimatorOptions& options = {});
@@ -99,7 +108,31 @@ class PathEstimator {
     Row dv = Row::Zero();
     double depth_sigma_px = 0.0;  // what not knowing the depth makes of it
   };
+  // What is believed before a look.
+  struct Prior {
+    State mean;
+    Covariance information;
+  };
+  // The normal equations of a look, about one state.
+  struct Equations {
+    Covariance information;
+    State gradient;
+    Agreement agreement;
+  };
   void BeUnsure();
+  [[nodiscard]] Equations Linearise(const State& state, const Prior& prior,
+                                    const std::vector<route::TrackedFeature>& seen,
+                                    double cauchy_px) const;
+  // How badly a state explains a look, in nats: the negative logarithm of its likelihood.
+  [[nodiscard]] double Surprise(const State& state, const Prior& prior,
+                                const std::vector<route::TrackedFeature>& seen) const;
+  [[nodiscard]] State FromFarAway(State start, const Prior& prior,
+                                  const std::vector<route::TrackedFeature>& seen) const;
+  // Whether somebody carried the robot off, which no odometry feels and which a filter sure of its
+  // place takes for mismatches: is there a place far from the present one that explains the look
+  // far better? Then goes on from there, and says how far to the left that is.
+  std::optional<double> FindIfCarriedOff(const State& before, const Covariance& covariance_before,
+                                         const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
   [[nodiscard]] double TaughtHeading(double along_m) const;
   [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
@@ -114,6 +147,7 @@ class PathEstimator {
   std::vector<InverseDepth> depths_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
+  int looks_ = 0;
 };
 
 }  // namespace trailcast::replay

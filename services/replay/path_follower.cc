@@ -37,6 +37,7 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.agreeing = agreement.agreeing;
   step.rejected = agreement.rejected;
   step.rejected_by_px = agreement.rejected_by_px;
+  step.carried_left_m = agreement.carried_left_m;
   step.roll_rad = estimator_.roll_rad();
   const PathOffset offset = estimator_.offset();
   step.offset = offset;

@@ -41,6 +41,31 @@ TEST(FailureMode, AMissedTransitionIsMadeUpForWithoutAnybodysHelp) {
   }
 }
 
+// Somebody pushes it aside: no wheel feels that, and most features outdoors are far enough away to
+// stay where they were in the picture.
+TEST(FailureMode, ShovedOffThePathItFindsOutAndComesBack) {
+  const sim::Place place = test::Open("paved");
+  const sim::CameraModel camera = *sim::FindCamera("webcam");
+  const Taught taught = test::TeachIn(place, 16.0, camera, 11);
+  double least_left_m = 0.0;
+  bool shoved = false;
+  bool found_out = false;
+  const test::Ending ending = test::FollowIn(
+      place, camera, taught, 21, [&](sim::Judge& truth, const agent::ReplayStep& step) {
+        const Eigen::Vector2d at = From(truth.true_pose(), place.path.points, 0.0);
+        if (!shoved && at.x() > 4.0) {
+          truth.Shove({0.0, -3.0, 0.0});
+          shoved = true;
+        }
+        least_left_m = std::min(least_left_m, at.y());
+        found_out = found_out || step.decision.carried_left_m.value_or(0.0) < 0.0;
+      });
+  EXPECT_LT(least_left_m, -2.5);
+  EXPECT_TRUE(found_out);
+  EXPECT_EQ(ending.last.state, agent::ReplayState::kArrived) << ending.last.reason;
+  EXPECT_LT(std::abs(From(ending.pose, place.path.points, 16.0).y()), 0.2);
+}
+
 // A gallery whose walls are one and the same window, a metre wide, over and over again.
 sim::Place Gallery() {
   image::Canvas window(128, 256, {190, 185, 175});

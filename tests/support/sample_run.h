@@ -71,6 +71,12 @@ class SampleRun {
     text_ += agent::EventText(event);
     return *this;
   }
+  SampleRun& CarriedOff(double left_m) {
+    agent::RunEvent event{row_.frame - 1, row_.t_s, "carried", {}, ""};
+    event.fields.Add("left_m", std::to_string(left_m));
+    text_ += agent::EventText(event);
+    return *this;
+  }
   SampleRun& End(const std::string& state, const std::string& reason) {
     agent::RunEvent event{row_.frame, row_.t_s, "end", {}, reason};
     event.fields.Add("state", state);

@@ -17,9 +17,9 @@ class ConfidenceTest : public ::testing::Test {
               std::optional<motion::OdometryIncrement> moved = kStep) {
     Verdict verdict;
     for (int i = 0; i < frames; ++i) {
-      verdict = confidence_.Judge(
-          {segment_, taught_, agreeing, std::exchange(vanish_, 0), in_picture_, left_sigma_m_},
-          moved);
+      verdict = confidence_.Judge({segment_, taught_, agreeing, std::exchange(vanish_, 0),
+                                   in_picture_, left_sigma_m_, std::exchange(carried_off_, false)},
+                                  moved);
     }
     return verdict;
   }
@@ -37,6 +37,7 @@ class ConfidenceTest : public ::testing::Test {
   std::uint32_t segment_ = 0;
   int taught_ = kTaught;
   int vanish_ = 0;
+  bool carried_off_ = false;  // in the next frame
 };
 
 TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
@@ -152,6 +153,16 @@ TEST_F(ConfidenceTest, IsLostWhenThePathMayBeAnywhere) {
   See(30, 100);
   left_sigma_m_ = 0.6;
   EXPECT_EQ(See(30).trust, Trust::kLost);
+}
+
+TEST_F(ConfidenceTest, CarriedOffItMayTakeAWhileToKnowWhereTo) {
+  See(30, 100);
+  left_sigma_m_ = 0.6;
+  carried_off_ = true;
+  const Verdict verdict = See(30, 140);
+  EXPECT_EQ(verdict.trust, Trust::kDistant);
+  EXPECT_EQ(verdict.reason, "carried off the path: where to is known to 0.60 m so far");
+  EXPECT_EQ(See(30, 20).trust, Trust::kLost);
 }
 
 TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {

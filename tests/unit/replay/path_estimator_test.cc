@@ -71,6 +71,41 @@ TEST(PathEstimator, PassesOverMismatches) {
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
 }
 
+// Sure of its place on the path, then at another without having driven there.
+TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  for (const double carried_m : {-1.2, 0.7, 1.2}) {
+    PathEstimator estimator(320, 1.0);
+    estimator.Begin(run.segment);
+    estimator.Predict({1.0, 0.0});
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_FALSE(estimator.Update(test::Matched(kScene, run, {1.0, 0.0, 0.0})).carried_left_m);
+    }
+    EXPECT_LT(estimator.offset_sigma_m(), 0.05);
+    std::optional<double> found_m;
+    for (int i = 0; i < PathEstimatorOptions{}.carried_every_looks; ++i) {
+      const auto seen = test::Matched(kScene, run, {1.0, carried_m, 0.0});
+      if (const Agreement agreement = estimator.Update(seen); agreement.carried_left_m) {
+        found_m = agreement.carried_left_m;
+      }
+    }
+    ASSERT_TRUE(found_m) << carried_m;
+    EXPECT_NEAR(estimator.offset().left_m, carried_m, 0.15);
+    EXPECT_NEAR(*found_m, carried_m, 0.3);
+  }
+}
+
+TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator(320, 1.0);
+  estimator.Begin(run.segment);
+  estimator.Predict({1.0, 0.0});
+  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(estimator.Update(seen).carried_left_m);
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
+}
+
 TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
   const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.3}});
   PathEstimator estimator(320, 1.0);

@@ -113,6 +113,13 @@ TEST(Story, SaysWhereItWasFarBesideThePathAndSlow) {
   EXPECT_THAT(story, HasSubstr("slower than taught: down to 0.10 m/s"));
 }
 
+TEST(Story, SaysWhereItWasCarriedOff) {
+  SampleRun run;
+  run.HandOver(0, 27).Frames(10).CarriedOff(-1.5).Frames(10);
+  EXPECT_THAT(TellStory(run.Log(), true),
+              HasSubstr("carried off, by what it sees: 1.50 m further to the right"));
+}
+
 TEST(Story, MergesWhatRepeatsAndFitsAScreen) {
   SampleRun run;
   run.HandOver(0, 27);

@@ -1,0 +1,81 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "services/replay/path_estimator.h"
+
+namespace trailcast::replay {
+namespace {
+
+// Starting places of the search, to either side: closer together than the depths in view are far
+// apart. From each the fit comes in from afar: at first every feature counts, at last only those
+// that agree.
+constexpr double kFurthest_m = 3.0;
+constexpr double kApart_m = 0.5;
+constexpr double kWidest = 8.0;  // times Cauchy's own width
+constexpr int kIterations = 6;
+constexpr std::size_t kFewest = 10;  // features; a handful can be explained from anywhere
+
+double Square(double x) { return x * x; }
+
+}  // namespace
+
+double PathEstimator::Surprise(const State& state, const Prior& prior,
+                               const std::vector<route::TrackedFeature>& seen) const {
+  const State off = state - prior.mean;
+  double nats = 0.5 * off.dot(prior.information * off);
+  const double per_feature = 0.5 * Square(options_.cauchy_px / options_.feature_noise_px);
+  for (const route::TrackedFeature& feature : seen) {
+    const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state);
+    const double residual_px =
+        std::hypot(feature.u_px - p.u_px, feature.v_px - p.v_px) / state[kMagnification];
+    nats += per_feature * std::log1p(Square(residual_px / options_.cauchy_px));
+  }
+  return nats;
+}
+
+PathEstimator::State PathEstimator::FromFarAway(
+    State start, const Prior& prior, const std::vector<route::TrackedFeature>& seen) const {
+  double width = kWidest;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Equations equations = Linearise(start, prior, seen, width * options_.cauchy_px);
+    start += equations.information.ldlt().solve(equations.gradient);
+    width = std::max(1.0, 0.5 * width);
+  }
+  return start;
+}
+
+std::optional<double> PathEstimator::FindIfCarriedOff(
+    const State& before, const Covariance& covariance_before,
+    const std::vector<route::TrackedFeature>& seen) {
+  if (seen.size() < kFewest) return std::nullopt;
+  Covariance wide = covariance_before;
+  wide(kLeft, kLeft) += Square(options_.carried_left_m);
+  wide(kHeading, kHeading) += Square(options_.carried_heading_rad);
+  wide(kAlong, kAlong) += Square(options_.carried_along_m);
+  const Prior anywhere{before, wide.inverse()};
+  State best = state_;
+  double least = std::numeric_limits<double>::infinity();
+  for (double left_m = -kFurthest_m; left_m <= kFurthest_m; left_m += kApart_m) {
+    State start = before;
+    start[kLeft] += left_m;
+    const State there = FromFarAway(start, anywhere, seen);
+    const double surprise = Surprise(there, anywhere, seen);
+    if (surprise >= least) continue;
+    least = surprise;
+    best = there;
+  }
+  const double here = Surprise(state_, {before, covariance_before.inverse()}, seen);
+  const Covariance covariance =
+      Linearise(best, anywhere, seen, options_.cauchy_px).information.inverse();
+  const double moved_m = best[kLeft] - state_[kLeft];
+  const double told_m = std::max(options_.carried_least_m, std::sqrt(covariance(kLeft, kLeft)));
+  if (std::abs(moved_m) < told_m || here - least < options_.carried_gain) return std::nullopt;
+  state_ = best;
+  covariance_ = covariance;
+  return moved_m;
+}
+
+}  // namespace trailcast::replay
