@@ -22,6 +22,8 @@ constexpr std::size_t kNothingToSee = 4;  // a segment with fewer features
 constexpr int kFramesASegment = 5;        // hardly any is shorter
 // Around what the wide search says, in scout's pixels of a picture 320 px wide.
 constexpr double kAfterWide_px = 16.0;
+// At the start: some degrees of heading and of mount yaw.
+constexpr double kStart_px = 45.0;
 constexpr double kRecover_px = 56.0;
 
 vision::SearchRadius Around(double within_px_at_320, int scout_width_px) {
@@ -40,6 +42,16 @@ std::vector<route::TrackedFeature> Places(const route::Segment& segment, double 
   return places;
 }
 
+// More of the features, or, at another magnification, few but more than chance would have.
+bool IsBetter(const vision::FindResult& a, const vision::FindResult& b) {
+  if (a.BeyondChance() != b.BeyondChance()) return a.BeyondChance();
+  return a.features.size() > b.features.size();
+}
+
+double ShareInPicture(const vision::FindResult& found) {
+  return static_cast<double>(found.features.size()) / std::max(1, found.in_picture);
+}
+
 }  // namespace
 
 std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> segments,
@@ -56,6 +68,11 @@ std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> seg
 
 vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
                                           const route::Segment& segment, double s) const {
+  if (!knows_magnification_) {
+    vision::FindResult found = finder_.FindAtAnyMagnification(frame, segment.features, s,
+                                                              Around(kStart_px, scout_width_px_));
+    if (!found.features.empty()) return found;
+  }
   const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
   if (coarse.matches == 0) return {};
   return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit), coarse.fit.scale,
@@ -71,14 +88,12 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
   vision::FindResult found =
       finder_.FindNear(frame, segment.features, follower.Expect(), follower.magnification(),
                        Around(follower.expected_within_px_at_320(), scout_width_px_));
-  if (any_camera_ && static_cast<double>(found.features.size()) < kEnoughShare * stored) {
+  if (any_camera_ && ShareInPicture(found) < kEnoughShare) {
     vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0);
-    last_was_wide_ = elsewhere.features.size() > found.features.size();
+    last_was_wide_ = IsBetter(elsewhere, found);
     if (last_was_wide_) found = std::move(elsewhere);
   }
-  if (any_camera_ && static_cast<double>(found.features.size()) >= kShareToLearn * stored) {
-    Learn(found, follower);
-  }
+  if (any_camera_ && ShareInPicture(found) >= kShareToLearn) Learn(found, follower);
   share_sum_ += static_cast<double>(found.features.size()) / stored;
   ++count_;
   return std::move(found.features);
@@ -94,7 +109,9 @@ std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame
 
 // The magnification as a running median: one bad fit does no harm.
 void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower) {
-  if (found.features.size() < kEnoughToLearn) return;
+  const bool first = !knows_magnification_ && found.BeyondChance();
+  if (found.features.size() < kEnoughToLearn && !first) return;
+  knows_magnification_ = true;
   seen_magnifications_.push_back(found.magnification);
   if (seen_magnifications_.size() > kMagnificationsKept) seen_magnifications_.pop_front();
   std::vector<double> sorted(seen_magnifications_.begin(), seen_magnifications_.end());
@@ -110,7 +127,7 @@ vision::FindResult HandOver::FindAt(const image::GrayImage& frame, const route::
                        magnification, Around(kRecover_px, scout_width_px_));
   if (!any_camera_) return near;
   vision::FindResult anywhere = FindAnywhere(frame, segment, s);
-  return anywhere.features.size() > near.features.size() ? anywhere : near;
+  return IsBetter(anywhere, near) ? anywhere : near;
 }
 
 std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
@@ -136,8 +153,9 @@ std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& fra
                        std::max(1.0, static_cast<double>(ahead[segment].features.size()));
   // What is ahead may be seen from afar: to go on from there, most of it must be.
   const bool too_far = can_wait && segment > 0 && share < kShareToSkip;
-  if (best.features.size() < kEnoughToRecover || too_far) return std::nullopt;
-  if (any_camera_ && share >= kShareToLearn) Learn(best, follower);
+  const bool enough = best.features.size() >= kEnoughToRecover || best.BeyondChance();
+  if (!enough || too_far) return std::nullopt;
+  if (any_camera_ && ShareInPicture(best) >= kShareToLearn) Learn(best, follower);
   return Recovered{segment, std::move(best.features)};
 }
 

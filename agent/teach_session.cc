@@ -6,7 +6,6 @@
 
 #include "agent/frame_check.h"
 #include "services/vision/donut.h"
-#include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
 namespace {
@@ -17,11 +16,15 @@ constexpr std::size_t kMinFeatures = 8;
 }  // namespace
 
 struct TeachSession::State {
-  explicit State(const teach::SegmentRecorderOptions& options) : recorder(options) {}
+  explicit State(const TeachOptions& options)
+      : tracker(options.features),
+        recorder(options.recorder),
+        middle_features(options.middle_features) {}
 
   vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
   teach::SegmentRecorder recorder;
+  int middle_features;
   FrameCheck check;
   // A segment is under way: with features, or blind, by odometry alone, until some come into view.
   enum class Recording { kNothing, kBlind, kFeatures } recording = Recording::kNothing;
@@ -42,7 +45,7 @@ bool TeachSession::State::SegmentEnds(const Observation& observation) {
 }
 
 void TeachSession::State::BeginSegment(const Observation& observation) {
-  tracker.Detect();
+  tracker.Detect(observation.odometry ? middle_features : 0);
   std::vector<route::DescribedFeature> features = tracker.Describe();
   if (features.size() < kMinFeatures) {
     features.clear();
@@ -56,7 +59,7 @@ void TeachSession::State::BeginSegment(const Observation& observation) {
   }
 }
 
-TeachSession::TeachSession(const teach::SegmentRecorderOptions& options)
+TeachSession::TeachSession(const TeachOptions& options)
     : state_(std::make_unique<State>(options)) {}
 TeachSession::~TeachSession() = default;
 TeachSession::TeachSession(TeachSession&&) noexcept = default;

@@ -8,8 +8,18 @@
 #include "services/base/result.h"
 #include "services/route/route.h"
 #include "services/teach/segment_recorder.h"
+#include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
+
+struct TeachOptions {
+  vision::FeatureTrackerOptions features;
+  // So many of a segment's features at least in its picture's middle, for followers with a narrower
+  // view. Not on routes without odometry: the funnel lane, by which alone they are followed, counts
+  // all features alike, and those in the middle say least of where to turn.
+  int middle_features = 20;
+  teach::SegmentRecorderOptions recorder;
+};
 
 struct TeachStep {
   std::optional<route::Segment> finished;  // a segment that ended with this frame
@@ -21,7 +31,7 @@ struct TeachStep {
 // no socket, lock, disk or clock. Not thread-safe.
 class TeachSession {
  public:
-  explicit TeachSession(const teach::SegmentRecorderOptions& options = {});
+  explicit TeachSession(const TeachOptions& options = {});
   ~TeachSession();
   TeachSession(TeachSession&&) noexcept;
 

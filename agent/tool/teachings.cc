@@ -32,10 +32,10 @@ Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case
     drive = &drives_[{trial_case.scout_camera.name, trial}];
   }
   std::call_once(drive->once, [&] {
-    std::vector<teach::SegmentRecorderOptions> recorders;
-    recorders.reserve(cuts_.size());
-    for (const agent::ReplayMethod method : cuts_) recorders.push_back(RecorderFor(method));
-    auto taught = TeachOnce(setup_, trial_case.scout_camera, recorders,
+    std::vector<agent::TeachOptions> teachings;
+    teachings.reserve(cuts_.size());
+    for (const agent::ReplayMethod method : cuts_) teachings.push_back(TeachingFor(method));
+    auto taught = TeachOnce(setup_, trial_case.scout_camera, teachings,
                             sim::Random(SeedOf(options_, trial), "scout").Bits(), on_progress);
     if (taught) {
       drive->taught = std::make_shared<const Taught>(std::move(*taught));

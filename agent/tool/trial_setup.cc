@@ -96,10 +96,13 @@ Result<Scenario> ScenarioOf(const TrialOptions& options) {
 
 }  // namespace
 
-teach::SegmentRecorderOptions RecorderFor(agent::ReplayMethod method) {
-  teach::SegmentRecorderOptions recorder;
-  if (agent::AsPrinted(method)) recorder.longest_m = std::numeric_limits<double>::infinity();
-  return recorder;
+agent::TeachOptions TeachingFor(agent::ReplayMethod method) {
+  agent::TeachOptions options;
+  if (agent::AsPrinted(method)) {
+    options.recorder.longest_m = std::numeric_limits<double>::infinity();
+    options.middle_features = 0;
+  }
+  return options;
 }
 
 Result<TrialSetup> PrepareTrials(const TrialOptions& options) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "agent/replay_method.h"
+#include "agent/teach_session.h"
 #include "agent/tool/trial_options.h"
 #include "services/base/result.h"
 #include "services/sim/camera.h"
@@ -14,7 +15,6 @@
 #include "services/sim/path.h"
 #include "services/sim/place.h"
 #include "services/sim/world.h"
-#include "services/teach/segment_recorder.h"
 
 namespace trailcast::tool {
 
@@ -28,7 +28,7 @@ struct TrialCase {
 };
 
 // How a scout of that method cuts its segments: one as printed by the 50 % rule alone.
-[[nodiscard]] teach::SegmentRecorderOptions RecorderFor(agent::ReplayMethod method);
+[[nodiscard]] agent::TeachOptions TeachingFor(agent::ReplayMethod method);
 
 // Everything that the trials of one command have in common, read and checked.
 struct TrialSetup {

@@ -36,7 +36,7 @@ Result<sim::SimulatedRobotOptions> ScoutOptions(const TrialSetup& setup,
 class RouteRecorder {
  public:
   RouteRecorder(const std::string& name, const sim::CameraModel& camera,
-                const teach::SegmentRecorderOptions& options)
+                const agent::TeachOptions& options)
       : session_(options) {
     // A trial's route is never stored or sent, so it needs no id that differs from others'.
     taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
@@ -80,9 +80,9 @@ class RouteRecorder {
 class Teaching {
  public:
   Teaching(const TrialSetup& setup, const sim::CameraModel& camera,
-           const std::vector<teach::SegmentRecorderOptions>& recorders, sim::SimulatedRobot& robot)
+           const std::vector<agent::TeachOptions>& teachings, sim::SimulatedRobot& robot)
       : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
-    for (const auto& options : recorders) recorders_.emplace_back(setup.scenario, camera, options);
+    for (const auto& options : teachings) recorders_.emplace_back(setup.scenario, camera, options);
   }
 
   // One frame. False when the drive is over.
@@ -128,13 +128,13 @@ class Teaching {
 }  // namespace
 
 Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
-                         const std::vector<teach::SegmentRecorderOptions>& recorders,
-                         std::uint64_t seed, const std::function<bool(double share)>& on_progress) {
+                         const std::vector<agent::TeachOptions>& teachings, std::uint64_t seed,
+                         const std::function<bool(double share)>& on_progress) {
   const auto options = ScoutOptions(setup, camera, seed);
   if (!options) return Wrap(options.error(), "the scout");
   const auto robot = sim::SimulatedRobot::Create(setup.world, *options);
   if (!robot) return Wrap(robot.error(), "the scout");
-  Teaching teaching(setup, camera, recorders, **robot);
+  Teaching teaching(setup, camera, teachings, **robot);
   StandstillWatch standstill;
   for (int frame = 0;; ++frame) {
     const Result<bool> more = teaching.Step();

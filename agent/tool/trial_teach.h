@@ -29,7 +29,7 @@ struct Taught {
 // recorders. `on_progress` gets the share of the path driven; false ends the drive. kUnavailable
 // when the robot cannot get along the path.
 [[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
-                                       const std::vector<teach::SegmentRecorderOptions>& recorders,
+                                       const std::vector<agent::TeachOptions>& teachings,
                                        std::uint64_t seed,
                                        const std::function<bool(double share)>& on_progress);
 

@@ -15,7 +15,10 @@ struct FeatureFinderOptions {
   // What the found ones must agree on, scout pixels (see ViewFitOptions).
   double agree_u_px = 16.0;
   double agree_v_px = 5.0;
-  // Wide search, over the whole frame and all these magnifications (camera at hand / scout's).
+  // At any magnification (camera at hand / scout's), in steps that a pattern bears.
+  double least_magnification = 0.2;
+  double most_magnification = 5.0;
+  // Wide search, over the whole frame and all these magnifications.
   double min_magnification = 0.35;
   double max_magnification = 2.9;
   int wide_corners = 350;       // looked at for each magnification
@@ -34,6 +37,14 @@ struct FindResult {
   // In pixels of the frame from its centre; id: position in the list that was sought.
   std::vector<route::TrackedFeature> features;
   double magnification = 1.0;  // pixels of the frame per scout's pixel, as these features say
+  int in_picture = 0;          // of those sought, how many were expected to be in the picture
+
+  // A third of what is sought can be found in agreement in any picture, and where corners are all
+  // alike nearly half: so many more are found, and whether they are enough to mean something.
+  [[nodiscard]] double AboveChance() const {
+    return static_cast<double>(features.size()) - 0.45 * in_picture;
+  }
+  [[nodiscard]] bool BeyondChance() const { return AboveChance() >= 3.0; }
 };
 
 struct WideResult {
@@ -52,6 +63,13 @@ class FeatureFinder {
                                     std::span<const route::Feature> sought,
                                     std::span<const route::TrackedFeature> expected,
                                     double magnification, const SearchRadius& radius) const;
+
+  // The same by a robot that stands where the scout stood at fraction `s` of the segment, give or
+  // take the radius, and whose camera nothing is known of: at every magnification. Nothing found
+  // that is not beyond chance.
+  [[nodiscard]] FindResult FindAtAnyMagnification(const image::GrayImage& frame,
+                                                  std::span<const route::Feature> sought, double s,
+                                                  const SearchRadius& radius) const;
 
   // By descriptors, anywhere and at any magnification. `s`: the fraction of the segment at which
   // the picture is thought to be. Coarse: follow it with FindNear.

@@ -16,6 +16,8 @@ using Pyramid = std::vector<cv::Mat>;
 
 const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
 constexpr double kFlowMinEigenvalue = 1e-4;
+constexpr double kMiddleSpacing = 0.5;   // of that on a regular grid
+constexpr double kMiddleQuality = 0.05;  // of the best that is left there
 constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
 
 // A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once
@@ -65,6 +67,7 @@ struct FeatureTracker::State {
                             const std::vector<cv::Point2f>& start,
                             const std::vector<cv::Point2f>& guess) const;
   void KeepThoseThatReturn(const Flow& forward, const Flow& backward);
+  void DetectInTheMiddle(const cv::Mat& frame, const cv::Mat& where, int wanted);
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
 };
 
@@ -106,6 +109,30 @@ void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow&
   losses.not_returned = static_cast<int>(gone.size()) - losses.left_picture;
 }
 
+// What those that are spread over the picture leave to be wished for in its middle.
+void FeatureTracker::State::DetectInTheMiddle(const cv::Mat& frame, const cv::Mat& where,
+                                              int wanted) {
+  const cv::Size size(cvRound(options.middle_share * frame.cols),
+                      cvRound(options.middle_share * frame.rows));
+  const cv::Rect middle({(frame.cols - size.width) / 2, (frame.rows - size.height) / 2}, size);
+  const auto there =
+      static_cast<int>(std::count_if(points.begin(), points.end(), [&](const cv::Point2f& point) {
+        return middle.contains(point);
+      }));
+  const int missing = wanted - there;
+  if (missing <= 0) return;
+  const double spacing_px = kMiddleSpacing * std::sqrt(middle.area() / wanted);
+  cv::Mat free = cv::Mat::zeros(frame.size(), CV_8UC1);
+  where(middle).copyTo(free(middle));
+  for (const cv::Point2f& point : points) {
+    cv::circle(free, point, cvRound(spacing_px), cv::Scalar(0), cv::FILLED);
+  }
+  std::vector<cv::Point2f> more;
+  cv::goodFeaturesToTrack(frame, more, missing, kMiddleQuality, spacing_px, free,
+                          options.window_px);
+  points.insert(points.end(), more.begin(), more.end());
+}
+
 std::vector<route::TrackedFeature> FeatureTracker::State::Current() const {
   std::vector<route::TrackedFeature> features;
   if (last.empty()) return features;
@@ -140,7 +167,7 @@ std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage&
   return s.Current();
 }
 
-std::vector<route::TrackedFeature> FeatureTracker::Detect() {
+std::vector<route::TrackedFeature> FeatureTracker::Detect(int in_the_middle) {
   State& s = *state_;
   const cv::Mat& frame = s.last.front();
   const double spacing_px =
@@ -151,6 +178,7 @@ std::vector<route::TrackedFeature> FeatureTracker::Detect() {
   cv::rectangle(where, {0, 0}, {frame.cols - 1, frame.rows - 1}, cv::Scalar(0), 2 * edge_px);
   cv::goodFeaturesToTrack(frame, s.points, s.options.max_features, s.options.detection_quality,
                           spacing_px, where, s.options.window_px);
+  if (in_the_middle > 0) s.DetectInTheMiddle(frame, where, in_the_middle);
   cv::Mat smoothed;
   cv::blur(frame, smoothed, cv::Size(3, 3));
   std::erase_if(s.points, [&](const cv::Point2f& point) {

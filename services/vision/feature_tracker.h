@@ -15,6 +15,7 @@ struct FeatureTrackerOptions {
   // Features are spread over the image: no two closer than this share of the distance that
   // max_features on a regular grid would have.
   double min_spacing_share = 0.35;
+  double middle_share = 0.25;  // of width and height: the picture's middle, for Detect
   int window_px = 7;       // the paper's figure
   int pyramid_levels = 3;  // beyond the full image: motions up to about 40 px between frames
   // A feature tracked forward and back again must return to where it came from this closely.
@@ -38,8 +39,10 @@ class FeatureTracker {
   // Takes the next frame and finds the current features in it. The first frame gives none.
   std::vector<route::TrackedFeature> Track(const image::GrayImage& frame);
 
-  // Forgets the current features and detects new ones in the last frame, ids from 0.
-  std::vector<route::TrackedFeature> Detect();
+  // Forgets the current features and detects new ones in the last frame, ids from 0: those spread
+  // over the picture and, where fewer than `in_the_middle` of them are in its middle, more there,
+  // closer together; that is all that a camera with a narrower view would see of it.
+  std::vector<route::TrackedFeature> Detect(int in_the_middle = 0);
 
   // Goes on with these features at these places of the last frame (hand-over).
   void Follow(const std::vector<route::TrackedFeature>& features);

@@ -11,6 +11,11 @@ namespace {
 
 // Below this much of a change the frame is searched as it is: the patches bear it.
 constexpr double kScaleWorthResizing = 0.06;
+// A camera that sees less detail than the scout's sees the patterns blurred: of its own pixels, in
+// which a pattern is that much smaller.
+constexpr double kPixelSigma = 0.4;
+constexpr double kLeastBlur_px = 0.3;
+constexpr double kLevels = 15.0;  // of a stored pattern
 
 struct Peak {
   cv::Point2f at;  // pixel coordinates of the searched picture
@@ -24,9 +29,22 @@ float ParabolaVertex(float left, float middle, float right) {
                                      : std::clamp(0.5F * (left - right) / curvature, -0.5F, 0.5F);
 }
 
-// Best place of the patch in the window of `picture` around `expected`.
-std::optional<Peak> BestPlace(const cv::Mat& picture, const route::Patch& patch,
-                              cv::Point2f expected, cv::Point2f radius) {
+// The stored pattern as a camera of this magnification sees it.
+cv::Mat PatternOf(const route::Patch& patch, double magnification) {
+  const cv::Mat stored(route::kPatchSize, route::kPatchSize, CV_8UC1,
+                       const_cast<std::uint8_t*>(patch.data()));
+  const double blur_px =
+      kPixelSigma * std::sqrt(std::max(0.0, 1.0 / (magnification * magnification) - 1.0));
+  if (blur_px < kLeastBlur_px) return stored;
+  cv::Mat blurred;
+  stored.convertTo(blurred, CV_8U, 255.0 / kLevels);
+  cv::GaussianBlur(blurred, blurred, {}, blur_px, blur_px, cv::BORDER_REPLICATE);
+  return blurred;
+}
+
+// Best place of the pattern in the window of `picture` around `expected`.
+std::optional<Peak> BestPlace(const cv::Mat& picture, const cv::Mat& pattern, cv::Point2f expected,
+                              cv::Point2f radius) {
   const int half = route::kPatchSize / 2;
   const cv::Rect window = cv::Rect(cv::Point(cvRound(expected.x - radius.x) - half,
                                              cvRound(expected.y - radius.y) - half),
@@ -34,8 +52,6 @@ std::optional<Peak> BestPlace(const cv::Mat& picture, const route::Patch& patch,
                                              cvRound(expected.y + radius.y) + half + 1)) &
                           cv::Rect({0, 0}, picture.size());
   if (window.width < route::kPatchSize || window.height < route::kPatchSize) return std::nullopt;
-  const cv::Mat pattern(route::kPatchSize, route::kPatchSize, CV_8UC1,
-                        const_cast<std::uint8_t*>(patch.data()));
   cv::Mat score;
   cv::matchTemplate(picture(window), pattern, score, cv::TM_CCOEFF_NORMED);
   Peak peak;
@@ -75,12 +91,18 @@ FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
   const cv::Point2f reach(static_cast<float>(radius.u_px), static_cast<float>(radius.v_px));
   std::vector<ViewPair> pairs;  // expected and found, in pixels of the scout's magnification
   std::vector<int> index;
+  FindResult result;
+  const cv::Rect2f whole_patterns(0.5F * route::kPatchSize, 0.5F * route::kPatchSize,
+                                  static_cast<float>(picture.cols - route::kPatchSize),
+                                  static_cast<float>(picture.rows - route::kPatchSize));
   for (const route::TrackedFeature& feature : expected) {
     const double u = feature.u_px / scale;
     const double v = feature.v_px / scale;
     const cv::Point2f place(centre.x + static_cast<float>(u), centre.y + static_cast<float>(v));
-    const auto peak =
-        BestPlace(picture, sought[static_cast<std::size_t>(feature.id)].patch, place, reach);
+    result.in_picture += whole_patterns.contains(place) ? 1 : 0;
+    const cv::Mat pattern =
+        PatternOf(sought[static_cast<std::size_t>(feature.id)].patch, magnification);
+    const auto peak = BestPlace(picture, pattern, place, reach);
     if (!peak || peak->correlation < options_.min_correlation) continue;
     pairs.push_back({u, v, peak->at.x - centre.x, peak->at.y - centre.y});
     index.push_back(feature.id);
@@ -91,7 +113,6 @@ FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
   agree.tolerance_u_px = options_.agree_u_px;
   agree.tolerance_v_px = options_.agree_v_px;
   const ViewFitResult agreed = FitView(pairs, agree);
-  FindResult result;
   result.magnification = agreed.fit.scale * magnification;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!agreed.inlier[i]) continue;

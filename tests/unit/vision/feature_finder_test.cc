@@ -75,6 +75,37 @@ TEST(FindNear, FindsThemThroughAnotherMagnificationThatIsKnown) {
   }
 }
 
+TEST(FindNear, SaysHowManyShouldBeInThePicture) {
+  const auto stored = Stored();
+  const auto found = FeatureFinder().FindNear(kWall.Photograph({.scale = 2.0}), stored,
+                                              Expected(stored, 2.0), 2.0, {});
+  EXPECT_GT(found.in_picture, 5);
+  EXPECT_LT(found.in_picture, static_cast<int>(stored.size()) / 2);
+  EXPECT_TRUE(found.BeyondChance());
+}
+
+TEST(FindAtAnyMagnification, FindsAViewOfAnyCamera) {
+  const auto stored = Stored();
+  for (const double scale : {0.35, 0.7, 1.0, 1.6, 2.5}) {
+    const test::PaintedWall::View view{
+        .scale = scale, .du_px = 6.0 * scale, .dv_px = -3.0 * scale, .noise_grey = 2.0};
+    const auto found =
+        FeatureFinder().FindAtAnyMagnification(kWall.Photograph(view), stored, 0.0, {45.0, 22.0});
+    EXPECT_TRUE(found.BeyondChance()) << scale;
+    EXPECT_GE(2 * CountRight(stored, found, view), static_cast<std::size_t>(found.in_picture));
+    EXPECT_NEAR(found.magnification, scale, 0.04 * scale);
+  }
+}
+
+TEST(FindAtAnyMagnification, FindsNothingOnAnotherWall) {
+  const auto stored = Stored();
+  for (const unsigned wall : {77U, 78U, 79U}) {
+    const auto found = FeatureFinder().FindAtAnyMagnification(
+        test::PaintedWall(wall).Photograph({.noise_grey = 2.0}), stored, 0.0, {45.0, 22.0});
+    EXPECT_TRUE(found.features.empty());
+  }
+}
+
 TEST(FindNear, FindsNothingOnAnotherWall) {
   const auto stored = Stored();
   const auto found = FeatureFinder().FindNear(test::PaintedWall(77).Photograph({}), stored,

@@ -19,6 +19,26 @@ std::map<int, route::TrackedFeature> ById(const std::vector<route::TrackedFeatur
   return by_id;
 }
 
+std::ptrdiff_t InTheMiddle(const std::vector<route::TrackedFeature>& features) {
+  return std::count_if(features.begin(), features.end(), [](const auto& feature) {
+    return std::abs(feature.u_px) <= 40.0 && std::abs(feature.v_px) <= 30.0;  // of 320 x 240
+  });
+}
+
+TEST(FeatureTracker, DetectsSomeMoreInTheMiddleForNarrowerCameras) {
+  FeatureTracker spread;
+  spread.Track(kWall.Photograph({}));
+  const auto few = spread.Detect();
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({}));
+  const auto features = tracker.Detect(20);
+  EXPECT_LT(InTheMiddle(few), 8);
+  EXPECT_GE(InTheMiddle(features), 14);
+  EXPECT_LE(InTheMiddle(features), 20);
+  EXPECT_EQ(features.size() - few.size(),
+            static_cast<std::size_t>(InTheMiddle(features) - InTheMiddle(few)));
+}
+
 TEST(FeatureTracker, DetectsAtMostSixtyFeaturesSpreadOverTheImage) {
   FeatureTracker tracker;
   EXPECT_TRUE(tracker.Track(kWall.Photograph({})).empty());

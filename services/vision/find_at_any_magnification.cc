@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "services/route/track.h"
+#include "services/vision/feature_finder.h"
+#include "services/vision/view_fit.h"
+
+namespace trailcast::vision {
+namespace {
+
+constexpr double kStep = 1.12;  // a pattern bears about half of this either way
+constexpr std::size_t kFewestToFit = 4;
+// The second look, where the first one's fit puts the features.
+constexpr double kCloserRadius = 0.27;  // of the first one's
+constexpr double kCloserAgreement = 0.6;
+constexpr double kCloserCorrelation = 0.75;
+
+// Where a fit puts the taught features.
+std::vector<route::TrackedFeature> Mapped(std::span<const route::Feature> sought, double s,
+                                          const ViewFit& fit) {
+  std::vector<route::TrackedFeature> places;
+  places.reserve(sought.size());
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
+    places.push_back({static_cast<int>(i), fit.MapU(taught.u_px), fit.MapV(taught.v_px)});
+  }
+  return places;
+}
+
+// The fit from the taught places to those found.
+ViewFit FitTo(const FindResult& found, std::span<const route::Feature> sought, double s) {
+  std::vector<ViewPair> pairs;
+  pairs.reserve(found.features.size());
+  for (const route::TrackedFeature& feature : found.features) {
+    const route::TrackKnot taught =
+        route::TaughtPlace(sought[static_cast<std::size_t>(feature.id)], s);
+    pairs.push_back({taught.u_px, taught.v_px, feature.u_px, feature.v_px});
+  }
+  ViewFitOptions options;
+  options.min_scale = found.magnification / (kStep * kStep);
+  options.max_scale = found.magnification * kStep * kStep;
+  options.tolerance_u_px *= found.magnification;
+  options.tolerance_v_px *= found.magnification;
+  return FitView(pairs, options).fit;
+}
+
+}  // namespace
+
+FindResult FeatureFinder::FindAtAnyMagnification(const image::GrayImage& frame,
+                                                 std::span<const route::Feature> sought, double s,
+                                                 const SearchRadius& radius) const {
+  FeatureFinderOptions options = options_;
+  options.agree_u_px *= kCloserAgreement;
+  options.agree_v_px *= kCloserAgreement;
+  options.min_correlation = std::max(options.min_correlation, kCloserCorrelation);
+  const FeatureFinder closer(options);
+  FindResult best;
+  for (double magnification = options_.least_magnification;
+       magnification <= options_.most_magnification; magnification *= kStep) {
+    const FindResult coarse = FindNear(frame, sought, Mapped(sought, s, {magnification, 0.0, 0.0}),
+                                       magnification, radius);
+    if (coarse.features.size() < kFewestToFit) continue;
+    const ViewFit fit = FitTo(coarse, sought, s);
+    FindResult found = closer.FindNear(frame, sought, Mapped(sought, s, fit), fit.scale,
+                                       {kCloserRadius * radius.u_px, kCloserRadius * radius.v_px});
+    const bool better = best.features.empty() || found.AboveChance() > best.AboveChance();
+    if (found.BeyondChance() && better) best = std::move(found);
+  }
+  return best;
+}
+
+}  // namespace trailcast::vision
