@@ -25,7 +25,7 @@ struct PathEstimatorOptions {
   double start_magnification = 0.05;  // relative
   double distortion = 0.1;
   double mount_yaw_rad = 0.035;           // between the scout's camera mount and this robot's
-  double mount_height_m = 0.05;           // the same
+  double mount_height_m = 0.15;           // the same
   double heading_bias_rad_per_m = 0.008;  // of this robot's odometry against the scout's
   // Of the odometry, per root metre, and what may change besides.
   double along_noise = 0.05;
