@@ -19,8 +19,8 @@ struct FeatureFinderOptions {
   double least_magnification = 0.2;
   double most_magnification = 5.0;
   // Wide search, over the whole frame and all these magnifications.
-  double min_magnification = 0.35;
-  double max_magnification = 2.9;
+  double wide_least_magnification = 0.35;
+  double wide_most_magnification = 2.9;
   int wide_corners = 350;       // looked at for each magnification
   int max_hamming_bits = 64;    // of 256
   double hamming_ratio = 0.85;  // best to second best

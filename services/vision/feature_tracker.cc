@@ -16,6 +16,7 @@ using Pyramid = std::vector<cv::Mat>;
 
 const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
 constexpr double kFlowMinEigenvalue = 1e-4;
+constexpr double kLargestWindow = 3.0;   // times the usual one
 constexpr double kMiddleSpacing = 0.5;   // of that on a regular grid
 constexpr double kMiddleQuality = 0.05;  // of the best that is left there
 constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
@@ -33,6 +34,7 @@ cv::Point2f MedianOf(const std::vector<cv::Point2f>& points) {
   if (points.empty()) return {};
   const auto median = [&](float cv::Point2f::*coordinate) {
     std::vector<float> values;
+    values.reserve(points.size());
     for (const cv::Point2f& point : points) values.push_back(point.*coordinate);
     const auto middle = values.begin() + std::ssize(values) / 2;
     std::nth_element(values.begin(), middle, values.end());
@@ -62,7 +64,11 @@ struct FeatureTracker::State {
   std::vector<cv::Point2f> points;  // OpenCV pixel coordinates in the last frame
   TrackLosses losses;
 
-  [[nodiscard]] cv::Size window() const { return {options.window_px, options.window_px}; }
+  int window_px = 0;
+  int pyramid_levels = 0;
+
+  [[nodiscard]] cv::Size window() const { return {window_px, window_px}; }
+  void Build(const cv::Mat& frame, Pyramid& pyramid) const;
   [[nodiscard]] Flow FlowTo(const Pyramid& from, const Pyramid& to,
                             const std::vector<cv::Point2f>& start,
                             const std::vector<cv::Point2f>& guess) const;
@@ -71,12 +77,18 @@ struct FeatureTracker::State {
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
 };
 
+void FeatureTracker::State::Build(const cv::Mat& frame, Pyramid& pyramid) const {
+  cv::buildOpticalFlowPyramid(frame, pyramid, window(), pyramid_levels,
+                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                              /*tryReuseInputImage=*/false);
+}
+
 Flow FeatureTracker::State::FlowTo(const Pyramid& from, const Pyramid& to,
                                    const std::vector<cv::Point2f>& start,
                                    const std::vector<cv::Point2f>& guess) const {
   Flow flow{guess, {}};
   cv::calcOpticalFlowPyrLK(from, to, start, flow.points, flow.found, cv::noArray(), window(),
-                           options.pyramid_levels, kFlowEnd, cv::OPTFLOW_USE_INITIAL_FLOW,
+                           pyramid_levels, kFlowEnd, cv::OPTFLOW_USE_INITIAL_FLOW,
                            kFlowMinEigenvalue);
   return flow;
 }
@@ -147,6 +159,8 @@ std::vector<route::TrackedFeature> FeatureTracker::State::Current() const {
 FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
     : state_(std::make_unique<State>()) {
   state_->options = options;
+  state_->window_px = options.window_px;
+  state_->pyramid_levels = options.pyramid_levels;
 }
 
 FeatureTracker::~FeatureTracker() = default;
@@ -154,9 +168,7 @@ FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 
 std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame) {
   State& s = *state_;
-  cv::buildOpticalFlowPyramid(View(frame), s.next, s.window(), s.options.pyramid_levels,
-                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
-                              /*tryReuseInputImage=*/false);
+  s.Build(View(frame), s.next);
   s.losses = {};
   if (!s.points.empty()) {
     const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
@@ -199,6 +211,17 @@ void FeatureTracker::Follow(const std::vector<route::TrackedFeature>& features) 
     s.points.emplace_back(static_cast<float>(feature.u_px) + centre.x,
                           static_cast<float>(feature.v_px) + centre.y);
   }
+}
+
+void FeatureTracker::SetMagnification(double magnification) {
+  State& s = *state_;
+  const double larger = std::clamp(magnification, 1.0, kLargestWindow);
+  const int window_px =
+      2 * static_cast<int>(0.5 * cvRound(larger * s.options.window_px)) + 1;  // odd
+  if (window_px == s.window_px) return;
+  s.window_px = window_px;
+  s.pyramid_levels = s.options.pyramid_levels - static_cast<int>(std::lround(std::log2(larger)));
+  if (!s.last.empty()) s.Build(s.last.front().clone(), s.last);
 }
 
 std::vector<route::TrackedFeature> FeatureTracker::Current() const { return state_->Current(); }

@@ -16,8 +16,8 @@ struct FeatureTrackerOptions {
   // max_features on a regular grid would have.
   double min_spacing_share = 0.35;
   double middle_share = 0.25;  // of width and height: the picture's middle, for Detect
-  int window_px = 7;       // the paper's figure
-  int pyramid_levels = 3;  // beyond the full image: motions up to about 40 px between frames
+  int window_px = 7;           // the paper's figure
+  int pyramid_levels = 3;      // beyond the full image: motions up to about 40 px between frames
   // A feature tracked forward and back again must return to where it came from this closely.
   double forward_backward_px = 0.7;
 };
@@ -46,6 +46,10 @@ class FeatureTracker {
 
   // Goes on with these features at these places of the last frame (hand-over).
   void Follow(const std::vector<route::TrackedFeature>& features);
+
+  // The features' patterns are so many times larger here than where they were detected: a camera
+  // that magnifies more than the scout's sees little but noise in a window of the usual size.
+  void SetMagnification(double magnification);
 
   // Those followed at present, in the last frame.
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;

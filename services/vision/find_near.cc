@@ -31,8 +31,8 @@ float ParabolaVertex(float left, float middle, float right) {
 
 // The stored pattern as a camera of this magnification sees it.
 cv::Mat PatternOf(const route::Patch& patch, double magnification) {
-  const cv::Mat stored(route::kPatchSize, route::kPatchSize, CV_8UC1,
-                       const_cast<std::uint8_t*>(patch.data()));
+  cv::Mat stored(route::kPatchSize, route::kPatchSize, CV_8UC1,
+                 const_cast<std::uint8_t*>(patch.data()));
   const double blur_px =
       kPixelSigma * std::sqrt(std::max(0.0, 1.0 / (magnification * magnification) - 1.0));
   if (blur_px < kLeastBlur_px) return stored;

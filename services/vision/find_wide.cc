@@ -76,8 +76,8 @@ ViewFitResult FitAtOneMagnification(const cv::Mat& picture, std::span<const rout
 WideResult FeatureFinder::FindWide(const image::GrayImage& frame,
                                    std::span<const route::Feature> sought, double s) const {
   WideResult best;
-  for (double magnification = options_.min_magnification;
-       magnification <= options_.max_magnification; magnification *= kMagnificationStep) {
+  for (double magnification = options_.wide_least_magnification;
+       magnification <= options_.wide_most_magnification; magnification *= kMagnificationStep) {
     cv::Mat picture;
     cv::resize(View(frame), picture, {}, 1.0 / magnification, 1.0 / magnification,
                magnification > 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);

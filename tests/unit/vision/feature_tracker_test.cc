@@ -83,6 +83,34 @@ TEST(FeatureTracker, FollowsMagnificationNoiseAndGainOverManyFrames) {
   EXPECT_GE(close, now.size() * 9 / 10);
 }
 
+// Followed in pictures three times as large as those in which they were detected.
+std::size_t LeftOfLargePatterns(double told) {
+  FeatureTracker near;
+  near.Track(kWall.Photograph({.noise_grey = 2.5}));
+  std::vector<route::TrackedFeature> features = near.Detect(20);
+  for (auto& feature : features) {
+    feature.u_px *= 3.0;
+    feature.v_px *= 3.0;
+  }
+  std::erase_if(features, [](const auto& feature) {
+    return std::abs(feature.u_px) > 140.0 || std::abs(feature.v_px) > 100.0;
+  });
+  FeatureTracker tracker;
+  tracker.Track(kWall.Photograph({.scale = 3.0, .noise_grey = 2.5, .noise_seed = 1}));
+  tracker.SetMagnification(told);
+  tracker.Follow(features);
+  for (unsigned frame = 2; frame < 20; ++frame) {
+    tracker.Track(kWall.Photograph(
+        {.scale = 3.0, .du_px = 0.5 * frame, .noise_grey = 2.5, .noise_seed = frame}));
+  }
+  return static_cast<std::size_t>(tracker.count());
+}
+
+TEST(FeatureTracker, FollowsLargerPatternsByALargerWindow) {
+  EXPECT_GT(LeftOfLargePatterns(3.0), LeftOfLargePatterns(1.0));
+  EXPECT_GE(LeftOfLargePatterns(3.0), 8U);
+}
+
 TEST(FeatureTracker, LosesEverythingWhenTheViewChangesAltogether) {
   FeatureTracker tracker;
   tracker.Track(kWall.Photograph({}));
