@@ -47,6 +47,12 @@ void Confidence::NoteView(const Sighting& seen) {
   segment_ = seen.segment;
 }
 
+void Confidence::NoteCarry() {
+  const bool settled = !carried_at_m_ || driven_m_ - *carried_at_m_ >= options_.carried_settle_m;
+  carries_ = settled ? 1 : carries_ + 1;
+  carried_at_m_ = driven_m_;
+}
+
 // Of a robot that sees what it should: does that tell where it is?
 Verdict Confidence::JudgePlace(const Sighting& seen) const {
   if (!seen.left_sigma_m || *seen.left_sigma_m < options_.distant_sigma_m ||
@@ -100,7 +106,12 @@ std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
 Verdict Confidence::Judge(const Sighting& seen,
                           const std::optional<motion::OdometryIncrement>& moved) {
   driven_m_ += moved ? std::abs(moved->distance_m) : 0.0;
-  if (seen.carried_off) carried_at_m_ = driven_m_;
+  if (seen.carried_off) NoteCarry();
+  if (carries_ > options_.carried_limit) {
+    return {Trust::kLost, fmt::format("carried off {} times by what it sees: the features in view "
+                                      "contradict each other",
+                                      carries_)};
+  }
   if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }

@@ -61,6 +61,8 @@ struct ConfidenceOptions {
   double settle_m = 1.0;  // of driving, until the start's own uncertainty is over
   // A robot that was carried off knows its new place only roughly, until it has driven so far.
   double carried_settle_m = 3.0;
+  // So often in a row nobody carries a robot: its features contradict each other.
+  int carried_limit = 8;
   // With fewer than so many that should be in the picture, their absence says nothing of somebody
   // who covers it.
   int covered_least_expected = 10;
@@ -103,6 +105,7 @@ class Confidence {
  private:
   [[nodiscard]] int Wanted(const Sighting& seen) const;
   void NoteView(const Sighting& seen);
+  void NoteCarry();
   [[nodiscard]] bool CoveredNow(const Sighting& seen) const;
   [[nodiscard]] bool VanishedInPlace() const {
     return vanished_ >= options_.vanished_share * good_features_;
@@ -115,6 +118,7 @@ class Confidence {
   bool sure_once_ = false;
   double driven_m_ = 0.0;
   std::optional<double> carried_at_m_;  // of what it has driven; nothing: it was not carried off
+  int carries_ = 0;                     // before it had settled after the last
   // Since it was last sure.
   double unsure_m_ = 0.0;
   int unsure_frames_ = 0;

@@ -68,11 +68,16 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
     best = there;
   }
   const double here = Surprise(state_, {before, covariance_before.inverse()}, seen);
-  const Covariance covariance =
-      Linearise(best, anywhere, seen, options_.cauchy_px).information.inverse();
+  const Equations there = Linearise(best, anywhere, seen, options_.cauchy_px);
+  const int agreeing_here =
+      Linearise(state_, anywhere, seen, options_.cauchy_px).agreement.agreeing;
+  const Covariance covariance = there.information.inverse();
   const double moved_m = best[kLeft] - state_[kLeft];
   const double told_m = std::max(options_.carried_least_m, std::sqrt(covariance(kLeft, kLeft)));
-  if (std::abs(moved_m) < told_m || here - least < options_.carried_gain) return std::nullopt;
+  if (std::abs(moved_m) < told_m || here - least < options_.carried_gain ||
+      there.agreement.agreeing <= agreeing_here) {
+    return std::nullopt;
+  }
   state_ = best;
   covariance_ = covariance;
   return moved_m;

@@ -127,14 +127,24 @@ void HandOverNear(benchmark::State& state) {
 }
 BENCHMARK(HandOverNear)->Unit(benchmark::kMillisecond);
 
-void SearchAtEveryMagnification(benchmark::State& state) {
+void SearchByPatternsAtAnyMagnification(benchmark::State& state) {
+  const route::Segment segment = TaughtSegment();
+  const vision::FeatureFinder finder;
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(
+        finder.FindAtAnyMagnification(Frames()[3], segment.features, 0.0, {45.0, 22.5}));
+  }
+}
+BENCHMARK(SearchByPatternsAtAnyMagnification)->Unit(benchmark::kMillisecond);
+
+void SearchByDescriptorsAnywhere(benchmark::State& state) {
   const route::Segment segment = TaughtSegment();
   const vision::FeatureFinder finder;
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(finder.FindWide(Frames()[3], segment.features, 0.0));
   }
 }
-BENCHMARK(SearchAtEveryMagnification)->Unit(benchmark::kMillisecond);
+BENCHMARK(SearchByDescriptorsAnywhere)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trailcast

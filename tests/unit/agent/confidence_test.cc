@@ -165,6 +165,27 @@ TEST_F(ConfidenceTest, CarriedOffItMayTakeAWhileToKnowWhereTo) {
   EXPECT_EQ(See(30, 20).trust, Trust::kLost);
 }
 
+TEST_F(ConfidenceTest, CarriedToAndFroAllTheTimeItIsLost) {
+  See(30, 100);
+  for (int i = 0; i < 8; ++i) {
+    carried_off_ = true;
+    EXPECT_EQ(See(30, 10).trust, Trust::kSure);
+  }
+  carried_off_ = true;
+  const Verdict verdict = See(30);
+  EXPECT_EQ(verdict.trust, Trust::kLost);
+  EXPECT_EQ(verdict.reason,
+            "carried off 9 times by what it sees: the features in view contradict each other");
+}
+
+TEST_F(ConfidenceTest, CarriedOffNowAndThenItGoesOn) {
+  See(30, 100);
+  for (int i = 0; i < 20; ++i) {
+    carried_off_ = true;
+    EXPECT_EQ(See(30, 160).trust, Trust::kSure);  // 3.2 m
+  }
+}
+
 TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {
   See(30);
   NextSegment(2);
