@@ -21,7 +21,7 @@ struct SegmentRecorderOptions {
   // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
   // second figure. Holds a route under 5 kB a metre.
   double features_per_metre = 40.0;
-  std::size_t fewest_kept = 14;
+  std::size_t fewest_kept = 12;
   // Knots kept of each feature's track, first and last included; the paper needs those two.
   int knots = 4;
 };

@@ -96,7 +96,7 @@ TEST(SegmentRecorder, ShortSegmentsKeepTheStrongestOnly) {
     EXPECT_FALSE(recorder.Add(FromSeconds(1.0), Features(50), motion::Pose2{length_m, 0.0, 0.0}));
     const auto segment = recorder.Finish();
     ASSERT_TRUE(segment);
-    EXPECT_EQ(segment->features.size(), length_m < 0.5 ? 14U : length_m < 1.0 ? 24U : 50U);
+    EXPECT_EQ(segment->features.size(), length_m < 0.5 ? 12U : length_m < 1.0 ? 24U : 50U);
     EXPECT_FLOAT_EQ(segment->features.back().first().u_px,
                     static_cast<float>(segment->features.size() - 1));
   }
