@@ -48,8 +48,7 @@ void Confidence::NoteView(const Sighting& seen) {
 }
 
 void Confidence::NoteCarry() {
-  const bool settled = !carried_at_m_ || driven_m_ - *carried_at_m_ >= options_.carried_settle_m;
-  carries_ = settled ? 1 : carries_ + 1;
+  carries_ = SettlesAfterCarry() ? carries_ + 1 : 1;
   carried_at_m_ = driven_m_;
 }
 
@@ -59,7 +58,7 @@ Verdict Confidence::JudgePlace(const Sighting& seen) const {
       driven_m_ < options_.settle_m) {
     return {Trust::kSure, ""};
   }
-  if (carried_at_m_ && driven_m_ - *carried_at_m_ < options_.carried_settle_m) {
+  if (SettlesAfterCarry()) {
     return {Trust::kDistant,
             fmt::format("carried off the path: where to is known to {:.2f} m so far",
                         *seen.left_sigma_m)};

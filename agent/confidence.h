@@ -106,6 +106,9 @@ class Confidence {
   [[nodiscard]] int Wanted(const Sighting& seen) const;
   void NoteView(const Sighting& seen);
   void NoteCarry();
+  [[nodiscard]] bool SettlesAfterCarry() const {
+    return carried_at_m_ && driven_m_ - *carried_at_m_ < options_.carried_settle_m;
+  }
   [[nodiscard]] bool CoveredNow(const Sighting& seen) const;
   [[nodiscard]] bool VanishedInPlace() const {
     return vanished_ >= options_.vanished_share * good_features_;

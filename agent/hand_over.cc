@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "services/route/track.h"
-
 namespace trailcast::agent {
 namespace {
 
@@ -29,17 +27,6 @@ constexpr double kRecover_px = 56.0;
 vision::SearchRadius Around(double within_px_at_320, int scout_width_px) {
   const double u_px = within_px_at_320 * scout_width_px / 320.0;
   return {u_px, 0.5 * u_px};
-}
-
-// Where a fit puts the segment's features, at fraction `s` of their tracks.
-std::vector<route::TrackedFeature> Places(const route::Segment& segment, double s,
-                                          const vision::ViewFit& fit) {
-  std::vector<route::TrackedFeature> places;
-  for (std::size_t i = 0; i < segment.features.size(); ++i) {
-    const route::TrackKnot taught = route::TaughtPlace(segment.features[i], s);
-    places.push_back({static_cast<int>(i), fit.MapU(taught.u_px), fit.MapV(taught.v_px)});
-  }
-  return places;
 }
 
 // More of the features, or, at another magnification, few but more than chance would have.
@@ -68,14 +55,15 @@ std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> seg
 
 vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
                                           const route::Segment& segment, double s) const {
-  if (!knows_magnification_) {
+  if (seen_magnifications_.empty()) {
     vision::FindResult found = finder_.FindAtAnyMagnification(frame, segment.features, s,
                                                               Around(kStart_px, scout_width_px_));
     if (!found.features.empty()) return found;
   }
   const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
   if (coarse.matches == 0) return {};
-  return finder_.FindNear(frame, segment.features, Places(segment, s, coarse.fit), coarse.fit.scale,
+  return finder_.FindNear(frame, segment.features,
+                          vision::TaughtPlaces(segment.features, s, coarse.fit), coarse.fit.scale,
                           Around(kAfterWide_px, scout_width_px_));
 }
 
@@ -109,9 +97,8 @@ std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame
 
 // The magnification as a running median: one bad fit does no harm.
 void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower) {
-  const bool first = !knows_magnification_ && found.BeyondChance();
+  const bool first = seen_magnifications_.empty() && found.BeyondChance();
   if (found.features.size() < kEnoughToLearn && !first) return;
-  knows_magnification_ = true;
   seen_magnifications_.push_back(found.magnification);
   if (seen_magnifications_.size() > kMagnificationsKept) seen_magnifications_.pop_front();
   std::vector<double> sorted(seen_magnifications_.begin(), seen_magnifications_.end());
@@ -122,9 +109,9 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
 
 vision::FindResult HandOver::FindAt(const image::GrayImage& frame, const route::Segment& segment,
                                     double s, double magnification) const {
-  vision::FindResult near =
-      finder_.FindNear(frame, segment.features, Places(segment, s, {magnification, 0.0, 0.0}),
-                       magnification, Around(kRecover_px, scout_width_px_));
+  vision::FindResult near = finder_.FindNear(
+      frame, segment.features, vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
+      magnification, Around(kRecover_px, scout_width_px_));
   if (!any_camera_) return near;
   vision::FindResult anywhere = FindAnywhere(frame, segment, s);
   return IsBetter(anywhere, near) ? anywhere : near;

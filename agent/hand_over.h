@@ -68,7 +68,6 @@ class HandOver {
   vision::FeatureFinder finder_;
   bool any_camera_;
   int scout_width_px_;
-  bool knows_magnification_ = false;
   std::deque<double> seen_magnifications_;
   bool last_was_wide_ = false;
   double share_sum_ = 0.0;

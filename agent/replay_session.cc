@@ -95,8 +95,7 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
     for (std::size_t i = 0; i < known; ++i) follower->Learn(segments[i]);
   }
   follower->Begin(segment);
-  const std::vector<route::TrackedFeature> found = hand_over->ToSegment(frame, *follower);
-  Follow(found);
+  Follow(hand_over->ToSegment(frame, *follower));
   searches.push_back(
       SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over->last_was_wide()));
   frames_since_find = 0;

@@ -27,7 +27,8 @@ struct TrialCase {
   bool through_server = false;
 };
 
-// How a scout of that method cuts its segments: one as printed by the 50 % rule alone.
+// How a scout of that method teaches: as printed, its segments cut by the 50 % rule alone and no
+// features added in the middle.
 [[nodiscard]] agent::TeachOptions TeachingFor(agent::ReplayMethod method);
 
 // Everything that the trials of one command have in common, read and checked.

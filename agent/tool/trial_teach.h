@@ -20,14 +20,14 @@ struct TaughtRoute {
 
 // What a scout left behind, and where it truly drove.
 struct Taught {
-  std::vector<TaughtRoute> routes;  // one a recorder
+  std::vector<TaughtRoute> routes;  // one for each way of teaching
   TruePath path;
   double duration_s = 0.0;
 };
 
-// Drives a scout drawn from `seed` along the setup's path once, its frames cut by each of the
-// recorders. `on_progress` gets the share of the path driven; false ends the drive. kUnavailable
-// when the robot cannot get along the path.
+// Drives a scout drawn from `seed` along the setup's path once, its frames taught in each
+// of these ways. `on_progress` gets the share of the path driven; false ends the drive.
+// kUnavailable when the robot cannot get along the path.
 [[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
                                        const std::vector<agent::TeachOptions>& teachings,
                                        std::uint64_t seed,

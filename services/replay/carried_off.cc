@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "services/base/square.h"
 #include "services/replay/path_estimator.h"
 
 namespace trailcast::replay {
@@ -17,8 +18,6 @@ constexpr double kApart_m = 0.5;
 constexpr double kWidest = 8.0;  // times Cauchy's own width
 constexpr int kIterations = 6;
 constexpr std::size_t kFewest = 10;  // features; a handful can be explained from anywhere
-
-double Square(double x) { return x * x; }
 
 }  // namespace
 
@@ -48,18 +47,17 @@ PathEstimator::State PathEstimator::FromFarAway(
 }
 
 std::optional<double> PathEstimator::FindIfCarriedOff(
-    const State& before, const Covariance& covariance_before,
-    const std::vector<route::TrackedFeature>& seen) {
+    const Prior& before, const std::vector<route::TrackedFeature>& seen) {
   if (seen.size() < kFewest) return std::nullopt;
-  Covariance wide = covariance_before;
+  Covariance wide = before.covariance;
   wide(kLeft, kLeft) += Square(options_.carried_left_m);
   wide(kHeading, kHeading) += Square(options_.carried_heading_rad);
   wide(kAlong, kAlong) += Square(options_.carried_along_m);
-  const Prior anywhere{before, wide.inverse()};
+  const Prior anywhere(before.mean, wide);
   State best = state_;
   double least = std::numeric_limits<double>::infinity();
   for (double left_m = -kFurthest_m; left_m <= kFurthest_m; left_m += kApart_m) {
-    State start = before;
+    State start = before.mean;
     start[kLeft] += left_m;
     const State there = FromFarAway(start, anywhere, seen);
     const double surprise = Surprise(there, anywhere, seen);
@@ -67,7 +65,7 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
     least = surprise;
     best = there;
   }
-  const double here = Surprise(state_, {before, covariance_before.inverse()}, seen);
+  const double here = Surprise(state_, before, seen);
   const Equations there = Linearise(best, anywhere, seen, options_.cauchy_px);
   const int agreeing_here =
       Linearise(state_, anywhere, seen, options_.cauchy_px).agreement.agreeing;

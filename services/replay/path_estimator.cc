@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/base/square.h"
 #include "services/route/heading.h"
 #include "services/route/track.h"
 
@@ -13,8 +14,6 @@ namespace {
 constexpr int kIterations = 4;
 constexpr double kFlowStep_m = 0.02;  // over which a track's flow is taken
 constexpr double kCurvatureStep_m = 0.1;
-
-double Square(double x) { return x * x; }
 
 void Count(double residual_px, double outlier_px, Agreement& agreement) {
   if (residual_px < outlier_px) {
@@ -179,6 +178,9 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   return p;
 }
 
+PathEstimator::Prior::Prior(const State& state, const Covariance& uncertainty)
+    : mean(state), covariance(uncertainty), information(uncertainty.inverse()) {}
+
 PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prior& prior,
                                                   const std::vector<route::TrackedFeature>& seen,
                                                   double cauchy_px) const {
@@ -203,9 +205,7 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
 }
 
 Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
-  const State before = state_;
-  const Covariance covariance_before = covariance_;
-  const Prior prior{before, covariance_before.inverse()};
+  const Prior prior(state_, covariance_);
   Equations equations;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     equations = Linearise(state_, prior, seen, options_.cauchy_px);
@@ -213,7 +213,7 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   }
   covariance_ = equations.information.inverse();
   if (++looks_ % options_.carried_every_looks == 0) {
-    equations.agreement.carried_left_m = FindIfCarriedOff(before, covariance_before, seen);
+    equations.agreement.carried_left_m = FindIfCarriedOff(prior, seen);
   }
   return equations.agreement;
 }

@@ -110,7 +110,9 @@ class PathEstimator {
   };
   // What is believed before a look.
   struct Prior {
+    Prior(const State& state, const Covariance& uncertainty);
     State mean;
+    Covariance covariance;
     Covariance information;
   };
   // The normal equations of a look, about one state.
@@ -131,7 +133,7 @@ class PathEstimator {
   // Whether somebody carried the robot off, which no odometry feels and which a filter sure of its
   // place takes for mismatches: is there a place far from the present one that explains the look
   // far better? Then goes on from there, and says how far to the left that is.
-  std::optional<double> FindIfCarriedOff(const State& before, const Covariance& covariance_before,
+  std::optional<double> FindIfCarriedOff(const Prior& before,
                                          const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
   [[nodiscard]] double TaughtHeading(double along_m) const;

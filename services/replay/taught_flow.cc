@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/base/square.h"
 #include "services/route/heading.h"
 
 namespace trailcast::replay {
@@ -14,8 +15,6 @@ constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer 
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
 constexpr std::size_t kFewestWithASpread = 5;
-
-double Square(double x) { return x * x; }
 
 Eigen::Vector3d CubicBase(double s) { return {s, s * s, s * s * s}; }
 

@@ -19,7 +19,7 @@ struct SegmentRecorderOptions {
   double longest_m = 2.0;
   // Where segments are short (turns, clutter close by) their features overlap in what they say: of
   // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
-  // second figure. Holds a route under 5 kB a metre.
+  // second figure. Holds a route under 5 kB a metre, but for one of sharp turns only.
   double features_per_metre = 40.0;
   std::size_t fewest_kept = 12;
   // Knots kept of each feature's track, first and last included; the paper needs those two.

@@ -47,6 +47,11 @@ struct FindResult {
   [[nodiscard]] bool BeyondChance() const { return AboveChance() >= 3.0; }
 };
 
+// Where a fit puts the features' taught places at fraction `s` of their segment: what FindNear
+// expects.
+[[nodiscard]] std::vector<route::TrackedFeature> TaughtPlaces(
+    std::span<const route::Feature> sought, double s, const ViewFit& fit);
+
 struct WideResult {
   ViewFit fit;      // from the scout's picture to this one
   int matches = 0;  // that agree on it; 0: the segment is not in view

@@ -16,18 +16,6 @@ constexpr double kCloserRadius = 0.27;  // of the first one's
 constexpr double kCloserAgreement = 0.6;
 constexpr double kCloserCorrelation = 0.75;
 
-// Where a fit puts the taught features.
-std::vector<route::TrackedFeature> Mapped(std::span<const route::Feature> sought, double s,
-                                          const ViewFit& fit) {
-  std::vector<route::TrackedFeature> places;
-  places.reserve(sought.size());
-  for (std::size_t i = 0; i < sought.size(); ++i) {
-    const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
-    places.push_back({static_cast<int>(i), fit.MapU(taught.u_px), fit.MapV(taught.v_px)});
-  }
-  return places;
-}
-
 // The fit from the taught places to those found.
 ViewFit FitTo(const FindResult& found, std::span<const route::Feature> sought, double s) {
   std::vector<ViewPair> pairs;
@@ -58,14 +46,13 @@ FindResult FeatureFinder::FindAtAnyMagnification(const image::GrayImage& frame,
   FindResult best;
   for (double magnification = options_.least_magnification;
        magnification <= options_.most_magnification; magnification *= kStep) {
-    const FindResult coarse = FindNear(frame, sought, Mapped(sought, s, {magnification, 0.0, 0.0}),
-                                       magnification, radius);
+    const FindResult coarse = FindNear(
+        frame, sought, TaughtPlaces(sought, s, {magnification, 0.0, 0.0}), magnification, radius);
     if (coarse.features.size() < kFewestToFit) continue;
     const ViewFit fit = FitTo(coarse, sought, s);
-    FindResult found = closer.FindNear(frame, sought, Mapped(sought, s, fit), fit.scale,
+    FindResult found = closer.FindNear(frame, sought, TaughtPlaces(sought, s, fit), fit.scale,
                                        {kCloserRadius * radius.u_px, kCloserRadius * radius.v_px});
-    const bool better = best.features.empty() || found.AboveChance() > best.AboveChance();
-    if (found.BeyondChance() && better) best = std::move(found);
+    if (found.BeyondChance() && found.AboveChance() > best.AboveChance()) best = std::move(found);
   }
   return best;
 }

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "services/route/track.h"
 #include "services/vision/feature_finder.h"
 #include "services/vision/frame.h"
 
@@ -80,6 +81,17 @@ cv::Mat AtScoutScale(const cv::Mat& frame, double scale) {
 }
 
 }  // namespace
+
+std::vector<route::TrackedFeature> TaughtPlaces(std::span<const route::Feature> sought, double s,
+                                                const ViewFit& fit) {
+  std::vector<route::TrackedFeature> places;
+  places.reserve(sought.size());
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const route::TrackKnot taught = route::TaughtPlace(sought[i], s);
+    places.push_back({static_cast<int>(i), fit.MapU(taught.u_px), fit.MapV(taught.v_px)});
+  }
+  return places;
+}
 
 FindResult FeatureFinder::FindNear(const image::GrayImage& frame,
                                    std::span<const route::Feature> sought,

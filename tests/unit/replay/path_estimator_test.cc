@@ -14,12 +14,18 @@ namespace {
 const test::LandmarkScene kScene = test::LandmarkScene::Corridor(4.0, 16.0, 90, 5);
 constexpr double kDt_s = 1.0 / 30.0;
 
-// What the estimator makes of one look from a known place beside the path.
-PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+// An estimator that was told it has come a metre along the run.
+PathEstimator AMetreAlong(const test::TaughtRun& run, double magnification = 1.0) {
   PathEstimator estimator(320, magnification);
   estimator.Begin(run.segment);
   estimator.Predict({1.0, 0.0});
+  return estimator;
+}
+
+// What the estimator makes of one look from a known place beside the path.
+PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator = AMetreAlong(run, magnification);
   for (int i = 0; i < 5; ++i) {
     EXPECT_GE(estimator
                   .Update(test::Matched(kScene, run, pose, roll_rad,
@@ -56,14 +62,18 @@ TEST(PathEstimator, BearsRollAndAnotherMagnification) {
   }
 }
 
+// What is seen there on the path, a fifth of it mismatched.
+std::vector<route::TrackedFeature> WithMismatches(const test::TaughtRun& run) {
+  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
+  return seen;
+}
+
 TEST(PathEstimator, PassesOverMismatches) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  PathEstimator estimator(320, 1.0);
-  estimator.Begin(run.segment);
-  estimator.Predict({1.0, 0.0});
-  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
+  PathEstimator estimator = AMetreAlong(run);
+  const auto seen = WithMismatches(run);
   ASSERT_GE(seen.size(), 20U);
-  for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
   const Agreement agreement = estimator.Update(seen);
   EXPECT_EQ(agreement.agreeing, static_cast<int>(seen.size() - seen.size() / 5));
   EXPECT_EQ(agreement.rejected, static_cast<int>(seen.size() / 5));
@@ -75,9 +85,7 @@ TEST(PathEstimator, PassesOverMismatches) {
 TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   for (const double carried_m : {-1.2, 0.7, 1.2}) {
-    PathEstimator estimator(320, 1.0);
-    estimator.Begin(run.segment);
-    estimator.Predict({1.0, 0.0});
+    PathEstimator estimator = AMetreAlong(run);
     for (int i = 0; i < 20; ++i) {
       EXPECT_FALSE(estimator.Update(test::Matched(kScene, run, {1.0, 0.0, 0.0})).carried_left_m);
     }
@@ -97,11 +105,8 @@ TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
 
 TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  PathEstimator estimator(320, 1.0);
-  estimator.Begin(run.segment);
-  estimator.Predict({1.0, 0.0});
-  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
-  for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
+  PathEstimator estimator = AMetreAlong(run);
+  const auto seen = WithMismatches(run);
   for (int i = 0; i < 30; ++i) EXPECT_FALSE(estimator.Update(seen).carried_left_m);
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
 }
