@@ -100,6 +100,7 @@ agent::TeachOptions TeachingFor(agent::ReplayMethod method) {
   agent::TeachOptions options;
   if (agent::AsPrinted(method)) {
     options.recorder.longest_m = std::numeric_limits<double>::infinity();
+    options.recorder.fewest_kept = std::numeric_limits<std::size_t>::max();
     options.middle_features = 0;
   }
   return options;

@@ -8,6 +8,7 @@ namespace trailcast::teach {
 namespace {
 
 constexpr double kStandstill_m = 1e-3;
+constexpr int kFewestKnots = 3;
 
 // Less than this between two frames is a robot that waits: neither time nor track goes on.
 constexpr double kStep_m = 1e-4;
@@ -63,7 +64,13 @@ double SegmentRecorder::FractionAt(const Moment& moment) const {
   return duration_s > 0.0 ? Seconds(moment.stamp - begin) / duration_s : 0.0;
 }
 
-route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature) const {
+int SegmentRecorder::KnotsFor(double length_m) const {
+  if (!last_odometry_) return options_.knots;
+  const int by_length = 1 + static_cast<int>(std::ceil(length_m / options_.knot_spacing_m));
+  return std::min(std::max(by_length, kFewestKnots), options_.knots);
+}
+
+route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature, int knots) const {
   route::Feature stored{feature.patch, feature.descriptor, {}};
   const auto knot_of = [&](const Moment& moment, double s) {
     const route::TrackedFeature& at = moment.features.at(feature.at.id);
@@ -72,8 +79,8 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature) co
   };
   stored.track.push_back(knot_of(moments_.front(), 0.0));
   std::size_t next = 1;
-  for (int knot = 1; knot + 1 < options_.knots; ++knot) {
-    const double wanted = static_cast<double>(knot) / (options_.knots - 1);
+  for (int knot = 1; knot + 1 < knots; ++knot) {
+    const double wanted = static_cast<double>(knot) / (knots - 1);
     while (next + 1 < moments_.size() && FractionAt(moments_[next]) < wanted) ++next;
     const double s = FractionAt(moments_[next]);
     // Knots come in strictly rising s; a robot that stood still gives fewer of them.
@@ -109,9 +116,10 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
     segment.heading = FitHeading(headings_);
   }
   const std::size_t most = MostFeatures(segment);
+  const int knots = KnotsFor(segment.length_m);
   for (const route::DescribedFeature& feature : first_) {
     if (segment.features.size() < most && moments_.back().features.contains(feature.at.id)) {
-      segment.features.push_back(Store(feature));
+      segment.features.push_back(Store(feature, knots));
     }
   }
   moments_.clear();

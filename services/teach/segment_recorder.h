@@ -19,11 +19,13 @@ struct SegmentRecorderOptions {
   double longest_m = 2.0;
   // Where segments are short (turns, clutter close by) their features overlap in what they say: of
   // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
-  // second figure. Holds a route under 5 kB a metre, but for one of sharp turns only.
+  // second figure. Holds a route under 5 kB a metre, one of sharp turns only just.
   double features_per_metre = 40.0;
-  std::size_t fewest_kept = 12;
-  // Knots kept of each feature's track, first and last included; the paper needs those two.
+  std::size_t fewest_kept = 11;
+  // Knots kept of each feature's track, first and last included; the paper needs those two. No
+  // closer together than the second figure, but three at least.
   int knots = 4;
+  double knot_spacing_m = 0.15;
 };
 
 // Turns the tracked features of one segment after the other into what the route stores of it.
@@ -57,7 +59,8 @@ class SegmentRecorder {
   };
 
   [[nodiscard]] std::size_t MostFeatures(const route::Segment& segment) const;
-  [[nodiscard]] route::Feature Store(const route::DescribedFeature& feature) const;
+  [[nodiscard]] int KnotsFor(double length_m) const;
+  [[nodiscard]] route::Feature Store(const route::DescribedFeature& feature, int knots) const;
   [[nodiscard]] double FractionAt(const Moment& moment) const;
 
   SegmentRecorderOptions options_;

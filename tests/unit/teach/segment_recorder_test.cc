@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "services/route/heading.h"
@@ -54,6 +55,17 @@ TEST(SegmentRecorder, KnotsRiseStrictlyAndLieOnTheTrack) {
   }
 }
 
+TEST(SegmentRecorder, ShortSegmentsHaveFewerKnots) {
+  const auto scene = test::LandmarkScene::Corridor(5.0, 14.0, 60, 3);
+  for (const auto& [length_m, knots] : {std::pair{0.1, 3U}, {0.25, 3U}, {0.4, 4U}}) {
+    const auto run = test::TeachArcs(scene, {}, {{length_m, 0.2}});
+    ASSERT_FALSE(run.segment.features.empty());
+    for (const route::Feature& feature : run.segment.features) {
+      EXPECT_EQ(feature.track.size(), knots) << length_m << " m";
+    }
+  }
+}
+
 TEST(SegmentRecorder, MeasuresLengthHeadingAndSpeed) {
   const auto scene = test::LandmarkScene::Corridor(5.0, 14.0, 60, 3);
   const auto run = test::TeachArcs(scene, {1.0, 0.2, 0.1}, {{1.0, 0.0}, {0.5, -0.3}});
@@ -90,13 +102,14 @@ TEST(SegmentRecorder, IndicesCountUp) {
 }
 
 TEST(SegmentRecorder, ShortSegmentsKeepTheStrongestOnly) {
+  const std::size_t fewest = SegmentRecorderOptions{}.fewest_kept;
   SegmentRecorder recorder;
   for (const double length_m : {0.1, 0.6, 1.9}) {
     recorder.Begin(SensorTime{0}, test::Describe(Features(60)), motion::Pose2{});
     EXPECT_FALSE(recorder.Add(FromSeconds(1.0), Features(50), motion::Pose2{length_m, 0.0, 0.0}));
     const auto segment = recorder.Finish();
     ASSERT_TRUE(segment);
-    EXPECT_EQ(segment->features.size(), length_m < 0.5 ? 12U : length_m < 1.0 ? 24U : 50U);
+    EXPECT_EQ(segment->features.size(), length_m < 0.5 ? fewest : length_m < 1.0 ? 24U : 50U);
     EXPECT_FLOAT_EQ(segment->features.back().first().u_px,
                     static_cast<float>(segment->features.size() - 1));
   }
