@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/cli/open_exchange.h"
+#include "agent/cli/place_options.h"
 #include "agent/cli/stop_signal.h"
 #include "services/base/time.h"
 
@@ -94,6 +95,14 @@ void AddSharedOptions(CLI::App& app, CommandOptions& options) {
 
 void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
   AddRoute(command, teach.route);
+  command
+      .add_option("--tag", teach.tags,
+                  "A word by which the route is found in the catalog; may be given several times")
+      ->check(cli::NameValidator())
+      ->expected(1, static_cast<int>(route::kMaxTags))
+      ->take_all()
+      ->allow_extra_args(false);
+  cli::AddPlaceOptions(command, "place", "Where the route begins, for the catalog", teach.place);
   AddDeliveryTimeout(command, teach);
   AddDeviceOptions(command, teach.device, true);
 }
@@ -137,7 +146,7 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  const ScoutOptions scout{teach.route, LinkOptions(options, teach)};
+  const ScoutOptions scout{teach.route, LinkOptions(options, teach), teach.tags, teach.place};
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);

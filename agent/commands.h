@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/cli/command_line.h"
 #include "agent/device_options.h"
@@ -21,6 +23,8 @@ struct CommandOptions {
 struct TeachCommand {
   DeviceOptions device;
   std::string route;
+  std::vector<std::string> tags;
+  std::optional<route::Place> place;
   double delivery_timeout_s = 30.0;
 };
 

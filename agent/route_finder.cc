@@ -43,7 +43,7 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (reply.client != self_ || reply.request == 0 || reply.request > asked_) return;
   error_ = reply.error;
   if (!reply.error.empty()) return;
-  std::vector<route::RouteInfo> named = reply.routes;
+  std::vector<route::RouteInfo> named = reply.page.routes;
   std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
   found_ = ChooseRoute(named);
   if (!found_) unknown_ = Unknown{reply.server, reply.similar_names};
@@ -53,7 +53,7 @@ std::vector<exchange::Message> RouteFinder::Tick(Time now) {
   if (found_ || (asked_at_ && now - *asked_at_ < kAskEvery)) return {};
   asked_at_ = now;
   ++asked_;
-  return {exchange::CatalogRequest{self_, asked_, name_}};
+  return {exchange::CatalogRequest{self_, asked_, {.name = name_}}};
 }
 
 }  // namespace trailcast::agent

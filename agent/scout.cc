@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <set>
 #include <utility>
 
 #include "agent/standstill.h"
@@ -21,6 +22,9 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   info.taught_unix_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
                             std::chrono::system_clock::now().time_since_epoch())
                             .count();
+  const std::set<std::string> tags(options.tags.begin(), options.tags.end());
+  info.tags.assign(tags.begin(), tags.end());
+  info.place = options.place;
   return info;
 }
 

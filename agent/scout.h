@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device.h"
 #include "agent/scout_link.h"
@@ -13,6 +15,8 @@ namespace trailcast::agent {
 struct ScoutOptions {
   std::string route;  // name
   ScoutLinkOptions link;
+  std::vector<std::string> tags;      // in any order
+  std::optional<route::Place> place;  // where the drive begins
 };
 
 // Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.

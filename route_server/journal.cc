@@ -57,11 +57,11 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
     }
     // A client asks anew every second until its route is there: once is enough in the log.
     if (reply->request != 1) return std::nullopt;
-    return reply->routes.empty()
+    return reply->page.routes.empty()
                ? fmt::format("'{}' asks for a route that is not here", reply->client.value())
                : fmt::format("'{}' asks the catalog: {} routes, the first '{}'",
-                             reply->client.value(), reply->routes.size(),
-                             reply->routes.front().name);
+                             reply->client.value(), reply->page.routes.size(),
+                             reply->page.routes.front().name);
   }
   return std::nullopt;
 }

@@ -1,9 +1,12 @@
 #include "agent/tool/catalog_client.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <random>
 #include <variant>
 
+#include "services/exchange/bounds.h"
 #include "services/route/digest.h"
 
 namespace trailcast::tool {
@@ -36,14 +39,28 @@ std::string JsonText(const std::string& text) {
   return quoted;
 }
 
+std::string JsonTexts(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + JsonText(text);
+  return "[" + list + "]";
+}
+
+std::string JsonPlace(const std::optional<route::Place>& place) {
+  if (!place) return "null";
+  if (place->frame == route::Place::Frame::kWgs84) {
+    return fmt::format("{{\"latitude\": {}, \"longitude\": {}}}", place->y, place->x);
+  }
+  return fmt::format("{{\"site_x_m\": {}, \"site_y_m\": {}}}", place->x, place->y);
+}
+
 }  // namespace
 
 Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
-                                          const std::string& name,
+                                          const route::RouteQuery& query,
                                           std::chrono::milliseconds timeout) {
   using Clock = std::chrono::steady_clock;
   std::random_device random;
-  const exchange::CatalogRequest question{client, random(), name};
+  const exchange::CatalogRequest question{client, random(), query};
   const auto deadline = Clock::now() + timeout;
   auto ask_at = Clock::now();
   while (Clock::now() < deadline) {
@@ -74,6 +91,24 @@ Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, con
       std::chrono::duration<double>(timeout).count());
 }
 
+Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
+                                            const AgentId& client, route::RouteQuery query,
+                                            std::size_t limit, std::chrono::milliseconds timeout) {
+  std::vector<route::RouteInfo> routes;
+  while (true) {
+    query.page_size = static_cast<std::uint32_t>(
+        std::min<std::size_t>(limit - routes.size(), exchange::kMaxRoutesPerReply));
+    auto reply = AskCatalog(exchange, client, query, timeout);
+    if (!reply) return reply;
+    routes.insert(routes.end(), reply->page.routes.begin(), reply->page.routes.end());
+    query.cursor = reply->page.next;
+    if (query.cursor.empty() || routes.size() >= limit) {
+      reply->page.routes = std::move(routes);
+      return reply;
+    }
+  }
+}
+
 std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_t now_unix_ms) {
   if (routes.empty()) return "no routes\n";
   std::size_t name_width = 5;
@@ -85,18 +120,19 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
     camera_width = std::max(camera_width, info.camera.size());
   }
   std::string text =
-      fmt::format("{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}\n",
+      fmt::format("{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
                   "route", name_width, "revision", "state", "segments", "metres", "kB", "B/m",
-                  "scout", scout_width, "camera", camera_width, "age");
+                  "scout", scout_width, "camera", camera_width, "age", "tags");
   for (const route::RouteInfo& info : routes) {
     const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
-        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}\n", info.name,
-        name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
+        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
+        info.name, name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
         taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
-        scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms));
+        scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
+        fmt::join(info.tags, " "));
   }
   return text;
 }
@@ -108,11 +144,12 @@ std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
     text += fmt::format(
         "\n  {{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
         "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
-        "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\"}}",
+        "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
+        "\"place\": {}}}",
         JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
         StateName(info.state), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
         JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
-        route::ToHex(info.manifest_digest));
+        route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place));
   }
   return text + "\n]\n";
 }

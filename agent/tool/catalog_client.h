@@ -11,14 +11,20 @@
 
 namespace trailcast::tool {
 
-// Asks every server in reach for its routes, by exact name or all (empty name), and gives the first
-// reply. The question is repeated until then, for a server that joins late. Errors: kUnavailable
-// when no server answers within `timeout` (and how to look further); what a server says it could
-// not do.
+// Asks every server in reach for its routes, and gives the first reply. The question is repeated
+// until then, for a server that joins late. Errors: kUnavailable when no server answers within
+// `timeout` (and how to look further); what a server says it could not do.
 [[nodiscard]] Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange,
                                                         const AgentId& client,
-                                                        const std::string& name,
+                                                        const route::RouteQuery& query,
                                                         std::chrono::milliseconds timeout);
+
+// Page after page, until there are `limit` routes or no more. Each page may take `timeout`.
+[[nodiscard]] Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
+                                                          const AgentId& client,
+                                                          route::RouteQuery query,
+                                                          std::size_t limit,
+                                                          std::chrono::milliseconds timeout);
 
 // For people: one line a route, `now_unix_ms` for their ages.
 [[nodiscard]] std::string RoutesTable(const std::vector<route::RouteInfo>& routes,

@@ -1,19 +1,30 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "agent/cli/open_exchange.h"
+#include "agent/cli/place_options.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
+#include "services/exchange/bounds.h"
 
 namespace trailcast::tool {
 namespace {
 
 struct RoutesOptions {
-  std::string name;
+  route::RouteQuery query;
+  std::string state;
+  std::string sort = "newest";
+  std::optional<route::Place> near;
+  double within_m = 50.0;
+  double newer_than_s = 0.0;
+  double older_than_s = 0.0;
+  std::size_t limit = 100;
   bool json = false;
   double timeout_s = 5.0;
 };
@@ -22,12 +33,42 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast routes\n"
     "  trailcast routes --name aisle-3 --json\n"
+    "  trailcast routes --prefix barn- --tag night --sort longest\n"
+    "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
     "  trailcast routes --network-interface lo --timeout 2";
+
+const std::map<std::string, route::RouteOrder> kOrders = {
+    {"newest", route::RouteOrder::kNewest},
+    {"oldest", route::RouteOrder::kOldest},
+    {"name", route::RouteOrder::kName},
+    {"longest", route::RouteOrder::kLongest},
+    {"shortest", route::RouteOrder::kShortest}};
+
+const std::map<std::string, route::RouteState> kStates = {
+    {"teaching", route::RouteState::kTeaching}, {"complete", route::RouteState::kComplete}};
 
 std::int64_t NowUnixMs() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
+}
+
+std::int64_t Before(std::int64_t now_unix_ms, double age_s) {
+  return now_unix_ms - static_cast<std::int64_t>(age_s * 1000.0);
+}
+
+route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms) {
+  route::RouteQuery query = options.query;
+  query.order = kOrders.at(options.sort);
+  if (!options.state.empty()) query.state = kStates.at(options.state);
+  if (options.near) query.near = {*options.near, options.within_m};
+  if (options.newer_than_s > 0.0) {
+    query.taught_from_unix_ms = Before(now_unix_ms, options.newer_than_s);
+  }
+  if (options.older_than_s > 0.0) {
+    query.taught_until_unix_ms = Before(now_unix_ms, options.older_than_s);
+  }
+  return query;
 }
 
 // No route of that name is a failure that says what there is.
@@ -36,12 +77,17 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
   for (const std::string& each : reply.similar_names) {
     similar += fmt::format("{}{}", similar.empty() ? "; there is " : ", ", each);
   }
-  return cli::Complain(
-      app, {ErrorCode::kNotFound,
-            fmt::format("server {} has no route '{}'{}", reply.server.value(), name, similar)});
+  return cli::Complain(app,
+                       {ErrorCode::kNotFound, fmt::format("server {} has no such route '{}'{}",
+                                                          reply.server.value(), name, similar)});
 }
 
 int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptions& options) {
+  const std::int64_t now_unix_ms = NowUnixMs();
+  const route::RouteQuery query = QueryOf(options, now_unix_ms);
+  if (auto possible = exchange::CheckQuery(query); !possible) {
+    return cli::Complain(app, possible.error());
+  }
   // Two operators may ask at the same time.
   cli::CommonOptions network = common;
   network.name = fmt::format("{}-{}", common.name, getpid());
@@ -49,13 +95,44 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   if (!exchange) return cli::Complain(app, exchange.error());
   const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(options.timeout_s));
-  const auto reply = AskCatalog(**exchange, AgentId(network.name), options.name, timeout);
+  const auto reply = AskForRoutes(**exchange, AgentId(network.name), query, options.limit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
-  if (!options.name.empty() && reply->routes.empty()) return ShowNone(app, options.name, *reply);
-  const std::string text =
-      options.json ? RoutesJson(reply->routes) : RoutesTable(reply->routes, NowUnixMs());
-  std::fputs(text.c_str(), stdout);
+  const std::vector<route::RouteInfo>& routes = reply->page.routes;
+  if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
+  std::fputs((options.json ? RoutesJson(routes) : RoutesTable(routes, now_unix_ms)).c_str(),
+             stdout);
+  if (routes.size() < reply->page.total) {
+    std::fputs(
+        fmt::format("{} of {} routes; --limit shows more\n", routes.size(), reply->page.total)
+            .c_str(),
+        stderr);
+  }
   return cli::kExitOk;
+}
+
+void AddFilters(CLI::App& app, RoutesOptions& options) {
+  route::RouteQuery& query = options.query;
+  app.add_option("--name", query.name, "Only the route of this name")->check(cli::NameValidator());
+  app.add_option("--prefix", query.name_prefix, "Only names that begin so")
+      ->check(cli::NameValidator());
+  app.add_option("--tag", query.tags, "Only with this tag; several: with all of them")
+      ->check(cli::NameValidator())
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--scout", query.scout, "Only taught by this scout")->check(cli::NameValidator());
+  app.add_option("--camera", query.camera_prefix, "Only taught by cameras whose name begins so");
+  app.add_option("--min-length", query.min_length_m, "Metres")->check(CLI::NonNegativeNumber);
+  app.add_option("--max-length", query.max_length_m, "Metres; 0: any")
+      ->check(CLI::NonNegativeNumber);
+  const std::map<std::string, double> units = {
+      {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
+  app.add_option("--newer-than", options.newer_than_s, "Only taught since: 90min, 12h, 7d; 0: any")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE, "AGE"));
+  app.add_option("--older-than", options.older_than_s, "Only taught before that")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE, "AGE"));
+  app.add_option("--state", options.state, "Only these")->check(CLI::IsMember(&kStates));
+  cli::AddPlaceOptions(app, "near", "Only beginning near", options.near);
+  app.add_option("--within", options.within_m, "Metres, how near")->check(CLI::PositiveNumber);
 }
 
 }  // namespace
@@ -65,8 +142,10 @@ Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common) {
   CLI::App* app = parent.add_subcommand("routes", "List the routes that a route server keeps");
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
-  app->add_option("--name", options->name, "Only the route of this name")
-      ->check(cli::NameValidator());
+  AddFilters(*app, *options);
+  app->add_option("--sort", options->sort, "What comes first")->check(CLI::IsMember(&kOrders));
+  app->add_option("--limit", options->limit, "Routes to list at most")
+      ->check(CLI::Range(1, 10'000'000));
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->check(CLI::Range(0.1, 3600.0));

@@ -1,19 +1,34 @@
 #include "services/catalog/catalog.h"
 
 #include "services/catalog/similar_names.h"
+#include "services/exchange/bounds.h"
 
 namespace trailcast::catalog {
 namespace {
 
 constexpr std::size_t kMaxSimilarNames = 10;
+// Names compared to a mistyped one: so many on either side in the alphabet.
+constexpr std::size_t kCompared = 500;
 
 Result<std::vector<std::string>> SimilarNames(const std::string& wanted, store::RouteStore& store) {
-  const Result<std::vector<route::RouteInfo>> routes = store.ListRoutes();
-  if (!routes) return tl::unexpected(routes.error());
-  std::vector<std::string> names;
-  names.reserve(routes->size());
-  for (const route::RouteInfo& info : *routes) names.push_back(info.name);
-  return MostSimilar(wanted, std::move(names), kMaxSimilarNames);
+  Result<std::vector<std::string>> near = store.NamesNear(wanted, kCompared);
+  if (!near) return near;
+  return MostSimilar(wanted, std::move(*near), kMaxSimilarNames);
+}
+
+Result<void> Fill(exchange::CatalogReply& reply, const route::RouteQuery& query,
+                  store::RouteStore& store) {
+  if (auto possible = exchange::CheckQuery(query); !possible) return possible;
+  Result<route::RoutePage> page = store.QueryRoutes(query);
+  if (!page) return tl::unexpected(page.error());
+  reply.page = std::move(*page);
+  if (query.name.empty() || reply.page.total > 0) return {};
+  Result<std::vector<std::string>> similar = SimilarNames(query.name, store);
+  if (!similar) return tl::unexpected(similar.error());
+  // A name that is in use, on routes that something else in the query excludes, is no suggestion.
+  std::erase(*similar, query.name);
+  reply.similar_names = std::move(*similar);
+  return {};
 }
 
 }  // namespace
@@ -21,26 +36,9 @@ Result<std::vector<std::string>> SimilarNames(const std::string& wanted, store::
 exchange::CatalogReply Answer(const exchange::CatalogRequest& request, const AgentId& server,
                               store::RouteStore& store) {
   exchange::CatalogReply reply{server, request.client, request.request, {}, {}, {}};
-  if (!request.name.empty() && !IsValidName(request.name)) {
-    reply.error = fmt::format(
-        "name '{:.64}' is no route's: expected 1 to 64 of [A-Za-z0-9_.-], or nothing for every "
-        "route",
-        request.name);
-    return reply;
-  }
-  Result<std::vector<route::RouteInfo>> routes =
-      request.name.empty() ? store.ListRoutes() : store.FindRoutesByName(request.name);
-  if (!routes) {
-    reply.error = routes.error().message;
-    return reply;
-  }
-  reply.routes = std::move(*routes);
-  if (!reply.routes.empty() || request.name.empty()) return reply;
-  Result<std::vector<std::string>> similar = SimilarNames(request.name, store);
-  if (similar) {
-    reply.similar_names = std::move(*similar);
-  } else {
-    reply.error = similar.error().message;
+  if (auto filled = Fill(reply, request.query, store); !filled) {
+    reply.page = {};
+    reply.error = filled.error().message;
   }
   return reply;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "services/dds/wire.h"
@@ -42,6 +43,18 @@ Digest ToDigest(const trailcast_wire_Digest& wire) {
   return digest;
 }
 
+template <typename Sequence>
+std::vector<std::string> Texts(const Sequence& sequence) {
+  std::vector<std::string> texts;
+  for (const char* text : Elements(sequence)) texts.push_back(Text(text));
+  return texts;
+}
+
+std::optional<route::Place> From(const trailcast_wire_Place& wire) {
+  if (wire.frame == 0) return std::nullopt;
+  return route::Place{static_cast<route::Place::Frame>(wire.frame), wire.x, wire.y};
+}
+
 RouteKey From(const trailcast_wire_RouteKey& wire) {
   return {.route = RouteId(Text(wire.route)), .revision = RevisionNumber(wire.revision)};
 }
@@ -58,7 +71,9 @@ RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInf
           .segment_count = wire.segment_count,
           .length_m = wire.length_m,
           .bytes = wire.bytes,
-          .manifest_digest = ToDigest(wire.manifest_digest)};
+          .manifest_digest = ToDigest(wire.manifest_digest),
+          .tags = Texts(wire.tags),
+          .place = From(wire.place)};
 }
 
 Message From(const trailcast_wire_RouteAnnouncement& wire) {
@@ -92,22 +107,39 @@ Message From(const trailcast_wire_Receipt& wire) {
                  .durable_state = static_cast<RouteState>(wire.durable_state)};
 }
 
+route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
+  route::RouteQuery query{.name = Text(wire.name),
+                          .name_prefix = Text(wire.name_prefix),
+                          .tags = Texts(wire.tags),
+                          .scout = Text(wire.scout),
+                          .camera_prefix = Text(wire.camera_prefix),
+                          .min_length_m = wire.min_length_m,
+                          .max_length_m = wire.max_length_m,
+                          .taught_from_unix_ms = wire.taught_from_unix_ms,
+                          .taught_until_unix_ms = wire.taught_until_unix_ms,
+                          .order = static_cast<route::RouteOrder>(wire.order),
+                          .page_size = wire.page_size,
+                          .cursor = Text(wire.cursor)};
+  if (wire.state != 0) query.state = static_cast<RouteState>(wire.state - 1);
+  if (const auto middle = From(wire.near)) query.near = {*middle, wire.radius_m};
+  return query;
+}
+
 Message From(const trailcast_wire_CatalogRequest& wire) {
   return CatalogRequest{
-      .client = AgentId(Text(wire.client)), .request = wire.request, .name = Text(wire.name)};
+      .client = AgentId(Text(wire.client)), .request = wire.request, .query = From(wire.query)};
 }
 
 Message From(const trailcast_wire_CatalogReply& wire) {
   CatalogReply reply{.server = AgentId(Text(wire.server)),
                      .client = AgentId(Text(wire.client)),
                      .request = wire.request,
-                     .routes = {},
-                     .similar_names = {},
+                     .page = {.routes = {}, .total = wire.total, .next = Text(wire.next)},
+                     .similar_names = Texts(wire.similar_names),
                      .error = Text(wire.error)};
   for (const trailcast_wire_CatalogRoute& route : Elements(wire.routes)) {
-    reply.routes.push_back(From(route.key, route.info));
+    reply.page.routes.push_back(From(route.key, route.info));
   }
-  for (const char* name : Elements(wire.similar_names)) reply.similar_names.push_back(Text(name));
   return reply;
 }
 

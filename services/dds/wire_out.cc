@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "services/dds/wire.h"
@@ -21,6 +22,20 @@ void Lend(std::vector<Element>& elements, Sequence& sequence) {
   sequence._release = false;
 }
 
+// Arrays of texts that a sample points to, kept until it was written.
+class TextArrays {
+ public:
+  template <typename Sequence>
+  void Lend(const std::vector<std::string>& texts, Sequence& sequence) {
+    std::vector<char*>& pointers = arrays_.emplace_back();
+    for (const std::string& text : texts) pointers.push_back(dds::Lend(text));
+    dds::Lend(pointers, sequence);
+  }
+
+ private:
+  std::deque<std::vector<char*>> arrays_;
+};
+
 std::vector<std::uint32_t> Values(const std::vector<SegmentIndex>& indices) {
   std::vector<std::uint32_t> values;
   values.reserve(indices.size());
@@ -32,7 +47,12 @@ trailcast_wire_RouteKey ToWire(const RouteKey& key) {
   return {.route = Lend(key.route.value()), .revision = key.revision.value()};
 }
 
-trailcast_wire_RouteInfo ToWire(const RouteInfo& info) {
+trailcast_wire_Place ToWire(const std::optional<route::Place>& place) {
+  if (!place) return {};
+  return {.frame = static_cast<std::uint8_t>(place->frame), .x = place->x, .y = place->y};
+}
+
+trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   trailcast_wire_RouteInfo wire{};
   wire.name = Lend(info.name);
   wire.scout = Lend(info.scout.value());
@@ -45,13 +65,38 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info) {
   wire.length_m = info.length_m;
   wire.bytes = info.bytes;
   std::copy(info.manifest_digest.begin(), info.manifest_digest.end(), wire.manifest_digest);
+  arrays.Lend(info.tags, wire.tags);
+  wire.place = ToWire(info.place);
+  return wire;
+}
+
+trailcast_wire_CatalogQuery ToWire(const route::RouteQuery& query, TextArrays& arrays) {
+  trailcast_wire_CatalogQuery wire{};
+  wire.name = Lend(query.name);
+  wire.name_prefix = Lend(query.name_prefix);
+  arrays.Lend(query.tags, wire.tags);
+  wire.scout = Lend(query.scout);
+  wire.camera_prefix = Lend(query.camera_prefix);
+  wire.min_length_m = query.min_length_m;
+  wire.max_length_m = query.max_length_m;
+  wire.taught_from_unix_ms = query.taught_from_unix_ms;
+  wire.taught_until_unix_ms = query.taught_until_unix_ms;
+  wire.state = query.state ? static_cast<std::uint8_t>(static_cast<int>(*query.state) + 1) : 0;
+  if (query.near) {
+    wire.near = ToWire(query.near->middle);
+    wire.radius_m = query.near->radius_m;
+  }
+  wire.order = static_cast<std::uint8_t>(query.order);
+  wire.page_size = query.page_size;
+  wire.cursor = Lend(query.cursor);
   return wire;
 }
 
 Result<void> With(const RouteAnnouncement& message, const UseSample& use) {
+  TextArrays arrays;
   const trailcast_wire_RouteAnnouncement sample{.holder = Lend(message.holder.value()),
                                                 .key = ToWire(message.info.key),
-                                                .info = ToWire(message.info)};
+                                                .info = ToWire(message.info, arrays)};
   return use(&sample);
 }
 
@@ -93,25 +138,27 @@ Result<void> With(const Receipt& message, const UseSample& use) {
 }
 
 Result<void> With(const CatalogRequest& message, const UseSample& use) {
+  TextArrays arrays;
   const trailcast_wire_CatalogRequest sample{.client = Lend(message.client.value()),
                                              .request = message.request,
-                                             .name = Lend(message.name)};
+                                             .query = ToWire(message.query, arrays)};
   return use(&sample);
 }
 
 Result<void> With(const CatalogReply& message, const UseSample& use) {
+  TextArrays arrays;
   std::vector<trailcast_wire_CatalogRoute> routes;
-  for (const RouteInfo& info : message.routes) {
-    routes.push_back({.key = ToWire(info.key), .info = ToWire(info)});
+  for (const RouteInfo& info : message.page.routes) {
+    routes.push_back({.key = ToWire(info.key), .info = ToWire(info, arrays)});
   }
-  std::vector<char*> names;
-  for (const std::string& name : message.similar_names) names.push_back(Lend(name));
   trailcast_wire_CatalogReply sample{};
   sample.server = Lend(message.server.value());
   sample.client = Lend(message.client.value());
   sample.request = message.request;
   Lend(routes, sample.routes);
-  Lend(names, sample.similar_names);
+  sample.total = message.page.total;
+  sample.next = Lend(message.page.next);
+  arrays.Lend(message.similar_names, sample.similar_names);
   sample.error = Lend(message.error);
   return use(&sample);
 }

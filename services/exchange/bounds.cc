@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "services/exchange/text.h"
 
@@ -65,6 +66,15 @@ Result<void> CheckKey(const RouteKey& key) {
   return {};
 }
 
+Result<void> CheckTags(const std::vector<std::string>& tags) {
+  if (auto ok = CheckCount("tags", tags.size(), route::kMaxTags); !ok) return ok;
+  for (const std::string& tag : tags) {
+    if (auto ok = CheckName("tag", tag); !ok) return ok;
+  }
+  if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return {};
+  return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
+}
+
 Result<void> CheckInfo(const RouteInfo& info) {
   constexpr double kMaxLength_m = 1e7;
   if (auto ok = CheckKey(info.key); !ok) return ok;
@@ -78,6 +88,10 @@ Result<void> CheckInfo(const RouteInfo& info) {
   if (auto ok = CheckState(info.state); !ok) return ok;
   if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
     return ok;
+  }
+  if (auto ok = CheckTags(info.tags); !ok) return ok;
+  if (info.place) {
+    if (auto ok = CheckPlace(*info.place); !ok) return ok;
   }
   return CheckAmount("route length in metres", info.length_m, kMaxLength_m);
 }
@@ -130,20 +144,21 @@ Result<void> Check(const Receipt& message) {
 }
 
 Result<void> Check(const CatalogRequest& message) {
-  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (message.name.empty()) return {};
-  return CheckName("route name asked for", message.name);
+  // The query is for the server to judge: whoever asked wrongly is told so in the reply.
+  return CheckName("client", message.client.value());
 }
 
 Result<void> Check(const CatalogReply& message) {
   if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckCount("routes in a reply", message.routes.size(), kMaxRoutesPerReply); !ok) {
+  const route::RoutePage& page = message.page;
+  if (auto ok = CheckCount("routes in a reply", page.routes.size(), kMaxRoutesPerReply); !ok) {
     return ok;
   }
-  for (const RouteInfo& info : message.routes) {
+  for (const RouteInfo& info : page.routes) {
     if (auto ok = CheckInfo(info); !ok) return ok;
   }
+  if (auto ok = CheckText("cursor", page.next, kMaxCursorBytes); !ok) return ok;
   if (auto ok = CheckCount("similar names", message.similar_names.size(), kMaxSimilarNames); !ok) {
     return ok;
   }
@@ -182,6 +197,59 @@ Result<void> Check(const AgentStatus& message) {
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace
+
+Result<void> CheckPlace(const route::Place& place) {
+  constexpr double kMaxSite_m = 1e7;
+  const bool globe = place.frame == route::Place::Frame::kWgs84;
+  if (!globe && place.frame != route::Place::Frame::kSite) {
+    return Fail(ErrorCode::kInvalidArgument, "place frame is {}, expected 1 (site) or 2 (WGS 84)",
+                static_cast<int>(place.frame));
+  }
+  if (auto ok = CheckAmount(globe ? "longitude, east or west, in degrees" : "site x in metres",
+                            std::abs(place.x), globe ? 180.0 : kMaxSite_m);
+      !ok) {
+    return ok;
+  }
+  return CheckAmount(globe ? "latitude, north or south, in degrees" : "site y in metres",
+                     std::abs(place.y), globe ? 90.0 : kMaxSite_m);
+}
+
+Result<void> CheckQuery(const route::RouteQuery& query) {
+  constexpr double kMaxMetres = 1e7;
+  for (const auto& [field, name] : {std::pair{"name", &query.name},
+                                    {"name prefix", &query.name_prefix},
+                                    {"scout", &query.scout}}) {
+    if (name->empty()) continue;
+    if (auto ok = CheckName(field, *name); !ok) return ok;
+  }
+  if (auto ok = CheckCount("tags", query.tags.size(), route::kMaxTags); !ok) return ok;
+  for (const std::string& tag : query.tags) {
+    if (auto ok = CheckName("tag", tag); !ok) return ok;
+  }
+  if (auto ok = CheckText("camera prefix", query.camera_prefix, kMaxCameraBytes); !ok) return ok;
+  if (auto ok = CheckAmount("least length in metres", query.min_length_m, kMaxMetres); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckAmount("largest length in metres", query.max_length_m, kMaxMetres); !ok) {
+    return ok;
+  }
+  if (query.state) {
+    if (auto ok = CheckState(*query.state); !ok) return ok;
+  }
+  if (query.near) {
+    if (auto ok = CheckPlace(query.near->middle); !ok) return ok;
+    if (!(query.near->radius_m > 0.0) || query.near->radius_m > kMaxMetres) {
+      return Fail(ErrorCode::kInvalidArgument, "radius in metres is {}, expected above 0, to {}",
+                  query.near->radius_m, kMaxMetres);
+    }
+  }
+  if (auto ok = CheckCount("order", static_cast<std::uint8_t>(query.order),
+                           static_cast<std::uint8_t>(route::RouteOrder::kShortest));
+      !ok) {
+    return ok;
+  }
+  return CheckText("cursor", query.cursor, kMaxCursorBytes);
+}
 
 Result<void> CheckBounds(const Message& message) {
   return std::visit([](const auto& value) { return Check(value); }, message);

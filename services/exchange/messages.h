@@ -8,6 +8,7 @@
 
 #include "services/base/ids.h"
 #include "services/route/route.h"
+#include "services/route/route_query.h"
 
 namespace trailcast::exchange {
 
@@ -54,7 +55,7 @@ struct Receipt {
 struct CatalogRequest {
   AgentId client{};
   std::uint64_t request = 0;  // echoed in the reply
-  std::string name{};         // exact name; empty asks for every route
+  route::RouteQuery query{};  // anything: the server says in its reply what is wrong with it
   bool operator==(const CatalogRequest&) const = default;
 };
 
@@ -62,8 +63,8 @@ struct CatalogReply {
   AgentId server{};
   AgentId client{};
   std::uint64_t request = 0;
-  std::vector<route::RouteInfo> routes{};    // newest first
-  std::vector<std::string> similar_names{};  // when none matched: names that exist, nearest first
+  route::RoutePage page{};
+  std::vector<std::string> similar_names{};  // when no route has the name: those that exist
   std::string error{};                       // not empty: the request could not be answered
   bool operator==(const CatalogReply&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,21 @@ enum class RouteState : std::uint8_t {
   kComplete = 1,  // immutable from now on
 };
 
+// Where a route begins, for people and for queries; nobody follows by it.
+struct Place {
+  enum class Frame : std::uint8_t {
+    kSite = 1,   // metres east and north in whatever frame the site uses
+    kWgs84 = 2,  // longitude and latitude, degrees
+  };
+  Frame frame = Frame::kSite;
+  double x = 0.0;  // east
+  double y = 0.0;  // north
+
+  bool operator==(const Place&) const = default;
+};
+
+inline constexpr std::size_t kMaxTags = 16;
+
 // What is known of a route without its segments: announced by the scout, kept in the catalog.
 struct RouteInfo {
   RouteKey key;
@@ -97,6 +113,8 @@ struct RouteInfo {
   std::uint64_t bytes = 0;          // sum of their encoded sizes
   // SHA-256 over the digests of segments 0..segment_count-1 put one after the other.
   Digest manifest_digest{};
+  std::vector<std::string> tags{};  // IsValidName each, rising, none twice, at most kMaxTags
+  std::optional<Place> place{};     // given when teaching
 
   bool operator==(const RouteInfo&) const = default;
 };

@@ -10,6 +10,7 @@
 
 #include "services/base/result.h"
 #include "services/route/route.h"
+#include "services/route/route_query.h"
 
 namespace trailcast::store {
 
@@ -17,6 +18,8 @@ namespace trailcast::store {
 // not thread-safe. Every read of a segment checks its digest. Errors name the file.
 class RouteStore {
  public:
+  static constexpr std::uint32_t kMaxPage = 1000;
+
   virtual ~RouteStore() = default;
   RouteStore(const RouteStore&) = delete;
   RouteStore& operator=(const RouteStore&) = delete;
@@ -47,6 +50,15 @@ class RouteStore {
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> ListRoutes() = 0;
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesByName(
       const std::string& name) = 0;
+
+  // One page of the routes that match; at most kMaxPage of them. kInvalidArgument, naming the
+  // field, for a cursor that no page gave, or that another order did. What the query's other fields
+  // may hold is the caller's to check.
+  [[nodiscard]] virtual Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) = 0;
+  // Names in use, each once: the `count` nearest in the alphabet on either side, `name` first if it
+  // is one.
+  [[nodiscard]] virtual Result<std::vector<std::string>> NamesNear(const std::string& name,
+                                                                   std::size_t count) = 0;
 
   // The scout's book-keeping: segments that some server has confirmed, and those none has.
   [[nodiscard]] virtual Result<void> MarkReceipted(const route::RouteKey& key,

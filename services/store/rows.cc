@@ -1,8 +1,12 @@
 #include "services/store/rows.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <sstream>
 
 #include "services/route/codec.h"
 #include "services/route/digest.h"
@@ -19,12 +23,19 @@ route::Digest Sha256(const std::string& text) {
 
 // Seals are digests of a row's other columns as text: SQLite does not notice a changed byte, and a
 // damaged index can lead to the wrong row. Part of the store's format.
+// Without tags and place it is that of version 1.
 route::Digest Seal(const route::RouteInfo& info) {
-  return Sha256(fmt::format(
+  std::string text = fmt::format(
       "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{:a}\n{}\n{}\n", info.key.route.value(),
       info.key.revision.value(), info.name, info.scout.value(), info.camera, info.image_width_px,
       info.image_height_px, info.taught_unix_ms, static_cast<int>(info.state), info.segment_count,
-      info.length_m, info.bytes, route::ToHex(info.manifest_digest)));
+      info.length_m, info.bytes, route::ToHex(info.manifest_digest));
+  for (const std::string& tag : info.tags) text += fmt::format("tag {}\n", tag);
+  if (info.place) {
+    text += fmt::format("place {} {:a} {:a}\n", static_cast<int>(info.place->frame), info.place->x,
+                        info.place->y);
+  }
+  return Sha256(text);
 }
 
 route::Digest Seal(const route::SegmentPiece& piece) {
@@ -40,6 +51,25 @@ tl::unexpected<Error> Refuse(const route::RouteInfo& info, std::string_view fiel
 
 void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest) {
   statement.bind(parameter, digest.data(), static_cast<int>(digest.size()));
+}
+
+// As text they are one column; route_tag, by which routes are found, is made from it.
+std::string JoinTags(const std::vector<std::string>& tags) {
+  return fmt::format("{}", fmt::join(tags, " "));
+}
+
+std::vector<std::string> SplitTags(const std::string& joined) {
+  std::vector<std::string> tags;
+  std::istringstream words(joined);
+  for (std::string tag; words >> tag;) tags.push_back(tag);
+  return tags;
+}
+
+std::optional<route::Place> ReadPlace(const SQLite::Statement& statement, int first) {
+  if (statement.getColumn(first).isNull()) return std::nullopt;
+  return route::Place{static_cast<route::Place::Frame>(statement.getColumn(first).getInt()),
+                      statement.getColumn(first + 1).getDouble(),
+                      statement.getColumn(first + 2).getDouble()};
 }
 
 // A digest, or kCorrupt when the column holds something else.
@@ -80,6 +110,17 @@ Result<void> CheckRoute(const route::RouteInfo& info) {
   if (info.bytes > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
     return Refuse(info, "number of bytes", "must be below 2^63");
   }
+  if (info.tags.size() > route::kMaxTags ||
+      !std::all_of(info.tags.begin(), info.tags.end(), &IsValidName) ||
+      std::adjacent_find(info.tags.begin(), info.tags.end(), std::greater_equal<>()) !=
+          info.tags.end()) {
+    return Refuse(info, "tags",
+                  fmt::format("must be at most {} names of [A-Za-z0-9_.-], sorted, none twice",
+                              route::kMaxTags));
+  }
+  if (info.place && (!std::isfinite(info.place->x) || !std::isfinite(info.place->y))) {
+    return Refuse(info, "place", "must be finite");
+  }
   if (info.state != route::RouteState::kTeaching && info.state != route::RouteState::kComplete) {
     return Refuse(info, "state", "must be teaching or complete");
   }
@@ -105,6 +146,11 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info) {
   statement.bind(12, static_cast<std::int64_t>(info.bytes));
   BindDigest(statement, 13, info.manifest_digest);
   BindDigest(statement, 14, Seal(info));
+  statement.bind(15, JoinTags(info.tags));
+  if (!info.place) return;  // NULLs
+  statement.bind(16, static_cast<int>(info.place->frame));
+  statement.bind(17, info.place->x);
+  statement.bind(18, info.place->y);
 }
 
 Result<route::RouteInfo> ReadRoute(const SQLite::Statement& statement) {
@@ -124,6 +170,8 @@ Result<route::RouteInfo> ReadRoute(const SQLite::Statement& statement) {
   info.bytes = static_cast<std::uint64_t>(statement.getColumn(11).getInt64());
   const Result<route::Digest> manifest = ReadDigest(statement.getColumn(12));
   const Result<route::Digest> seal = ReadDigest(statement.getColumn(13));
+  info.tags = SplitTags(statement.getColumn(14).getString());
+  info.place = ReadPlace(statement, 15);
   if (manifest) info.manifest_digest = *manifest;
   if (!manifest || !seal || *seal != Seal(info)) {
     return Fail(ErrorCode::kCorrupt,

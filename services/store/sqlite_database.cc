@@ -18,6 +18,7 @@ constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
 // digest of what a row says (rows.cc): SQLite itself does not notice a changed byte.
 constexpr const char* kTables = R"(
 CREATE TABLE route (
+  id INTEGER PRIMARY KEY,
   route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
   revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
   name TEXT NOT NULL CHECK (length(name) BETWEEN 1 AND 64),
@@ -32,9 +33,24 @@ CREATE TABLE route (
   bytes INTEGER NOT NULL CHECK (bytes >= 0),
   manifest_digest BLOB NOT NULL CHECK (length(manifest_digest) = 32),
   seal BLOB NOT NULL CHECK (length(seal) = 32),
-  PRIMARY KEY (route, revision)
+  tags TEXT NOT NULL,
+  place_frame INTEGER CHECK (place_frame IN (1, 2)),
+  place_east REAL,
+  place_north REAL,
+  UNIQUE (route, revision)
 ) STRICT;
-CREATE INDEX route_by_name ON route (name);
+CREATE INDEX route_by_name ON route (name, route, revision);
+CREATE INDEX route_by_time ON route (taught_unix_ms, route, revision);
+CREATE INDEX route_by_length ON route (length_m, route, revision);
+CREATE INDEX route_by_scout ON route (scout);
+CREATE TABLE route_tag (
+  tag TEXT NOT NULL,
+  id INTEGER NOT NULL,
+  PRIMARY KEY (tag, id)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX route_tag_by_id ON route_tag (id);
+CREATE VIRTUAL TABLE route_place USING rtree(
+  id, east_low, east_high, north_low, north_high, frame_low, frame_high);
 CREATE TABLE segment (
   route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
   revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
@@ -48,12 +64,41 @@ CREATE TABLE segment (
 CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
 )";
 
+// Version 1 knew neither tags nor places; what it held is the same row without them.
+constexpr const char* kFromVersion1 = R"(
+INSERT INTO route (route, revision, name, scout, camera, image_width_px, image_height_px,
+  taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, tags)
+SELECT route, revision, name, scout, camera, image_width_px, image_height_px,
+  taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, ''
+FROM route_1;
+INSERT INTO segment (route, revision, number, receipted, digest, seal, bytes)
+SELECT route, revision, number, receipted, digest, seal, bytes FROM segment_1;
+DROP TABLE route_1;
+DROP TABLE segment_1;
+)";
+
+void MarkVersion(SQLite::Database& db) {
+  db.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
+  db.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+}
+
 // All in one transaction with the marks in the header: an interrupted making leaves an empty file.
 void CreateTables(SQLite::Database& db) {
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
-  db.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
-  db.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+  MarkVersion(db);
   db.exec(kTables);
+  transaction.commit();
+}
+
+// Interrupted, it leaves version 1.
+void BringUpToDate(SQLite::Database& db) {
+  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
+  db.exec(
+      "DROP INDEX route_by_name; DROP INDEX segment_unreceipted;"
+      "ALTER TABLE route RENAME TO route_1; ALTER TABLE segment RENAME TO segment_1");
+  db.exec(kTables);
+  db.exec(kFromVersion1);
+  MarkVersion(db);
   transaction.commit();
 }
 
@@ -129,6 +174,7 @@ Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::pa
     sqlite3_extended_result_codes(db->getHandle(), 1);
     db->exec(kExclusive);
     if (db->execAndGet("PRAGMA page_count").getInt64() == 0) CreateTables(*db);
+    if (db->execAndGet("PRAGMA user_version").getUInt() == kOldestSchemaVersion) BringUpToDate(*db);
     CheckTables(*db);
     Configure(*db, options);
     return db;

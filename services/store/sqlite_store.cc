@@ -35,11 +35,9 @@ Result<void> SqliteRouteStore::PutRoute(const RouteInfo& info) {
     }
   }
   return Guarded("storing " + Describe(info.key), [&]() -> Result<void> {
-    SQLite::Statement put(*db_, fmt::format("INSERT OR REPLACE INTO route ({}) VALUES "
-                                            "(?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-                                            kRouteColumns));
-    BindRoute(put, info);
-    put.exec();
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    Put(info);
+    transaction.commit();
     return {};
   });
 }

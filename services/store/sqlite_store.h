@@ -24,6 +24,8 @@ class SqliteRouteStore final : public RouteStore {
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
   Result<std::vector<route::RouteInfo>> ListRoutes() override;
   Result<std::vector<route::RouteInfo>> FindRoutesByName(const std::string& name) override;
+  Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override;
+  Result<std::vector<std::string>> NamesNear(const std::string& name, std::size_t count) override;
   Result<void> MarkReceipted(const route::RouteKey& key,
                              std::span<const SegmentIndex> indices) override;
   Result<std::vector<SegmentIndex>> UnreceiptedSegments(const route::RouteKey& key) override;
@@ -40,6 +42,8 @@ class SqliteRouteStore final : public RouteStore {
     }
   }
 
+  // Stores a route, and by what it is found, within the caller's transaction.
+  void Put(const route::RouteInfo& info);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);

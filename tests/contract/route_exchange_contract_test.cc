@@ -59,6 +59,10 @@ route::RouteInfo ExtremeInfo() {
   info.length_m = 1e7;
   info.bytes = std::numeric_limits<std::uint64_t>::max();
   info.manifest_digest.fill(0xFF);
+  for (std::size_t i = 0; i < route::kMaxTags; ++i) {
+    info.tags.push_back(fmt::format("{:02}{}", i, std::string(62, 't')));
+  }
+  info.place = route::Place{route::Place::Frame::kSite, -1e7, 1e7};
   return info;
 }
 
@@ -89,13 +93,29 @@ TEST_P(RouteExchangeContract, CarriesTheLongestReceipt) {
 }
 
 TEST_P(RouteExchangeContract, CarriesCatalogRequests) {
-  ExpectRoundTrip(CatalogRequest{AgentId("f"), ~0ULL, ""}, Topic::kCatalogRequests);
-  ExpectRoundTrip(CatalogRequest{AgentId("f"), 0, "corridor"}, Topic::kCatalogRequests);
+  ExpectRoundTrip(CatalogRequest{AgentId("f"), ~0ULL, {}}, Topic::kCatalogRequests);
+  const route::Place far{route::Place::Frame::kWgs84, -179.5, -89.5};
+  const route::RouteQuery query{.name = "corridor",
+                                .name_prefix = "corr",
+                                .tags = {"night", "wet"},
+                                .scout = "scout-1",
+                                .camera_prefix = "webcam 320",
+                                .min_length_m = 1.5,
+                                .max_length_m = 1e6,
+                                .taught_from_unix_ms = -1,
+                                .taught_until_unix_ms = 1LL << 60,
+                                .state = RouteState::kTeaching,
+                                .near = route::Surroundings{far, 12.5},
+                                .order = route::RouteOrder::kShortest,
+                                .page_size = ~0U,
+                                .cursor = std::string(kMaxCursorBytes, '/')};
+  ExpectRoundTrip(CatalogRequest{AgentId("f"), 0, query}, Topic::kCatalogRequests);
 }
 
 TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
   CatalogReply reply{AgentId("s"), AgentId("f"), ~0ULL, {}, {}, std::string(kMaxLineBytes, 'e')};
-  reply.routes.assign(kMaxRoutesPerReply, ExtremeInfo());
+  reply.page = {std::vector(kMaxRoutesPerReply, ExtremeInfo()), ~0ULL,
+                std::string(kMaxCursorBytes, '/')};
   reply.similar_names.assign(kMaxSimilarNames, std::string(64, 'n'));
   ExpectRoundTrip(reply, Topic::kCatalogReplies);
 }
@@ -196,7 +216,7 @@ TEST_P(RouteExchangeContract, KeepsTheOrderOfRequestsOfSeveralAgents) {
   ASSERT_TRUE(Connect(*writer, Topic::kCatalogRequests, {reader.get()}));
   std::vector<std::uint64_t> got;
   for (std::uint64_t i = 0; i < 12; ++i) {
-    ASSERT_TRUE(writer->Publish(CatalogRequest{AgentId(i % 2 == 0 ? "even" : "odd"), i, ""}));
+    ASSERT_TRUE(writer->Publish(CatalogRequest{AgentId(i % 2 == 0 ? "even" : "odd"), i, {}}));
   }
   ASSERT_TRUE(TakeUntil(
       *reader,
@@ -228,7 +248,7 @@ TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
       SegmentBatch{AgentId("a"), {}},
       SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
       SegmentRequest{AgentId("a"), {RouteId("short"), RevisionNumber(1)}, {}},
-      CatalogRequest{AgentId("a"), 0, "no name"}};
+      CatalogRequest{AgentId("not a name"), 0, {}}};
   for (const Message& message : refused) {
     const auto result = writer->Publish(message);
     ASSERT_FALSE(result) << message.index();

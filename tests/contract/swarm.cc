@@ -50,7 +50,7 @@ void Swarm::StartScout() {
 void Swarm::StartServer() {
   server_ = Open(exchange::ServerTopics());
   const auto catalog = [this](const exchange::CatalogRequest&) {
-    return exchange::CatalogReply{.routes = server_store_.ListRoutes().value()};
+    return exchange::CatalogReply{.page = {.routes = server_store_.ListRoutes().value()}};
   };
   keeper_ = exchange::RouteKeeper::Open(AgentId("server-1"), server_store_, catalog, ToyIntegrity())
                 .value();

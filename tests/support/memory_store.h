@@ -84,6 +84,20 @@ class MemoryStore : public store::RouteStore {
     return infos;
   }
 
+  // All in one page, by name only.
+  Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override {
+    route::RoutePage page;
+    page.routes = (query.name.empty() ? ListRoutes() : FindRoutesByName(query.name)).value();
+    page.total = page.routes.size();
+    return page;
+  }
+
+  Result<std::vector<std::string>> NamesNear(const std::string&, std::size_t) override {
+    std::vector<std::string> names;
+    for (const auto& [key, info] : routes_) names.push_back(info.name);
+    return names;
+  }
+
   Result<void> MarkReceipted(const route::RouteKey& key,
                              std::span<const SegmentIndex> indices) override {
     for (const SegmentIndex index : indices) receipted_.insert({key, index});

@@ -42,25 +42,25 @@ class RouteFinderTest : public testing::Test {
 TEST_F(RouteFinderTest, AsksForTheNameAgainEachSecondUntilItIsFound) {
   const auto first = finder_.Tick(start_);
   ASSERT_THAT(first, SizeIs(1));
-  EXPECT_EQ(std::get<CatalogRequest>(first.front()), (CatalogRequest{kSelf, 1, "hall"}));
+  EXPECT_EQ(std::get<CatalogRequest>(first.front()), (CatalogRequest{kSelf, 1, {.name = "hall"}}));
   EXPECT_EQ(Ask(milliseconds(500)), 0U);
   EXPECT_EQ(Ask(milliseconds(1000)), 2U);
   const auto info = Info("hall", 1, 5, RouteState::kComplete);
-  finder_.Handle(CatalogReply{kServer, kSelf, 2, {info}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 2, {.routes = {info}}, {}, ""});
   EXPECT_EQ(finder_.found(), info);
   EXPECT_EQ(Ask(milliseconds(9000)), 0U);
 }
 
 TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
   Ask(milliseconds(0));
-  finder_.Handle(CatalogReply{
-      kServer,
-      kSelf,
-      1,
-      {Info("hall", 3, 30, RouteState::kTeaching), Info("hall", 2, 20, RouteState::kComplete),
-       Info("hall", 1, 10, RouteState::kComplete)},
-      {},
-      ""});
+  finder_.Handle(CatalogReply{kServer,
+                              kSelf,
+                              1,
+                              {.routes = {Info("hall", 3, 30, RouteState::kTeaching),
+                                          Info("hall", 2, 20, RouteState::kComplete),
+                                          Info("hall", 1, 10, RouteState::kComplete)}},
+                              {},
+                              ""});
   EXPECT_EQ(finder_.found()->key.revision.value(), 2U);
 }
 
@@ -76,10 +76,10 @@ TEST_F(RouteFinderTest, TellsThatTheServerDoesNotKnowTheRouteAndWhichItKnows) {
 
 TEST_F(RouteFinderTest, IgnoresRepliesToOthersAndToNothing) {
   const auto info = Info("hall", 1, 5, RouteState::kComplete);
-  finder_.Handle(CatalogReply{kServer, kSelf, 1, {info}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {info}}, {}, ""});
   Ask(milliseconds(0));
-  finder_.Handle(CatalogReply{kServer, AgentId("other"), 1, {info}, {}, ""});
-  finder_.Handle(CatalogReply{kServer, kSelf, 7, {info}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, AgentId("other"), 1, {.routes = {info}}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 7, {.routes = {info}}, {}, ""});
   EXPECT_FALSE(finder_.found());
 }
 

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "tests/support/temp_dir.h"
 
@@ -30,7 +31,7 @@ class Catalog : public testing::Test {
     return info;
   }
   exchange::CatalogReply Ask(const std::string& name) {
-    return Answer({AgentId("follower-3"), 77, name}, AgentId("server-1"), *store_);
+    return Answer({AgentId("follower-3"), 77, {.name = name}}, AgentId("server-1"), *store_);
   }
 
   test::TempDir dir_;
@@ -49,7 +50,7 @@ TEST_F(Catalog, NoNameAsksForEveryRouteNewestFirst) {
   const auto first = Put("yard", 1000);
   const auto third = Put("road", 3000);
   const auto second = Put("yard", 2000);
-  EXPECT_THAT(Ask("").routes, ElementsAre(third, second, first));
+  EXPECT_THAT(Ask("").page.routes, ElementsAre(third, second, first));
   EXPECT_THAT(Ask("").similar_names, IsEmpty());
 }
 
@@ -58,7 +59,7 @@ TEST_F(Catalog, NameFindsItsRoutesNewestFirst) {
   Put("yard-2", 3000);
   const auto second = Put("yard", 2000);
   const exchange::CatalogReply reply = Ask("yard");
-  EXPECT_THAT(reply.routes, ElementsAre(second, first));
+  EXPECT_THAT(reply.page.routes, ElementsAre(second, first));
   EXPECT_THAT(reply.similar_names, IsEmpty());
   EXPECT_EQ(reply.error, "");
 }
@@ -68,7 +69,7 @@ TEST_F(Catalog, NameThatNoRouteHasBringsThoseThatExistNearestFirst) {
   Put("Yard", 2000);
   Put("Yard", 3000);
   const exchange::CatalogReply reply = Ask("yarrd");
-  EXPECT_THAT(reply.routes, IsEmpty());
+  EXPECT_THAT(reply.page.routes, IsEmpty());
   EXPECT_THAT(reply.similar_names, ElementsAre("Yard", "bookshop"));
   EXPECT_EQ(reply.error, "");
 }
@@ -81,7 +82,7 @@ TEST_F(Catalog, AtMostTenNamesAreSuggested) {
 TEST_F(Catalog, EmptyCatalogAnswersWithNothing) {
   for (const char* name : {"", "yard"}) {
     const exchange::CatalogReply reply = Ask(name);
-    EXPECT_THAT(reply.routes, IsEmpty());
+    EXPECT_THAT(reply.page.routes, IsEmpty());
     EXPECT_THAT(reply.similar_names, IsEmpty());
     EXPECT_EQ(reply.error, "");
   }
@@ -90,10 +91,33 @@ TEST_F(Catalog, EmptyCatalogAnswersWithNothing) {
 TEST_F(Catalog, NameThatNoRouteCanHaveIsAnErrorNamingTheField) {
   for (const std::string& name : {std::string("my yard"), std::string(65, 'x')}) {
     const exchange::CatalogReply reply = Ask(name);
-    EXPECT_THAT(reply.error, HasSubstr("name '" + name.substr(0, 64) + "'"));
-    EXPECT_THAT(reply.error, HasSubstr("[A-Za-z0-9_.-]"));
-    EXPECT_THAT(reply.routes, IsEmpty());
+    EXPECT_THAT(reply.error, HasSubstr("name \"" + name + "\" is not a name: 1 to 64 of"));
+    EXPECT_THAT(reply.page.routes, IsEmpty());
   }
+}
+
+TEST_F(Catalog, WhatIsWrongWithAQueryIsSaidByField) {
+  const auto error_of = [this](const route::RouteQuery& query) {
+    const auto reply = Answer({AgentId("follower-3"), 77, query}, AgentId("server-1"), *store_);
+    EXPECT_THAT(reply.page.routes, IsEmpty());
+    return reply.error;
+  };
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  const route::Place nowhere{route::Place::Frame::kWgs84, 200.0, 0.0};
+  const route::Place unknown{static_cast<route::Place::Frame>(9), 0.0, 0.0};
+  EXPECT_THAT(error_of({.name_prefix = "my "}), HasSubstr("name prefix"));
+  EXPECT_THAT(error_of({.tags = {"night", ""}}), HasSubstr("tag \"\""));
+  EXPECT_THAT(error_of({.tags = std::vector<std::string>(99, "night")}), HasSubstr("tags is 99"));
+  EXPECT_THAT(error_of({.scout = "\xFF"}), HasSubstr("scout"));
+  EXPECT_THAT(error_of({.camera_prefix = "\x1B[2J"}), HasSubstr("camera prefix"));
+  EXPECT_THAT(error_of({.min_length_m = -1.0}), HasSubstr("least length"));
+  EXPECT_THAT(error_of({.max_length_m = not_a_number}), HasSubstr("largest length"));
+  EXPECT_THAT(error_of({.state = static_cast<route::RouteState>(7)}), HasSubstr("state"));
+  EXPECT_THAT(error_of({.near = route::Surroundings{nowhere, 5.0}}), HasSubstr("longitude"));
+  EXPECT_THAT(error_of({.near = route::Surroundings{unknown, 5.0}}), HasSubstr("place frame"));
+  EXPECT_THAT(error_of({.near = route::Surroundings{{}, 0.0}}), HasSubstr("radius"));
+  EXPECT_THAT(error_of({.order = static_cast<route::RouteOrder>(5)}), HasSubstr("order"));
+  EXPECT_THAT(error_of({.cursor = "n/x/y"}), HasSubstr("cursor"));
 }
 
 TEST_F(Catalog, DamagedStoreIsSaidInTheReply) {
@@ -109,8 +133,8 @@ TEST_F(Catalog, DamagedStoreIsSaidInTheReply) {
   Open();
   EXPECT_THAT(Ask("").error, HasSubstr("named 'yard') is damaged"));
   EXPECT_THAT(Ask("yard").error, HasSubstr("is damaged"));
-  EXPECT_THAT(Ask("nowhere").error, HasSubstr("is damaged"));
-  EXPECT_THAT(Ask("road").routes, ElementsAre(whole));
+  EXPECT_THAT(Ask("nowhere").similar_names, ElementsAre("road", "yard"));
+  EXPECT_THAT(Ask("road").page.routes, ElementsAre(whole));
 }
 
 }  // namespace

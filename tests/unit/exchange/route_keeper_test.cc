@@ -20,7 +20,7 @@ class RouteKeeperTest : public testing::Test {
 
   void Restart() {
     const auto catalog = [](const CatalogRequest& request) {
-      return CatalogReply{.similar_names = {request.name + "-2"}};
+      return CatalogReply{.similar_names = {request.query.name + "-2"}};
     };
     keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, catalog, test::ToyIntegrity()).value();
   }
@@ -195,7 +195,7 @@ TEST_F(RouteKeeperTest, RefusesMoreRoutesThanItMayKeep) {
 }
 
 TEST_F(RouteKeeperTest, AddressesCatalogReplies) {
-  keeper_->Handle(CatalogRequest{AgentId("follower-1"), 7, "corridor"}, now_);
+  keeper_->Handle(CatalogRequest{AgentId("follower-1"), 7, {.name = "corridor"}}, now_);
   EXPECT_EQ(Only<CatalogReply>(Tick()),
             (std::vector{CatalogReply{.server = AgentId("server-1"),
                                       .client = AgentId("follower-1"),

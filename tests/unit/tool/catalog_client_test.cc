@@ -50,7 +50,7 @@ class CatalogClientTest : public ::testing::Test {
   }
   Result<exchange::CatalogReply> Ask(const std::string& name, milliseconds timeout) {
     const auto exchange = bus_.Open(exchange::OperatorTopics());
-    return AskCatalog(*exchange, AgentId("operator"), name, timeout);
+    return AskCatalog(*exchange, AgentId("operator"), {.name = name}, timeout);
   }
 
  private:
@@ -60,13 +60,13 @@ class CatalogClientTest : public ::testing::Test {
 
 TEST_F(CatalogClientTest, TakesTheReplyThatIsMeantForIt) {
   exchange::CatalogReply reply;
-  reply.routes = {Aisle()};
+  reply.page.routes = {Aisle()};
   Serve(0, reply);
   const auto answer = Ask("", milliseconds(20'000));
   ASSERT_TRUE(answer.has_value()) << answer.error().message;
   EXPECT_EQ(answer->client, AgentId("operator"));
-  ASSERT_EQ(answer->routes.size(), 1U);
-  EXPECT_EQ(answer->routes.front(), Aisle());
+  ASSERT_EQ(answer->page.routes.size(), 1U);
+  EXPECT_EQ(answer->page.routes.front(), Aisle());
 }
 
 TEST_F(CatalogClientTest, AsksAgainWhenAQuestionWasNotHeard) {

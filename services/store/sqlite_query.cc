@@ -1,0 +1,102 @@
+// SqliteRouteStore's catalog: by what routes are found, and finding them.
+#include <algorithm>
+#include <iterator>
+
+#include "services/store/query_sql.h"
+#include "services/store/rows.h"
+#include "services/store/sqlite_store.h"
+
+namespace trailcast::store {
+namespace {
+
+using route::RouteInfo;
+using route::RoutePage;
+using route::RouteQuery;
+
+void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
+  statement.bind(parameter, static_cast<std::int64_t>(size));
+}
+
+}  // namespace
+
+void SqliteRouteStore::Put(const RouteInfo& info) {
+  SQLite::Statement known(*db_, "SELECT id FROM route WHERE route = ? AND revision = ?");
+  BindKey(known, info.key);
+  const bool replaces = known.executeStep();
+  const std::int64_t old_id = replaces ? known.getColumn(0).getInt64() : 0;
+  if (replaces) {
+    for (const char* table : {"route_tag", "route_place"}) {
+      SQLite::Statement forget(*db_, fmt::format("DELETE FROM {} WHERE id = ?", table));
+      forget.bind(1, old_id);
+      forget.exec();
+    }
+  }
+  SQLite::Statement put(*db_, fmt::format("INSERT OR REPLACE INTO route ({}, id) VALUES "
+                                          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                                          kRouteColumns));
+  BindRoute(put, info);
+  if (replaces) put.bind(kRouteColumnCount + 1, old_id);
+  put.exec();
+  const std::int64_t id = db_->getLastInsertRowid();
+  for (const std::string& tag : info.tags) {
+    SQLite::Statement add(*db_, "INSERT INTO route_tag (tag, id) VALUES (?, ?)");
+    add.bind(1, tag);
+    add.bind(2, id);
+    add.exec();
+  }
+  if (!info.place) return;
+  const auto frame = static_cast<int>(info.place->frame);
+  SQLite::Statement add(*db_, "INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4, ?4)");
+  add.bind(1, id);
+  add.bind(2, info.place->x);
+  add.bind(3, info.place->y);
+  add.bind(4, frame);
+  add.exec();
+}
+
+Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
+  const SqlCondition match = MatchOf(query);
+  SqlCondition page_match = match;
+  if (auto started = StartAfterCursor(query, page_match); !started) {
+    return tl::unexpected(started.error());
+  }
+  const std::size_t wanted = query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
+  return Guarded("searching routes", [&]() -> Result<RoutePage> {
+    RoutePage page;
+    SQLite::Statement count(*db_, "SELECT COUNT(*) FROM route" + match.Where());
+    match.Bind(count);
+    count.executeStep();
+    page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
+    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM route{}{} LIMIT ?", kRouteColumns,
+                                               page_match.Where(), OrderBy(query.order)));
+    const int limit = page_match.Bind(select);
+    BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
+    while (select.executeStep()) {
+      if (page.routes.size() == wanted) {
+        page.next = CursorAfter(query.order, page.routes.back());
+        break;
+      }
+      Result<RouteInfo> info = ReadRoute(select);
+      if (!info) return Wrap(info.error(), "route store " + file_.path().string());
+      page.routes.push_back(std::move(*info));
+    }
+    return page;
+  });
+}
+
+Result<std::vector<std::string>> SqliteRouteStore::NamesNear(const std::string& name,
+                                                             std::size_t count) {
+  return Guarded("listing names", [&]() -> Result<std::vector<std::string>> {
+    std::vector<std::string> names;
+    for (const char* side : {">= ? ORDER BY name ASC", "< ? ORDER BY name DESC"}) {
+      SQLite::Statement select(
+          *db_, fmt::format("SELECT DISTINCT name FROM route WHERE name {} LIMIT ?", side));
+      select.bind(1, name);
+      BindSize(select, 2, count);
+      while (select.executeStep()) names.push_back(select.getColumn(0).getString());
+    }
+    return names;
+  });
+}
+
+}  // namespace trailcast::store
