@@ -62,9 +62,9 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
 Result<void> Server::Run(const std::function<bool()>& stop) {
   const auto receive = [this](const exchange::Message& message) { Receive(message); };
   if (auto claimed = presence_.Claim(receive, stop); !claimed) return claimed;
-  const auto routes = store_->ListRoutes();
+  const auto routes = store_->QueryRoutes({.page_size = 1});
   if (!routes) return tl::unexpected(routes.error());
-  spdlog::info("ready: {} routes in the store", routes->size());
+  spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();

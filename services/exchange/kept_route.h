@@ -58,6 +58,11 @@ class KeptRoute {
   bool receipt_due = false;
   bool announce_due = false;
   bool resend_due = false;  // announce although nothing changed, as after a start
+  // Nothing is left to do, unless somebody speaks of it again.
+  [[nodiscard]] bool idle() const {
+    return want.empty() && !receipt_due && !announce_due && !resend_due;
+  }
+  Time spoken_of_at{};
   std::optional<Time> receipt_at;
   std::optional<Time> announced_at;
 

@@ -22,9 +22,10 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
                                                        RouteKeeperOptions options) {
   std::unique_ptr<RouteKeeper> keeper(new RouteKeeper(
       std::move(self), store, std::move(answer_catalog), std::move(integrity), options));
-  const auto infos = store.ListRoutes();
-  if (!infos) return Wrap(infos.error(), "listing the stored routes");
-  for (const RouteInfo& info : *infos) {
+  if (options.announced_at_start == 0) return keeper;
+  const auto newest = store.QueryRoutes({.page_size = options.announced_at_start});
+  if (!newest) return Wrap(newest.error(), "listing the stored routes");
+  for (const RouteInfo& info : newest->routes) {
     const auto held = store.HeldSegments(info.key);
     if (!held) return Wrap(held.error(), "listing the segments of " + Describe(info.key));
     auto [at, added] = keeper->routes_.try_emplace(info.key, info, *held, options.want);
@@ -82,14 +83,13 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
 }
 
 void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
-  // Not Find: asking for routes that nobody has must not fill the memory.
-  const auto found = routes_.find(request.key);
-  if (found == routes_.end()) return;
-  KeptRoute& kept = found->second;
-  if (request.lacking.empty()) kept.announce_due = kept.resend_due = true;
+  // Asking for routes that nobody has must not fill the memory.
+  KeptRoute* kept = FindStored(request.key, now);
+  if (kept == nullptr) return;
+  if (request.lacking.empty()) kept->announce_due = kept->resend_due = true;
   std::vector<SegmentIndex> held;
   std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
-               [&](SegmentIndex index) { return kept.Holds(index); });
+               [&](SegmentIndex index) { return kept->Holds(index); });
   answers_.Ask(request.key, held, now);
 }
 

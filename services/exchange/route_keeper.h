@@ -23,7 +23,12 @@ struct RouteKeeperOptions {
   std::chrono::milliseconds receipt_again{500};   // at most so often when nothing new is durable
   std::chrono::milliseconds note_again{10'000};   // the same trouble is reported at most so often
   std::size_t answer_bytes_per_tick = 1U << 20U;
-  std::size_t max_routes = 10'000;
+  // Routes that the keeper has at hand; the others are in the store alone, and are taken up when
+  // somebody speaks of them. A full one lays aside what nobody spoke of for `laid_aside_after`.
+  std::size_t most_at_hand = 1024;
+  std::chrono::milliseconds laid_aside_after{10'000};
+  // The newest of the stored routes: taken up and announced at the first Tick.
+  std::uint32_t announced_at_start = 256;
 };
 
 // For the owner's log.
@@ -51,7 +56,7 @@ class RouteKeeper {
   using Time = std::chrono::steady_clock::time_point;
   using AnswerCatalog = std::function<CatalogReply(const CatalogRequest&)>;
 
-  // Loads what the store has, to be announced at the first Tick. `store` outlives the keeper.
+  // `store` outlives the keeper. Takes no longer with a million routes in it.
   [[nodiscard]] static Result<std::unique_ptr<RouteKeeper>> Open(AgentId self,
                                                                  store::RouteStore& store,
                                                                  AnswerCatalog answer_catalog,
@@ -73,8 +78,12 @@ class RouteKeeper {
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleCatalogRequest(const CatalogRequest& request);
 
-  // The route's state, loaded from the store when first met; null (and a note) if that fails.
+  // The route's state, taken up from the store if need be; null (and a note) if that fails.
   KeptRoute* Find(const route::RouteKey& key, Time now);
+  // The same, but null for a route of which the store has nothing.
+  KeptRoute* FindStored(const route::RouteKey& key, Time now);
+  KeptRoute* TakeUp(const route::RouteKey& key, Time now, bool if_stored);
+  [[nodiscard]] bool MakeRoom(Time now);
   [[nodiscard]] Result<route::Digest> HeldDigest(const route::RouteKey& key, KeptRoute& kept,
                                                  SegmentIndex index);
 

@@ -13,14 +13,14 @@ using route::RouteKey;
 using route::RouteState;
 using route::SegmentPiece;
 
-KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now) {
-  if (const auto found = routes_.find(key); found != routes_.end()) return &found->second;
-  if (routes_.size() >= options_.max_routes) {
-    AddNote(Note::Severity::kError, "max_routes",
-            fmt::format("{} refused: {} routes are known, the most this server keeps",
-                        Describe(key), routes_.size()),
-            now);
-    return nullptr;
+KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now) { return TakeUp(key, now, false); }
+
+KeptRoute* RouteKeeper::FindStored(const RouteKey& key, Time now) { return TakeUp(key, now, true); }
+
+KeptRoute* RouteKeeper::TakeUp(const RouteKey& key, Time now, bool if_stored) {
+  if (const auto found = routes_.find(key); found != routes_.end()) {
+    found->second.spoken_of_at = now;
+    return &found->second;
   }
   const auto info = store_.FindRoute(key);
   const auto held = store_.HeldSegments(key);
@@ -28,7 +28,35 @@ KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now) {
     Refuse(info ? held.error() : info.error(), key, now);
     return nullptr;
   }
-  return &routes_.try_emplace(key, *info, *held, options_.want).first->second;
+  if (if_stored && !*info && held->empty()) return nullptr;
+  if (!MakeRoom(now)) {
+    AddNote(Note::Severity::kError, "most_at_hand",
+            fmt::format("{} refused: {} routes are being taught or fetched, the most this server "
+                        "attends to at a time",
+                        Describe(key), routes_.size()),
+            now);
+    return nullptr;
+  }
+  KeptRoute& kept = routes_.try_emplace(key, *info, *held, options_.want).first->second;
+  kept.spoken_of_at = now;
+  return &kept;
+}
+
+// Lays the one aside of which nobody spoke for longest.
+bool RouteKeeper::MakeRoom(Time now) {
+  if (routes_.size() < options_.most_at_hand) return true;
+  // Among equals the idle one: what a route still lacks is asked for as long as there is room.
+  const auto rank = [](const auto& entry) {
+    return std::pair(entry.second.spoken_of_at, !entry.second.idle());
+  };
+  const auto oldest =
+      std::min_element(routes_.begin(), routes_.end(),
+                       [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  if (oldest == routes_.end() || now < oldest->second.spoken_of_at + options_.laid_aside_after) {
+    return false;
+  }
+  routes_.erase(oldest);
+  return true;
 }
 
 Result<route::Digest> RouteKeeper::HeldDigest(const RouteKey& key, KeptRoute& kept,

@@ -184,14 +184,36 @@ TEST_F(RouteKeeperTest, ACompleteRouteDoesNotChange) {
   EXPECT_EQ(store_.HeldSegments(key_).value().size(), 1U);
 }
 
-TEST_F(RouteKeeperTest, RefusesMoreRoutesThanItMayKeep) {
+TEST_F(RouteKeeperTest, AttendsToSoManyRoutesAtATimeAndLaysAsideWhatIsDone) {
+  now_ += std::chrono::hours(1);
   keeper_ =
       RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
-                        test::ToyIntegrity(), {.max_routes = 2})
+                        test::ToyIntegrity(), {.most_at_hand = 2})
           .value();
   for (unsigned i = 1; i <= 3; ++i) Deliver({test::PieceOf(test::KeyNumber(i), 0)});
   EXPECT_EQ(Only<Receipt>(Tick()).size(), 2U);
   EXPECT_THAT(keeper_->TakeNotes().at(0).text, testing::HasSubstr("the most"));
+  now_ += std::chrono::seconds(11);
+  for (unsigned i = 3; i <= 4; ++i) Deliver({test::PieceOf(test::KeyNumber(i), 0)});
+  EXPECT_EQ(Only<Receipt>(Tick()).size(), 2U);
+  for (unsigned i = 1; i <= 4; ++i) {
+    EXPECT_EQ(store_.HeldSegments(test::KeyNumber(i)).value().size(), 1U) << i;
+  }
+}
+
+TEST_F(RouteKeeperTest, AnswersForARouteThatItHadLaidAside) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  keeper_ =
+      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
+                        test::ToyIntegrity(), {.most_at_hand = 2, .announced_at_start = 0})
+          .value();
+  EXPECT_TRUE(Tick().empty());
+  Ask("follower-1", Indices(0, 1));
+  EXPECT_EQ(test::PiecesIn(TickAfter(milliseconds(50))), std::vector{pieces_[0]});
+  Ask("follower-1", {});
+  EXPECT_EQ(Only<RouteAnnouncement>(Tick()).at(0).info, Info(2, RouteState::kComplete));
 }
 
 TEST_F(RouteKeeperTest, AddressesCatalogReplies) {
