@@ -104,8 +104,8 @@ void RouteKeeper::HandleCatalogRequest(const CatalogRequest& request) {
 std::vector<Message> RouteKeeper::Tick(Time now) {
   Commit(now);
   std::vector<Message> out = std::exchange(replies_, {});
+  Announce(now, out);
   for (auto& [key, kept] : routes_) {
-    Announce(key, kept, now, out);
     const bool due =
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
     if (due && (kept.holds_any() || kept.complete())) {

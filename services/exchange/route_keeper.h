@@ -93,9 +93,12 @@ class RouteKeeper {
   void Refuse(const Error& error, const route::RouteKey& key, Time now);
   // True if the announced manifest is that of the segments held.
   [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, KeptRoute& kept, Time now);
-  // Stores and announces what has become durable of the route's info.
-  void Announce(const route::RouteKey& key, KeptRoute& kept, Time now, std::vector<Message>& out);
-  [[nodiscard]] bool StoreInfo(const route::RouteInfo& info, KeptRoute& kept, Time now);
+  // Stores what has become durable of routes' infos, in one commit, and announces it.
+  void Announce(Time now, std::vector<Message>& out);
+  // What is to be announced of the route now, if anything.
+  [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now);
+  void StoreInfos(std::span<const route::RouteInfo> infos, Time now);
+  void TellComplete(const route::RouteInfo& info, KeptRoute& kept, Time now);
   void SendAnswers(Time now, std::vector<Message>& out);
   void AddNote(Note::Severity severity, const std::string& about, std::string text, Time now);
 

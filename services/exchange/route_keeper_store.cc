@@ -162,43 +162,70 @@ bool RouteKeeper::ManifestIsRight(const RouteInfo& info, KeptRoute& kept, Time n
   return false;
 }
 
-void RouteKeeper::Announce(const RouteKey& key, KeptRoute& kept, Time now,
-                           std::vector<Message>& out) {
-  const bool too_soon = kept.announced_at && now < *kept.announced_at + options_.announce_every;
-  if (!kept.announce_due || too_soon) return;
-  kept.announce_due = false;
-  const std::optional<RouteInfo> durable = kept.DurableInfo();
-  const bool stored_already = durable && durable == kept.stored();
-  if (!durable || (stored_already && !kept.resend_due)) return;
-  kept.announced_at = now;
-  if (!stored_already && !StoreInfo(*durable, kept, now)) return;
-  kept.resend_due = false;
-  out.emplace_back(RouteAnnouncement{.holder = self_, .info = *durable});
-  if (stored_already || durable->state != RouteState::kComplete) return;
-  kept.receipt_due = true;
-  kept.receipt_at.reset();
-  AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
-          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(key), durable->name,
-                      durable->segment_count, durable->length_m),
-          now);
+void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
+  std::vector<RouteInfo> news;
+  std::vector<RouteInfo> to_store;
+  for (auto& [key, kept] : routes_) {
+    auto info = News(kept, now);
+    if (!info) continue;
+    if (*info != kept.stored()) to_store.push_back(*info);
+    news.push_back(std::move(*info));
+  }
+  StoreInfos(to_store, now);
+  for (RouteInfo& info : news) {
+    KeptRoute& kept = routes_.at(info.key);
+    if (info != kept.stored()) continue;
+    kept.resend_due = false;
+    const bool completes = info.state == RouteState::kComplete &&
+                           std::find(to_store.begin(), to_store.end(), info) != to_store.end();
+    if (completes) TellComplete(info, kept, now);
+    out.emplace_back(RouteAnnouncement{.holder = self_, .info = std::move(info)});
+  }
 }
 
-bool RouteKeeper::StoreInfo(const RouteInfo& info, KeptRoute& kept, Time now) {
-  if (info.state == RouteState::kComplete && !ManifestIsRight(info, kept, now)) {
+std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
+  const bool too_soon = kept.announced_at && now < *kept.announced_at + options_.announce_every;
+  if (!kept.announce_due || too_soon) return std::nullopt;
+  kept.announce_due = false;
+  std::optional<RouteInfo> durable = kept.DurableInfo();
+  const bool stored_already = durable && durable == kept.stored();
+  if (!durable || (stored_already && !kept.resend_due)) return std::nullopt;
+  kept.announced_at = now;
+  if (!stored_already && durable->state == RouteState::kComplete &&
+      !ManifestIsRight(*durable, kept, now)) {
     kept.ForgetClaim();
-    return false;
+    return std::nullopt;
   }
-  if (const auto stored = store_.PutRoute(info); !stored) {
-    Refuse(stored.error(), info.key, now);
-    if (stored.error().code == ErrorCode::kConflict) {
-      kept.ForgetClaim();
-    } else {
-      kept.announce_due = true;  // disk full: again when it may have been cleared
+  return durable;
+}
+
+// One commit. When the store refuses the group for a route in it, each is tried alone.
+void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, Time now) {
+  if (infos.empty()) return;
+  if (const auto stored = store_.PutRoutes(infos); stored) {
+    for (const RouteInfo& info : infos) routes_.at(info.key).MarkStored(info);
+  } else if (infos.size() > 1 && stored.error().code != ErrorCode::kUnavailable) {
+    for (const RouteInfo& info : infos) StoreInfos({&info, 1}, now);
+  } else {
+    Refuse(stored.error(), infos.front().key, now);
+    for (const RouteInfo& info : infos) {
+      KeptRoute& kept = routes_.at(info.key);
+      if (stored.error().code == ErrorCode::kConflict) {
+        kept.ForgetClaim();
+      } else {
+        kept.announce_due = true;  // disk full: again when it may have been cleared
+      }
     }
-    return false;
   }
-  kept.MarkStored(info);
-  return true;
+}
+
+void RouteKeeper::TellComplete(const RouteInfo& info, KeptRoute& kept, Time now) {
+  kept.receipt_due = true;
+  kept.receipt_at.reset();
+  AddNote(Note::Severity::kInfo, "complete/" + Describe(info.key),
+          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(info.key), info.name,
+                      info.segment_count, info.length_m),
+          now);
 }
 
 void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {

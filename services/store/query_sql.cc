@@ -78,9 +78,9 @@ void BeginsNear(const route::Surroundings& near, SqlCondition& condition) {
   const double x = near.radius_m / x_m;
   const double y = near.radius_m / y_m;
   const auto frame = static_cast<std::int64_t>(near.middle.frame);
-  condition.And(
-      "id IN (SELECT id FROM route_place WHERE frame_low = ? AND east_low <= ? AND east_high >= ? "
-      "AND north_low <= ? AND north_high >= ?)",
+  condition.FindBy(
+      "route_place",
+      "frame = ? AND east_low <= ? AND east_high >= ? AND north_low <= ? AND north_high >= ?",
       {frame, near.middle.x + x, near.middle.x - x, near.middle.y + y, near.middle.y - y});
   condition.And(
       "((place_east - ?) * ?) * ((place_east - ?) * ?) + "
@@ -92,8 +92,28 @@ void BeginsNear(const route::Surroundings& near, SqlCondition& condition) {
 }  // namespace
 
 void SqlCondition::And(const std::string& term, std::vector<Value> values) {
+  by_that_alone_ = false;
   terms_ += (terms_.empty() ? "" : " AND ") + term;
   values_.insert(values_.end(), values.begin(), values.end());
+}
+
+void SqlCondition::FindBy(const std::string& table, const std::string& term,
+                          std::vector<Value> values) {
+  const bool first = terms_.empty();
+  And(term, std::move(values));
+  found_by_ = table;
+  by_that_alone_ = first;
+}
+
+std::string SqlCondition::CountedFromWhere() const {
+  if (!by_that_alone_) return FromWhere();
+  return fmt::format(" FROM {} WHERE {}", found_by_, terms_);
+}
+
+std::string SqlCondition::FromWhere() const {
+  const std::string from =
+      found_by_.empty() ? "route" : fmt::format("{0} CROSS JOIN route USING (id)", found_by_);
+  return fmt::format(" FROM {}{}", from, terms_.empty() ? "" : " WHERE " + terms_);
 }
 
 int SqlCondition::Bind(SQLite::Statement& statement) const {
@@ -105,14 +125,17 @@ int SqlCondition::Bind(SQLite::Statement& statement) const {
   return parameter;
 }
 
-SqlCondition MatchOf(const RouteQuery& query) {
+SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag) {
   SqlCondition match;
+  const bool found_by_tag = !by_tag.empty() && !query.near;
+  if (found_by_tag) match.FindBy("route_tag", "tag = ?", {by_tag});
   if (!query.name.empty()) match.And("name = ?", {query.name});
   if (!query.name_prefix.empty()) {
     match.And("name >= ? AND name < ?", {query.name_prefix, query.name_prefix + kAfterAnyText});
   }
   for (const std::string& tag : query.tags) {
-    match.And("id IN (SELECT id FROM route_tag WHERE tag = ?)", {tag});
+    if (found_by_tag && tag == by_tag) continue;
+    match.And("route.id IN (SELECT id FROM route_tag WHERE tag = ?)", {tag});
   }
   if (!query.scout.empty()) match.And("scout = ?", {query.scout});
   if (!query.camera_prefix.empty()) {

@@ -12,23 +12,32 @@
 
 namespace trailcast::store {
 
-// A condition in SQL with the values of its question marks, in their order.
+// Which rows of table `route`: FROM and WHERE in SQL with the values of the question marks, in
+// their order.
 class SqlCondition {
  public:
   using Value = std::variant<std::string, std::int64_t, double>;
 
   void And(const std::string& term, std::vector<Value> values = {});
-  [[nodiscard]] std::string Where() const { return terms_.empty() ? "" : " WHERE " + terms_; }
+  // Rows are found by this table of ids and then looked up, however
+  // they are to be sorted: right where it narrows down much.
+  void FindBy(const std::string& table, const std::string& term, std::vector<Value> values);
+  [[nodiscard]] std::string FromWhere() const;
+  // The same for counting alone, which looks up no more than it must.
+  [[nodiscard]] std::string CountedFromWhere() const;
   // From parameter 1 on; the number of the next one.
   int Bind(SQLite::Statement& statement) const;
 
  private:
+  std::string found_by_;
+  bool by_that_alone_ = false;
   std::string terms_;
   std::vector<Value> values_;
 };
 
-// What a row of table `route` must fulfil; the page asked for does not matter here.
-[[nodiscard]] SqlCondition MatchOf(const route::RouteQuery& query);
+// What a row of table `route` must fulfil; the page asked for does not matter here. `by_tag`: the
+// one of the query's tags by which rows are to be found; empty: none, as when many routes have it.
+[[nodiscard]] SqlCondition MatchOf(const route::RouteQuery& query, const std::string& by_tag);
 // Adds that a row comes after the query's cursor. kInvalidArgument for one that is none of ours.
 [[nodiscard]] Result<void> StartAfterCursor(const route::RouteQuery& query,
                                             SqlCondition& condition);

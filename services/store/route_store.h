@@ -24,11 +24,15 @@ class RouteStore {
   RouteStore(const RouteStore&) = delete;
   RouteStore& operator=(const RouteStore&) = delete;
 
+  // All or nothing, on disk when this returns.
   // Inserts, or replaces what is known of the same key. A kComplete route never changes again:
   // kConflict if `info` differs from what is stored (an identical one is fine). An info with fewer
   // segments than known is old news and ignored, and so is one that says kTeaching of a complete
   // route. kInvalidArgument, naming the field, for what no route can be.
-  [[nodiscard]] virtual Result<void> PutRoute(const route::RouteInfo& info) = 0;
+  [[nodiscard]] virtual Result<void> PutRoutes(std::span<const route::RouteInfo> infos) = 0;
+  [[nodiscard]] Result<void> PutRoute(const route::RouteInfo& info) {
+    return PutRoutes({&info, 1});
+  }
 
   // All or nothing, on disk when this returns. Pieces already held with the same digest are fine;
   // kConflict if a held index has another digest; kCorrupt if a piece's bytes fail its digest;

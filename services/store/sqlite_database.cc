@@ -50,7 +50,7 @@ CREATE TABLE route_tag (
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX route_tag_by_id ON route_tag (id);
 CREATE VIRTUAL TABLE route_place USING rtree(
-  id, east_low, east_high, north_low, north_high, frame_low, frame_high);
+  id, east_low, east_high, north_low, north_high, +frame INTEGER);
 CREATE TABLE segment (
   route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
   revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),

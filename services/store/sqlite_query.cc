@@ -46,7 +46,7 @@ void SqliteRouteStore::Put(const RouteInfo& info) {
   }
   if (!info.place) return;
   const auto frame = static_cast<int>(info.place->frame);
-  SQLite::Statement add(*db_, "INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4, ?4)");
+  SQLite::Statement add(*db_, "INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4)");
   add.bind(1, id);
   add.bind(2, info.place->x);
   add.bind(3, info.place->y);
@@ -54,23 +54,32 @@ void SqliteRouteStore::Put(const RouteInfo& info) {
   add.exec();
 }
 
-Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
-  const SqlCondition match = MatchOf(query);
-  SqlCondition page_match = match;
-  if (auto started = StartAfterCursor(query, page_match); !started) {
-    return tl::unexpected(started.error());
+// Of a tag that many routes have, the first page is found soonest in the order asked for; of one
+// that few have, by sorting those few.
+std::string SqliteRouteStore::RareTag(const RouteQuery& query) {
+  constexpr int kFew = 5000;
+  for (const std::string& tag : query.tags) {
+    SQLite::Statement select(*db_, "SELECT 1 FROM route_tag WHERE tag = ? LIMIT 1 OFFSET ?");
+    select.bind(1, tag);
+    select.bind(2, kFew);
+    if (!select.executeStep()) return tag;
   }
-  const std::size_t wanted = query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
+  return "";
+}
+
+Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
   return Guarded("searching routes", [&]() -> Result<RoutePage> {
-    RoutePage page;
-    SQLite::Statement count(*db_, "SELECT COUNT(*) FROM route" + match.Where());
-    match.Bind(count);
-    count.executeStep();
-    page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
-    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM route{}{} LIMIT ?", kRouteColumns,
-                                               page_match.Where(), OrderBy(query.order)));
-    const int limit = page_match.Bind(select);
+    SqlCondition match = MatchOf(query, RareTag(query));
+    if (auto started = StartAfterCursor(query, match); !started) {
+      return tl::unexpected(started.error());
+    }
+    const std::size_t wanted =
+        query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
+    SQLite::Statement select(*db_, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
+                                               match.FromWhere(), OrderBy(query.order)));
+    const int limit = match.Bind(select);
     BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
+    RoutePage page;
     while (select.executeStep()) {
       if (page.routes.size() == wanted) {
         page.next = CursorAfter(query.order, page.routes.back());
@@ -80,6 +89,14 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
       if (!info) return Wrap(info.error(), "route store " + file_.path().string());
       page.routes.push_back(std::move(*info));
     }
+    page.total = page.routes.size();
+    if (page.next.empty() && query.cursor.empty()) return page;
+    // However many have the tag: nothing is sorted here.
+    const SqlCondition all = MatchOf(query, query.tags.empty() ? "" : query.tags.front());
+    SQLite::Statement count(*db_, "SELECT COUNT(*)" + all.CountedFromWhere());
+    all.Bind(count);
+    count.executeStep();
+    page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
     return page;
   });
 }

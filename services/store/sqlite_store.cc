@@ -21,8 +21,24 @@ bool IsOldNews(const RouteInfo& info, const RouteInfo& known) {
 
 }  // namespace
 
-Result<void> SqliteRouteStore::PutRoute(const RouteInfo& info) {
-  if (Result<void> possible = CheckRoute(info); !possible) return possible;
+Result<void> SqliteRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
+  for (const RouteInfo& info : infos) {
+    if (Result<void> possible = CheckRoute(info); !possible) return possible;
+  }
+  if (infos.empty()) return {};
+  return Guarded(
+      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)),
+      [&]() -> Result<void> {
+        SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+        for (const RouteInfo& info : infos) {
+          if (Result<void> stored = PutNews(info); !stored) return stored;
+        }
+        transaction.commit();
+        return {};
+      });
+}
+
+Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
   const Result<std::optional<RouteInfo>> known = FindRoute(info.key);
   if (!known && known.error().code != ErrorCode::kCorrupt) return tl::unexpected(known.error());
   if (known && known->has_value()) {
@@ -34,12 +50,8 @@ Result<void> SqliteRouteStore::PutRoute(const RouteInfo& info) {
                   file_.path().string(), Describe(info.key), (*known)->segment_count);
     }
   }
-  return Guarded("storing " + Describe(info.key), [&]() -> Result<void> {
-    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-    Put(info);
-    transaction.commit();
-    return {};
-  });
+  Put(info);
+  return {};
 }
 
 Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {

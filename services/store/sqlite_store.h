@@ -17,7 +17,7 @@ class SqliteRouteStore final : public RouteStore {
   SqliteRouteStore(StoreFile file, std::unique_ptr<SQLite::Database> db)
       : file_(std::move(file)), db_(std::move(db)) {}
 
-  Result<void> PutRoute(const route::RouteInfo& info) override;
+  Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override;
   Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
@@ -42,7 +42,10 @@ class SqliteRouteStore final : public RouteStore {
     }
   }
 
-  // Stores a route, and by what it is found, within the caller's transaction.
+  [[nodiscard]] std::string RareTag(const route::RouteQuery& query);
+  // Stores what is new of a route within the caller's transaction; the second writes it, and by
+  // what it is found.
+  Result<void> PutNews(const route::RouteInfo& info);
   void Put(const route::RouteInfo& info);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);

@@ -16,18 +16,23 @@ namespace trailcast::test {
 class MemoryStore : public store::RouteStore {
  public:
   bool full = false;
-  int commits = 0;  // AppendSegments that stored something
+  int commits = 0;        // AppendSegments that stored something
+  int route_commits = 0;  // PutRoutes that did
 
-  Result<void> PutRoute(const route::RouteInfo& info) override {
+  Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override {
     if (full) return Fail(ErrorCode::kUnavailable, "disk full");
-    const auto found = routes_.find(info.key);
-    if (found == routes_.end()) {
-      routes_.emplace(info.key, info);
-    } else if (found->second.state == route::RouteState::kComplete) {
-      if (found->second != info) return Fail(ErrorCode::kConflict, "route is complete");
-    } else if (info.segment_count >= found->second.segment_count) {
-      found->second = info;
+    for (const route::RouteInfo& info : infos) {
+      const auto found = routes_.find(info.key);
+      if (found != routes_.end() && found->second.state == route::RouteState::kComplete &&
+          found->second != info) {
+        return Fail(ErrorCode::kConflict, "route is complete");
+      }
     }
+    for (const route::RouteInfo& info : infos) {
+      const auto [at, is_new] = routes_.try_emplace(info.key, info);
+      if (!is_new && info.segment_count >= at->second.segment_count) at->second = info;
+    }
+    ++route_commits;
     return {};
   }
 

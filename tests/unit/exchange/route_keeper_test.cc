@@ -184,6 +184,41 @@ TEST_F(RouteKeeperTest, ACompleteRouteDoesNotChange) {
   EXPECT_EQ(store_.HeldSegments(key_).value().size(), 1U);
 }
 
+TEST_F(RouteKeeperTest, StoresWhatIsKnownOfSeveralRoutesInOneCommit) {
+  for (unsigned i = 1; i <= 5; ++i) {
+    const auto pieces = test::PiecesOf(test::KeyNumber(i), 1);
+    keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), test::InfoOf(test::KeyNumber(i), pieces,
+                                                                       RouteState::kComplete)},
+                    now_);
+    Deliver(pieces);
+  }
+  EXPECT_EQ(Only<RouteAnnouncement>(Tick()).size(), 5U);
+  EXPECT_EQ(store_.commits, 1);
+  EXPECT_EQ(store_.route_commits, 1);
+}
+
+TEST_F(RouteKeeperTest, ARouteThatTheStoreRefusesDoesNotCostTheOthers) {
+  const auto other = test::PiecesOf(test::KeyNumber(2), 1);
+  keeper_ =
+      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
+                        test::ToyIntegrity(), {.announced_at_start = 0})
+          .value();
+  Announce(1, RouteState::kComplete);
+  Deliver({pieces_[0]});
+  keeper_->Handle(RouteAnnouncement{AgentId("scout-1"),
+                                    test::InfoOf(test::KeyNumber(2), other, RouteState::kComplete)},
+                  now_);
+  Deliver(other);
+  // Meanwhile another process's hand: the same route, complete, with another name.
+  route::RouteInfo taken = Info(1, RouteState::kComplete);
+  taken.name = "taken";
+  ASSERT_TRUE(store_.PutRoute(taken));
+  const auto announced = Only<RouteAnnouncement>(Tick());
+  ASSERT_EQ(announced.size(), 1U);
+  EXPECT_EQ(announced[0].info.key, test::KeyNumber(2));
+  EXPECT_EQ(keeper_->counters().conflicting, 1U);
+}
+
 TEST_F(RouteKeeperTest, AttendsToSoManyRoutesAtATimeAndLaysAsideWhatIsDone) {
   now_ += std::chrono::hours(1);
   keeper_ =
