@@ -3,6 +3,7 @@
 #include "agent/cli/command_line.h"
 #include "agent/cli/open_exchange.h"
 #include "agent/cli/stop_signal.h"
+#include "route_server/check.h"
 #include "route_server/server.h"
 
 namespace {
@@ -14,6 +15,8 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-server --store routes.db
   trailcast-server --store routes.db --domain 7 --network-interface wlan0
   trailcast-server --config server.toml
+  trailcast-server check --store routes.db            # while no server has it open
+  trailcast-server check --repair --store routes.db
 
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
 it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
@@ -34,6 +37,12 @@ int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::stri
   return cli::kExitOk;
 }
 
+int CheckStore(const CLI::App& app, const std::string& store_file, bool repair) {
+  const auto whole = trailcast::server::Check(store_file, repair);
+  if (!whole) return cli::Complain(app, whole.error());
+  return *whole ? cli::kExitOk : cli::kExitFailure;
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("Keeps the routes of a swarm: stores what scouts teach, serves it to followers.",
                "trailcast-server");
@@ -45,7 +54,13 @@ int Run(int argc, char** argv) {
   app.add_option("--store", store_file, "SQLite file that holds the routes; created if missing")
       ->required()
       ->envname("TRAILCAST_STORE");
+  bool repair = false;
+  CLI::App* check = app.add_subcommand("check", "Read the whole store and tell what is damaged");
+  check->fallthrough();
+  check->add_flag("--repair", repair,
+                  "Make a store of what is whole, and keep the damaged file beside it");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  if (check->parsed()) return CheckStore(app, store_file, repair);
   return Serve(app, common, store_file);
 }
 

@@ -46,7 +46,7 @@ std::uint64_t PromisedBytes(const Header& header) {
 
 }  // namespace
 
-Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path) {
+Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Condition condition) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     return Fail(ErrorCode::kCorrupt, "{} is no file (a folder or a device), expected a route store",
@@ -61,6 +61,7 @@ Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path) {
   }
   StoreFile file(path, descriptor);
   if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());
+  if (condition == Condition::kDamaged) return file;
   if (Result<void> fit = file.Inspect(); !fit) return tl::unexpected(fit.error());
   return file;
 }

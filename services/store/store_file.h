@@ -19,9 +19,14 @@ inline constexpr std::uint32_t kOldestSchemaVersion = 1;
 // when the process does, however that dies.
 class StoreFile {
  public:
+  enum class Condition : std::uint8_t {
+    kWhole,    // one that is cut short, or of another version, is refused
+    kDamaged,  // for whoever saves what is left of it
+  };
   // Creates the file if there is none. Errors as for OpenSqliteStore; a file that is refused is
   // left as it was.
-  [[nodiscard]] static Result<StoreFile> Acquire(const std::filesystem::path& path);
+  [[nodiscard]] static Result<StoreFile> Acquire(const std::filesystem::path& path,
+                                                 Condition condition = Condition::kWhole);
 
   ~StoreFile();
   StoreFile(StoreFile&& other) noexcept

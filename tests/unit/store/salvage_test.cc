@@ -1,0 +1,121 @@
+#include "services/store/salvage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "services/store/route_store.h"
+#include "tests/support/temp_dir.h"
+#include "tests/unit/store/pieces.h"
+
+namespace trailcast::store {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::uint32_t kSegments = 40;
+
+class SalvageTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto store = OpenSqliteStore(file_).value();
+    for (std::uint32_t i = 0; i < kSegments; ++i) {
+      ASSERT_TRUE(store->AppendSegments(Pieces({i})));
+    }
+    ASSERT_TRUE(store->PutRoute(Complete(kSegments)));
+    ASSERT_TRUE(store->MarkReceipted(kYard, Indices({0, 39})));
+  }
+  [[nodiscard]] std::string Read() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  void Write(const std::string& bytes) const { std::ofstream(file_, std::ios::binary) << bytes; }
+
+  test::TempDir dir_;
+  const std::filesystem::path file_ = dir_ / "routes.db";
+  const std::filesystem::path saved_ = dir_ / "saved.db";
+};
+
+TEST_F(SalvageTest, OfAWholeStoreNothingIsLost) {
+  const std::string before = Read();
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->routes, 1U);
+  EXPECT_EQ(salvaged->segments, kSegments);
+  EXPECT_THAT(salvaged->lost, IsEmpty());
+  EXPECT_EQ(Read(), before);
+  const auto saved = OpenSqliteStore(saved_).value();
+  EXPECT_EQ(saved->FindRoute(kYard).value(), Complete(kSegments));
+  EXPECT_EQ(saved->UnreceiptedSegments(kYard).value().size(), kSegments - 2);
+  EXPECT_THAT(saved->Verify().value(), IsEmpty());
+}
+
+TEST_F(SalvageTest, AFlippedByteCostsTheSegmentItIsIn) {
+  std::string bytes = Read();
+  const route::SegmentPiece piece = Piece(7);
+  const std::size_t at =
+      bytes.find(std::string(piece.bytes.begin() + 200, piece.bytes.begin() + 240));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] ^= 1;
+  Write(bytes);
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments - 1);
+  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("segment 7 of route")));
+  EXPECT_EQ(OpenSqliteStore(saved_).value()->HeldSegments(kYard).value().size(), kSegments - 1);
+}
+
+TEST_F(SalvageTest, DamagedPagesCostWhatIsOnThem) {
+  constexpr std::size_t kPage = 4096;
+  const std::string whole = Read();
+  std::size_t mended = 0;
+  // The first pages define the tables: without them it is no store.
+  for (std::size_t page = 20; page * kPage < whole.size(); page += 7) {
+    std::string bytes = whole;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page * kPage), kPage, '\x5A');
+    Write(bytes);
+    const auto salvaged = Salvage(file_, saved_);
+    ASSERT_TRUE(salvaged) << "page " << page << ": " << salvaged.error().message;
+    EXPECT_GE(salvaged->segments, kSegments / 2) << "page " << page;
+    const auto saved = OpenSqliteStore(saved_).value();
+    EXPECT_THAT(saved->Verify().value(), IsEmpty());
+    mended += salvaged->segments < kSegments ? 1 : 0;
+    std::filesystem::remove(saved_);
+  }
+  EXPECT_GE(mended, 3U) << "hardly any page held a segment: nothing was tested";
+}
+
+TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
+  const std::string whole = Read();
+  Write(whole.substr(0, whole.size() * 2 / 3));
+  ASSERT_FALSE(OpenSqliteStore(file_));
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_GE(salvaged->segments, kSegments / 2);
+  EXPECT_LT(salvaged->segments, kSegments);
+  EXPECT_THAT(OpenSqliteStore(saved_).value()->Verify().value(), IsEmpty());
+}
+
+TEST_F(SalvageTest, WhatIsNoStoreOrInUseIsRefused) {
+  {
+    const auto in_use = OpenSqliteStore(file_).value();
+    const auto salvaged = Salvage(file_, saved_);
+    ASSERT_FALSE(salvaged);
+    EXPECT_EQ(salvaged.error().code, ErrorCode::kConflict);
+  }
+  Write("Buy milk.\n");
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_FALSE(salvaged);
+  EXPECT_EQ(salvaged.error().code, ErrorCode::kCorrupt);
+  EXPECT_FALSE(std::filesystem::exists(saved_));
+  EXPECT_FALSE(Salvage(dir_ / "nowhere.db", saved_));
+  Write("");
+  EXPECT_FALSE(Salvage(file_, file_));
+}
+
+}  // namespace
+}  // namespace trailcast::store
