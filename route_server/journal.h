@@ -15,6 +15,7 @@ class Journal {
   // A message that came in, or one that goes out: a line, or nothing worth one.
   [[nodiscard]] std::optional<std::string> Received(const exchange::Message& message);
   [[nodiscard]] std::optional<std::string> Sent(const exchange::Message& message);
+  [[nodiscard]] std::size_t agents() const { return agents_.size(); }  // present
 
  private:
   struct Known {

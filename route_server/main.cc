@@ -21,7 +21,13 @@ constexpr const char* kFooter = R"(Examples:
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
 it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
 
-int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file) {
+struct HttpOptions {
+  std::string host = "127.0.0.1";
+  int port = 0;  // 0: no page
+};
+
+int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file,
+          const HttpOptions& http) {
   cli::SetUpLog(common);
   const cli::StopSignal stop;
   auto store = trailcast::store::OpenSqliteStore(store_file);
@@ -31,6 +37,12 @@ int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::stri
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
   if (!server) return cli::Complain(app, server.error());
+  if (http.port != 0) {
+    auto page = trailcast::server::HttpPage::Open(http.host, http.port);
+    if (!page) return cli::Complain(app, page.error());
+    (*server)->ShowOn(std::move(*page));
+    spdlog::info("health and metrics: http://{}:{}/health and /metrics", http.host, http.port);
+  }
   if (auto ran = (*server)->Run([] { return cli::StopSignal::requested(); }); !ran) {
     return cli::Complain(app, ran.error());
   }
@@ -54,6 +66,14 @@ int Run(int argc, char** argv) {
   app.add_option("--store", store_file, "SQLite file that holds the routes; created if missing")
       ->required()
       ->envname("TRAILCAST_STORE");
+  HttpOptions http;
+  app.add_option("--http-port", http.port,
+                 "Serve /health and /metrics (Prometheus) over HTTP on this port; 0: do not")
+      ->check(CLI::Range(0, 65535))
+      ->envname("TRAILCAST_HTTP_PORT");
+  app.add_option("--http-host", http.host,
+                 "Address to listen on for that; 0.0.0.0 lets other machines ask")
+      ->envname("TRAILCAST_HTTP_HOST");
   bool repair = false;
   CLI::App* check = app.add_subcommand("check", "Read the whole store and tell what is damaged");
   check->fallthrough();
@@ -61,7 +81,7 @@ int Run(int argc, char** argv) {
                   "Make a store of what is whole, and keep the damaged file beside it");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
   if (check->parsed()) return CheckStore(app, store_file, repair);
-  return Serve(app, common, store_file);
+  return Serve(app, common, store_file, http);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{50};
 constexpr milliseconds kStatusEvery{1000};
+constexpr milliseconds kMetricsEvery{1000};
 
 exchange::AgentStatus ServerStatus(const AgentId& name) {
   exchange::AgentStatus status;
@@ -48,8 +49,8 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
                                              std::unique_ptr<store::RouteStore> store,
                                              std::unique_ptr<exchange::RouteExchange> exchange) {
   std::unique_ptr<Server> server(new Server(name, std::move(store), std::move(exchange)));
-  auto answer = [name, held = server->store_.get()](const exchange::CatalogRequest& request) {
-    return catalog::Answer(request, name, *held);
+  auto answer = [name, self = server.get()](const exchange::CatalogRequest& request) {
+    return self->AnswerCatalog(name, request);
   };
   auto keeper =
       exchange::RouteKeeper::Open(name, *server->store_, std::move(answer),
@@ -84,6 +85,7 @@ void Server::Serve() {
   const auto now = steady_clock::now();
   const auto outgoing = keeper_->Tick(now);
   for (const exchange::Message& message : outgoing) {
+    if (std::holds_alternative<exchange::Receipt>(message)) ++metrics_.receipts;
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
   }
   // What cannot be handed over is asked for again by whoever lacks it.
@@ -101,6 +103,27 @@ void Server::Serve() {
              fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
                          keeper_->counters().answered));
   presence_.Tick(now);
+  if (page_ && now >= metrics_due_) {
+    metrics_due_ = now + kMetricsEvery;
+    ShowMetrics();
+  }
+}
+
+exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
+                                             const exchange::CatalogRequest& request) {
+  const auto begin = steady_clock::now();
+  exchange::CatalogReply reply = catalog::Answer(request, name, *store_);
+  const std::chrono::duration<double> took = steady_clock::now() - begin;
+  metrics_.queries[KindOf(request.query)].Note(took.count());
+  return reply;
+}
+
+void Server::ShowMetrics() {
+  metrics_.keeper = keeper_->counters();
+  metrics_.dropped = exchange_->dropped();
+  metrics_.agents = journal_.agents();
+  if (const auto page = store_->QueryRoutes({.page_size = 1})) metrics_.routes = page->total;
+  page_->Show(metrics_.Text());
 }
 
 void Server::ShowStatus(exchange::AgentMode mode, const std::string& detail) {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "agent/cli/presence.h"
+#include "route_server/http_page.h"
 #include "route_server/journal.h"
+#include "route_server/metrics.h"
 #include "services/exchange/route_keeper.h"
 #include "services/store/route_store.h"
 
@@ -20,6 +22,9 @@ class Server {
       const AgentId& name, std::unique_ptr<store::RouteStore> store,
       std::unique_ptr<exchange::RouteExchange> exchange);
 
+  // Keeps /metrics and /health up to date from now on.
+  void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
+
   // Claims the name, then serves until `stop` says so. kConflict when another running process has
   // the name.
   [[nodiscard]] Result<void> Run(const std::function<bool()>& stop);
@@ -30,6 +35,9 @@ class Server {
 
   void Receive(const exchange::Message& message);
   void Serve();
+  [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
+                                                     const exchange::CatalogRequest& request);
+  void ShowMetrics();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   std::unique_ptr<store::RouteStore> store_;
@@ -38,6 +46,9 @@ class Server {
   cli::Presence presence_;
   Journal journal_;
   std::uint64_t told_dropped_ = 0;
+  Metrics metrics_;
+  std::unique_ptr<HttpPage> page_;  // none: nobody asked for one
+  std::chrono::steady_clock::time_point metrics_due_{};
 };
 
 }  // namespace trailcast::server

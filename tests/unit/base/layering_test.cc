@@ -55,6 +55,7 @@ const std::vector<Library> kLibraries{
     {"openssl/", {"services/route"}},
     {"tl/", {"services/base"}},
     {"CLI/", {"agent", "route_server"}},
+    {"httplib.h", {"route_server"}},
     {"spdlog/", {"agent", "route_server"}},
     {"Eigen/", {"*"}},
     {"fmt/", {"*"}},

@@ -1,0 +1,75 @@
+#include "route_server/http_page.h"
+
+#include <httplib.h>
+
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace trailcast::server {
+
+using Clock = std::chrono::steady_clock;
+
+struct HttpPage::State {
+  std::chrono::milliseconds stale_after{};
+  std::mutex mutex;  // guards the next two
+  std::string metrics;
+  Clock::time_point shown_at = Clock::now();
+  int port = 0;
+  httplib::Server server;
+  std::jthread thread;
+
+  void Answer() {
+    server.Get("/metrics", [this](const httplib::Request&, httplib::Response& response) {
+      const std::scoped_lock lock(mutex);
+      response.set_content(metrics, "text/plain; version=0.0.4");
+    });
+    server.Get("/health", [this](const httplib::Request&, httplib::Response& response) {
+      const std::scoped_lock lock(mutex);
+      const bool well = Clock::now() < shown_at + stale_after;
+      response.status = well ? 200 : 503;
+      response.set_content(well ? "ok\n" : "the server's loop does not run\n", "text/plain");
+    });
+  }
+};
+
+Result<std::unique_ptr<HttpPage>> HttpPage::Open(const std::string& host, int port,
+                                                 std::chrono::milliseconds stale_after) {
+  auto state = std::make_unique<State>();
+  state->stale_after = stale_after;
+  // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
+  state->server.new_task_queue = [] { return new httplib::ThreadPool(2); };
+  state->Answer();
+  // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
+  state->server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  const bool bound = port == 0 ? (state->port = state->server.bind_to_any_port(host)) > 0
+                               : state->server.bind_to_port(host, port);
+  if (!bound) {
+    return Fail(ErrorCode::kUnavailable,
+                "cannot listen for HTTP on {}:{}; is the port taken, or the address another "
+                "machine's?",
+                host, port);
+  }
+  if (port != 0) state->port = port;
+  state->thread = std::jthread([server = &state->server] { server->listen_after_bind(); });
+  // Stopped before it runs, it would run for ever.
+  while (!state->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return std::unique_ptr<HttpPage>(new HttpPage(std::move(state)));
+}
+
+HttpPage::HttpPage(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+HttpPage::~HttpPage() { state_->server.stop(); }
+
+void HttpPage::Show(std::string metrics) {
+  const std::scoped_lock lock(state_->mutex);
+  state_->metrics = std::move(metrics);
+  state_->shown_at = Clock::now();
+}
+
+int HttpPage::port() const { return state_->port; }
+
+}  // namespace trailcast::server

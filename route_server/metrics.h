@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "services/exchange/route_keeper.h"
+#include "services/route/route_query.h"
+
+namespace trailcast::server {
+
+// How long something took, counted by bounds.
+class LatencyHistogram {
+ public:
+  static constexpr std::array kBounds_s = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,
+                                           0.01,   0.025,   0.05,   0.1,   0.25,   1.0};
+  void Note(double seconds);
+  // Lines of Prometheus's text format; `labels` as 'kind="name"'.
+  [[nodiscard]] std::string Text(const std::string& metric, const std::string& labels) const;
+
+ private:
+  std::array<std::uint64_t, kBounds_s.size()> within_{};  // each counts those of the ones before
+  std::uint64_t count_ = 0;
+  double sum_s_ = 0.0;
+};
+
+// By what most a query narrows down: "name", "tag", "place", or "other".
+[[nodiscard]] const char* KindOf(const route::RouteQuery& query);
+
+// What a server did and holds, for Prometheus
+// (https://prometheus.io/docs/instrumenting/exposition_formats/).
+struct Metrics {
+  exchange::KeeperCounters keeper;
+  std::uint64_t dropped = 0;                        // messages out of bounds or unreadable
+  std::uint64_t receipts = 0;                       // sent
+  std::size_t routes = 0;                           // in the store
+  std::size_t agents = 0;                           // present
+  std::map<std::string, LatencyHistogram> queries;  // by kind
+
+  [[nodiscard]] std::string Text() const;
+};
+
+}  // namespace trailcast::server
