@@ -28,7 +28,7 @@ constexpr std::chrono::seconds kPatience{60};
 
 // All rounds: TRAILCAST_KILL_ROUNDS=100.
 int Rounds() {
-  const char* wanted = std::getenv("TRAILCAST_KILL_ROUNDS");
+  const char* wanted = std::getenv("TRAILCAST_KILL_ROUNDS");  // NOLINT(concurrency-mt-unsafe)
   return wanted == nullptr ? 5 : std::atoi(wanted);
 }
 
