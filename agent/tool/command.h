@@ -17,6 +17,7 @@ struct Command {
 // Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
 // it.
 [[nodiscard]] Command AddDemoCommand(CLI::App& parent, const cli::CommonOptions& common);
+[[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);
 [[nodiscard]] Command AddExplainCommand(CLI::App& parent);

@@ -10,6 +10,7 @@ constexpr const char* kExamples =
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
     "  trailcast explain run.log              # what happened in a replay, and why\n"
     "  trailcast routes                       # what the route server keeps\n"
+    "  trailcast doctor                       # is this machine fit to share routes?\n"
     "Each subcommand has its own --help.";
 
 int Run(int argc, char** argv) {
@@ -22,10 +23,12 @@ int Run(int argc, char** argv) {
   trailcast::cli::CommonOptions common;
   common.name = "operator";
   trailcast::cli::AddCommonOptions(app, common);
-  const std::vector<Command> commands{
-      trailcast::tool::AddDemoCommand(app, common), trailcast::tool::AddTrialCommand(app),
-      trailcast::tool::AddFiguresCommand(app), trailcast::tool::AddExplainCommand(app),
-      trailcast::tool::AddRoutesCommand(app, common)};
+  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
+                                      trailcast::tool::AddTrialCommand(app),
+                                      trailcast::tool::AddFiguresCommand(app),
+                                      trailcast::tool::AddExplainCommand(app),
+                                      trailcast::tool::AddRoutesCommand(app, common),
+                                      trailcast::tool::AddDoctorCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

@@ -69,7 +69,7 @@ const std::set<std::string> kSystemHeaders{
     "net/if.h",     "netinet/in.h", "sys/epoll.h",   "sys/eventfd.h",  "sys/file.h",
     "sys/ioctl.h",  "sys/mman.h",   "sys/prctl.h",   "sys/resource.h", "sys/signalfd.h",
     "sys/socket.h", "sys/stat.h",   "sys/statvfs.h", "sys/time.h",     "sys/timerfd.h",
-    "sys/types.h",  "sys/un.h",     "sys/utsname.h", "sys/wait.h"};
+    "sys/timex.h",  "sys/types.h",  "sys/un.h",      "sys/utsname.h",  "sys/wait.h"};
 
 struct Include {
   std::string folder;  // "services/vision", "agent", "route_server"

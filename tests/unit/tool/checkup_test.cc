@@ -1,0 +1,61 @@
+#include "agent/tool/checkup.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::tool {
+namespace {
+
+using testing::HasSubstr;
+using Grade = Finding::Grade;
+
+TEST(Checkup, ReceiveBuffersOfDebianAreSmall) {
+  const Finding stock = JudgeReceiveBuffer(212'992);
+  EXPECT_EQ(stock.grade, Grade::kWarning);
+  EXPECT_THAT(stock.what, HasSubstr("208 KiB"));
+  EXPECT_THAT(stock.advice, HasSubstr("net.core.rmem_max=4194304"));
+  EXPECT_EQ(JudgeReceiveBuffer(4U << 20U).grade, Grade::kGood);
+  EXPECT_EQ(JudgeReceiveBuffer(std::nullopt).grade, Grade::kWarning);
+}
+
+TEST(Checkup, NetworkNeedsAnInterfaceThatIsUpWithMulticast) {
+  const NetworkInterface lo{"lo", true, false, true};
+  const NetworkInterface wlan{"wlan0", true, true, false};
+  const NetworkInterface down{"eth0", false, true, false};
+  const NetworkInterface mute{"wg0", true, false, false};
+  EXPECT_EQ(JudgeNetwork({lo, wlan}, "").grade, Grade::kGood);
+  EXPECT_EQ(JudgeNetwork({lo, wlan}, "lo").grade, Grade::kGood);
+  EXPECT_EQ(JudgeNetwork({lo}, "").grade, Grade::kWarning);
+  EXPECT_EQ(JudgeNetwork({lo, down}, "").grade, Grade::kWarning);
+  EXPECT_THAT(JudgeNetwork({lo, down}, "eth0").advice, HasSubstr("ip link set eth0 up"));
+  EXPECT_THAT(JudgeNetwork({lo, mute}, "").advice, HasSubstr("multicast on"));
+  const Finding unknown = JudgeNetwork({lo, wlan}, "wlan1");
+  EXPECT_EQ(unknown.grade, Grade::kBad);
+  EXPECT_THAT(unknown.advice, HasSubstr("lo, wlan0"));
+}
+
+TEST(Checkup, AClockThatNobodyKeepsRightIsAWarning) {
+  EXPECT_EQ(JudgeClock(0.05).grade, Grade::kGood);
+  EXPECT_THAT(JudgeClock(16.0).what, HasSubstr("off by 16.0 s"));
+  EXPECT_THAT(JudgeClock(std::nullopt).advice, HasSubstr("chrony"));
+}
+
+TEST(Checkup, ADiskIsGoodLowOrFull) {
+  EXPECT_EQ(JudgeDisk("/data", 5ULL << 30U).grade, Grade::kGood);
+  EXPECT_EQ(JudgeDisk("/data", 500ULL << 20U).grade, Grade::kWarning);
+  EXPECT_EQ(JudgeDisk("/data", 1ULL << 20U).grade, Grade::kBad);
+  EXPECT_THAT(JudgeDisk("/nowhere", std::nullopt).what, HasSubstr("no folder /nowhere"));
+}
+
+TEST(Checkup, ThisMachineGetsALineForEach) {
+  const auto findings = ExamineMachine(".", "lo");
+  ASSERT_EQ(findings.size(), 4U);
+  EXPECT_EQ(findings[1].grade, Grade::kGood);
+  const std::string text = CheckupText(findings);
+  for (const char* what : {"receive buffers", "network", "clock", "disk"}) {
+    EXPECT_THAT(text, HasSubstr(what));
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::tool
