@@ -41,6 +41,7 @@ std::vector<NetworkInterface> Interfaces() {
   }
   freeifaddrs(list);
   std::vector<NetworkInterface> found;
+  found.reserve(interfaces.size());
   for (auto& [name, interface] : interfaces) found.push_back(std::move(interface));
   return found;
 }
