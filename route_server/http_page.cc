@@ -45,15 +45,17 @@ Result<std::unique_ptr<HttpPage>> HttpPage::Open(const std::string& host, int po
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
-  const bool bound = port == 0 ? (state->port = state->server.bind_to_any_port(host)) > 0
-                               : state->server.bind_to_port(host, port);
-  if (!bound) {
+  if (port == 0) {
+    state->port = state->server.bind_to_any_port(host);
+  } else if (state->server.bind_to_port(host, port)) {
+    state->port = port;
+  }
+  if (state->port <= 0) {
     return Fail(ErrorCode::kUnavailable,
                 "cannot listen for HTTP on {}:{}; is the port taken, or the address another "
                 "machine's?",
                 host, port);
   }
-  if (port != 0) state->port = port;
   state->thread = std::jthread([server = &state->server] { server->listen_after_bind(); });
   // Stopped before it runs, it would run for ever.
   while (!state->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));

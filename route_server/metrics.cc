@@ -13,8 +13,9 @@ std::string Line(const char* name, const char* type, const char* help, std::uint
 }  // namespace
 
 void LatencyHistogram::Note(double seconds) {
-  for (std::size_t i = 0; i < kBounds_s.size(); ++i)
+  for (std::size_t i = 0; i < kBounds_s.size(); ++i) {
     within_[i] += seconds <= kBounds_s[i] ? 1U : 0U;
+  }
   ++count_;
   sum_s_ += seconds;
 }
@@ -44,7 +45,7 @@ std::string Metrics::Text() const {
       Line("agents", kGauge, "Agents present.", agents) +
       Line("segments_stored_total", kCounter, "Segments made durable.", keeper.appended) +
       Line("segments_sent_total", kCounter, "Segments sent to whoever asked.", keeper.answered) +
-      Line("receipts_total", kCounter, "Receipts sent.", receipts) +
+      Line("receipts_total", kCounter, "Receipts sent.", keeper.receipts) +
       Line("segments_duplicate_total", kCounter, "Segments received again.", keeper.duplicates) +
       Line("segments_corrupt_total", kCounter, "Segments that failed their digest.",
            keeper.corrupt) +

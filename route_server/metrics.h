@@ -34,7 +34,6 @@ class LatencyHistogram {
 struct Metrics {
   exchange::KeeperCounters keeper;
   std::uint64_t dropped = 0;                        // messages out of bounds or unreadable
-  std::uint64_t receipts = 0;                       // sent
   std::size_t routes = 0;                           // in the store
   std::size_t agents = 0;                           // present
   std::map<std::string, LatencyHistogram> queries;  // by kind

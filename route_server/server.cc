@@ -85,7 +85,6 @@ void Server::Serve() {
   const auto now = steady_clock::now();
   const auto outgoing = keeper_->Tick(now);
   for (const exchange::Message& message : outgoing) {
-    if (std::holds_alternative<exchange::Receipt>(message)) ++metrics_.receipts;
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
   }
   // What cannot be handed over is asked for again by whoever lacks it.

@@ -71,6 +71,10 @@ Result<void> CheckTags(const std::vector<std::string>& tags) {
   for (const std::string& tag : tags) {
     if (auto ok = CheckName("tag", tag); !ok) return ok;
   }
+  return {};
+}
+
+Result<void> CheckOrdered(const std::vector<std::string>& tags) {
   if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return {};
   return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
 }
@@ -90,6 +94,7 @@ Result<void> CheckInfo(const RouteInfo& info) {
     return ok;
   }
   if (auto ok = CheckTags(info.tags); !ok) return ok;
+  if (auto ok = CheckOrdered(info.tags); !ok) return ok;
   if (info.place) {
     if (auto ok = CheckPlace(*info.place); !ok) return ok;
   }
@@ -222,10 +227,7 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
     if (name->empty()) continue;
     if (auto ok = CheckName(field, *name); !ok) return ok;
   }
-  if (auto ok = CheckCount("tags", query.tags.size(), route::kMaxTags); !ok) return ok;
-  for (const std::string& tag : query.tags) {
-    if (auto ok = CheckName("tag", tag); !ok) return ok;
-  }
+  if (auto ok = CheckTags(query.tags); !ok) return ok;
   if (auto ok = CheckText("camera prefix", query.camera_prefix, kMaxCameraBytes); !ok) return ok;
   if (auto ok = CheckAmount("least length in metres", query.min_length_m, kMaxMetres); !ok) {
     return ok;

@@ -84,7 +84,7 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
 
 void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
   // Asking for routes that nobody has must not fill the memory.
-  KeptRoute* kept = FindStored(request.key, now);
+  KeptRoute* kept = Find(request.key, now, Which::kStored);
   if (kept == nullptr) return;
   if (request.lacking.empty()) kept->announce_due = kept->resend_due = true;
   std::vector<SegmentIndex> held;
@@ -110,6 +110,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
     if (due && (kept.holds_any() || kept.complete())) {
       out.emplace_back(kept.MakeReceipt(self_, key));
+      ++counters_.receipts;
       kept.receipt_at = now;
       kept.receipt_due = false;
     }

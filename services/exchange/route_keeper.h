@@ -45,6 +45,7 @@ struct KeeperCounters {
   std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held: dropped
   std::uint64_t store_failures = 0;
   std::uint64_t answered = 0;  // pieces sent to whoever asked
+  std::uint64_t receipts = 0;  // sent
 };
 
 // The server's end of the protocol for all routes: makes durable what arrives, says so only then,
@@ -78,11 +79,10 @@ class RouteKeeper {
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleCatalogRequest(const CatalogRequest& request);
 
-  // The route's state, taken up from the store if need be; null (and a note) if that fails.
-  KeptRoute* Find(const route::RouteKey& key, Time now);
-  // The same, but null for a route of which the store has nothing.
-  KeptRoute* FindStored(const route::RouteKey& key, Time now);
-  KeptRoute* TakeUp(const route::RouteKey& key, Time now, bool if_stored);
+  // The route's state, taken up from the store if need be; null (and a note) if that fails, or for
+  // a route of which the store has nothing when only stored ones are asked for.
+  enum class Which : std::uint8_t { kAny, kStored };
+  KeptRoute* Find(const route::RouteKey& key, Time now, Which which = Which::kAny);
   [[nodiscard]] bool MakeRoom(Time now);
   [[nodiscard]] Result<route::Digest> HeldDigest(const route::RouteKey& key, KeptRoute& kept,
                                                  SegmentIndex index);

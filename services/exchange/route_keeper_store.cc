@@ -13,11 +13,7 @@ using route::RouteKey;
 using route::RouteState;
 using route::SegmentPiece;
 
-KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now) { return TakeUp(key, now, false); }
-
-KeptRoute* RouteKeeper::FindStored(const RouteKey& key, Time now) { return TakeUp(key, now, true); }
-
-KeptRoute* RouteKeeper::TakeUp(const RouteKey& key, Time now, bool if_stored) {
+KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now, Which which) {
   if (const auto found = routes_.find(key); found != routes_.end()) {
     found->second.spoken_of_at = now;
     return &found->second;
@@ -28,7 +24,7 @@ KeptRoute* RouteKeeper::TakeUp(const RouteKey& key, Time now, bool if_stored) {
     Refuse(info ? held.error() : info.error(), key, now);
     return nullptr;
   }
-  if (if_stored && !*info && held->empty()) return nullptr;
+  if (which == Which::kStored && !*info && held->empty()) return nullptr;
   if (!MakeRoom(now)) {
     AddNote(Note::Severity::kError, "most_at_hand",
             fmt::format("{} refused: {} routes are being taught or fetched, the most this server "

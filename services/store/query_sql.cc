@@ -1,5 +1,7 @@
 #include "services/store/query_sql.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -92,28 +94,29 @@ void BeginsNear(const route::Surroundings& near, SqlCondition& condition) {
 }  // namespace
 
 void SqlCondition::And(const std::string& term, std::vector<Value> values) {
-  by_that_alone_ = false;
-  terms_ += (terms_.empty() ? "" : " AND ") + term;
+  terms_.push_back(term);
   values_.insert(values_.end(), values.begin(), values.end());
 }
 
 void SqlCondition::FindBy(const std::string& table, const std::string& term,
                           std::vector<Value> values) {
-  const bool first = terms_.empty();
-  And(term, std::move(values));
   found_by_ = table;
-  by_that_alone_ = first;
+  And(term, std::move(values));
+}
+
+std::string SqlCondition::Where() const {
+  return terms_.empty() ? "" : fmt::format(" WHERE {}", fmt::join(terms_, " AND "));
 }
 
 std::string SqlCondition::CountedFromWhere() const {
-  if (!by_that_alone_) return FromWhere();
-  return fmt::format(" FROM {} WHERE {}", found_by_, terms_);
+  const bool by_that_alone = !found_by_.empty() && terms_.size() == 1;
+  return by_that_alone ? fmt::format(" FROM {}{}", found_by_, Where()) : FromWhere();
 }
 
 std::string SqlCondition::FromWhere() const {
-  const std::string from =
-      found_by_.empty() ? "route" : fmt::format("{0} CROSS JOIN route USING (id)", found_by_);
-  return fmt::format(" FROM {}{}", from, terms_.empty() ? "" : " WHERE " + terms_);
+  return fmt::format(" FROM {}{}",
+                     found_by_.empty() ? "route" : found_by_ + " CROSS JOIN route USING (id)",
+                     Where());
 }
 
 int SqlCondition::Bind(SQLite::Statement& statement) const {

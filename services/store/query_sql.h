@@ -29,9 +29,10 @@ class SqlCondition {
   int Bind(SQLite::Statement& statement) const;
 
  private:
+  [[nodiscard]] std::string Where() const;
+
   std::string found_by_;
-  bool by_that_alone_ = false;
-  std::string terms_;
+  std::vector<std::string> terms_;
   std::vector<Value> values_;
 };
 

@@ -12,7 +12,6 @@ inline constexpr const char* kRouteColumns =
     "route, revision, name, scout, camera, image_width_px, image_height_px, taught_unix_ms, state, "
     "segment_count, length_m, bytes, manifest_digest, seal, tags, place_frame, place_east, "
     "place_north";
-inline constexpr int kRouteColumnCount = 18;
 
 // kInvalidArgument, naming the field, for an info that no route can have.
 [[nodiscard]] Result<void> CheckRoute(const route::RouteInfo& info);

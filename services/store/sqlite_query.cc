@@ -1,6 +1,5 @@
 // SqliteRouteStore's catalog: by what routes are found, and finding them.
 #include <algorithm>
-#include <iterator>
 
 #include "services/store/query_sql.h"
 #include "services/store/rows.h"
@@ -20,24 +19,19 @@ void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
 }  // namespace
 
 void SqliteRouteStore::Put(const RouteInfo& info) {
-  SQLite::Statement known(*db_, "SELECT id FROM route WHERE route = ? AND revision = ?");
-  BindKey(known, info.key);
-  const bool replaces = known.executeStep();
-  const std::int64_t old_id = replaces ? known.getColumn(0).getInt64() : 0;
-  if (replaces) {
-    for (const char* table : {"route_tag", "route_place"}) {
-      SQLite::Statement forget(*db_, fmt::format("DELETE FROM {} WHERE id = ?", table));
-      forget.bind(1, old_id);
-      forget.exec();
-    }
-  }
-  SQLite::Statement put(*db_, fmt::format("INSERT OR REPLACE INTO route ({}, id) VALUES "
-                                          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-                                          kRouteColumns));
+  SQLite::Statement put(*db_,
+                        fmt::format("INSERT OR REPLACE INTO route ({}, id) VALUES "
+                                    "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
+                                    "(SELECT id FROM route WHERE route = ?1 AND revision = ?2))",
+                                    kRouteColumns));
   BindRoute(put, info);
-  if (replaces) put.bind(kRouteColumnCount + 1, old_id);
   put.exec();
   const std::int64_t id = db_->getLastInsertRowid();
+  for (const char* table : {"route_tag", "route_place"}) {
+    SQLite::Statement forget(*db_, fmt::format("DELETE FROM {} WHERE id = ?", table));
+    forget.bind(1, id);
+    forget.exec();
+  }
   for (const std::string& tag : info.tags) {
     SQLite::Statement add(*db_, "INSERT INTO route_tag (tag, id) VALUES (?, ?)");
     add.bind(1, tag);

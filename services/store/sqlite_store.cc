@@ -19,23 +19,35 @@ bool IsOldNews(const RouteInfo& info, const RouteInfo& known) {
   return info.segment_count < known.segment_count;
 }
 
+template <typename Item>
+Result<void> CheckAll(std::span<const Item> items, Result<void> (*check)(const Item&)) {
+  for (const Item& item : items) {
+    if (Result<void> possible = check(item); !possible) return possible;
+  }
+  return {};
+}
+
 }  // namespace
 
+template <typename Item>
+Result<void> SqliteRouteStore::StoreAll(const std::string& doing, std::span<const Item> items,
+                                        Result<void> (SqliteRouteStore::*store)(const Item&)) {
+  return Guarded(doing, [&]() -> Result<void> {
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const Item& item : items) {
+      if (Result<void> stored = (this->*store)(item); !stored) return stored;
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
 Result<void> SqliteRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
-  for (const RouteInfo& info : infos) {
-    if (Result<void> possible = CheckRoute(info); !possible) return possible;
-  }
+  if (Result<void> possible = CheckAll(infos, &CheckRoute); !possible) return possible;
   if (infos.empty()) return {};
-  return Guarded(
-      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)),
-      [&]() -> Result<void> {
-        SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-        for (const RouteInfo& info : infos) {
-          if (Result<void> stored = PutNews(info); !stored) return stored;
-        }
-        transaction.commit();
-        return {};
-      });
+  return StoreAll(
+      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)), infos,
+      &SqliteRouteStore::PutNews);
 }
 
 Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
@@ -55,20 +67,11 @@ Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
 }
 
 Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {
-  for (const SegmentPiece& piece : pieces) {
-    if (Result<void> whole = CheckSegment(piece); !whole) return whole;
-  }
+  if (Result<void> whole = CheckAll(pieces, &CheckSegment); !whole) return whole;
   if (pieces.empty()) return {};
-  return Guarded(
-      fmt::format("storing {} segments of {}", pieces.size(), Describe(pieces.front().key)),
-      [&]() -> Result<void> {
-        SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-        for (const SegmentPiece& piece : pieces) {
-          if (Result<void> stored = Append(piece); !stored) return stored;
-        }
-        transaction.commit();
-        return {};
-      });
+  return StoreAll(
+      fmt::format("storing {} segments of {}", pieces.size(), Describe(pieces.front().key)), pieces,
+      &SqliteRouteStore::Append);
 }
 
 Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {

@@ -42,6 +42,10 @@ class SqliteRouteStore final : public RouteStore {
     }
   }
 
+  // One transaction: if `store` fails for one of them, none is stored.
+  template <typename Item>
+  Result<void> StoreAll(const std::string& doing, std::span<const Item> items,
+                        Result<void> (SqliteRouteStore::*store)(const Item&));
   [[nodiscard]] std::string RareTag(const route::RouteQuery& query);
   // Stores what is new of a route within the caller's transaction; the second writes it, and by
   // what it is found.

@@ -13,6 +13,7 @@
 #include "services/exchange/route_sender.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/support/pieces.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
@@ -32,15 +33,10 @@ int Rounds() {
   return wanted == nullptr ? 5 : std::atoi(wanted);
 }
 
-route::RouteKey KeyOf(std::uint32_t scout) {
-  return {RouteId(fmt::format("{:032x}", scout + 1)), RevisionNumber(1)};
-}
-
-// As large as a segment of some fifty features.
-route::SegmentPiece PieceOf(std::uint32_t scout, std::uint32_t index) {
-  std::mt19937 random(1000 * scout + index);
-  route::SegmentPiece piece{KeyOf(scout), SegmentIndex(index), {}, route::Bytes(5000)};
-  for (std::uint8_t& byte : piece.bytes) byte = static_cast<std::uint8_t>(random());
+// As large as a segment of some fifty features, with the digest that a server expects.
+route::SegmentPiece TaughtPiece(std::uint32_t scout, std::uint32_t index) {
+  route::SegmentPiece piece =
+      PieceOf(KeyNumber(scout), index, 5000, static_cast<std::uint8_t>(scout));
   piece.digest = route::Sha256(piece.bytes);
   return piece;
 }
@@ -67,7 +63,7 @@ class KillScout {
  private:
   route::RouteInfo Info(route::RouteState state) const {
     route::RouteInfo info;
-    info.key = KeyOf(number_);
+    info.key = KeyNumber(number_);
     info.name = fmt::format("route-{}", number_);
     info.scout = AgentId(fmt::format("scout-{}", number_));
     info.state = state;
@@ -86,7 +82,7 @@ class KillScout {
     const auto exchange = dds::OpenDdsExchange(options, exchange::ScoutTopics());
     if (!exchange) return;
     const auto read = [this](SegmentIndex index) -> Result<route::SegmentPiece> {
-      return PieceOf(number_, index.value());
+      return TaughtPiece(number_, index.value());
     };
     exchange::RouteSender sender(options.self, Info(route::RouteState::kTeaching), read, {});
     auto teach_at = Clock::now();
@@ -96,7 +92,7 @@ class KillScout {
         sender.Handle(message, Clock::now());
       }
       if (!finish_ && Clock::now() >= teach_at) {
-        const route::SegmentPiece piece = PieceOf(number_, taught_);
+        const route::SegmentPiece piece = TaughtPiece(number_, taught_);
         digests_.push_back(piece.digest);
         sender.Add(piece, Info(route::RouteState::kTeaching));
         ++taught_;
@@ -160,9 +156,9 @@ class ServerKill : public testing::Test {
     ASSERT_TRUE(store) << store.error().message;
     for (std::uint32_t i = 0; i < kScouts; ++i) {
       for (const SegmentIndex index : scouts_[i]->TakeReceipted()) {
-        const auto held = (*store)->ReadSegment(KeyOf(i), index);
+        const auto held = (*store)->ReadSegment(KeyNumber(i), index);
         ASSERT_TRUE(held) << held.error().message;
-        ASSERT_EQ(*held, PieceOf(i, index.value()));
+        ASSERT_EQ(*held, TaughtPiece(i, index.value()));
         ++checked_;
       }
     }
@@ -199,11 +195,11 @@ TEST_F(ServerKill, LosesNothingThatItReceiptedAndCompletesEveryRoute) {
   auto store = store::OpenSqliteStore(file_).value();
   std::size_t taught = 0;
   for (std::uint32_t i = 0; i < kScouts; ++i) {
-    const auto info = store->FindRoute(KeyOf(i)).value();
+    const auto info = store->FindRoute(KeyNumber(i)).value();
     ASSERT_TRUE(info);
     EXPECT_EQ(info->state, route::RouteState::kComplete);
     EXPECT_EQ(info->segment_count, scouts_[i]->taught());
-    EXPECT_EQ(store->HeldSegments(KeyOf(i)).value().size(), scouts_[i]->taught());
+    EXPECT_EQ(store->HeldSegments(KeyNumber(i)).value().size(), scouts_[i]->taught());
     taught += scouts_[i]->taught();
   }
   EXPECT_TRUE(store->Verify().value().empty());
