@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
-#include "services/store/route_store.h"
 #include "services/store/rows.h"
 #include "services/store/sqlite_database.h"
 #include "services/store/store_file.h"
@@ -91,26 +91,27 @@ class Salvaging {
   Salvaging(SQLite::Database& damaged, RouteStore& whole) : damaged_(damaged), whole_(whole) {}
 
   Result<Salvaged> Run() {
-    SaveRoutes();
-    SaveSegments();
-    if (auto noted = SaveReceipts(); !noted) return tl::unexpected(noted.error());
-    if (auto told = TellLost(); !told) return tl::unexpected(told.error());
+    for (auto part : {&Salvaging::SaveRoutes, &Salvaging::SaveSegments, &Salvaging::SaveReceipts,
+                      &Salvaging::TellLost}) {
+      if (auto done = (this->*part)(); !done) return tl::unexpected(done.error());
+    }
     return std::move(salvaged_);
   }
 
  private:
-  void SaveRoutes() {
+  Result<void> SaveRoutes() {
     RowWalk rows(damaged_, "route", kRouteColumns);
     while (const SQLite::Statement* row = rows.Next()) {
       auto info = Readable([&] { return ReadRoute(*row); });
       if (info) routes_.push_back(std::move(*info));
-      if (routes_.size() == kBatch) FlushRoutes();
+      if (routes_.size() < kBatch) continue;
+      if (auto flushed = FlushRoutes(); !flushed) return flushed;
     }
-    FlushRoutes();
     TellStretches("routes", rows.stretches());
+    return FlushRoutes();
   }
 
-  void SaveSegments() {
+  Result<void> SaveSegments() {
     const std::string columns =
         std::string(kSegmentContent) + ", route, revision, number, receipted";
     RowWalk rows(damaged_, "segment", columns.c_str());
@@ -123,30 +124,41 @@ class Salvaging {
       if (!piece) continue;
       if (row->getColumn(6).getInt() != 0) receipted_[piece->key].push_back(piece->index);
       pieces_.push_back(std::move(*piece));
-      if (pieces_.size() == kBatch) FlushSegments();
+      if (pieces_.size() < kBatch) continue;
+      if (auto flushed = FlushSegments(); !flushed) return flushed;
     }
-    FlushSegments();
     TellStretches("segments", rows.stretches());
+    return FlushSegments();
   }
 
-  // What the new store refuses, like a row that is there twice, is not worth more than the rest.
-  void FlushRoutes() {
-    if (whole_.PutRoutes(routes_)) {
-      salvaged_.routes += routes_.size();
-    } else {
-      for (const auto& info : routes_) salvaged_.routes += whole_.PutRoute(info) ? 1U : 0U;
-    }
+  Result<void> FlushRoutes() {
+    const auto flushed = Flush<route::RouteInfo>(
+        routes_, [&](auto infos) { return whole_.PutRoutes(infos); }, salvaged_.routes);
     routes_.clear();
+    return flushed;
   }
-  void FlushSegments() {
-    if (whole_.AppendSegments(pieces_)) {
-      salvaged_.segments += pieces_.size();
-    } else {
-      for (const auto& piece : pieces_) {
-        salvaged_.segments += whole_.AppendSegments({&piece, 1}) ? 1U : 0U;
-      }
-    }
+  Result<void> FlushSegments() {
+    const auto flushed = Flush<route::SegmentPiece>(
+        pieces_, [&](auto pieces) { return whole_.AppendSegments(pieces); }, salvaged_.segments);
     pieces_.clear();
+    return flushed;
+  }
+
+  // What the new store refuses, like a row that is there twice, is not worth more than the rest. A
+  // store that takes nothing, on a full disk, ends it: what was not written would count as lost.
+  template <typename Item, typename Store>
+  static Result<void> Flush(std::span<const Item> items, const Store& store, std::size_t& saved) {
+    const Result<void> stored = store(items);
+    if (stored) {
+      saved += items.size();
+      return {};
+    }
+    if (stored.error().code == ErrorCode::kUnavailable) return stored;
+    if (items.size() == 1) return {};
+    for (const Item& item : items) {
+      if (auto alone = Flush<Item>({&item, 1}, store, saved); !alone) return alone;
+    }
+    return {};
   }
 
   Result<void> SaveReceipts() {
@@ -223,12 +235,13 @@ class Copy {
   std::filesystem::path path_;
 };
 
-Result<Salvaged> SaveWhole(const std::filesystem::path& from, const std::filesystem::path& to) {
+Result<Salvaged> SaveWhole(const std::filesystem::path& from, const std::filesystem::path& to,
+                           const SqliteOptions& options) {
   try {
     const Copy copy(from, to.string() + ".copy");
     SQLite::Database damaged(copy.path().string(), SQLite::OPEN_READWRITE);
     damaged.exec("PRAGMA writable_schema = ON");  // SQLite then reads what was cut short
-    auto whole = OpenSqliteStore(to);
+    auto whole = OpenSqliteStore(to, options);
     if (!whole) return tl::unexpected(whole.error());
     return Salvaging(damaged, **whole).Run();
   } catch (const SQLite::Exception& exception) {
@@ -241,7 +254,8 @@ Result<Salvaged> SaveWhole(const std::filesystem::path& from, const std::filesys
 
 }  // namespace
 
-Result<Salvaged> Salvage(const std::filesystem::path& from, const std::filesystem::path& to) {
+Result<Salvaged> Salvage(const std::filesystem::path& from, const std::filesystem::path& to,
+                         const SqliteOptions& options) {
   std::error_code ignored;
   if (std::filesystem::exists(to, ignored)) {
     return Fail(ErrorCode::kConflict, "{} exists already; move it away first", to.string());
@@ -251,7 +265,7 @@ Result<Salvaged> Salvage(const std::filesystem::path& from, const std::filesyste
   }
   const auto locked = StoreFile::Acquire(from, StoreFile::Condition::kDamaged);
   if (!locked) return tl::unexpected(locked.error());
-  auto salvaged = SaveWhole(from, to);
+  auto salvaged = SaveWhole(from, to, options);
   if (!salvaged) std::filesystem::remove(to, ignored);
   return salvaged;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/store/route_store.h"
 
 namespace trailcast::store {
 
@@ -19,8 +20,10 @@ struct Salvaged {
 
 // Copies what is whole of a store, however damaged or cut short, into a new one, `to`, which must
 // not exist. Reads `from` only; nothing else may have it open (kConflict). kCorrupt if nothing in
-// it can be read as a store.
+// it can be read as a store; kUnavailable when there is no room for the new one, which is then not
+// there.
 [[nodiscard]] Result<Salvaged> Salvage(const std::filesystem::path& from,
-                                       const std::filesystem::path& to);
+                                       const std::filesystem::path& to,
+                                       const SqliteOptions& options = {});
 
 }  // namespace trailcast::store

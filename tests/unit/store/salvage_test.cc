@@ -100,6 +100,14 @@ TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
   EXPECT_THAT(OpenSqliteStore(saved_).value()->Verify().value(), IsEmpty());
 }
 
+TEST_F(SalvageTest, WithoutRoomForItNothingIsMade) {
+  const auto salvaged = Salvage(file_, saved_, {.max_bytes = 120'000});
+  ASSERT_FALSE(salvaged);
+  EXPECT_EQ(salvaged.error().code, ErrorCode::kUnavailable);
+  EXPECT_FALSE(std::filesystem::exists(saved_));
+  EXPECT_THAT(OpenSqliteStore(file_).value()->Verify().value(), IsEmpty());
+}
+
 TEST_F(SalvageTest, WhatIsNoStoreOrInUseIsRefused) {
   {
     const auto in_use = OpenSqliteStore(file_).value();
