@@ -184,6 +184,12 @@ Result<void> FollowerLink::StoreArrived() {
                 "that file away and fetch the route anew",
                 progress.held, route_->name, options_.store_file);
   }
+  if (fetcher_->deleted() && !fetcher_->Complete()) {
+    return Fail(ErrorCode::kNotFound,
+                "revision {} of route '{}' was deleted by an operator: {} of its {} segments are "
+                "here",
+                route_->key.revision.value(), route_->name, progress.held, progress.known);
+  }
   waiting_for_ = progress.state == exchange::FetchState::kWaiting
                      ? "nobody who holds the route is heard"
                      : fmt::format("{} of {} segments here", progress.held, progress.known);

@@ -63,6 +63,11 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
                  finder_.unknown() ? "the server does not know the route" : "no server answers",
                  options_.route, options_.store_file);
     route_ = own;
+  } else if (finder_.unknown() && finder_.unknown()->inactive && !options_.wait_for_route) {
+    return Fail(ErrorCode::kNotFound,
+                "server '{}' has no active revision of route '{}': 'trailcast routes activate {}' "
+                "activates the newest",
+                finder_.unknown()->server.value(), options_.route, options_.route);
   } else if (finder_.unknown() && !options_.wait_for_route) {
     return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
                 finder_.unknown()->server.value(), options_.route,

@@ -168,6 +168,17 @@ std::size_t Outbox::unreceipted() const {
   return count;
 }
 
+std::optional<std::string> Outbox::refusal() const {
+  for (const auto& [key, sending] : sending_) {
+    const auto& refused = sending.sender.refused();
+    if (!refused) continue;
+    return fmt::format("server '{}' takes nothing of route '{}' revision {}: {}",
+                       refused->server.value(), sending.sender.info().name, key.revision.value(),
+                       refused->reason);
+  }
+  return std::nullopt;
+}
+
 bool Outbox::AllReceipted() const {
   return std::all_of(sending_.begin(), sending_.end(),
                      [](const auto& entry) { return entry.second.sender.AllReceipted(); });

@@ -43,7 +43,9 @@ class Outbox {
   [[nodiscard]] const route::RouteInfo& info(const route::RouteKey& key) const;
   // Segments without a receipt, over all routes.
   [[nodiscard]] std::size_t unreceipted() const;
-  // Every route is complete and confirmed.
+  // Why a server takes nothing of a route, one line for people; of several the first.
+  [[nodiscard]] std::optional<std::string> refusal() const;
+  // Every route is complete and confirmed, or was deleted by an operator.
   [[nodiscard]] bool AllReceipted() const;
 
  private:

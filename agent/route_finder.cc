@@ -1,21 +1,30 @@
 #include "agent/route_finder.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 #include <variant>
 
 namespace trailcast::agent {
 
 std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes) {
-  const auto worse = [](const route::RouteInfo& a, const route::RouteInfo& b) {
-    const auto rank = [](const route::RouteInfo& info) {
-      return std::make_tuple(info.state == route::RouteState::kComplete, info.taught_unix_ms,
-                             info.key);
-    };
-    return rank(a) < rank(b);
+  std::set<RouteId> spoken_of;
+  for (const route::RouteInfo& info : routes) {
+    if (info.edition > 0) spoken_of.insert(info.key.route);
+  }
+  const auto may_be = [&](const route::RouteInfo& info) {
+    return info.standing == route::Standing::kActive || !spoken_of.contains(info.key.route);
   };
-  const auto best = std::max_element(routes.begin(), routes.end(), worse);
-  return best == routes.end() ? std::nullopt : std::optional(*best);
+  const auto rank = [](const route::RouteInfo& info) {
+    return std::make_tuple(info.standing == route::Standing::kActive,
+                           info.state == route::RouteState::kComplete, info.taught_unix_ms,
+                           info.key);
+  };
+  const route::RouteInfo* best = nullptr;
+  for (const route::RouteInfo& info : routes) {
+    if (may_be(info) && (best == nullptr || rank(*best) < rank(info))) best = &info;
+  }
+  return best == nullptr ? std::nullopt : std::optional(*best);
 }
 
 void RouteFinder::Handle(const exchange::Message& message) {
@@ -46,7 +55,7 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   std::vector<route::RouteInfo> named = reply.page.routes;
   std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
   found_ = ChooseRoute(named);
-  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names};
+  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !named.empty()};
 }
 
 std::vector<exchange::Message> RouteFinder::Tick(Time now) {

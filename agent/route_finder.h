@@ -9,8 +9,9 @@
 
 namespace trailcast::agent {
 
-// Of several routes (or revisions) with one name, the one to follow: the newest that is complete,
-// otherwise the newest. Nothing if there is none.
+// Of several routes (or revisions) with one name, the one to follow: the active one. Where no
+// operator, and no server, has said anything of a route, the newest that is complete, otherwise the
+// newest. Nothing if there is none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes);
 
@@ -33,10 +34,11 @@ class RouteFinder {
     return ChooseRoute(announced_);
   }
 
-  // A server's word that it has no route of this name.
+  // A server's word that it has no route of this name, or none that may be followed.
   struct Unknown {
     AgentId server;
     std::vector<std::string> similar_names;
+    bool inactive = false;  // there are revisions, and none of them is active
   };
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
   // A server's trouble in answering.

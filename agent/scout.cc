@@ -108,8 +108,10 @@ Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
 Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_file) {
   return {ErrorCode::kUnavailable,
           fmt::format("{} segments not receipted, kept in {}: send them with 'trailcast-agent "
-                      "deliver --store {}' when a server is there",
-                      outcome.unreceipted, store_file, store_file)};
+                      "deliver --store {}' when {}{}",
+                      outcome.unreceipted, store_file, store_file,
+                      outcome.refusal ? "that is mended: " : "a server is there",
+                      outcome.refusal.value_or(""))};
 }
 
 // What is wrong with a route that was taught, if anything.

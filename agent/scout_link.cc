@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "services/base/time.h"
+#include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
+#include "services/exchange/text.h"
 
 namespace trailcast::agent {
 namespace {
@@ -103,6 +105,7 @@ Result<ScoutLink::Outcome> ScoutLink::Finish() {
   if (key_) outcome.route = outbox_.info(*key_);
   outcome.unreceipted = outbox_.unreceipted();
   outcome.all_receipted = outbox_.AllReceipted();
+  outcome.refusal = outbox_.refusal();
   return outcome;
 }
 
@@ -164,6 +167,7 @@ Result<void> ScoutLink::Trade() {
   }
   presence_->Tick(now);
   HearServer();
+  HearRefusal();
   return outbox_.SaveReceipts();
 }
 
@@ -204,6 +208,17 @@ void ScoutLink::HearServer() {
   }
 }
 
+void ScoutLink::HearRefusal() {
+  auto refusal = outbox_.refusal();
+  if (refusal == told_refusal_) return;
+  told_refusal_ = std::move(refusal);
+  if (told_refusal_) {
+    spdlog::warn("{}; this agent's copy stays in {}", *told_refusal_, options_.store_file);
+  } else {
+    spdlog::info("the server takes segments again");
+  }
+}
+
 void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) {
   exchange::AgentStatus status;
   status.mode = mode;
@@ -218,7 +233,7 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
   status.speed_mps = driving ? latest_.speed_mps : 0.0;
   status.features = driving ? static_cast<std::uint32_t>(std::max(0, latest_.features)) : 0U;
   status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
-  status.detail = detail;
+  status.detail = exchange::PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
   presence_->Set(std::move(status));
 }
 

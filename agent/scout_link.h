@@ -58,6 +58,7 @@ class ScoutLink {
     std::optional<route::RouteInfo> route;  // as it is on disk; nothing if no segment was taught
     std::size_t unreceipted = 0;
     bool all_receipted = false;
+    std::optional<std::string> refusal;  // why a server takes nothing, if one said so
   };
   // No segment will follow: completes the route, waits for receipts, ends the thread. The error is
   // the store's, if it failed.
@@ -73,6 +74,7 @@ class ScoutLink {
   [[nodiscard]] Result<void> Trade();
   [[nodiscard]] Result<void> Deliver();
   void HearServer();
+  void HearRefusal();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   ScoutLinkOptions options_;
@@ -84,6 +86,7 @@ class ScoutLink {
   std::optional<route::RouteKey> key_;  // of the route taught, once it has a segment
   std::chrono::steady_clock::time_point opened_{};
   std::optional<AgentId> told_server_;
+  std::optional<std::string> told_refusal_;
   bool told_no_server_ = false;
 
   Mailbox<std::optional<route::Segment>> segments_{256};

@@ -27,10 +27,10 @@ struct HttpOptions {
 };
 
 int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file,
-          const HttpOptions& http) {
+          const trailcast::store::SqliteOptions& limits, const HttpOptions& http) {
   cli::SetUpLog(common);
   const cli::StopSignal stop;
-  auto store = trailcast::store::OpenSqliteStore(store_file);
+  auto store = trailcast::store::OpenSqliteStore(store_file, limits);
   if (!store) return cli::Complain(app, store.error());
   auto exchange = cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
   if (!exchange) return cli::Complain(app, exchange.error());
@@ -66,6 +66,12 @@ int Run(int argc, char** argv) {
   app.add_option("--store", store_file, "SQLite file that holds the routes; created if missing")
       ->required()
       ->envname("TRAILCAST_STORE");
+  std::uint64_t limit_mb = 0;
+  app.add_option(
+         "--store-limit-mb", limit_mb,
+         "How large the file may grow, in megabytes; scouts are told when it is full and keep "
+         "what they taught; 0: as large as the disk")
+      ->envname("TRAILCAST_STORE_LIMIT_MB");
   HttpOptions http;
   app.add_option("--http-port", http.port,
                  "Serve /health and /metrics (Prometheus) over HTTP on this port; 0: do not")
@@ -81,7 +87,7 @@ int Run(int argc, char** argv) {
                   "Make a store of what is whole, and keep the damaged file beside it");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
   if (check->parsed()) return CheckStore(app, store_file, repair);
-  return Serve(app, common, store_file, http);
+  return Serve(app, common, store_file, {.max_bytes = limit_mb * 1'000'000}, http);
 }
 
 }  // namespace

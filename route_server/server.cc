@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/catalog/catalog.h"
+#include "services/catalog/editing.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
 
@@ -49,11 +50,15 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
                                              std::unique_ptr<store::RouteStore> store,
                                              std::unique_ptr<exchange::RouteExchange> exchange) {
   std::unique_ptr<Server> server(new Server(name, std::move(store), std::move(exchange)));
-  auto answer = [name, self = server.get()](const exchange::CatalogRequest& request) {
+  exchange::RouteKeeper::Catalog catalog;
+  catalog.answer = [name, self = server.get()](const exchange::CatalogRequest& request) {
     return self->AnswerCatalog(name, request);
   };
+  catalog.plan = [self = server.get()](const route::RouteEdit& edit) {
+    return catalog::PlanEdit(edit, *self->store_);
+  };
   auto keeper =
-      exchange::RouteKeeper::Open(name, *server->store_, std::move(answer),
+      exchange::RouteKeeper::Open(name, *server->store_, std::move(catalog),
                                   exchange::Integrity{route::CheckDigest, route::ManifestDigest});
   if (!keeper) return tl::unexpected(keeper.error());
   server->keeper_ = std::move(*keeper);

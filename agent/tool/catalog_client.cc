@@ -8,6 +8,7 @@
 
 #include "services/exchange/bounds.h"
 #include "services/route/digest.h"
+#include "services/route/labels.h"
 
 namespace trailcast::tool {
 namespace {
@@ -19,8 +20,16 @@ double BytesPerMeter(const route::RouteInfo& info) {
   return info.length_m > 0.0 ? static_cast<double>(info.bytes) / info.length_m : 0.0;
 }
 
-const char* StateName(route::RouteState state) {
-  return state == route::RouteState::kComplete ? "complete" : "teaching";
+const char* StateName(const route::RouteInfo& info) {
+  const bool taught = info.state == route::RouteState::kComplete;
+  return taught || info.standing == route::Standing::kDeleted ? route::NameOf(info.standing)
+                                                              : "teaching";
+}
+
+std::string Remarks(const route::RouteInfo& info) {
+  const std::string tags = fmt::format("{}", fmt::join(info.tags, " "));
+  if (info.description.empty()) return tags;
+  return fmt::format("{}{}\"{}\"", tags, tags.empty() ? "" : "  ", info.description);
 }
 
 std::string JsonText(const std::string& text) {
@@ -55,12 +64,11 @@ std::string JsonPlace(const std::optional<route::Place>& place) {
 
 }  // namespace
 
-Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
-                                          const route::RouteQuery& query,
-                                          std::chrono::milliseconds timeout) {
+// `request` and `client` are those in the question.
+Result<exchange::CatalogReply> Ask(exchange::RouteExchange& exchange, const AgentId& client,
+                                   std::uint64_t request, const exchange::Message& question,
+                                   std::chrono::milliseconds timeout) {
   using Clock = std::chrono::steady_clock;
-  std::random_device random;
-  const exchange::CatalogRequest question{client, random(), query};
   const auto deadline = Clock::now() + timeout;
   auto ask_at = Clock::now();
   while (Clock::now() < deadline) {
@@ -74,12 +82,11 @@ Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, con
     }
     for (exchange::Message& message : exchange.Take(kTakeWait)) {
       auto* reply = std::get_if<exchange::CatalogReply>(&message);
-      if (reply == nullptr || reply->client != client || reply->request != question.request) {
+      if (reply == nullptr || reply->client != client || reply->request != request) {
         continue;
       }
       if (!reply->error.empty()) {
-        return Fail(ErrorCode::kUnavailable, "server {} could not answer: {}",
-                    reply->server.value(), reply->error);
+        return Fail(ErrorCode::kUnavailable, "server {}: {}", reply->server.value(), reply->error);
       }
       return std::move(*reply);
     }
@@ -89,6 +96,20 @@ Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, con
       "no route server answered within {:.1f} s: is trailcast-server running, with the same "
       "domain, tag and network interface?",
       std::chrono::duration<double>(timeout).count());
+}
+
+Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
+                                          const route::RouteQuery& query,
+                                          std::chrono::milliseconds timeout) {
+  const std::uint64_t request = std::random_device()();
+  return Ask(exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
+}
+
+Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange, const AgentId& client,
+                                         const route::RouteEdit& edit,
+                                         std::chrono::milliseconds timeout) {
+  const std::uint64_t request = std::random_device()();
+  return Ask(exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
 }
 
 Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
@@ -122,17 +143,17 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
   std::string text =
       fmt::format("{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
                   "route", name_width, "revision", "state", "segments", "metres", "kB", "B/m",
-                  "scout", scout_width, "camera", camera_width, "age", "tags");
+                  "scout", scout_width, "camera", camera_width, "age", "tags, description");
   for (const route::RouteInfo& info : routes) {
     const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
         "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
-        info.name, name_width, info.key.revision.value(), StateName(info.state), info.segment_count,
+        info.name, name_width, info.key.revision.value(), StateName(info), info.segment_count,
         taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
         scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
-        fmt::join(info.tags, " "));
+        Remarks(info));
   }
   return text;
 }
@@ -145,11 +166,12 @@ std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
         "\n  {{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
         "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
         "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
-        "\"place\": {}}}",
+        "\"place\": {}, \"description\": {}, \"edition\": {}}}",
         JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
-        StateName(info.state), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
+        StateName(info), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
         JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
-        route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place));
+        route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place),
+        JsonText(info.description), info.edition);
   }
   return text + "\n]\n";
 }

@@ -19,6 +19,13 @@ namespace trailcast::tool {
                                                         const route::RouteQuery& query,
                                                         std::chrono::milliseconds timeout);
 
+// Has the servers in reach change a route's labels; the first reply has the revisions that changed.
+// Errors as above.
+[[nodiscard]] Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange,
+                                                       const AgentId& client,
+                                                       const route::RouteEdit& edit,
+                                                       std::chrono::milliseconds timeout);
+
 // Page after page, until there are `limit` routes or no more. Each page may take `timeout`.
 [[nodiscard]] Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
                                                           const AgentId& client,

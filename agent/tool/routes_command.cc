@@ -1,15 +1,14 @@
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
 
-#include "agent/cli/open_exchange.h"
 #include "agent/cli/place_options.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
+#include "agent/tool/operator.h"
+#include "agent/tool/route_edits.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::tool {
@@ -34,7 +33,10 @@ constexpr const char* kExamples =
     "  trailcast routes --name aisle-3 --json\n"
     "  trailcast routes --prefix barn- --tag night --sort longest\n"
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
-    "  trailcast routes --network-interface lo --timeout 2";
+    "  trailcast routes --network-interface lo --timeout 2\n"
+    "  trailcast routes activate aisle-3          # followers take the newest revision now\n"
+    "  trailcast routes rollback aisle-3          # and the one before again\n"
+    "  trailcast routes tag aisle-3 night wet";
 
 const std::map<std::string, route::RouteOrder> kOrders = {
     {"newest", route::RouteOrder::kNewest},
@@ -43,8 +45,16 @@ const std::map<std::string, route::RouteOrder> kOrders = {
     {"longest", route::RouteOrder::kLongest},
     {"shortest", route::RouteOrder::kShortest}};
 
+// Teaching or taught completely; what is complete has a standing besides.
 const std::map<std::string, route::RouteState> kStates = {
-    {"teaching", route::RouteState::kTeaching}, {"complete", route::RouteState::kComplete}};
+    {"teaching", route::RouteState::kTeaching},
+    {"complete", route::RouteState::kComplete},
+    {"staged", route::RouteState::kComplete},
+    {"active", route::RouteState::kComplete},
+    {"retired", route::RouteState::kComplete}};
+const std::map<std::string, route::Standing> kStandings = {{"staged", route::Standing::kStaged},
+                                                           {"active", route::Standing::kActive},
+                                                           {"retired", route::Standing::kRetired}};
 
 std::int64_t NowUnixMs() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -60,6 +70,9 @@ route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms
   route::RouteQuery query = options.query;
   query.order = kOrders.at(options.sort);
   if (!options.state.empty()) query.state = kStates.at(options.state);
+  if (const auto standing = kStandings.find(options.state); standing != kStandings.end()) {
+    query.standing = standing->second;
+  }
   if (options.near) query.near = {*options.near, options.within_m};
   if (options.newer_than_s > 0.0) {
     query.taught_from_unix_ms = Before(now_unix_ms, options.newer_than_s);
@@ -87,14 +100,11 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return cli::Complain(app, possible.error());
   }
-  // Two operators may ask at the same time.
-  cli::CommonOptions network = common;
-  network.name = fmt::format("{}-{}", common.name, getpid());
-  auto exchange = cli::OpenExchange(network, exchange::OperatorTopics());
+  const AgentId self = OperatorName(common);
+  auto exchange = OpenAsOperator(common, self);
   if (!exchange) return cli::Complain(app, exchange.error());
-  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options.timeout_s));
-  const auto reply = AskForRoutes(**exchange, AgentId(network.name), query, options.limit, timeout);
+  const auto reply =
+      AskForRoutes(**exchange, self, query, options.limit, Milliseconds(options.timeout_s));
   if (!reply) return cli::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
   if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
@@ -148,7 +158,13 @@ Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common) {
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->check(CLI::Range(0.1, 3600.0));
-  return {app, [app, options, &common] { return Run(*app, common, *options); }};
+  const std::vector<Command> edits = AddRouteEdits(*app, common, options->timeout_s);
+  return {app, [app, options, &common, edits] {
+            for (const Command& edit : edits) {
+              if (edit.app->parsed()) return edit.run();
+            }
+            return Run(*app, common, *options);
+          }};
 }
 
 }  // namespace trailcast::tool

@@ -25,6 +25,7 @@ constexpr std::array kTable = {
     TopicQos{T::kCatalogRequests, false,    16,        kForever},
     TopicQos{T::kCatalogReplies,  false,    16,        kForever},
     TopicQos{T::kAgents,          true,     1,         kAgentLease},
+    TopicQos{T::kRouteEdits,      false,    16,        kForever},
 };
 // clang-format on
 

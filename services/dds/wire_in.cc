@@ -73,7 +73,10 @@ RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInf
           .bytes = wire.bytes,
           .manifest_digest = ToDigest(wire.manifest_digest),
           .tags = Texts(wire.tags),
-          .place = From(wire.place)};
+          .place = From(wire.place),
+          .description = Text(wire.description),
+          .standing = static_cast<route::Standing>(wire.standing),
+          .edition = wire.edition};
 }
 
 Message From(const trailcast_wire_RouteAnnouncement& wire) {
@@ -104,7 +107,9 @@ Message From(const trailcast_wire_Receipt& wire) {
                  .key = From(wire.key),
                  .durable_prefix = wire.durable_prefix,
                  .durable_beyond = Indices(wire.durable_beyond),
-                 .durable_state = static_cast<RouteState>(wire.durable_state)};
+                 .durable_state = static_cast<RouteState>(wire.durable_state),
+                 .refusal = static_cast<Refusal>(wire.refusal),
+                 .reason = Text(wire.reason)};
 }
 
 route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
@@ -121,6 +126,7 @@ route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
                           .page_size = wire.page_size,
                           .cursor = Text(wire.cursor)};
   if (wire.state != 0) query.state = static_cast<RouteState>(wire.state - 1);
+  if (wire.standing != 0) query.standing = static_cast<route::Standing>(wire.standing - 1);
   if (const auto middle = From(wire.near)) query.near = {*middle, wire.radius_m};
   return query;
 }
@@ -159,6 +165,16 @@ Message From(const trailcast_wire_AgentStatus& wire) {
                      .detail = Text(wire.detail)};
 }
 
+Message From(const trailcast_wire_RouteEditRequest& wire) {
+  return RouteEditRequest{.client = AgentId(Text(wire.client)),
+                          .request = wire.request,
+                          .edit = {.action = static_cast<route::EditAction>(wire.action),
+                                   .route = Text(wire.route),
+                                   .revision = wire.revision,
+                                   .text = Text(wire.text),
+                                   .tags = Texts(wire.tags)}};
+}
+
 Message Copy(Topic topic, const void* sample) {
   switch (topic) {
     case Topic::kRoutes:
@@ -173,6 +189,8 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_CatalogRequest*>(sample));
     case Topic::kCatalogReplies:
       return From(*static_cast<const trailcast_wire_CatalogReply*>(sample));
+    case Topic::kRouteEdits:
+      return From(*static_cast<const trailcast_wire_RouteEditRequest*>(sample));
     case Topic::kAgents:
       break;
   }

@@ -67,6 +67,9 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   std::copy(info.manifest_digest.begin(), info.manifest_digest.end(), wire.manifest_digest);
   arrays.Lend(info.tags, wire.tags);
   wire.place = ToWire(info.place);
+  wire.description = Lend(info.description);
+  wire.standing = static_cast<std::uint8_t>(info.standing);
+  wire.edition = info.edition;
   return wire;
 }
 
@@ -82,6 +85,8 @@ trailcast_wire_CatalogQuery ToWire(const route::RouteQuery& query, TextArrays& a
   wire.taught_from_unix_ms = query.taught_from_unix_ms;
   wire.taught_until_unix_ms = query.taught_until_unix_ms;
   wire.state = query.state ? static_cast<std::uint8_t>(static_cast<int>(*query.state) + 1) : 0;
+  wire.standing =
+      query.standing ? static_cast<std::uint8_t>(static_cast<int>(*query.standing) + 1) : 0;
   if (query.near) {
     wire.near = ToWire(query.near->middle);
     wire.radius_m = query.near->radius_m;
@@ -134,6 +139,8 @@ Result<void> With(const Receipt& message, const UseSample& use) {
   sample.durable_prefix = message.durable_prefix;
   Lend(beyond, sample.durable_beyond);
   sample.durable_state = static_cast<std::uint8_t>(message.durable_state);
+  sample.refusal = static_cast<std::uint8_t>(message.refusal);
+  sample.reason = Lend(message.reason);
   return use(&sample);
 }
 
@@ -181,6 +188,19 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const RouteEditRequest& message, const UseSample& use) {
+  TextArrays arrays;
+  trailcast_wire_RouteEditRequest sample{};
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  sample.action = static_cast<std::uint8_t>(message.edit.action);
+  sample.route = Lend(message.edit.route);
+  sample.revision = message.edit.revision;
+  sample.text = Lend(message.edit.text);
+  arrays.Lend(message.edit.tags, sample.tags);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -193,7 +213,7 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
       &trailcast_wire_RouteAnnouncement_desc, &trailcast_wire_SegmentBatch_desc,
       &trailcast_wire_SegmentRequest_desc,    &trailcast_wire_Receipt_desc,
       &trailcast_wire_CatalogRequest_desc,    &trailcast_wire_CatalogReply_desc,
-      &trailcast_wire_AgentStatus_desc};
+      &trailcast_wire_AgentStatus_desc,       &trailcast_wire_RouteEditRequest_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -51,6 +51,11 @@ Result<void> CheckState(route::RouteState state) {
                     static_cast<std::uint8_t>(route::RouteState::kComplete));
 }
 
+Result<void> CheckStanding(route::Standing standing) {
+  return CheckCount("standing", static_cast<std::uint8_t>(standing),
+                    static_cast<std::uint8_t>(route::Standing::kDeleted));
+}
+
 Result<void> CheckKey(const RouteKey& key) {
   const std::string& id = key.route.value();
   const bool hex = std::all_of(id.begin(), id.end(), [](char c) {
@@ -93,6 +98,8 @@ Result<void> CheckInfo(const RouteInfo& info) {
   if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
     return ok;
   }
+  if (auto ok = CheckStanding(info.standing); !ok) return ok;
+  if (auto ok = CheckText("description", info.description, kMaxLineBytes); !ok) return ok;
   if (auto ok = CheckTags(info.tags); !ok) return ok;
   if (auto ok = CheckOrdered(info.tags); !ok) return ok;
   if (info.place) {
@@ -145,11 +152,21 @@ Result<void> Check(const Receipt& message) {
   if (auto ok = CheckCount("durable prefix", message.durable_prefix, kMaxSegmentsPerRoute); !ok) {
     return ok;
   }
+  if (auto ok = CheckCount("refusal", static_cast<std::uint8_t>(message.refusal),
+                           static_cast<std::uint8_t>(Refusal::kDeleted));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckText("reason", message.reason, kMaxLineBytes); !ok) return ok;
   return CheckIndices("durable segments", message.durable_beyond, kMaxIndicesPerReceipt);
 }
 
 Result<void> Check(const CatalogRequest& message) {
   // The query is for the server to judge: whoever asked wrongly is told so in the reply.
+  return CheckName("client", message.client.value());
+}
+
+Result<void> Check(const RouteEditRequest& message) {
   return CheckName("client", message.client.value());
 }
 
@@ -238,6 +255,9 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
   if (query.state) {
     if (auto ok = CheckState(*query.state); !ok) return ok;
   }
+  if (query.standing) {
+    if (auto ok = CheckStanding(*query.standing); !ok) return ok;
+  }
   if (query.near) {
     if (auto ok = CheckPlace(query.near->middle); !ok) return ok;
     if (!(query.near->radius_m > 0.0) || query.near->radius_m > kMaxMetres) {
@@ -251,6 +271,19 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
     return ok;
   }
   return CheckText("cursor", query.cursor, kMaxCursorBytes);
+}
+
+Result<void> CheckEdit(const route::RouteEdit& edit) {
+  using route::EditAction;
+  if (auto ok = CheckCount("action", static_cast<std::uint8_t>(edit.action),
+                           static_cast<std::uint8_t>(EditAction::kDelete));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckName("route", edit.route); !ok) return ok;
+  if (auto ok = CheckTags(edit.tags); !ok) return ok;
+  if (edit.action == EditAction::kRename) return CheckName("new name", edit.text);
+  return CheckText("description", edit.text, kMaxLineBytes);
 }
 
 Result<void> CheckBounds(const Message& message) {

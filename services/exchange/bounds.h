@@ -18,15 +18,17 @@ inline constexpr std::size_t kMaxRoutesPerReply = 1000;
 inline constexpr std::size_t kMaxSimilarNames = 16;
 inline constexpr std::size_t kMaxCameraBytes = 128;
 inline constexpr std::size_t kMaxCursorBytes = 256;
-inline constexpr std::size_t kMaxLineBytes = 512;  // AgentStatus::detail, CatalogReply::error
+inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons, descriptions
 inline constexpr int kMaxImageSide_px = 65535;
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
 // not checked against its bytes here (route::CheckDigest), only that there is one.
 [[nodiscard]] Result<void> CheckBounds(const Message& message);
 
-// The same of a catalog query, which a server judges when it answers, and of a place.
+// The same of a catalog query and of an edit, which a server judges when it answers, and of a
+// place.
 [[nodiscard]] Result<void> CheckQuery(const route::RouteQuery& query);
+[[nodiscard]] Result<void> CheckEdit(const route::RouteEdit& edit);
 [[nodiscard]] Result<void> CheckPlace(const route::Place& place);
 
 }  // namespace trailcast::exchange

@@ -49,7 +49,7 @@ class Inbox {
     std::string instance;
     Message message;
   };
-  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kAgents) + 1;
+  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kRouteEdits) + 1;
   std::array<std::deque<Entry>, kTopics> queues_;
 };
 

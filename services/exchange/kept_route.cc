@@ -2,6 +2,7 @@
 
 #include "services/base/result.h"
 #include "services/exchange/bounds.h"
+#include "services/route/labels.h"
 
 namespace trailcast::exchange {
 
@@ -17,7 +18,7 @@ KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<SegmentI
     : want(want_options), stored_(std::move(stored)), claim_(stored_) {
   for (const SegmentIndex index : held) held_.emplace(index, std::nullopt);
   AdvancePrefix();
-  if (!stored_) return;
+  if (!stored_ || deleted()) return;
   // A store that lost segments which its info counts gets them again.
   for (std::uint32_t i = prefix_; i < stored_->segment_count; ++i) {
     if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), Time{});
@@ -25,16 +26,24 @@ KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<SegmentI
 }
 
 KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
+  if (deleted()) return ClaimResult::kDeleted;
   if (complete()) {
-    const bool more = info.segment_count > stored_->segment_count;
-    const bool other = info.state == RouteState::kComplete && info != *stored_;
-    return more || other ? ClaimResult::kConflict : ClaimResult::kOldNews;
+    auto after = route::AfterNews(*stored_, info);
+    if (!after) return ClaimResult::kConflict;
+    claim_ = std::move(*after);
+    return claim_ == stored_ ? ClaimResult::kOldNews : ClaimResult::kNews;
   }
   const bool was_complete = claim_ && claim_->state == RouteState::kComplete;
   const bool completes = info.state == RouteState::kComplete && !was_complete;
   const bool grows = !was_complete && (!claim_ || info.segment_count > claim_->segment_count);
-  if (!completes && !grows) return ClaimResult::kOldNews;
-  claim_ = info;
+  const bool relabels = claim_ && info.edition > claim_->edition;
+  if (!completes && !grows) {
+    if (relabels) route::TakeLabels(*claim_, info);
+    return relabels ? ClaimResult::kNews : ClaimResult::kOldNews;
+  }
+  RouteInfo claim = info;
+  if (claim_ && claim_->edition > info.edition) route::TakeLabels(claim, *claim_);
+  claim_ = std::move(claim);
   for (std::uint32_t i = prefix_; i < info.segment_count; ++i) {
     if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
   }
@@ -54,7 +63,8 @@ std::optional<route::Digest> KeptRoute::DigestOf(SegmentIndex index) const {
 
 std::optional<RouteInfo> KeptRoute::DurableInfo() const {
   if (!claim_) return std::nullopt;
-  if (prefix_ >= claim_->segment_count) return claim_;
+  const bool tombstone = claim_->standing == route::Standing::kDeleted;
+  if (tombstone || prefix_ >= claim_->segment_count) return claim_;
   if (prefix_ == 0) return std::nullopt;
   RouteInfo durable = *claim_;
   const double share = static_cast<double>(prefix_) / claim_->segment_count;
@@ -64,6 +74,17 @@ std::optional<RouteInfo> KeptRoute::DurableInfo() const {
   durable.bytes = static_cast<std::uint64_t>(static_cast<double>(claim_->bytes) * share);
   durable.manifest_digest = {};
   return durable;
+}
+
+void KeptRoute::MarkStored(const RouteInfo& info) {
+  stored_ = info;
+  if (claim_) route::TakeLabels(*claim_, info);
+  if (!deleted()) return;
+  claim_ = stored_;
+  held_.clear();
+  prefix_ = 0;
+  want.Clear();
+  receipt_due = true;
 }
 
 void KeptRoute::ForgetClaim() {
@@ -76,7 +97,16 @@ Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key
                   .key = key,
                   .durable_prefix = prefix_,
                   .durable_beyond = {},
-                  .durable_state = complete() ? RouteState::kComplete : RouteState::kTeaching};
+                  .durable_state = complete() ? RouteState::kComplete : RouteState::kTeaching,
+                  .refusal = Refusal::kNone,
+                  .reason = full_};
+  if (deleted()) {
+    receipt.durable_state = RouteState::kTeaching;
+    receipt.refusal = Refusal::kDeleted;
+    receipt.reason = "an operator deleted it";
+  } else if (!full_.empty()) {
+    receipt.refusal = Refusal::kFull;
+  }
   for (auto at = held_.lower_bound(SegmentIndex(prefix_)); at != held_.end(); ++at) {
     if (receipt.durable_beyond.size() == kMaxIndicesPerReceipt) break;
     receipt.durable_beyond.push_back(at->first);

@@ -28,6 +28,7 @@ class KeptRoute {
     kNews,      // more is known than before
     kOldNews,   // nothing new
     kConflict,  // contradicts a complete route
+    kDeleted,   // the revision was deleted: nothing of it is wanted
   };
   // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.
   ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
@@ -41,8 +42,8 @@ class KeptRoute {
   // The route as far as it is durable: the claim if all of it is held, else the durable prefix with
   // length and bytes in proportion. Empty if nothing can be said, or nothing is held yet.
   [[nodiscard]] std::optional<route::RouteInfo> DurableInfo() const;
-  // The store took `info`.
-  void MarkStored(const route::RouteInfo& info) { stored_ = info; }
+  // The store took `info`, its labels included; with a tombstone nothing is held any more.
+  void MarkStored(const route::RouteInfo& info);
   // The claim does not fit the segments: forget it, and never announce it.
   void ForgetClaim();
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }
@@ -50,6 +51,17 @@ class KeptRoute {
     return stored_ && stored_->state == route::RouteState::kComplete;
   }
 
+  [[nodiscard]] bool deleted() const {
+    return stored_ && stored_->standing == route::Standing::kDeleted;
+  }
+  // The store has no room for the revision, or has again.
+  void MarkFull(const std::string& reason) { full_ = reason; }
+  void MarkRoom() { full_.clear(); }
+
+  // There is something that a receipt could say.
+  [[nodiscard]] bool can_receipt() const {
+    return holds_any() || complete() || deleted() || !full_.empty();
+  }
   [[nodiscard]] bool holds_any() const { return !held_.empty(); }
   [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key) const;
 
@@ -73,6 +85,7 @@ class KeptRoute {
   std::optional<route::RouteInfo> claim_;
   std::map<SegmentIndex, std::optional<route::Digest>> held_;
   std::uint32_t prefix_ = 0;  // all below are held
+  std::string full_;          // why the store takes nothing; empty: it does
 };
 
 }  // namespace trailcast::exchange

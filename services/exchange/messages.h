@@ -8,6 +8,7 @@
 
 #include "services/base/ids.h"
 #include "services/route/route.h"
+#include "services/route/route_edit.h"
 #include "services/route/route_query.h"
 
 namespace trailcast::exchange {
@@ -40,6 +41,13 @@ struct SegmentRequest {
   bool operator==(const SegmentRequest&) const = default;
 };
 
+// Why a server takes nothing of a revision.
+enum class Refusal : std::uint8_t {
+  kNone = 0,
+  kFull = 1,     // its disk, or what it may use of it; it may have room later
+  kDeleted = 2,  // an operator deleted the revision
+};
+
 // trailcast/receipts: "of this route, these are on my disk": all below durable_prefix, and beyond.
 struct Receipt {
   AgentId server{};
@@ -48,6 +56,8 @@ struct Receipt {
   std::vector<SegmentIndex> durable_beyond{};
   // kComplete: the route's final RouteInfo is on disk too and its manifest digest was found right.
   route::RouteState durable_state = route::RouteState::kTeaching;
+  Refusal refusal = Refusal::kNone;
+  std::string reason{};  // for people, with a refusal
   bool operator==(const Receipt&) const = default;
 };
 
@@ -57,6 +67,14 @@ struct CatalogRequest {
   std::uint64_t request = 0;  // echoed in the reply
   route::RouteQuery query{};  // anything: the server says in its reply what is wrong with it
   bool operator==(const CatalogRequest&) const = default;
+};
+
+// trailcast/route_edits: answered by a CatalogReply with the revisions as they are then.
+struct RouteEditRequest {
+  AgentId client{};
+  std::uint64_t request = 0;  // echoed in the reply; the same one is carried out once
+  route::RouteEdit edit{};    // anything: the server says in its reply what is wrong with it
+  bool operator==(const RouteEditRequest&) const = default;
 };
 
 struct CatalogReply {
@@ -107,7 +125,8 @@ struct AgentGone {
   bool operator==(const AgentGone&) const = default;
 };
 
-using Message = std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt,
-                             CatalogRequest, CatalogReply, AgentStatus, AgentGone>;
+using Message =
+    std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
+                 CatalogReply, AgentStatus, RouteEditRequest, AgentGone>;
 
 }  // namespace trailcast::exchange

@@ -18,6 +18,7 @@ enum class Topic : std::uint8_t {
   kCatalogRequests,
   kCatalogReplies,
   kAgents,
+  kRouteEdits,
 };
 
 struct TopicUse {
@@ -28,7 +29,8 @@ struct TopicUse {
 [[nodiscard]] TopicUse ScoutTopics();
 [[nodiscard]] TopicUse FollowerTopics();
 [[nodiscard]] TopicUse ServerTopics();
-[[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the catalog
+[[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the
+                                          // catalog, edits routes
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and
 // over DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread

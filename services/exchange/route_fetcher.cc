@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "services/exchange/bounds.h"
+#include "services/route/labels.h"
 
 namespace trailcast::exchange {
 
@@ -22,6 +23,11 @@ RouteFetcher::RouteFetcher(AgentId self, route::RouteKey key, const std::vector<
 
 void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
   if (info.key != key_) return;
+  if (info.standing == route::Standing::kDeleted) {
+    deleted_ = true;
+    return;
+  }
+  if (info_ && info.edition > info_->edition) route::TakeLabels(*info_, info);
   const bool complete = info_ && info_->state == RouteState::kComplete;
   if (complete) {
     // Complete routes never change; a holder that has less of it is no contradiction.
@@ -33,7 +39,9 @@ void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
     }
   } else if (!info_ || info.state == RouteState::kComplete ||
              info.segment_count > info_->segment_count) {
-    info_ = info;
+    route::RouteInfo grown = info;
+    if (info_ && info_->edition > info.edition) route::TakeLabels(grown, *info_);
+    info_ = std::move(grown);
     WantMissing(now + options_.fresh_grace);
     Judge();
   }

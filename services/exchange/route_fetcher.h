@@ -66,6 +66,8 @@ class RouteFetcher {
   [[nodiscard]] std::optional<SegmentIndex> NextMissing() const { return want_.first(); }
   [[nodiscard]] FetchProgress Progress(Time now) const;
   [[nodiscard]] bool Complete() const { return verdict_ == FetchState::kComplete; }
+  // A holder said that the revision was deleted: what is missing will not come.
+  [[nodiscard]] bool deleted() const { return deleted_; }
   // The best announcement so far.
   [[nodiscard]] const std::optional<route::RouteInfo>& info() const { return info_; }
 
@@ -88,6 +90,7 @@ class RouteFetcher {
   std::optional<FetchState> verdict_;  // kComplete or kWrong, once all is held
   Time heard_at_;                      // of a holder of this route; at first: creation
   Time inquire_at_;                    // when to ask who has it
+  bool deleted_ = false;
   FetchProgress counts_;
 };
 

@@ -7,21 +7,20 @@ namespace trailcast::exchange {
 using route::RouteInfo;
 using route::SegmentPiece;
 
-RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, AnswerCatalog answer_catalog,
+RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog,
                          Integrity integrity, RouteKeeperOptions options)
     : self_(std::move(self)),
       store_(store),
-      answer_catalog_(std::move(answer_catalog)),
+      catalog_(std::move(catalog)),
       integrity_(std::move(integrity)),
       options_(options),
       answers_(options.answer_window) {}
 
 Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::RouteStore& store,
-                                                       AnswerCatalog answer_catalog,
-                                                       Integrity integrity,
+                                                       Catalog catalog, Integrity integrity,
                                                        RouteKeeperOptions options) {
-  std::unique_ptr<RouteKeeper> keeper(new RouteKeeper(
-      std::move(self), store, std::move(answer_catalog), std::move(integrity), options));
+  std::unique_ptr<RouteKeeper> keeper(
+      new RouteKeeper(std::move(self), store, std::move(catalog), std::move(integrity), options));
   if (options.announced_at_start == 0) return keeper;
   const auto newest = store.QueryRoutes({.page_size = options.announced_at_start});
   if (!newest) return Wrap(newest.error(), "listing the stored routes");
@@ -43,6 +42,8 @@ void RouteKeeper::Handle(const Message& message, Time now) {
     HandleRequest(*segment_request, now);
   } else if (const auto* catalog_request = std::get_if<CatalogRequest>(&message)) {
     HandleCatalogRequest(*catalog_request);
+  } else if (const auto* edit = std::get_if<RouteEditRequest>(&message)) {
+    HandleEdit(*edit, now);
   }
 }
 
@@ -60,6 +61,9 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
               fmt::format("{} announces another {} than the complete one held here: ignored",
                           announcement.holder.value(), Describe(info.key)),
               now);
+      return;
+    case KeptRoute::ClaimResult::kDeleted:
+      kept->receipt_due = true;
       return;
     case KeptRoute::ClaimResult::kOldNews:
       break;
@@ -94,7 +98,7 @@ void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
 }
 
 void RouteKeeper::HandleCatalogRequest(const CatalogRequest& request) {
-  CatalogReply reply = answer_catalog_(request);
+  CatalogReply reply = catalog_.answer(request);
   reply.server = self_;
   reply.client = request.client;
   reply.request = request.request;
@@ -108,7 +112,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   for (auto& [key, kept] : routes_) {
     const bool due =
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
-    if (due && (kept.holds_any() || kept.complete())) {
+    if (due && kept.can_receipt()) {
       out.emplace_back(kept.MakeReceipt(self_, key));
       ++counters_.receipts;
       kept.receipt_at = now;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -55,12 +56,17 @@ struct KeeperCounters {
 class RouteKeeper {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  using AnswerCatalog = std::function<CatalogReply(const CatalogRequest&)>;
+  // What the owner answers from the same store.
+  struct Catalog {
+    std::function<CatalogReply(const CatalogRequest&)> answer{};
+    // The revisions that an edit changes, as they are afterwards; writes nothing.
+    std::function<Result<std::vector<route::RouteInfo>>(const route::RouteEdit&)> plan{};
+  };
 
   // `store` outlives the keeper. Takes no longer with a million routes in it.
   [[nodiscard]] static Result<std::unique_ptr<RouteKeeper>> Open(AgentId self,
                                                                  store::RouteStore& store,
-                                                                 AnswerCatalog answer_catalog,
+                                                                 Catalog catalog,
                                                                  Integrity integrity,
                                                                  RouteKeeperOptions options = {});
 
@@ -71,13 +77,16 @@ class RouteKeeper {
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
 
  private:
-  RouteKeeper(AgentId self, store::RouteStore& store, AnswerCatalog answer_catalog,
-              Integrity integrity, RouteKeeperOptions options);
+  RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog, Integrity integrity,
+              RouteKeeperOptions options);
 
   void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
   void HandleBatch(const SegmentBatch& batch, Time now);
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleCatalogRequest(const CatalogRequest& request);
+  void HandleEdit(const RouteEditRequest& request, Time now);
+  // Carries an edit out, in one commit, and has it announced.
+  [[nodiscard]] Result<std::vector<route::RouteInfo>> Edit(const route::RouteEdit& edit, Time now);
 
   // The route's state, taken up from the store if need be; null (and a note) if that fails, or for
   // a route of which the store has nothing when only stored ones are asked for.
@@ -90,6 +99,7 @@ class RouteKeeper {
   [[nodiscard]] bool IsNew(const route::SegmentPiece& piece, Time now);
   void Commit(Time now);
   void Append(std::span<const route::SegmentPiece> pieces, Time now);
+  void TellFull(std::span<const route::SegmentPiece> pieces, const Error& error);
   void Refuse(const Error& error, const route::RouteKey& key, Time now);
   // True if the announced manifest is that of the segments held.
   [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, KeptRoute& kept, Time now);
@@ -97,6 +107,8 @@ class RouteKeeper {
   void Announce(Time now, std::vector<Message>& out);
   // What is to be announced of the route now, if anything.
   [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now);
+  // A route's first complete revision is the active one.
+  void ActivateFirst(std::vector<route::RouteInfo>& completing);
   void StoreInfos(std::span<const route::RouteInfo> infos, Time now);
   void TellComplete(const route::RouteInfo& info, KeptRoute& kept, Time now);
   void SendAnswers(Time now, std::vector<Message>& out);
@@ -104,13 +116,14 @@ class RouteKeeper {
 
   AgentId self_;
   store::RouteStore& store_;
-  AnswerCatalog answer_catalog_;
+  Catalog catalog_;
   Integrity integrity_;
   RouteKeeperOptions options_;
 
   std::map<route::RouteKey, KeptRoute> routes_;
   std::vector<route::SegmentPiece> arrived_;  // since the last Tick
   std::vector<Message> replies_;              // to the catalog's clients
+  std::deque<CatalogReply> edited_;           // the last replies to edits
   AnswerQueue answers_;
   std::vector<Note> notes_;
   std::map<std::string, Time> noted_at_;

@@ -1,10 +1,13 @@
 // RouteKeeper's dealings with its store: what is durable, and what follows from that.
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "services/exchange/batches.h"
+#include "services/exchange/bounds.h"
 #include "services/exchange/route_keeper.h"
+#include "services/exchange/text.h"
 
 namespace trailcast::exchange {
 
@@ -68,6 +71,10 @@ Result<route::Digest> RouteKeeper::HeldDigest(const RouteKey& key, KeptRoute& ke
 bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
   KeptRoute* kept = Find(piece.key, now);
   if (kept == nullptr) return false;
+  if (kept->deleted()) {
+    kept->receipt_due = true;  // which says so
+    return false;
+  }
   const bool beyond = kept->complete() && piece.index.value() >= kept->stored()->segment_count;
   if (!kept->Holds(piece.index) && !beyond) return true;
   if (!beyond) {
@@ -114,6 +121,7 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
     const bool one_is_bad = code == ErrorCode::kConflict || code == ErrorCode::kCorrupt;
     if (!one_is_bad || pieces.size() == 1) {
       Refuse(stored.error(), pieces.front().key, now);
+      if (code == ErrorCode::kUnavailable) TellFull(pieces, stored.error());
       return;
     }
     const std::size_t half = pieces.size() / 2;
@@ -125,8 +133,18 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
   for (const SegmentPiece& piece : pieces) {
     KeptRoute& kept = routes_.at(piece.key);
     kept.MarkHeld(piece.index, piece.digest);
+    kept.MarkRoom();
     kept.announce_due = kept.receipt_due = true;
     kept.receipt_at.reset();  // something new is durable: not held back
+  }
+}
+
+// Their scouts are to know that nothing is taken, and why.
+void RouteKeeper::TellFull(std::span<const SegmentPiece> pieces, const Error& error) {
+  for (const SegmentPiece& piece : pieces) {
+    KeptRoute& kept = routes_.at(piece.key);
+    kept.MarkFull(PlainText(error.message, kMaxLineBytes));
+    kept.receipt_due = true;
   }
 }
 
@@ -159,23 +177,46 @@ bool RouteKeeper::ManifestIsRight(const RouteInfo& info, KeptRoute& kept, Time n
 }
 
 void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
-  std::vector<RouteInfo> news;
-  std::vector<RouteInfo> to_store;
+  std::vector<RouteInfo> again;
+  std::vector<RouteInfo> grown;
+  std::vector<RouteInfo> completing;
   for (auto& [key, kept] : routes_) {
     auto info = News(kept, now);
     if (!info) continue;
-    if (*info != kept.stored()) to_store.push_back(*info);
-    news.push_back(std::move(*info));
+    const bool stored_already = info == kept.stored();
+    const bool completes = !kept.complete() && info->state == RouteState::kComplete;
+    (stored_already ? again : completes ? completing : grown).push_back(std::move(*info));
   }
-  StoreInfos(to_store, now);
-  for (RouteInfo& info : news) {
+  ActivateFirst(completing);
+  StoreInfos(grown, now);
+  StoreInfos(completing, now);
+  for (const RouteInfo& info : completing) {
     KeptRoute& kept = routes_.at(info.key);
-    if (info != kept.stored()) continue;
-    kept.resend_due = false;
-    const bool completes = info.state == RouteState::kComplete &&
-                           std::find(to_store.begin(), to_store.end(), info) != to_store.end();
-    if (completes) TellComplete(info, kept, now);
-    out.emplace_back(RouteAnnouncement{.holder = self_, .info = std::move(info)});
+    if (kept.complete()) TellComplete(info, kept, now);
+  }
+  for (const auto* infos : {&again, &grown, &completing}) {
+    for (const RouteInfo& info : *infos) {
+      KeptRoute& kept = routes_.at(info.key);
+      if (info != kept.stored()) continue;
+      kept.resend_due = false;
+      out.emplace_back(RouteAnnouncement{.holder = self_, .info = info});
+    }
+  }
+}
+
+void RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
+  std::set<RouteId> activated;
+  for (RouteInfo& info : completing) {
+    if (info.standing != route::Standing::kStaged || activated.contains(info.key.route)) continue;
+    const auto revisions = store_.FindRevisions(info.key.route);
+    const bool edited =
+        !revisions || std::any_of(revisions->begin(), revisions->end(), [](const RouteInfo& each) {
+          return each.standing != route::Standing::kStaged;
+        });
+    if (edited) continue;
+    info.standing = route::Standing::kActive;
+    ++info.edition;
+    activated.insert(info.key.route);
   }
 }
 
@@ -187,8 +228,9 @@ std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
   const bool stored_already = durable && durable == kept.stored();
   if (!durable || (stored_already && !kept.resend_due)) return std::nullopt;
   kept.announced_at = now;
-  if (!stored_already && durable->state == RouteState::kComplete &&
-      !ManifestIsRight(*durable, kept, now)) {
+  const bool completes = durable->state == RouteState::kComplete && !kept.complete() &&
+                         durable->standing != route::Standing::kDeleted;
+  if (completes && !ManifestIsRight(*durable, kept, now)) {
     kept.ForgetClaim();
     return std::nullopt;
   }

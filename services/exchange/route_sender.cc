@@ -22,7 +22,11 @@ RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
 void RouteSender::Add(route::SegmentPiece piece, route::RouteInfo info) {
   assert(piece.key == info_.key && piece.index.value() < info.segment_count);
   unreceipted_.insert(piece.index);
-  to_stream_.push_back(std::move(piece));
+  if (deleted()) {
+    MarkReceipted(piece.index);
+  } else {
+    to_stream_.push_back(std::move(piece));
+  }
   Update(std::move(info));
 }
 
@@ -54,7 +58,14 @@ void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
 }
 
 void RouteSender::HandleReceipt(const Receipt& receipt) {
-  if (receipt.key != info_.key) return;
+  if (receipt.key != info_.key || deleted()) return;
+  refused_.reset();
+  if (receipt.refusal != Refusal::kNone) refused_ = receipt;
+  if (deleted()) {
+    to_stream_.clear();
+    while (!unreceipted_.empty()) MarkReceipted(*unreceipted_.begin());
+    return;
+  }
   while (!unreceipted_.empty() && unreceipted_.begin()->value() < receipt.durable_prefix) {
     MarkReceipted(*unreceipted_.begin());
   }
@@ -94,7 +105,8 @@ std::vector<SegmentIndex> RouteSender::TakeNewlyReceipted() {
 std::vector<Error> RouteSender::TakeReadErrors() { return std::exchange(read_errors_, {}); }
 
 bool RouteSender::AllReceipted() const {
-  return info_.state == route::RouteState::kComplete && complete_receipted_ && unreceipted_.empty();
+  return info_.state == route::RouteState::kComplete && (complete_receipted_ || deleted()) &&
+         unreceipted_.empty();
 }
 
 }  // namespace trailcast::exchange

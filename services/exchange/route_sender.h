@@ -50,14 +50,18 @@ class RouteSender {
 
   // Segments that no server has confirmed, rising.
   [[nodiscard]] const std::set<SegmentIndex>& Unreceipted() const { return unreceipted_; }
-  // The route is complete, and a server has all of it on disk: segments and final info.
+  // The route is complete, and a server has all of it on disk: segments and final info; or an
+  // operator deleted the revision, so that nobody wants it.
   [[nodiscard]] bool AllReceipted() const;
+  // The last receipt, if it was a refusal.
+  [[nodiscard]] const std::optional<Receipt>& refused() const { return refused_; }
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
 
  private:
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleReceipt(const Receipt& receipt);
   void MarkReceipted(SegmentIndex index);
+  [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
 
   AgentId self_;
   route::RouteInfo info_;
@@ -66,6 +70,7 @@ class RouteSender {
 
   std::set<SegmentIndex> unreceipted_;
   bool complete_receipted_ = false;
+  std::optional<Receipt> refused_;
   std::vector<SegmentIndex> newly_receipted_;
   std::vector<Error> read_errors_;
 

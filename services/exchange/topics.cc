@@ -18,11 +18,11 @@ TopicUse ServerTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kReceipts,
                     Topic::kCatalogReplies, Topic::kAgents},
           .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
-                   Topic::kCatalogRequests, Topic::kAgents}};
+                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits}};
 }
 
 TopicUse OperatorTopics() {
-  return {.write = {Topic::kCatalogRequests},
+  return {.write = {Topic::kCatalogRequests, Topic::kRouteEdits},
           .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kAgents}};
 }
 
@@ -30,7 +30,7 @@ std::optional<Topic> TopicOf(const Message& message) {
   // In the order of the variant; AgentGone, the last, is not a topic.
   static constexpr Topic kTopics[] = {
       Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
-      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents};
+      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kRouteEdits};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
 }
@@ -51,6 +51,8 @@ const char* NameOf(Topic topic) {
       return "trailcast/catalog_replies";
     case Topic::kAgents:
       return "trailcast/agents";
+    case Topic::kRouteEdits:
+      return "trailcast/route_edits";
   }
   return "unknown topic";
 }

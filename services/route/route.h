@@ -83,6 +83,14 @@ enum class RouteState : std::uint8_t {
   kComplete = 1,  // immutable from now on
 };
 
+// What a revision is to its operator.
+enum class Standing : std::uint8_t {
+  kStaged = 0,   // held, and not in use, or not yet
+  kActive = 1,   // the one of its route that followers take
+  kRetired = 2,  // kept, and offered to nobody
+  kDeleted = 3,  // a tombstone: its segments are gone, and are taken from nobody
+};
+
 // Where a route begins, for people and for queries; nobody follows by it.
 struct Place {
   enum class Frame : std::uint8_t {
@@ -98,7 +106,8 @@ struct Place {
 
 inline constexpr std::size_t kMaxTags = 16;
 
-// What is known of a route without its segments: announced by the scout, kept in the catalog.
+// What is known of a route without its segments: announced by the scout, kept in the catalog. What
+// operators may change afterwards are its labels (labels.h): name, tags, description and standing.
 struct RouteInfo {
   RouteKey key;
   std::string name;        // what people call it; IsValidName
@@ -115,6 +124,9 @@ struct RouteInfo {
   Digest manifest_digest{};
   std::vector<std::string> tags{};  // IsValidName each, rising, none twice, at most kMaxTags
   std::optional<Place> place{};     // given when teaching
+  std::string description{};        // for people: one line, at most 512 bytes
+  Standing standing = Standing::kStaged;
+  std::uint32_t edition = 0;  // how often the labels were changed since it was taught
 
   bool operator==(const RouteInfo&) const = default;
 };

@@ -38,6 +38,7 @@ struct RouteQuery {
   std::int64_t taught_from_unix_ms = 0;   // then or later
   std::int64_t taught_until_unix_ms = 0;  // before
   std::optional<RouteState> state{};
+  std::optional<Standing> standing{};  // deleted revisions are not found
   std::optional<Surroundings> near{};  // begins there; without a place of its own: not found
   RouteOrder order = RouteOrder::kNewest;
   std::uint32_t page_size = 0;  // 0: as many as the server likes

@@ -154,6 +154,9 @@ SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag) {
     match.And("taught_unix_ms < ?", {query.taught_until_unix_ms});
   }
   if (query.state) match.And("state = ?", {static_cast<std::int64_t>(*query.state)});
+  if (query.standing) {
+    match.And("standing = ?", {static_cast<std::int64_t>(*query.standing)});
+  }
   if (query.near) BeginsNear(*query.near, match);
   return match;
 }

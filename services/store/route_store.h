@@ -25,17 +25,19 @@ class RouteStore {
   RouteStore& operator=(const RouteStore&) = delete;
 
   // All or nothing, on disk when this returns.
-  // Inserts, or replaces what is known of the same key. A kComplete route never changes again:
-  // kConflict if `info` differs from what is stored (an identical one is fine). An info with fewer
-  // segments than known is old news and ignored, and so is one that says kTeaching of a complete
-  // route. kInvalidArgument, naming the field, for what no route can be.
+  // Inserts, or brings what is known of the same key up to date as route::AfterNews says: old news
+  // is ignored, a complete revision changes its labels only (kConflict otherwise). An info whose
+  // standing is kDeleted leaves a tombstone: the revision's segments go, later ones are refused,
+  // and only FindRoute still knows of it. kInvalidArgument, naming the field, for what no route can
+  // be.
   [[nodiscard]] virtual Result<void> PutRoutes(std::span<const route::RouteInfo> infos) = 0;
   [[nodiscard]] Result<void> PutRoute(const route::RouteInfo& info) {
     return PutRoutes({&info, 1});
   }
 
   // All or nothing, on disk when this returns. Pieces already held with the same digest are fine;
-  // kConflict if a held index has another digest; kCorrupt if a piece's bytes fail its digest;
+  // kConflict if a held index has another digest, or the revision was deleted; kCorrupt if a
+  // piece's bytes fail its digest;
   // kUnavailable when the disk is full. The route need not be known yet. A held piece that has
   // become damaged on disk is replaced by the one given.
   [[nodiscard]] virtual Result<void> AppendSegments(
@@ -48,8 +50,12 @@ class RouteStore {
   [[nodiscard]] virtual Result<std::vector<SegmentIndex>> HeldSegments(
       const route::RouteKey& key) = 0;
 
+  // Tombstones included.
   [[nodiscard]] virtual Result<std::optional<route::RouteInfo>> FindRoute(
       const route::RouteKey& key) = 0;
+  // All revisions of a route, rising.
+  [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRevisions(
+      const RouteId& route) = 0;
   // Newest first (taught_unix_ms, then key).
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> ListRoutes() = 0;
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesByName(

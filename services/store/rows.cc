@@ -15,6 +15,7 @@ namespace trailcast::store {
 namespace {
 
 constexpr std::size_t kMaxCameraBytes = 128;
+constexpr std::size_t kMaxDescriptionBytes = 512;
 constexpr int kMaxImagePx = 65536;
 
 route::Digest Sha256(const std::string& text) {
@@ -23,7 +24,7 @@ route::Digest Sha256(const std::string& text) {
 
 // Seals are digests of a row's other columns as text: SQLite does not notice a changed byte, and a
 // damaged index can lead to the wrong row. Part of the store's format.
-// Without tags and place it is that of version 1.
+// Without tags and place it is that of version 1, with the labels as taught that of version 2.
 route::Digest Seal(const route::RouteInfo& info) {
   std::string text = fmt::format(
       "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{:a}\n{}\n{}\n", info.key.route.value(),
@@ -121,6 +122,13 @@ Result<void> CheckRoute(const route::RouteInfo& info) {
   if (info.place && (!std::isfinite(info.place->x) || !std::isfinite(info.place->y))) {
     return Refuse(info, "place", "must be finite");
   }
+  if (info.description.size() > kMaxDescriptionBytes) {
+    return Refuse(info, "description",
+                  fmt::format("must have at most {} bytes", kMaxDescriptionBytes));
+  }
+  if (info.standing > route::Standing::kDeleted) {
+    return Refuse(info, "standing", "must be staged, active, retired or deleted");
+  }
   if (info.state != route::RouteState::kTeaching && info.state != route::RouteState::kComplete) {
     return Refuse(info, "state", "must be teaching or complete");
   }
@@ -147,6 +155,9 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info) {
   BindDigest(statement, 13, info.manifest_digest);
   BindDigest(statement, 14, Seal(info));
   statement.bind(15, JoinTags(info.tags));
+  statement.bind(19, info.description);
+  statement.bind(20, static_cast<int>(info.standing));
+  statement.bind(21, info.edition);
   if (!info.place) return;  // NULLs
   statement.bind(16, static_cast<int>(info.place->frame));
   statement.bind(17, info.place->x);
@@ -172,6 +183,9 @@ Result<route::RouteInfo> ReadRoute(const SQLite::Statement& statement) {
   const Result<route::Digest> seal = ReadDigest(statement.getColumn(13));
   info.tags = SplitTags(statement.getColumn(14).getString());
   info.place = ReadPlace(statement, 15);
+  info.description = statement.getColumn(18).getString();
+  info.standing = static_cast<route::Standing>(statement.getColumn(19).getInt());
+  info.edition = statement.getColumn(20).getUInt();
   if (manifest) info.manifest_digest = *manifest;
   if (!manifest || !seal || *seal != Seal(info)) {
     return Fail(ErrorCode::kCorrupt,

@@ -7,11 +7,11 @@
 
 namespace trailcast::store {
 
-// Columns of table `route`, in the order of BindRoute and ReadRoute.
+// Columns of tables `route` and `tombstone`, in the order of BindRoute and ReadRoute.
 inline constexpr const char* kRouteColumns =
     "route, revision, name, scout, camera, image_width_px, image_height_px, taught_unix_ms, state, "
     "segment_count, length_m, bytes, manifest_digest, seal, tags, place_frame, place_east, "
-    "place_north";
+    "place_north, description, standing, edition";
 
 // kInvalidArgument, naming the field, for an info that no route can have.
 [[nodiscard]] Result<void> CheckRoute(const route::RouteInfo& info);

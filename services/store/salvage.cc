@@ -57,7 +57,10 @@ class RowWalk {
     try {
       select_.tryReset();
       select_.bind(1, rowid);
-      if (select_.executeStep()) return select_.getColumn(select_.getColumnCount() - 1).getInt64();
+      if (!select_.executeStep()) return std::nullopt;
+      const Rowid found = select_.getColumn(select_.getColumnCount() - 1).getInt64();
+      if (found > rowid) return found;
+      damaged_ = true;  // a page in another's place: following it would go round in circles
     } catch (const SQLite::Exception& exception) {
       if (!IsDamage(exception)) throw;
       damaged_ = true;
@@ -91,23 +94,27 @@ class Salvaging {
   Salvaging(SQLite::Database& damaged, RouteStore& whole) : damaged_(damaged), whole_(whole) {}
 
   Result<Salvaged> Run() {
-    for (auto part : {&Salvaging::SaveRoutes, &Salvaging::SaveSegments, &Salvaging::SaveReceipts,
-                      &Salvaging::TellLost}) {
+    for (auto part : {&Salvaging::SaveTombstones, &Salvaging::SaveRoutes, &Salvaging::SaveSegments,
+                      &Salvaging::SaveReceipts, &Salvaging::TellLost}) {
       if (auto done = (this->*part)(); !done) return tl::unexpected(done.error());
     }
     return std::move(salvaged_);
   }
 
  private:
-  Result<void> SaveRoutes() {
-    RowWalk rows(damaged_, "route", kRouteColumns);
+  // First, so that what else is there of a deleted revision is refused.
+  Result<void> SaveTombstones() { return SaveInfos("tombstone"); }
+  Result<void> SaveRoutes() { return SaveInfos("route"); }
+
+  Result<void> SaveInfos(const char* table) {
+    RowWalk rows(damaged_, table, kRouteColumns);
     while (const SQLite::Statement* row = rows.Next()) {
       auto info = Readable([&] { return ReadRoute(*row); });
       if (info) routes_.push_back(std::move(*info));
       if (routes_.size() < kBatch) continue;
       if (auto flushed = FlushRoutes(); !flushed) return flushed;
     }
-    TellStretches("routes", rows.stretches());
+    TellStretches(std::string(table) + "s", rows.stretches());
     return FlushRoutes();
   }
 
@@ -168,7 +175,7 @@ class Salvaging {
     return {};
   }
 
-  void TellStretches(const char* of, int stretches) {
+  void TellStretches(const std::string& of, int stretches) {
     if (stretches == 0) return;
     salvaged_.lost.push_back(
         fmt::format("{} of the file's {}", stretches == 1 ? "a part" : "several parts", of));

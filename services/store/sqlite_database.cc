@@ -14,11 +14,9 @@ constexpr int kPageBytes = 4096;
 // one would kill the process).
 constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
 
-// Segments may arrive before their route does, so neither table refers to the other. `seal` is a
-// digest of what a row says (rows.cc): SQLite itself does not notice a changed byte.
-constexpr const char* kTables = R"(
-CREATE TABLE route (
-  id INTEGER PRIMARY KEY,
+// What is known of a revision. `seal` is a digest of what a row says (rows.cc): SQLite itself does
+// not notice a changed byte.
+constexpr const char* kRouteRow = R"(
   route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
   revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
   name TEXT NOT NULL CHECK (length(name) BETWEEN 1 AND 64),
@@ -37,12 +35,21 @@ CREATE TABLE route (
   place_frame INTEGER CHECK (place_frame IN (1, 2)),
   place_east REAL,
   place_north REAL,
+  description TEXT NOT NULL DEFAULT '',
+  standing INTEGER NOT NULL DEFAULT 0 CHECK (standing BETWEEN 0 AND 3),
+  edition INTEGER NOT NULL DEFAULT 0 CHECK (edition BETWEEN 0 AND 4294967295),
   UNIQUE (route, revision)
-) STRICT;
+)";
+
+constexpr const char* kRouteIndices = R"(
 CREATE INDEX route_by_name ON route (name, route, revision);
 CREATE INDEX route_by_time ON route (taught_unix_ms, route, revision);
 CREATE INDEX route_by_length ON route (length_m, route, revision);
 CREATE INDEX route_by_scout ON route (scout);
+)";
+
+// Segments may arrive before their route does, so neither table refers to the other.
+constexpr const char* kOtherTables = R"(
 CREATE TABLE route_tag (
   tag TEXT NOT NULL,
   id INTEGER NOT NULL,
@@ -64,17 +71,40 @@ CREATE TABLE segment (
 CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
 )";
 
+// Table `route` is what is offered and searched; deleted revisions are apart, so that searching
+// costs nothing for them.
+void CreateRouteTables(SQLite::Database& db) {
+  for (const char* table : {"route", "tombstone"}) {
+    db.exec(fmt::format("CREATE TABLE {} (id INTEGER PRIMARY KEY,{}) STRICT", table, kRouteRow));
+  }
+  db.exec(kRouteIndices);
+}
+
+void CreateTables(SQLite::Database& db) {
+  CreateRouteTables(db);
+  db.exec(kOtherTables);
+}
+
 // Version 1 knew neither tags nor places; what it held is the same row without them.
 constexpr const char* kFromVersion1 = R"(
 INSERT INTO route (route, revision, name, scout, camera, image_width_px, image_height_px,
   taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, tags)
 SELECT route, revision, name, scout, camera, image_width_px, image_height_px,
   taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, ''
-FROM route_1;
+FROM old_route;
 INSERT INTO segment (route, revision, number, receipted, digest, seal, bytes)
-SELECT route, revision, number, receipted, digest, seal, bytes FROM segment_1;
-DROP TABLE route_1;
-DROP TABLE segment_1;
+SELECT route, revision, number, receipted, digest, seal, bytes FROM old_segment;
+DROP TABLE old_route;
+DROP TABLE old_segment;
+)";
+
+// Version 2 knew no labels and no tombstones.
+constexpr const char* kFromVersion2 = R"(
+INSERT INTO route (id, route, revision, name, scout, camera, image_width_px, image_height_px,
+  taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, tags,
+  place_frame, place_east, place_north)
+SELECT * FROM old_route;
+DROP TABLE old_route;
 )";
 
 void MarkVersion(SQLite::Database& db) {
@@ -83,21 +113,26 @@ void MarkVersion(SQLite::Database& db) {
 }
 
 // All in one transaction with the marks in the header: an interrupted making leaves an empty file.
-void CreateTables(SQLite::Database& db) {
+void MakeStore(SQLite::Database& db) {
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
   MarkVersion(db);
-  db.exec(kTables);
+  CreateTables(db);
   transaction.commit();
 }
 
-// Interrupted, it leaves version 1.
-void BringUpToDate(SQLite::Database& db) {
+// Interrupted, it leaves the version that it found.
+void BringUpToDate(SQLite::Database& db, std::uint32_t version) {
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
-  db.exec(
-      "DROP INDEX route_by_name; DROP INDEX segment_unreceipted;"
-      "ALTER TABLE route RENAME TO route_1; ALTER TABLE segment RENAME TO segment_1");
-  db.exec(kTables);
-  db.exec(kFromVersion1);
+  db.exec("DROP INDEX route_by_name; ALTER TABLE route RENAME TO old_route");
+  if (version == 1) {
+    db.exec("DROP INDEX segment_unreceipted; ALTER TABLE segment RENAME TO old_segment");
+    CreateTables(db);
+    db.exec(kFromVersion1);
+  } else {
+    db.exec("DROP INDEX route_by_time; DROP INDEX route_by_length; DROP INDEX route_by_scout");
+    CreateRouteTables(db);
+    db.exec(kFromVersion2);
+  }
   MarkVersion(db);
   transaction.commit();
 }
@@ -129,7 +164,7 @@ std::string DescribeTables(SQLite::Database& db) {
 // Cheap: reads the first pages. A byte changed in a table's definition changes what it means.
 void CheckTables(SQLite::Database& db) {
   SQLite::Database fresh(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  fresh.exec(kTables);
+  CreateTables(fresh);
   if (DescribeTables(db) != DescribeTables(fresh)) {
     throw SQLite::Exception("the definitions of its tables are damaged", SQLITE_CORRUPT);
   }
@@ -173,8 +208,9 @@ Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::pa
         std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
     sqlite3_extended_result_codes(db->getHandle(), 1);
     db->exec(kExclusive);
-    if (db->execAndGet("PRAGMA page_count").getInt64() == 0) CreateTables(*db);
-    if (db->execAndGet("PRAGMA user_version").getUInt() == kOldestSchemaVersion) BringUpToDate(*db);
+    if (db->execAndGet("PRAGMA page_count").getInt64() == 0) MakeStore(*db);
+    const std::uint32_t version = db->execAndGet("PRAGMA user_version").getUInt();
+    if (version < kSchemaVersion) BringUpToDate(*db, version);
     CheckTables(*db);
     Configure(*db, options);
     return db;

@@ -18,20 +18,42 @@ void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
 
 }  // namespace
 
-void SqliteRouteStore::Put(const RouteInfo& info) {
+std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
   SQLite::Statement put(*db_,
-                        fmt::format("INSERT OR REPLACE INTO route ({}, id) VALUES "
-                                    "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
-                                    "(SELECT id FROM route WHERE route = ?1 AND revision = ?2))",
-                                    kRouteColumns));
+                        fmt::format("INSERT OR REPLACE INTO {0} ({1}, id) VALUES "
+                                    "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
+                                    "(SELECT id FROM {0} WHERE route = ?1 AND revision = ?2))",
+                                    table, kRouteColumns));
   BindRoute(put, info);
   put.exec();
-  const std::int64_t id = db_->getLastInsertRowid();
+  return db_->getLastInsertRowid();
+}
+
+void SqliteRouteStore::ForgetPlaceAndTags(std::int64_t id) {
   for (const char* table : {"route_tag", "route_place"}) {
     SQLite::Statement forget(*db_, fmt::format("DELETE FROM {} WHERE id = ?", table));
     forget.bind(1, id);
     forget.exec();
   }
+}
+
+void SqliteRouteStore::Bury(const RouteInfo& info) {
+  SQLite::Statement find(*db_, "SELECT id FROM route WHERE route = ? AND revision = ?");
+  BindKey(find, info.key);
+  if (find.executeStep()) ForgetPlaceAndTags(find.getColumn(0).getInt64());
+  find.reset();
+  for (const char* table : {"route", "segment"}) {
+    SQLite::Statement forget(*db_,
+                             fmt::format("DELETE FROM {} WHERE route = ? AND revision = ?", table));
+    BindKey(forget, info.key);
+    forget.exec();
+  }
+  PutRow("tombstone", info);
+}
+
+void SqliteRouteStore::Put(const RouteInfo& info) {
+  const std::int64_t id = PutRow("route", info);
+  ForgetPlaceAndTags(id);
   for (const std::string& tag : info.tags) {
     SQLite::Statement add(*db_, "INSERT INTO route_tag (tag, id) VALUES (?, ?)");
     add.bind(1, tag);

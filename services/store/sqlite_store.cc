@@ -1,23 +1,17 @@
 #include "services/store/sqlite_store.h"
 
 #include "services/route/digest.h"
+#include "services/route/labels.h"
 #include "services/store/rows.h"
 
 namespace trailcast::store {
 namespace {
 
+constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, revision DESC";
+
 using route::RouteInfo;
 using route::RouteKey;
-using route::RouteState;
 using route::SegmentPiece;
-
-// Announcements of one route can overtake each other.
-bool IsOldNews(const RouteInfo& info, const RouteInfo& known) {
-  if (known.state == RouteState::kComplete) {
-    return info.state == RouteState::kTeaching && info.segment_count <= known.segment_count;
-  }
-  return info.segment_count < known.segment_count;
-}
 
 template <typename Item>
 Result<void> CheckAll(std::span<const Item> items, Result<void> (*check)(const Item&)) {
@@ -53,16 +47,14 @@ Result<void> SqliteRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
 Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
   const Result<std::optional<RouteInfo>> known = FindRoute(info.key);
   if (!known && known.error().code != ErrorCode::kCorrupt) return tl::unexpected(known.error());
+  RouteInfo after = info;
   if (known && known->has_value()) {
-    if (info == **known || IsOldNews(info, **known)) return {};
-    if ((*known)->state == RouteState::kComplete) {
-      return Fail(ErrorCode::kConflict,
-                  "route store {}: {} is complete with {} segments and cannot change; teach it "
-                  "again as a new revision",
-                  file_.path().string(), Describe(info.key), (*known)->segment_count);
-    }
+    Result<RouteInfo> merged = route::AfterNews(**known, info);
+    if (!merged) return Wrap(merged.error(), "route store " + file_.path().string());
+    if (*merged == **known) return {};
+    after = std::move(*merged);
   }
-  Put(info);
+  after.standing == route::Standing::kDeleted ? Bury(after) : Put(after);
   return {};
 }
 
@@ -75,6 +67,12 @@ Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> piec
 }
 
 Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
+  SQLite::Statement buried(*db_, "SELECT 1 FROM tombstone WHERE route = ? AND revision = ?");
+  BindKey(buried, piece.key);
+  if (buried.executeStep()) {
+    return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
+                file_.path().string(), Describe(piece.key));
+  }
   const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
   if (held) {
     if (held->digest == piece.digest) return {};
@@ -138,26 +136,13 @@ Result<std::vector<SegmentIndex>> SqliteRouteStore::UnreceiptedSegments(const Ro
   return SelectIndices(key, true);
 }
 
-Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key) {
-  return Guarded("looking up " + Describe(key), [&]() -> Result<std::optional<RouteInfo>> {
-    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM route WHERE route = ? AND "
-                                               "revision = ?",
-                                               kRouteColumns));
-    BindKey(select, key);
-    if (!select.executeStep()) return std::nullopt;
-    Result<RouteInfo> info = ReadRoute(select);
-    if (!info) return Wrap(info.error(), "route store " + file_.path().string());
-    return std::move(*info);
-  });
-}
-
-Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(const std::string& name) {
-  return Guarded("listing routes", [&]() -> Result<std::vector<RouteInfo>> {
-    SQLite::Statement select(
-        *db_, fmt::format("SELECT {} FROM route {} ORDER BY taught_unix_ms DESC, route DESC, "
-                          "revision DESC",
-                          kRouteColumns, name.empty() ? "" : "WHERE name = ?"));
-    if (!name.empty()) select.bind(1, name);
+Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(
+    const std::string& table, const std::string& where,
+    const std::function<void(SQLite::Statement&)>& bind) {
+  return Guarded("looking up routes", [&]() -> Result<std::vector<RouteInfo>> {
+    SQLite::Statement select(*db_,
+                             fmt::format("SELECT {} FROM {} {}", kRouteColumns, table, where));
+    bind(select);
     std::vector<RouteInfo> routes;
     while (select.executeStep()) {
       Result<RouteInfo> info = ReadRoute(select);
@@ -168,11 +153,29 @@ Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(const std::string&
   });
 }
 
-Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() { return SelectRoutes(""); }
+Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key) {
+  for (const char* table : {"route", "tombstone"}) {
+    Result<std::vector<RouteInfo>> found =
+        SelectRoutes(table, "WHERE route = ? AND revision = ?",
+                     [&](SQLite::Statement& select) { BindKey(select, key); });
+    if (!found) return tl::unexpected(found.error());
+    if (!found->empty()) return std::move(found->front());
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::FindRevisions(const RouteId& route) {
+  return SelectRoutes("route", "WHERE route = ? ORDER BY revision",
+                      [&](SQLite::Statement& select) { select.bind(1, route.value()); });
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() {
+  return SelectRoutes("route", kNewestFirst, [](SQLite::Statement&) {});
+}
 
 Result<std::vector<RouteInfo>> SqliteRouteStore::FindRoutesByName(const std::string& name) {
-  if (name.empty()) return std::vector<RouteInfo>{};  // no route is called nothing
-  return SelectRoutes(name);
+  return SelectRoutes("route", std::string("WHERE name = ? ") + kNewestFirst,
+                      [&](SQLite::Statement& select) { select.bind(1, name); });
 }
 
 Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,

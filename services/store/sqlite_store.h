@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@ class SqliteRouteStore final : public RouteStore {
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
+  Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override;
   Result<std::vector<route::RouteInfo>> ListRoutes() override;
   Result<std::vector<route::RouteInfo>> FindRoutesByName(const std::string& name) override;
   Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override;
@@ -47,14 +49,21 @@ class SqliteRouteStore final : public RouteStore {
   Result<void> StoreAll(const std::string& doing, std::span<const Item> items,
                         Result<void> (SqliteRouteStore::*store)(const Item&));
   [[nodiscard]] std::string RareTag(const route::RouteQuery& query);
-  // Stores what is new of a route within the caller's transaction; the second writes it, and by
-  // what it is found.
+  // Stores what is new of a route within the caller's transaction; the others write it: what it is,
+  // and by what it is found; or its tombstone.
   Result<void> PutNews(const route::RouteInfo& info);
   void Put(const route::RouteInfo& info);
+  void Bury(const route::RouteInfo& info);
+  // Puts the row into one of the two tables; returns its id.
+  std::int64_t PutRow(const std::string& table, const route::RouteInfo& info);
+  void ForgetPlaceAndTags(std::int64_t id);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
-  Result<std::vector<route::RouteInfo>> SelectRoutes(const std::string& name);
+  // The rows of one of the two tables that fulfil `where`, whose parameters `bind` fills in.
+  Result<std::vector<route::RouteInfo>> SelectRoutes(
+      const std::string& table, const std::string& where,
+      const std::function<void(SQLite::Statement&)>& bind);
 
   // Parts of Verify (sqlite_verify.cc); each adds a line for whatever is damaged.
   Result<void> VerifyPages(std::vector<std::string>& damage);

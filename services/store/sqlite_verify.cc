@@ -37,6 +37,7 @@ Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
   Result<void> listed = Guarded("listing what it holds", [&]() -> Result<void> {
     SQLite::Statement select(*db_,
                              "SELECT route, revision FROM route UNION "
+                             "SELECT route, revision FROM tombstone UNION "
                              "SELECT route, revision FROM segment ORDER BY 1, 2");
     while (select.executeStep()) {
       keys.push_back({RouteId(select.getColumn(0).getString()),
@@ -71,7 +72,8 @@ Result<void> SqliteRouteStore::VerifyRoute(const route::RouteKey& key,
   }
   const Result<std::optional<route::RouteInfo>> info = FindRoute(key);
   if (!info) return tl::unexpected(info.error());
-  if (info->has_value() && (*info)->state == route::RouteState::kComplete &&
+  const bool living = info->has_value() && (*info)->standing != route::Standing::kDeleted;
+  if (living && (*info)->state == route::RouteState::kComplete &&
       digests.size() == (*info)->segment_count &&
       route::ManifestDigest(digests) != (*info)->manifest_digest) {
     damage.push_back(

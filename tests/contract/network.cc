@@ -59,6 +59,8 @@ Message ProbeFor(Topic topic) {
       return exchange::CatalogRequest{.client = kProbe};
     case Topic::kCatalogReplies:
       return exchange::CatalogReply{.server = kProbe, .client = kProbe};
+    case Topic::kRouteEdits:
+      return exchange::RouteEditRequest{.client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -73,6 +75,7 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::SegmentBatch& m) { return m.sender; }
     AgentId operator()(const exchange::SegmentRequest& m) { return m.requester; }
     AgentId operator()(const exchange::Receipt& m) { return m.server; }
+    AgentId operator()(const exchange::RouteEditRequest& m) { return m.client; }
     AgentId operator()(const exchange::CatalogRequest& m) { return m.client; }
     AgentId operator()(const exchange::CatalogReply& m) { return m.server; }
     AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }

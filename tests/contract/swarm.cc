@@ -52,7 +52,8 @@ void Swarm::StartServer() {
   const auto catalog = [this](const exchange::CatalogRequest&) {
     return exchange::CatalogReply{.page = {.routes = server_store_.ListRoutes().value()}};
   };
-  keeper_ = exchange::RouteKeeper::Open(AgentId("server-1"), server_store_, catalog, ToyIntegrity())
+  keeper_ = exchange::RouteKeeper::Open(AgentId("server-1"), server_store_, {.answer = catalog},
+                                        ToyIntegrity())
                 .value();
 }
 

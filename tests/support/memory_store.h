@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/route/labels.h"
 #include "services/store/route_store.h"
 #include "tests/support/pieces.h"
 
@@ -21,17 +22,16 @@ class MemoryStore : public store::RouteStore {
 
   Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override {
     if (full) return Fail(ErrorCode::kUnavailable, "disk full");
+    std::map<route::RouteKey, route::RouteInfo> after = routes_;
     for (const route::RouteInfo& info : infos) {
-      const auto found = routes_.find(info.key);
-      if (found != routes_.end() && found->second.state == route::RouteState::kComplete &&
-          found->second != info) {
-        return Fail(ErrorCode::kConflict, "route is complete");
-      }
+      const auto [at, is_new] = after.try_emplace(info.key, info);
+      if (is_new) continue;
+      auto merged = route::AfterNews(at->second, info);
+      if (!merged) return tl::unexpected(merged.error());
+      at->second = std::move(*merged);
     }
-    for (const route::RouteInfo& info : infos) {
-      const auto [at, is_new] = routes_.try_emplace(info.key, info);
-      if (!is_new && info.segment_count >= at->second.segment_count) at->second = info;
-    }
+    routes_ = std::move(after);
+    std::erase_if(segments_, [&](const auto& entry) { return IsDeleted(entry.first.first); });
     ++route_commits;
     return {};
   }
@@ -40,6 +40,7 @@ class MemoryStore : public store::RouteStore {
     if (full) return Fail(ErrorCode::kUnavailable, "disk full");
     for (const route::SegmentPiece& piece : pieces) {
       if (auto ok = ToyIntegrity().check_piece(piece); !ok) return ok;
+      if (IsDeleted(piece.key)) return Fail(ErrorCode::kConflict, "route was deleted");
       const auto held = segments_.find({piece.key, piece.index});
       if (held != segments_.end() && held->second.digest != piece.digest) {
         return Fail(ErrorCode::kConflict, "segment {} is held with another digest",
@@ -75,18 +76,16 @@ class MemoryStore : public store::RouteStore {
     return found->second;
   }
 
+  Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override {
+    return Living([&](const route::RouteInfo& info) { return info.key.route == route; });
+  }
+
   Result<std::vector<route::RouteInfo>> ListRoutes() override {
-    std::vector<route::RouteInfo> infos;
-    for (const auto& [key, info] : routes_) infos.push_back(info);
-    return infos;
+    return Living([](const route::RouteInfo&) { return true; });
   }
 
   Result<std::vector<route::RouteInfo>> FindRoutesByName(const std::string& name) override {
-    std::vector<route::RouteInfo> infos;
-    for (const auto& [key, info] : routes_) {
-      if (info.name == name) infos.push_back(info);
-    }
-    return infos;
+    return Living([&](const route::RouteInfo& info) { return info.name == name; });
   }
 
   // All in one page, by name only.
@@ -121,6 +120,22 @@ class MemoryStore : public store::RouteStore {
 
  private:
   using Where = std::pair<route::RouteKey, SegmentIndex>;
+
+  [[nodiscard]] bool IsDeleted(const route::RouteKey& key) const {
+    const auto found = routes_.find(key);
+    return found != routes_.end() && found->second.standing == route::Standing::kDeleted;
+  }
+
+  // By key.
+  template <typename Matches>
+  [[nodiscard]] std::vector<route::RouteInfo> Living(const Matches& matches) const {
+    std::vector<route::RouteInfo> infos;
+    for (const auto& [key, info] : routes_) {
+      if (!IsDeleted(key) && matches(info)) infos.push_back(info);
+    }
+    return infos;
+  }
+
   std::map<route::RouteKey, route::RouteInfo> routes_;
   std::map<Where, route::SegmentPiece> segments_;
   std::set<Where> receipted_;

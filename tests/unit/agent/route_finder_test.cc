@@ -96,4 +96,33 @@ TEST_F(RouteFinderTest, KeepsTheLatestAnnouncementOfTheNameAlone) {
 TEST(ChooseRouteTest, HasNothingToChooseFromNothing) { EXPECT_FALSE(ChooseRoute({})); }
 
 }  // namespace
+RouteInfo Standing(RouteInfo info, route::Standing standing) {
+  info.standing = standing;
+  info.edition = 1;
+  return info;
+}
+
+TEST(ChooseRoute, TakesTheActiveRevisionThoughThereAreNewerOnes) {
+  const auto old = Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kActive);
+  EXPECT_EQ(ChooseRoute({Info("hall", 3, 30, RouteState::kTeaching), old,
+                         Info("hall", 2, 20, RouteState::kComplete)}),
+            old);
+}
+
+TEST(ChooseRoute, TakesNothingOfARouteWhoseOperatorActivatedNone) {
+  const auto retired =
+      Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kRetired);
+  EXPECT_EQ(ChooseRoute({retired, Info("hall", 2, 20, RouteState::kComplete)}), std::nullopt);
+}
+
+TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
+  Ask(milliseconds(0));
+  const auto retired =
+      Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kRetired);
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {retired}}, {}, ""});
+  EXPECT_FALSE(finder_.found());
+  ASSERT_TRUE(finder_.unknown());
+  EXPECT_TRUE(finder_.unknown()->inactive);
+}
+
 }  // namespace trailcast::agent

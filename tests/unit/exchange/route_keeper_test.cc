@@ -22,10 +22,26 @@ class RouteKeeperTest : public testing::Test {
     const auto catalog = [](const CatalogRequest& request) {
       return CatalogReply{.similar_names = {request.query.name + "-2"}};
     };
-    keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, catalog, test::ToyIntegrity()).value();
+    const auto plan = [this](const route::RouteEdit&) { return planned_; };
+    keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, {.answer = catalog, .plan = plan},
+                                test::ToyIntegrity())
+                  .value();
   }
   route::RouteInfo Info(std::uint32_t count, RouteState state) {
     return test::InfoOf(key_, std::span(pieces_).first(count), state);
+  }
+  // As the server has it once it is complete: a route's first revision is activated.
+  route::RouteInfo Active(std::uint32_t count) {
+    route::RouteInfo info = Info(count, RouteState::kComplete);
+    info.standing = route::Standing::kActive;
+    info.edition = 1;
+    return info;
+  }
+  // An operator's edit of `key_` by one who asks under this number; the answer.
+  CatalogReply Edit(std::uint64_t request, const route::RouteInfo& to) {
+    planned_ = {to};
+    keeper_->Handle(RouteEditRequest{AgentId("operator"), request, {.route = "corridor"}}, now_);
+    return Only<CatalogReply>(edited_ = Tick()).at(0);
   }
   void Announce(std::uint32_t count, RouteState state = RouteState::kTeaching) {
     keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), Info(count, state)}, now_);
@@ -47,6 +63,8 @@ class RouteKeeperTest : public testing::Test {
   test::MemoryStore store_;
   std::unique_ptr<RouteKeeper> keeper_;
   RouteKeeper::Time now_{};
+  Result<std::vector<route::RouteInfo>> planned_;  // what the next edit changes
+  std::vector<Message> edited_;                    // what the tick after it sent
 };
 
 TEST_F(RouteKeeperTest, StoresOneTakeInOneCommitThenReceipts) {
@@ -70,9 +88,9 @@ TEST_F(RouteKeeperTest, SaysCompleteOnlyWhenAllIsOnDiskAndTheManifestIsRight) {
   EXPECT_EQ(Only<Receipt>(Tick()).at(0).durable_state, RouteState::kTeaching);
   Deliver({pieces_[1]});
   const auto out = TickAfter(milliseconds(300));
-  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Info(2, RouteState::kComplete));
+  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Active(2));
   EXPECT_EQ(Only<Receipt>(out).at(0).durable_state, RouteState::kComplete);
-  EXPECT_EQ(store_.FindRoute(key_).value(), Info(2, RouteState::kComplete));
+  EXPECT_EQ(store_.FindRoute(key_).value(), Active(2));
 }
 
 TEST_F(RouteKeeperTest, NeverCompletesARouteOfWrongSegments) {
@@ -104,7 +122,7 @@ TEST_F(RouteKeeperTest, AnnouncesAndReceiptsWhatItHoldsAfterARestart) {
   (void)Tick();
   Restart();
   const auto out = Tick();
-  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Info(2, RouteState::kComplete));
+  EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Active(2));
   EXPECT_EQ(Only<Receipt>(out).at(0).durable_prefix, 2U);
 }
 
@@ -150,16 +168,23 @@ TEST_F(RouteKeeperTest, OneDamagedPieceDoesNotCostTheOthers) {
   EXPECT_EQ(Only<Receipt>(out).at(0).durable_beyond, std::vector{SegmentIndex(1)});
 }
 
-TEST_F(RouteKeeperTest, AFullDiskMeansNoReceiptUntilThereIsRoom) {
+TEST_F(RouteKeeperTest, AFullDiskMeansARefusalUntilThereIsRoom) {
   store_.full = true;
   Announce(1);
   Deliver({pieces_[0]});
-  EXPECT_TRUE(Only<Receipt>(Tick()).empty());
+  const auto refused = Only<Receipt>(Tick());
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_EQ(refused[0].refusal, Refusal::kFull);
+  EXPECT_EQ(refused[0].reason, "disk full");
+  EXPECT_EQ(refused[0].durable_prefix, 0U);
   EXPECT_EQ(keeper_->TakeNotes().at(0).severity, Note::Severity::kError);
   store_.full = false;
   EXPECT_EQ(Only<SegmentRequest>(TickAfter(milliseconds(200))).size(), 1U);
   Deliver({pieces_[0]});
-  EXPECT_EQ(Only<Receipt>(Tick()).size(), 1U);
+  const auto taken = Only<Receipt>(Tick());
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_EQ(taken[0].refusal, Refusal::kNone);
+  EXPECT_EQ(taken[0].durable_prefix, 1U);
 }
 
 TEST_F(RouteKeeperTest, ReportsTheSameTroubleNowAndThen) {
@@ -199,19 +224,18 @@ TEST_F(RouteKeeperTest, StoresWhatIsKnownOfSeveralRoutesInOneCommit) {
 
 TEST_F(RouteKeeperTest, ARouteThatTheStoreRefusesDoesNotCostTheOthers) {
   const auto other = test::PiecesOf(test::KeyNumber(2), 1);
-  keeper_ =
-      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
-                        test::ToyIntegrity(), {.announced_at_start = 0})
-          .value();
+  keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, {}, test::ToyIntegrity(),
+                              {.announced_at_start = 0})
+                .value();
   Announce(1, RouteState::kComplete);
   Deliver({pieces_[0]});
   keeper_->Handle(RouteAnnouncement{AgentId("scout-1"),
                                     test::InfoOf(test::KeyNumber(2), other, RouteState::kComplete)},
                   now_);
   Deliver(other);
-  // Meanwhile another process's hand: the same route, complete, with another name.
+  // Meanwhile another process's hand: the same route, complete, by another camera.
   route::RouteInfo taken = Info(1, RouteState::kComplete);
-  taken.name = "taken";
+  taken.camera = "another";
   ASSERT_TRUE(store_.PutRoute(taken));
   const auto announced = Only<RouteAnnouncement>(Tick());
   ASSERT_EQ(announced.size(), 1U);
@@ -222,8 +246,7 @@ TEST_F(RouteKeeperTest, ARouteThatTheStoreRefusesDoesNotCostTheOthers) {
 TEST_F(RouteKeeperTest, AttendsToSoManyRoutesAtATimeAndLaysAsideWhatIsDone) {
   now_ += std::chrono::hours(1);
   keeper_ =
-      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
-                        test::ToyIntegrity(), {.most_at_hand = 2})
+      RouteKeeper::Open(AgentId("server-1"), store_, {}, test::ToyIntegrity(), {.most_at_hand = 2})
           .value();
   for (unsigned i = 1; i <= 3; ++i) Deliver({test::PieceOf(test::KeyNumber(i), 0)});
   EXPECT_EQ(Only<Receipt>(Tick()).size(), 2U);
@@ -240,15 +263,14 @@ TEST_F(RouteKeeperTest, AnswersForARouteThatItHadLaidAside) {
   Announce(2, RouteState::kComplete);
   Deliver({pieces_[0], pieces_[1]});
   (void)Tick();
-  keeper_ =
-      RouteKeeper::Open(AgentId("server-1"), store_, [](const auto&) { return CatalogReply{}; },
-                        test::ToyIntegrity(), {.most_at_hand = 2, .announced_at_start = 0})
-          .value();
+  keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, {}, test::ToyIntegrity(),
+                              {.most_at_hand = 2, .announced_at_start = 0})
+                .value();
   EXPECT_TRUE(Tick().empty());
   Ask("follower-1", Indices(0, 1));
   EXPECT_EQ(test::PiecesIn(TickAfter(milliseconds(50))), std::vector{pieces_[0]});
   Ask("follower-1", {});
-  EXPECT_EQ(Only<RouteAnnouncement>(Tick()).at(0).info, Info(2, RouteState::kComplete));
+  EXPECT_EQ(Only<RouteAnnouncement>(Tick()).at(0).info, Active(2));
 }
 
 TEST_F(RouteKeeperTest, AddressesCatalogReplies) {
@@ -258,6 +280,77 @@ TEST_F(RouteKeeperTest, AddressesCatalogReplies) {
                                       .client = AgentId("follower-1"),
                                       .request = 7,
                                       .similar_names = {"corridor-2"}}}));
+}
+
+TEST_F(RouteKeeperTest, OnlyARoutesFirstRevisionIsActivatedByItself) {
+  for (const std::uint32_t revision : {1U, 2U}) {
+    const auto pieces = test::PiecesOf(test::KeyNumber(1, revision), 1);
+    Deliver(pieces);
+    keeper_->Handle(
+        RouteAnnouncement{AgentId("scout-1"), test::InfoOf(test::KeyNumber(1, revision), pieces,
+                                                           RouteState::kComplete)},
+        now_);
+    (void)TickAfter(milliseconds(300));
+  }
+  EXPECT_EQ(store_.FindRoute(test::KeyNumber(1, 1)).value()->standing, route::Standing::kActive);
+  EXPECT_EQ(store_.FindRoute(test::KeyNumber(1, 2)).value()->standing, route::Standing::kStaged);
+}
+
+TEST_F(RouteKeeperTest, AnEditIsDurableAnnouncedAndCarriedOutOnce) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  route::RouteInfo renamed = Active(2);
+  renamed.name = "hall";
+  renamed.edition = 2;
+  const CatalogReply first = Edit(7, renamed);
+  EXPECT_EQ(first.page.routes, std::vector{renamed});
+  EXPECT_EQ(store_.FindRoute(key_).value(), renamed);
+  EXPECT_EQ(Only<RouteAnnouncement>(edited_).at(0).info, renamed);
+  EXPECT_EQ(Edit(7, Active(2)), first) << "the answer was lost, and is given again";
+  Announce(2, RouteState::kComplete);
+  (void)TickAfter(milliseconds(300));
+  EXPECT_EQ(store_.FindRoute(key_).value(), renamed) << "the scout knows nothing of the name";
+}
+
+TEST_F(RouteKeeperTest, AnEditThatCannotBeIsAnsweredWithTheReason) {
+  planned_ = Fail(ErrorCode::kNotFound, "there is no route 'hall'");
+  keeper_->Handle(RouteEditRequest{AgentId("operator"), 1, {.route = "hall"}}, now_);
+  EXPECT_EQ(Only<CatalogReply>(Tick()).at(0).error, "there is no route 'hall'");
+}
+
+TEST_F(RouteKeeperTest, WhatIsDeletedStaysDeletedAndTheScoutIsTold) {
+  Announce(3);
+  Deliver({pieces_[0]});
+  (void)Tick();
+  route::RouteInfo tombstone = Info(1, RouteState::kTeaching);
+  tombstone.standing = route::Standing::kDeleted;
+  tombstone.edition = 1;
+  (void)Edit(1, tombstone);
+  EXPECT_EQ(Only<RouteAnnouncement>(edited_).at(0).info.standing, route::Standing::kDeleted);
+  EXPECT_EQ(Only<Receipt>(edited_).at(0).refusal, Refusal::kDeleted);
+  for (int start = 0; start < 2; ++start) {
+    Announce(3, RouteState::kComplete);
+    Deliver({pieces_[1], pieces_[2]});
+    const auto out = TickAfter(std::chrono::seconds(1));
+    EXPECT_EQ(Only<Receipt>(out).at(0).refusal, Refusal::kDeleted);
+    EXPECT_EQ(Only<Receipt>(out).at(0).durable_prefix, 0U);
+    EXPECT_TRUE(Only<SegmentRequest>(out).empty());
+    EXPECT_TRUE(store_.HeldSegments(key_).value().empty());
+    Restart();
+  }
+}
+
+TEST_F(RouteKeeperTest, AnotherServersLaterEditionCounts) {
+  Announce(1, RouteState::kComplete);
+  Deliver({pieces_[0]});
+  (void)Tick();
+  route::RouteInfo retired = Info(1, RouteState::kComplete);
+  retired.standing = route::Standing::kRetired;
+  retired.edition = 5;
+  keeper_->Handle(RouteAnnouncement{AgentId("server-2"), retired}, now_);
+  (void)TickAfter(milliseconds(300));
+  EXPECT_EQ(store_.FindRoute(key_).value(), retired);
 }
 
 }  // namespace

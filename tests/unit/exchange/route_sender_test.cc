@@ -129,5 +129,34 @@ TEST_F(RouteSenderTest, GoesOnAfterARestart) {
   EXPECT_EQ(test::PiecesIn(TickAfter(sender, milliseconds(50))).size(), 2U);
 }
 
+TEST_F(RouteSenderTest, GoesOnOfferingWhatAFullServerRefuses) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  (void)sender.Tick(now_);
+  Receipt refusal{AgentId("server-1"), key_, 0, {}, RouteState::kTeaching};
+  refusal.refusal = Refusal::kFull;
+  refusal.reason = "disk full";
+  sender.Handle(refusal, now_);
+  ASSERT_TRUE(sender.refused());
+  EXPECT_EQ(sender.refused()->reason, "disk full");
+  EXPECT_EQ(sender.Unreceipted().size(), 1U);
+  EXPECT_EQ(Only<RouteAnnouncement>(TickAfter(sender, milliseconds(2000))).size(), 1U);
+  Confirm(sender, 1);
+  EXPECT_FALSE(sender.refused());
+}
+
+TEST_F(RouteSenderTest, StopsSendingWhatAnOperatorDeleted) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  Receipt refusal{AgentId("server-1"), key_, 0, {}, RouteState::kTeaching};
+  refusal.refusal = Refusal::kDeleted;
+  sender.Handle(refusal, now_);
+  Teach(sender);
+  EXPECT_EQ(sender.TakeNewlyReceipted(), Indices(0, 2)) << "nobody waits for them";
+  EXPECT_TRUE(test::PiecesIn(sender.Tick(now_)).empty());
+  sender.Update(Info(RouteState::kComplete));
+  EXPECT_TRUE(sender.AllReceipted());
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

@@ -146,6 +146,60 @@ TEST_P(RouteStoreContract, CompleteRouteNeverChanges) {
   EXPECT_EQ(store_->FindRoute(kYard).value(), Complete(5));
 }
 
+route::RouteInfo Labelled(route::RouteInfo info, const std::string& name, route::Standing standing,
+                          std::uint32_t edition) {
+  info.name = name;
+  info.description = "past the greenhouse";
+  info.standing = standing;
+  info.edition = edition;
+  return info;
+}
+
+TEST_P(RouteStoreContract, LabelsOfACompleteRouteChangeWithALaterEdition) {
+  using route::Standing;
+  ASSERT_TRUE(store_->PutRoute(Complete(5)));
+  const route::RouteInfo second = Labelled(Complete(5), "garden", Standing::kActive, 2);
+  ASSERT_TRUE(store_->PutRoute(second));
+  EXPECT_TRUE(store_->PutRoute(Complete(5))) << "as taught: old news of its labels";
+  EXPECT_TRUE(store_->PutRoute(Labelled(Complete(5), "park", Standing::kRetired, 1)));
+  EXPECT_EQ(CodeOf(store_->PutRoute(Labelled(Complete(6), "park", Standing::kActive, 3))),
+            ErrorCode::kConflict);
+  Reopen();
+  EXPECT_EQ(store_->FindRoute(kYard).value(), second);
+  EXPECT_EQ(store_->QueryRoutes({.standing = Standing::kActive}).value().total, 1U);
+  EXPECT_EQ(store_->QueryRoutes({.standing = Standing::kStaged}).value().total, 0U);
+}
+
+TEST_P(RouteStoreContract, RevisionsOfARouteRise) {
+  for (const std::uint32_t revision : {3U, 1U, 2U}) {
+    route::RouteInfo info = Complete(2);
+    info.key.revision = RevisionNumber(revision);
+    ASSERT_TRUE(store_->PutRoute(info));
+  }
+  std::vector<std::uint32_t> revisions;
+  const std::vector<route::RouteInfo> found = store_->FindRevisions(kYard.route).value();
+  for (const route::RouteInfo& info : found) revisions.push_back(info.key.revision.value());
+  EXPECT_THAT(revisions, testing::ElementsAre(1U, 2U, 3U));
+}
+
+TEST_P(RouteStoreContract, ATombstoneTakesTheSegmentsAndLateOnesAreRefused) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1})));
+  ASSERT_TRUE(store_->PutRoute(Teaching(2)));
+  const route::RouteInfo tombstone = Labelled(Teaching(2), "yard", route::Standing::kDeleted, 1);
+  ASSERT_TRUE(store_->PutRoute(tombstone));
+  EXPECT_EQ(CodeOf(store_->AppendSegments(Pieces({2}))), ErrorCode::kConflict);
+  EXPECT_TRUE(store_->PutRoute(Complete(3))) << "late news";
+  Reopen();
+  EXPECT_EQ(store_->FindRoute(kYard).value(), tombstone);
+  EXPECT_THAT(store_->HeldSegments(kYard).value(), testing::IsEmpty());
+  EXPECT_THAT(store_->ListRoutes().value(), testing::IsEmpty());
+  EXPECT_THAT(store_->FindRoutesByName("yard").value(), testing::IsEmpty());
+  EXPECT_THAT(store_->FindRevisions(kYard.route).value(), testing::IsEmpty());
+  EXPECT_EQ(store_->QueryRoutes({}).value().total, 0U);
+  EXPECT_EQ(CodeOf(store_->AppendSegments(Pieces({2}))), ErrorCode::kConflict);
+  EXPECT_THAT(store_->Verify().value(), testing::IsEmpty());
+}
+
 TEST_P(RouteStoreContract, ImpossibleRoutesAreRefusedNamingTheField) {
   const auto message = [this](auto&& spoil) {
     route::RouteInfo info = Complete(1);

@@ -100,6 +100,21 @@ TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
   EXPECT_THAT(OpenSqliteStore(saved_).value()->Verify().value(), IsEmpty());
 }
 
+TEST_F(SalvageTest, WhatWasDeletedStaysDeleted) {
+  const route::RouteKey gone{RouteId("gone"), RevisionNumber(1)};
+  {
+    const auto store = OpenSqliteStore(file_).value();
+    route::RouteInfo tombstone = Complete(1);
+    tombstone.key = gone;
+    tombstone.standing = route::Standing::kDeleted;
+    tombstone.edition = 1;
+    ASSERT_TRUE(store->PutRoute(tombstone));
+  }
+  ASSERT_TRUE(Salvage(file_, saved_));
+  const auto saved = OpenSqliteStore(saved_).value();
+  EXPECT_EQ(saved->FindRoute(gone).value()->standing, route::Standing::kDeleted);
+}
+
 TEST_F(SalvageTest, WithoutRoomForItNothingIsMade) {
   const auto salvaged = Salvage(file_, saved_, {.max_bytes = 120'000});
   ASSERT_FALSE(salvaged);

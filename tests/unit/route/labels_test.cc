@@ -1,0 +1,53 @@
+#include "services/route/labels.h"
+
+#include <gtest/gtest.h>
+
+namespace trailcast::route {
+namespace {
+
+RouteInfo Taught(std::uint32_t segments, RouteState state = RouteState::kTeaching) {
+  RouteInfo info;
+  info.key = {RouteId("00ff"), RevisionNumber(2)};
+  info.name = "yard";
+  info.segment_count = segments;
+  info.state = state;
+  return info;
+}
+
+RouteInfo Edited(RouteInfo info, const std::string& name, std::uint32_t edition,
+                 Standing standing = Standing::kActive) {
+  info.name = name;
+  info.edition = edition;
+  info.standing = standing;
+  return info;
+}
+
+TEST(Labels, LongerTeachingAndLaterLabelsCountEachForItself) {
+  const RouteInfo known = Edited(Taught(3), "garden", 2);
+  EXPECT_EQ(AfterNews(known, Taught(5)).value(), Edited(Taught(5), "garden", 2));
+  EXPECT_EQ(AfterNews(known, Edited(Taught(1), "park", 3)).value(), Edited(Taught(3), "park", 3));
+  EXPECT_EQ(AfterNews(known, Edited(Taught(4), "park", 1)).value(), Edited(Taught(4), "garden", 2));
+  EXPECT_EQ(AfterNews(known, Taught(2)).value(), known);
+}
+
+TEST(Labels, ACompleteTeachingNeverChanges) {
+  const RouteInfo known = Edited(Taught(3, RouteState::kComplete), "garden", 2);
+  EXPECT_EQ(AfterNews(known, Taught(3, RouteState::kComplete)).value(), known);
+  EXPECT_EQ(AfterNews(known, Taught(4)).error().code, ErrorCode::kConflict);
+  RouteInfo other = Edited(Taught(3, RouteState::kComplete), "park", 3);
+  EXPECT_EQ(AfterNews(known, other).value(), other);
+  other.camera = "another";
+  EXPECT_EQ(AfterNews(known, other).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(AfterNews(known, Edited(known, "park", 2)).error().code, ErrorCode::kConflict)
+      << "two labels of one edition";
+}
+
+TEST(Labels, WhatIsDeletedStaysDeleted) {
+  const RouteInfo tombstone = Edited(Taught(3), "yard", 1, Standing::kDeleted);
+  EXPECT_EQ(AfterNews(Taught(9), tombstone).value(),
+            Edited(Taught(9), "yard", 1, Standing::kDeleted));
+  EXPECT_EQ(AfterNews(tombstone, Edited(Taught(9), "park", 7)).value(), tombstone);
+}
+
+}  // namespace
+}  // namespace trailcast::route
