@@ -111,6 +111,11 @@ Result<DrivenPath> ReadPath(const std::filesystem::path& file) {
                 "{} has {} way-points that differ; expected at least two", file.string(),
                 path.points.size());
   }
+  if (const double length_m = Length(path.points); !(length_m <= kLongestPath_m)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{}: its way-points make a path of {:.6g} m; expected at most {:.0f} m",
+                file.string(), length_m, kLongestPath_m);
+  }
   return path;
 }
 

@@ -19,7 +19,11 @@ struct DrivenPath {
   std::optional<double> z_max_m;
 };
 
-// Reads `x_m,y_m[,z_m]` with that header line and at least two rows; errors name file and line.
+// Ten kilometres: the curve that is driven is held in memory in steps of centimetres.
+inline constexpr double kLongestPath_m = 10'000.0;
+
+// Reads `x_m,y_m[,z_m]` with that header line and at least two rows, a path of at most
+// kLongestPath_m; errors name file and line.
 [[nodiscard]] Result<DrivenPath> ReadPath(const std::filesystem::path& file);
 
 // At the first way-point, heading for the second. `points` has at least two.

@@ -49,6 +49,15 @@ TEST(Path, BadLinesAreNamedByFileAndNumber) {
   EXPECT_EQ(ReadPath("/nowhere/path.csv").error().code, ErrorCode::kNotFound);
 }
 
+TEST(Path, APathTooLongToBeHeldInMemoryIsRefused) {
+  EXPECT_TRUE(Read("x_m,y_m\n0,0\n10000,0\n"));
+  for (const char* far : {"10000.1", "44444444444444444", "1e300"}) {
+    const auto path = Read(std::string("x_m,y_m\n0,0\n") + far + ",1\n");
+    ASSERT_FALSE(path) << far;
+    EXPECT_THAT(path.error().message, AllOf(HasSubstr("path.csv"), HasSubstr("10000 m")));
+  }
+}
+
 TEST(Path, LengthAndPointsAlong) {
   EXPECT_DOUBLE_EQ(Length(kCorner), 7.0);
   EXPECT_TRUE(PointAlong(kCorner, 5.0).isApprox(Eigen::Vector2d(4, 1)));
