@@ -26,9 +26,17 @@ constexpr std::size_t kDescriptorBytes = std::tuple_size_v<Descriptor>;
 std::int32_t Quantise(double value, double steps_per_unit) {
   assert(std::isfinite(value));
   if (!std::isfinite(value)) return 0;
-  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
+  using Limits = std::numeric_limits<std::int32_t>;
   return static_cast<std::int32_t>(
-      std::lround(std::clamp(value * steps_per_unit, -kLimit, kLimit)));
+      std::llround(std::clamp<double>(value * steps_per_unit, Limits::lowest(), Limits::max())));
+}
+
+std::uint32_t QuantiseDuration(double seconds) {
+  assert(std::isfinite(seconds));
+  if (!std::isfinite(seconds)) return 0;
+  constexpr double kLimit = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(
+      std::llround(std::clamp(seconds * kStepsPerSecond, 0.0, kLimit)));
 }
 
 std::int32_t QuantisePixels(float px) {
@@ -204,8 +212,7 @@ Bytes Encode(const Segment& segment) {
   format::v1::Segment out;
   out.set_format_version(kFormatVersion);
   out.set_index(segment.index.value());
-  out.set_duration_ms(
-      static_cast<std::uint32_t>(std::max(0, Quantise(segment.duration_s, kStepsPerSecond))));
+  out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
   for (const Feature& feature : segment.features) {
     AppendPatch(feature.patch, *out.mutable_patches());

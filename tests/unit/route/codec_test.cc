@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/unit/route/sample_segment.h"
 
 namespace trailcast::route {
@@ -21,6 +23,17 @@ TEST(Codec, SegmentWithoutFeaturesOrOdometryComesBackUnchanged) {
   Segment segment;
   segment.index = SegmentIndex(4294967295U);
   segment.duration_s = 2.5;
+  const Result<Segment> decoded = Decode(Encode(segment));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
+}
+
+TEST(Codec, LargestNumbersComeBackUnchanged) {
+  Segment segment;
+  segment.has_odometry = true;
+  segment.duration_s = std::numeric_limits<std::uint32_t>::max() / 1e3;
+  segment.length_m = std::numeric_limits<std::int32_t>::max() / 1e4;
+  segment.heading_change_rad = std::numeric_limits<std::int32_t>::lowest() / 1e5;
   const Result<Segment> decoded = Decode(Encode(segment));
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(*decoded, segment);
