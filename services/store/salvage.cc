@@ -59,8 +59,10 @@ class RowWalk {
       select_.bind(1, rowid);
       if (!select_.executeStep()) return std::nullopt;
       const Rowid found = select_.getColumn(select_.getColumnCount() - 1).getInt64();
-      if (found > rowid) return found;
-      damaged_ = true;  // a page in another's place: following it would go round in circles
+      // A damaged number, or a page in another's place, can lie before the row asked for: the walk
+      // would go round for ever.
+      if (found > rowid && found < kLastRowid) return found;
+      damaged_ = true;
     } catch (const SQLite::Exception& exception) {
       if (!IsDamage(exception)) throw;
       damaged_ = true;

@@ -89,6 +89,32 @@ TEST_F(SalvageTest, DamagedPagesCostWhatIsOnThem) {
   EXPECT_GE(mended, 3U) << "hardly any page held a segment: nothing was tested";
 }
 
+// A row's number that lies before those on the page before would lead the walk round and round.
+TEST_F(SalvageTest, ARowThatLiesAboutItsPlaceCostsItselfAlone) {
+  constexpr std::size_t kPage = 4096;
+  const std::string whole = Read();
+  std::size_t damaged = 0;
+  for (std::size_t page = kPage; page < whole.size(); page += kPage) {
+    // https://www.sqlite.org/fileformat.html: a leaf of a table; its first cell holds two bytes of
+    // length and then the row's number.
+    const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(whole[page + at]); };
+    const std::size_t cell = byte(8) * 256U + byte(9);
+    if (byte(0) != 0x0D || whole.find(kYard.route.value(), page + cell) > page + cell + 40)
+      continue;
+    if (byte(cell) < 0x80 || byte(cell + 2) <= 1) continue;
+    std::string bytes = whole;
+    bytes[page + cell + 2] = 1;
+    Write(bytes);
+    const auto salvaged = Salvage(file_, saved_);
+    ASSERT_TRUE(salvaged) << salvaged.error().message;
+    EXPECT_EQ(salvaged->segments, kSegments - 1) << "page at " << page;
+    EXPECT_THAT(OpenSqliteStore(saved_).value()->Verify().value(), IsEmpty());
+    std::filesystem::remove(saved_);
+    ++damaged;
+  }
+  EXPECT_GT(damaged, 3U);
+}
+
 TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
   const std::string whole = Read();
   Write(whole.substr(0, whole.size() * 2 / 3));
