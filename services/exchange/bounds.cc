@@ -100,6 +100,7 @@ Result<void> CheckInfo(const RouteInfo& info) {
   }
   if (auto ok = CheckStanding(info.standing); !ok) return ok;
   if (auto ok = CheckText("description", info.description, kMaxLineBytes); !ok) return ok;
+  if (auto ok = CheckCount("bytes in a route", info.bytes, kMaxRouteBytes); !ok) return ok;
   if (auto ok = CheckTags(info.tags); !ok) return ok;
   if (auto ok = CheckOrdered(info.tags); !ok) return ok;
   if (info.place) {

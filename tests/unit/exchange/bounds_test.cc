@@ -39,6 +39,7 @@ TEST(CheckBounds, RefusesEachBadFieldOfAnAnnouncementByName) {
   ExpectRefused(with([](Info& i) { i.image_height_px = 65536; }), "image height");
   ExpectRefused(with([](Info& i) { i.state = static_cast<route::RouteState>(2); }), "state");
   ExpectRefused(with([](Info& i) { i.segment_count = ~0U; }), "segment count");
+  ExpectRefused(with([](Info& i) { i.bytes = 1ULL << 63U; }), "bytes in a route");
   ExpectRefused(with([](Info& i) { i.length_m = -0.5; }), "length");
   ExpectRefused(with([](Info& i) { i.length_m = std::numeric_limits<double>::infinity(); }),
                 "length");
