@@ -33,6 +33,9 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
     claim_ = std::move(*after);
     return claim_ == stored_ ? ClaimResult::kOldNews : ClaimResult::kNews;
   }
+  // What is held already would lie beyond its end; the store would take it for old news.
+  const bool too_short = stored_ && info.segment_count < stored_->segment_count;
+  if (info.state == RouteState::kComplete && too_short) return ClaimResult::kConflict;
   const bool was_complete = claim_ && claim_->state == RouteState::kComplete;
   const bool completes = info.state == RouteState::kComplete && !was_complete;
   const bool grows = !was_complete && (!claim_ || info.segment_count > claim_->segment_count);

@@ -27,7 +27,7 @@ class KeptRoute {
   enum class ClaimResult : std::uint8_t {
     kNews,      // more is known than before
     kOldNews,   // nothing new
-    kConflict,  // contradicts a complete route
+    kConflict,  // contradicts a complete route, or completes one with fewer segments than stored
     kDeleted,   // the revision was deleted: nothing of it is wanted
   };
   // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.

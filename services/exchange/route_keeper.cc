@@ -58,7 +58,7 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
     case KeptRoute::ClaimResult::kConflict:
       ++counters_.conflicting;
       AddNote(Note::Severity::kWarning, "claim/" + Describe(info.key),
-              fmt::format("{} announces another {} than the complete one held here: ignored",
+              fmt::format("{} announces another {} than the one held here: ignored",
                           announcement.holder.value(), Describe(info.key)),
               now);
       return;

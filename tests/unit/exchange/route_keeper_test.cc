@@ -93,6 +93,21 @@ TEST_F(RouteKeeperTest, SaysCompleteOnlyWhenAllIsOnDiskAndTheManifestIsRight) {
   EXPECT_EQ(store_.FindRoute(key_).value(), Active(2));
 }
 
+TEST_F(RouteKeeperTest, ARouteIsNotCompletedWithFewerSegmentsThanItHas) {
+  Announce(3);
+  Deliver({pieces_[0], pieces_[1], pieces_[2]});
+  (void)Tick();
+  Announce(2, RouteState::kComplete);
+  for (const Receipt& receipt : Only<Receipt>(TickAfter(milliseconds(1000)))) {
+    EXPECT_EQ(receipt.durable_state, RouteState::kTeaching);
+  }
+  EXPECT_EQ(keeper_->counters().conflicting, 1U);
+  EXPECT_EQ(store_.FindRoute(key_).value(), Info(3, RouteState::kTeaching));
+  Announce(3, RouteState::kComplete);
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(1000))).at(0).durable_state,
+            RouteState::kComplete);
+}
+
 TEST_F(RouteKeeperTest, NeverCompletesARouteOfWrongSegments) {
   Deliver({test::PieceOf(key_, 0, 100, 99)});
   Announce(1, RouteState::kComplete);
