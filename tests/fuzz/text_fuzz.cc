@@ -1,0 +1,18 @@
+// Text that strangers send and that is shown on terminals.
+#include "services/exchange/text.h"
+
+#include "tests/fuzz/fuzz.h"
+
+using trailcast::exchange::IsPlainText;
+using trailcast::exchange::PlainText;
+using trailcast::fuzz::Require;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::size_t max_bytes = data[0];
+  const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
+  const std::string plain = PlainText(text, max_bytes);
+  Require(IsPlainText(plain, max_bytes), "what was made plain is plain");
+  Require(!IsPlainText(text, max_bytes) || plain == text, "what is plain stays as it is");
+  return 0;
+}

@@ -1,0 +1,250 @@
+// Samples as a middleware hands them over: whatever their fields hold, a message within bounds
+// comes of them or an error, and the message goes out and comes in again as it was.
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "services/dds/wire.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/topics.h"
+#include "tests/fuzz/fuzz.h"
+#include "trailcast.h"
+
+namespace trailcast::fuzz {
+namespace {
+
+using exchange::Topic;
+
+// Fills samples from the input and owns what they point to.
+class Samples {
+ public:
+  explicit Samples(FuzzedDataProvider& input) : input_(input) {}
+
+  void Fill(trailcast_wire_RouteAnnouncement& wire) {
+    wire.holder = Name();
+    Fill(wire.key);
+    Fill(wire.info);
+  }
+  void Fill(trailcast_wire_SegmentBatch& wire) {
+    wire.sender = Name();
+    wire.pieces._length = Count();
+    wire.pieces._buffer = Many<trailcast_wire_SegmentPiece>(pieces_, wire.pieces._length);
+  }
+  void Fill(trailcast_wire_SegmentRequest& wire) {
+    wire.requester = Name();
+    Fill(wire.key);
+    wire.lacking._length = Count();
+    wire.lacking._buffer = Numbers(wire.lacking._length);
+  }
+  void Fill(trailcast_wire_Receipt& wire) {
+    wire.server = Name();
+    Fill(wire.key);
+    wire.durable_prefix = Number();
+    wire.durable_beyond._length = Count();
+    wire.durable_beyond._buffer = Numbers(wire.durable_beyond._length);
+    wire.durable_state = Octet();
+  }
+  void Fill(trailcast_wire_CatalogRequest& wire) {
+    trailcast_wire_CatalogQuery& query = wire.query;
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    for (char** text :
+         {&query.name, &query.name_prefix, &query.scout, &query.camera_prefix, &query.cursor}) {
+      *text = Text();
+    }
+    FillTexts(query.tags);
+    query.min_length_m = Real();
+    query.max_length_m = Real();
+    query.taught_from_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    query.taught_until_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    query.state = Octet();
+    Fill(query.near);
+    query.radius_m = Real();
+    query.order = Octet();
+    query.page_size = Number();
+  }
+  void Fill(trailcast_wire_CatalogReply& wire) {
+    wire.server = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.routes._length = Count();
+    wire.routes._buffer = Many<trailcast_wire_CatalogRoute>(routes_, wire.routes._length);
+    wire.total = input_.ConsumeIntegral<std::uint64_t>();
+    wire.next = Text();
+    FillTexts(wire.similar_names);
+    wire.error = Text();
+  }
+  void Fill(trailcast_wire_AgentStatus& wire) {
+    wire.agent = Name();
+    wire.instance = input_.ConsumeIntegral<std::uint64_t>();
+    wire.role = Octet();
+    wire.mode = Octet();
+    wire.route = Text();
+    wire.segment = Number();
+    wire.segments = Number();
+    wire.progress = Real();
+    wire.speed_mps = Real();
+    wire.features = Number();
+    wire.found_share = Real();
+    wire.backlog = Number();
+    wire.detail = Text();
+  }
+
+ private:
+  void Fill(trailcast_wire_RouteKey& wire) {
+    wire.route = input_.ConsumeBool() ? Keep(std::string(32, 'a')) : Text();
+    wire.revision = Number();
+  }
+  void Fill(trailcast_wire_Place& wire) {
+    wire.frame = Octet();
+    wire.x = Real();
+    wire.y = Real();
+  }
+  void Fill(trailcast_wire_RouteInfo& wire) {
+    wire.name = Name();
+    wire.scout = Name();
+    wire.camera = Text();
+    wire.image_width_px = Number();
+    wire.image_height_px = Number();
+    wire.taught_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    wire.state = Octet();
+    wire.segment_count = Number();
+    wire.length_m = Real();
+    wire.bytes = input_.ConsumeIntegral<std::uint64_t>();
+    Fill(wire.manifest_digest);
+    FillTexts(wire.tags);
+    Fill(wire.place);
+  }
+  void Fill(trailcast_wire_SegmentPiece& wire) {
+    Fill(wire.key);
+    wire.index = Number();
+    Fill(wire.digest);
+    const std::vector<std::uint8_t>& bytes =
+        bytes_.emplace_back(input_.ConsumeBytes<std::uint8_t>(Octet()));
+    wire.bytes._length = static_cast<std::uint32_t>(bytes.size());
+    wire.bytes._buffer = const_cast<std::uint8_t*>(bytes.data());
+  }
+  void Fill(trailcast_wire_CatalogRoute& wire) {
+    Fill(wire.key);
+    Fill(wire.info);
+  }
+  void Fill(trailcast_wire_Digest& digest) {
+    std::fill(std::begin(digest), std::end(digest), Octet());
+  }
+  template <typename Sequence>
+  void FillTexts(Sequence& sequence) {
+    sequence._length = Count();
+    std::vector<char*>& texts = text_lists_.emplace_back();
+    for (std::uint32_t i = 0; i < sequence._length; ++i) texts.push_back(Name());
+    sequence._buffer = texts.data();
+  }
+  template <typename Wire>
+  Wire* Many(std::deque<std::vector<Wire>>& owner, std::uint32_t count) {
+    std::vector<Wire>& wires = owner.emplace_back(count);
+    for (Wire& wire : wires) Fill(wire);
+    return wires.data();
+  }
+  std::uint32_t* Numbers(std::uint32_t count) {
+    std::vector<std::uint32_t>& numbers = numbers_.emplace_back();
+    for (std::uint32_t i = 0; i < count; ++i) numbers.push_back(Number());
+    return numbers.data();
+  }
+
+  std::uint32_t Count() { return input_.ConsumeIntegralInRange<std::uint32_t>(0, 20); }
+  std::uint8_t Octet() {
+    return input_.ConsumeBool() ? input_.ConsumeIntegralInRange<std::uint8_t>(0, 6)
+                                : input_.ConsumeIntegral<std::uint8_t>();
+  }
+  std::uint32_t Number() {
+    return input_.ConsumeBool() ? Octet() : input_.ConsumeIntegral<std::uint32_t>();
+  }
+  double Real() {
+    return input_.ConsumeBool() ? Octet() / 8.0 : input_.ConsumeFloatingPoint<double>();
+  }
+  // Most of the time one that is accepted, so that the rest of a sample is looked at too.
+  char* Name() {
+    return input_.ConsumeIntegral<std::uint8_t>() < 224 ? Keep(std::string(1 + Count() % 4, 'b'))
+                                                        : Text();
+  }
+  char* Text() {
+    if (input_.ConsumeIntegral<std::uint8_t>() == 255) return nullptr;
+    return Keep(input_.ConsumeRandomLengthString(600));
+  }
+  char* Keep(std::string text) { return texts_.emplace_back(std::move(text)).data(); }
+
+  FuzzedDataProvider& input_;
+  std::deque<std::string> texts_;
+  std::deque<std::vector<char*>> text_lists_;
+  std::deque<std::vector<std::uint32_t>> numbers_;
+  std::deque<std::vector<std::uint8_t>> bytes_;
+  std::deque<std::vector<trailcast_wire_SegmentPiece>> pieces_;
+  std::deque<std::vector<trailcast_wire_CatalogRoute>> routes_;
+};
+
+// A query is judged when it is answered; one with no number in it equals nothing, itself included.
+bool IsComparable(const exchange::Message& message) {
+  const auto* request = std::get_if<exchange::CatalogRequest>(&message);
+  return request == nullptr || exchange::CheckQuery(request->query);
+}
+
+void TakeIn(Topic topic, const void* sample) {
+  const auto message = dds::FromWire(topic, sample);
+  if (!message) return;
+  Require(exchange::CheckBounds(*message).has_value(), "what is taken in is within bounds");
+  Require(exchange::TopicOf(*message) == topic, "it is of its topic");
+  if (!IsComparable(*message)) return;
+  const auto gone_out = dds::WithWire(*message, [&](const void* out) -> Result<void> {
+    const auto again = dds::FromWire(topic, out);
+    Require(again && *again == *message, "what goes out comes in as it was");
+    return {};
+  });
+  Require(gone_out.has_value(), "what is taken in can be sent");
+}
+
+template <typename Wire>
+void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
+  Samples samples(input);
+  Wire wire{};
+  samples.Fill(wire);
+  TakeIn(topic, &wire);
+  if constexpr (std::is_same_v<Wire, trailcast_wire_AgentStatus>) {
+    const auto gone = dds::GoneFromWire(&wire);
+    Require(!gone || IsValidName(gone->agent.value()), "who is gone has a name");
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trailcast::fuzz;
+  FuzzedDataProvider input(data, size);
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 6))) {
+    case Topic::kRoutes:
+      FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
+      break;
+    case Topic::kSegments:
+      FillAndTakeIn<trailcast_wire_SegmentBatch>(topic, input);
+      break;
+    case Topic::kSegmentRequests:
+      FillAndTakeIn<trailcast_wire_SegmentRequest>(topic, input);
+      break;
+    case Topic::kReceipts:
+      FillAndTakeIn<trailcast_wire_Receipt>(topic, input);
+      break;
+    case Topic::kCatalogRequests:
+      FillAndTakeIn<trailcast_wire_CatalogRequest>(topic, input);
+      break;
+    case Topic::kCatalogReplies:
+      FillAndTakeIn<trailcast_wire_CatalogReply>(topic, input);
+      break;
+    case Topic::kAgents:
+      FillAndTakeIn<trailcast_wire_AgentStatus>(topic, input);
+      break;
+  }
+  return 0;
+}
