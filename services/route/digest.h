@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
@@ -9,6 +10,24 @@
 namespace trailcast::route {
 
 [[nodiscard]] Digest Sha256(std::span<const std::uint8_t> bytes);
+
+// The same of bytes that come piece by piece.
+class Sha256Stream {
+ public:
+  Sha256Stream();
+  ~Sha256Stream();
+  Sha256Stream(Sha256Stream&&) noexcept;
+  Sha256Stream& operator=(Sha256Stream&&) noexcept;
+
+  void Add(std::span<const std::uint8_t> bytes);
+  // Of all that was added. Nothing may be added afterwards.
+  [[nodiscard]] Digest Finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 // RouteInfo::manifest_digest of segments with these digests, in order.
 [[nodiscard]] Digest ManifestDigest(std::span<const Digest> digests);
 // Lower-case hexadecimal.

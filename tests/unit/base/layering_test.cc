@@ -20,7 +20,7 @@ using Folders = std::set<std::string>;
 using testing::IsEmpty;
 
 // What each folder of services/ may include besides itself: base -> motion, route, image -> vision,
-// teach, replay, store -> exchange, catalog -> dds, sim -> agent, route_server.
+// teach, replay, store -> exchange, archive, catalog -> dds, sim -> agent, route_server.
 const std::map<std::string, Folders> kMayInclude{
     {"base", {}},
     {"motion", {"base"}},
@@ -31,6 +31,7 @@ const std::map<std::string, Folders> kMayInclude{
     {"replay", {"base", "motion", "route"}},
     {"store", {"base", "route"}},
     {"exchange", {"base", "route", "store"}},
+    {"archive", {"base", "route", "exchange"}},
     {"catalog", {"base", "route", "store", "exchange"}},
     {"dds", {"base", "motion", "image", "route", "exchange"}},
     {"sim", {"base", "motion", "image"}},

@@ -22,6 +22,14 @@ TEST(Digest, IsSha256) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Digest, OfAStreamIsThatOfItsPiecesTogether) {
+  Sha256Stream stream;
+  stream.Add(Bytes{'a'});
+  stream.Add({});
+  stream.Add(Bytes{'b', 'c'});
+  EXPECT_EQ(stream.Finish(), Sha256(Bytes{'a', 'b', 'c'}));
+}
+
 TEST(Digest, OfAManifestIsTheDigestOfTheDigestsInARow) {
   const std::vector<Digest> digests{Sha256({}), Sha256(Bytes{'a', 'b', 'c'})};
   Bytes row(digests[0].begin(), digests[0].end());
