@@ -32,22 +32,6 @@ std::string Remarks(const route::RouteInfo& info) {
   return fmt::format("{}{}\"{}\"", tags, tags.empty() ? "" : "  ", info.description);
 }
 
-std::string JsonText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  quoted += '"';
-  return quoted;
-}
-
 std::string JsonTexts(const std::vector<std::string>& texts) {
   std::string list;
   for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + JsonText(text);
@@ -158,20 +142,39 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
   return text;
 }
 
+std::string JsonText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  quoted += '"';
+  return quoted;
+}
+
+std::string RouteJson(const route::RouteInfo& info) {
+  return fmt::format(
+      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
+      "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
+      "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
+      "\"place\": {}, \"description\": {}, \"edition\": {}}}",
+      JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
+      StateName(info), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
+      JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
+      route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place),
+      JsonText(info.description), info.edition);
+}
+
 std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
   std::string text = "[";
   for (const route::RouteInfo& info : routes) {
-    if (text.size() > 1) text += ',';
-    text += fmt::format(
-        "\n  {{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
-        "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
-        "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
-        "\"place\": {}, \"description\": {}, \"edition\": {}}}",
-        JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
-        StateName(info), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
-        JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
-        route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place),
-        JsonText(info.description), info.edition);
+    text += (text.size() > 1 ? ",\n  " : "\n  ") + RouteJson(info);
   }
   return text + "\n]\n";
 }

@@ -36,8 +36,12 @@ namespace trailcast::tool {
 // For people: one line a route, `now_unix_ms` for their ages.
 [[nodiscard]] std::string RoutesTable(const std::vector<route::RouteInfo>& routes,
                                       std::int64_t now_unix_ms);
-// For programs: an array of objects.
+// For programs: an object, and an array of them.
+[[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
 [[nodiscard]] std::string RoutesJson(const std::vector<route::RouteInfo>& routes);
+
+// Quoted for JSON.
+[[nodiscard]] std::string JsonText(const std::string& text);
 
 // "12 s", "5 min", "3 h", "2 d".
 [[nodiscard]] std::string Age(std::int64_t milliseconds);

@@ -10,6 +10,8 @@ constexpr const char* kExamples =
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
     "  trailcast explain run.log              # what happened in a replay, and why\n"
     "  trailcast routes                       # what the route server keeps\n"
+    "  trailcast export hall                  # a route as a file, hall.trailcast\n"
+    "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
     "Each subcommand has its own --help.";
 
@@ -28,6 +30,8 @@ int Run(int argc, char** argv) {
                                       trailcast::tool::AddFiguresCommand(app),
                                       trailcast::tool::AddExplainCommand(app),
                                       trailcast::tool::AddRoutesCommand(app, common),
+                                      trailcast::tool::AddExportCommand(app, common),
+                                      trailcast::tool::AddImportCommand(app, common),
                                       trailcast::tool::AddDoctorCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "agent/tool/catalog_client.h"
-#include "agent/tool/operator.h"
+#include "agent/tool/transfer.h"
 #include "services/exchange/bounds.h"
 #include "services/route/labels.h"
 
@@ -32,10 +32,11 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RouteEdit& 
   if (auto possible = exchange::CheckEdit(edit); !possible) {
     return cli::Complain(app, possible.error());
   }
-  const AgentId self = OperatorName(common);
-  auto exchange = OpenAsOperator(common, self);
-  if (!exchange) return cli::Complain(app, exchange.error());
-  const auto reply = AskToEdit(**exchange, self, edit, Milliseconds(timeout_s));
+  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  if (!peer) return cli::Complain(app, peer.error());
+  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::duration<double>(timeout_s));
+  const auto reply = AskToEdit(*peer->exchange, peer->self, edit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   Tell(reply->page.routes);
   return cli::kExitOk;

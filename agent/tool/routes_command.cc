@@ -7,8 +7,8 @@
 #include "agent/cli/place_options.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
-#include "agent/tool/operator.h"
 #include "agent/tool/route_edits.h"
+#include "agent/tool/transfer.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::tool {
@@ -100,11 +100,11 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return cli::Complain(app, possible.error());
   }
-  const AgentId self = OperatorName(common);
-  auto exchange = OpenAsOperator(common, self);
-  if (!exchange) return cli::Complain(app, exchange.error());
-  const auto reply =
-      AskForRoutes(**exchange, self, query, options.limit, Milliseconds(options.timeout_s));
+  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  if (!peer) return cli::Complain(app, peer.error());
+  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::duration<double>(options.timeout_s));
+  const auto reply = AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
   if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);

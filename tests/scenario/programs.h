@@ -23,8 +23,8 @@ class ProgramsTest : public testing::Test {
 
   std::unique_ptr<Process> Start(const std::string& program, const Words& words,
                                  const std::string& log) {
-    Words argv{std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--dds-tag",
-               "scenario-" + std::to_string(getpid()), "--network-interface", "lo"};
+    Words argv{std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--dds-tag", tag_,
+               "--network-interface", "lo"};
     argv.insert(argv.end(), words.begin(), words.end());
     return std::make_unique<Process>(argv, Path(log + ".log"));
   }
@@ -68,6 +68,7 @@ class ProgramsTest : public testing::Test {
   }
 
   TempDir folder_;
+  std::string tag_ = "scenario-" + std::to_string(getpid());  // of what is started from now on
 };
 
 }  // namespace trailcast::test

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "agent/tool/transfer.h"
+#include "services/archive/route_file.h"
+#include "services/base/result.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::tool {
+
+struct Imported {
+  bool was_there = false;  // all of it, before
+  std::string holder;      // for people: "server 'barn'"
+};
+
+// What an importer takes part in: a scout's topics, those of the catalog, and to ask who has what.
+[[nodiscard]] exchange::TopicUse ImporterTopics();
+
+// On the store's disk when this returns; no route is in it without all of its segments. kConflict
+// when the store has another route or other segments under the same id and revision.
+[[nodiscard]] Result<Imported> ImportIntoStore(const archive::RouteFile& file,
+                                               store::RouteStore& store);
+
+// On a server's disk when this returns: it has confirmed every segment, and announced the whole
+// route with this manifest. kConflict as above; kUnavailable when no server answers, or the one
+// that did has confirmed nothing new for the watch's timeout.
+[[nodiscard]] Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,
+                                              const TransferWatch& watch);
+
+}  // namespace trailcast::tool
