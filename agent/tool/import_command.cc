@@ -79,10 +79,8 @@ bool ImportAll(const CLI::App& app, const ImportOptions& options, const ImportOn
 Result<bool> IntoStore(const CLI::App& app, const ImportOptions& options) {
   auto store = store::OpenSqliteStore(options.store);
   if (!store) return tl::unexpected(store.error());
-  return ImportAll(app, options, [&](const RouteFile& file) -> Result<Imported> {
-    auto imported = ImportIntoStore(file, **store);
-    if (imported) imported->holder = options.store.string();
-    return imported;
+  return ImportAll(app, options, [&](const RouteFile& file) {
+    return ImportIntoStore(file, **store, "route store " + options.store.string());
   });
 }
 

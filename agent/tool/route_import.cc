@@ -147,21 +147,21 @@ exchange::TopicUse ImporterTopics() {
   return use;
 }
 
-Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteStore& store) {
+Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteStore& store,
+                                 const std::string& name) {
   const route::RouteInfo& info = file.info();
-  const std::string here = "this store";
   const auto known = store.FindRoute(info.key);
   if (!known) return tl::unexpected(known.error());
   const auto held = store.HeldSegments(info.key);
   if (!held) return tl::unexpected(held.error());
   const bool complete = *known && IsComplete(**known);
-  if (complete && !IsSameTeaching(**known, info)) return Conflict(info, here);
+  if (complete && !IsSameTeaching(**known, info)) return Conflict(info, name);
   // Held ones too: the store mends what has become damaged.
   if (auto appended = AppendAll(file, store); !appended) return tl::unexpected(appended.error());
-  if (complete) return Imported{held->size() >= info.segment_count, here};
+  if (complete) return Imported{held->size() >= info.segment_count, name};
   // Last, so that no route is there without its segments.
   if (auto put = store.PutRoute(info); !put) return tl::unexpected(put.error());
-  return Imported{false, here};
+  return Imported{false, name};
 }
 
 Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,

@@ -65,7 +65,7 @@ TEST_F(RouteFileTest, AStoreNeedsNoNetworkToGiveAndTakeRoutes) {
   EXPECT_EQ(Tool(With(exporting, {"--force"})).status, 0);
 
   const Words importing{"import", Path("hall.trailcast"), "--store", Path("other.db")};
-  EXPECT_THAT(Tool(importing).output, HasSubstr("is there now: " + Path("other.db")));
+  EXPECT_THAT(Tool(importing).output, HasSubstr("is there now: route store " + Path("other.db")));
   EXPECT_THAT(Tool(importing).output, HasSubstr("was there already"));
   EXPECT_EQ(
       Tool({"export", "hall", "--store", Path("other.db"), "--out", Path("back.trailcast")}).status,

@@ -218,26 +218,26 @@ TEST_F(RouteTransferTest, AnExportThatNobodyAnswersOrThatIsStoppedLeavesNoFile) 
 
 TEST_F(RouteTransferTest, AStoreTakesARouteUpAndGivesItBack) {
   const RouteFile file = FileOf(TeachSamples(5));
-  const auto imported = ImportIntoStore(file, *store_);
+  const auto imported = ImportIntoStore(file, *store_, "route store x");
   ASSERT_TRUE(imported) << imported.error().message;
   EXPECT_FALSE(imported->was_there);
   ASSERT_TRUE(ExportFromStore(*store_, file.info(), Writer("fetched.trailcast", file.info())));
   EXPECT_EQ(Bytes("fetched.trailcast"), Bytes("given.trailcast"));
-  EXPECT_TRUE(ImportIntoStore(file, *store_).value().was_there);
+  EXPECT_TRUE(ImportIntoStore(file, *store_, "route store x").value().was_there);
 }
 
 TEST_F(RouteTransferTest, AStoreKeepsWhatItHas) {
   const RouteFile file = FileOf(TeachSamples(4));
   Hold(AnotherTeaching(4), 4);
-  const auto part = ImportIntoStore(file, *store_);
+  const auto part = ImportIntoStore(file, *store_, "route store x");
   ASSERT_FALSE(part);
   EXPECT_EQ(part.error().code, ErrorCode::kConflict);
   EXPECT_FALSE(store_->FindRoute(file.info().key).value());
   Hold(AnotherTeaching(4));
-  const auto whole = ImportIntoStore(file, *store_);
+  const auto whole = ImportIntoStore(file, *store_, "route store x");
   ASSERT_FALSE(whole);
   EXPECT_EQ(whole.error().code, ErrorCode::kConflict);
-  EXPECT_THAT(whole.error().message, HasSubstr("has other segments"));
+  EXPECT_THAT(whole.error().message, HasSubstr("route store x has other segments"));
 }
 
 exchange::CatalogReply ReplyOf(std::vector<route::RouteInfo> routes) {
