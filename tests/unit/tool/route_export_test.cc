@@ -1,0 +1,57 @@
+#include "agent/tool/route_export.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/taught_route.h"
+
+namespace trailcast::tool {
+namespace {
+
+using test::TeachSamples;
+using testing::HasSubstr;
+
+exchange::CatalogReply ReplyOf(std::vector<route::RouteInfo> routes) {
+  exchange::CatalogReply reply;
+  reply.page.routes = std::move(routes);
+  return reply;
+}
+
+route::RouteInfo Revision(std::uint32_t number, route::RouteState state) {
+  route::RouteInfo info = TeachSamples(2).info;
+  info.key.revision = RevisionNumber(number);
+  info.taught_unix_ms += number;
+  info.state = state;
+  return info;
+}
+
+TEST(ChooseForExport, TakesTheNewestThatIsComplete) {
+  const auto reply =
+      ReplyOf({Revision(1, route::RouteState::kComplete), Revision(2, route::RouteState::kComplete),
+               Revision(3, route::RouteState::kTeaching)});
+  EXPECT_EQ(ChooseForExport(reply, "hall", {}, "it")->key.revision, RevisionNumber(2));
+  EXPECT_EQ(ChooseForExport(reply, "hall", 1, "it")->key.revision, RevisionNumber(1));
+  EXPECT_THAT(ChooseForExport(reply, "hall", 3, "it").error().message,
+              HasSubstr("'hall' revision 3 is still being taught (2 segments so far)"));
+  EXPECT_THAT(ChooseForExport(reply, "hall", 4, "it").error().message,
+              HasSubstr("it has no revision 4 of route 'hall'; it has 1, 2, 3"));
+}
+
+TEST(ChooseForExport, NamesWhatThereIsInstead) {
+  exchange::CatalogReply reply;
+  reply.similar_names = {"hall", "hull"};
+  EXPECT_EQ(ChooseForExport(reply, "hell", {}, "server 'barn'").error().message,
+            "server 'barn' has no route 'hell'; there is hall, hull");
+  EXPECT_EQ(ChooseForExport({}, "hell", 2, "server 'barn'").error().message,
+            "server 'barn' has no route 'hell'");
+}
+
+TEST(ProgressText, EstimatesWhatIsLeft) {
+  EXPECT_EQ(ProgressText("fetching 'hall'", 3'000'000, 12'000'000, std::chrono::seconds(5)),
+            "fetching 'hall': 25 % of 12.0 MB, about 15 s left");
+  EXPECT_EQ(ProgressText("fetching 'hall'", 0, 12'000'000, std::chrono::seconds(5)),
+            "fetching 'hall': 0 % of 12.0 MB");
+}
+
+}  // namespace
+}  // namespace trailcast::tool
