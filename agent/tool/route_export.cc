@@ -70,8 +70,13 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
   std::erase_if(fitting, [&](const route::RouteInfo& info) {
     return info.name != name || (revision && info.key.revision.value() != *revision);
   });
-  auto chosen = agent::ChooseRoute(fitting);
-  if (!chosen) return NotThere(reply, name, revision, holder);
+  if (fitting.empty()) return NotThere(reply, name, revision, holder);
+  // Who names a revision need not wait until it is activated.
+  auto chosen = revision ? std::optional(fitting.front()) : agent::ChooseRoute(fitting);
+  if (!chosen) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{} has no active revision of route '{}': say which with --revision", holder, name);
+  }
   if (chosen->state == route::RouteState::kComplete) return std::move(*chosen);
   return Fail(
       ErrorCode::kInvalidArgument,

@@ -12,10 +12,10 @@
 
 namespace trailcast::tool {
 
-// Which of the routes of one name to export: the newest complete one, of that revision if one is
-// asked for. `reply` answers the catalog's question for that name; `holder` is who answered, for
-// messages. kNotFound, with what there is, when there is none; kInvalidArgument for one that is
-// still being taught.
+// Which of the routes of one name to export: the one that followers would take, or the revision
+// that is asked for, the newest if several routes have it. `reply` answers the catalog's question
+// for that name; `holder` is who answered, for messages. kNotFound, with what there is, when there
+// is none; kInvalidArgument for one that is still being taught.
 [[nodiscard]] Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
                                                        const std::string& name,
                                                        std::optional<std::uint32_t> revision,

@@ -42,6 +42,7 @@ Bytes EncodeInfo(const RouteInfo& info) {
     out.mutable_place()->set_x(info.place->x);
     out.mutable_place()->set_y(info.place->y);
   }
+  out.set_description(info.description);
   Bytes bytes(out.ByteSizeLong());
   [[maybe_unused]] const bool fits =
       out.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
@@ -76,6 +77,7 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
   info.bytes = in.bytes();
   std::copy(in.manifest_digest().begin(), in.manifest_digest().end(), info.manifest_digest.begin());
   info.tags.assign(in.tags().begin(), in.tags().end());
+  info.description = in.description();
   if (in.has_place()) info.place = ReadPlace(in.place());
   return info;
 }

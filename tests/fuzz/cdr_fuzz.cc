@@ -49,7 +49,7 @@ void TakeIn(exchange::Topic topic, std::uint32_t version, bool swap,
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 3) return 0;
-  const auto topic = static_cast<trailcast::exchange::Topic>(data[0] % 7);
+  const auto topic = static_cast<trailcast::exchange::Topic>(data[0] % 8);
   const std::uint32_t version = (data[1] & 1U) != 0 ? CDR_ENC_VERSION_2 : CDR_ENC_VERSION_1;
   trailcast::fuzz::TakeIn(topic, version, (data[1] & 2U) != 0, {data + 2, size - 2});
   return 0;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "services/catalog/catalog.h"
+#include "services/catalog/editing.h"
 #include "services/exchange/route_keeper.h"
 #include "tests/fuzz/messages.h"
 #include "tests/support/memory_store.h"
@@ -20,7 +21,11 @@ class Server {
     const auto answer = [this](const exchange::CatalogRequest& request) {
       return catalog::Answer(request, kSelf, store_);
     };
-    keeper_ = *RouteKeeper::Open(kSelf, store_, answer, test::ToyIntegrity(), kOptions);
+    const auto plan = [this](const route::RouteEdit& edit) {
+      return catalog::PlanEdit(edit, store_);
+    };
+    keeper_ = *RouteKeeper::Open(kSelf, store_, {.answer = answer, .plan = plan},
+                                 test::ToyIntegrity(), kOptions);
   }
   void FillUp(bool full) { store_.full = full; }
   void Handle(const exchange::Message& message, Time now) { keeper_->Handle(message, now); }
@@ -70,6 +75,10 @@ class Server {
   }
   void Check(const route::RouteInfo& info) {
     Require(store_.FindRoute(info.key).value() == info, "what it announces is stored");
+    if (info.standing == route::Standing::kDeleted) {
+      Require(store_.HeldSegments(info.key)->empty(), "of what is deleted nothing is left");
+      return;
+    }
     std::vector<route::Digest> digests;
     for (std::uint32_t i = 0; i < info.segment_count; ++i) {
       const auto piece = store_.ReadSegment(info.key, SegmentIndex(i));

@@ -42,6 +42,10 @@ class Stranger {
     if (Seldom()) info.scout = Name();
     if (Seldom()) info.taught_unix_ms = input_.ConsumeIntegral<std::int64_t>();
     if (Seldom()) info.tags = {"a", "b"};
+    if (Seldom()) info.description = "past the greenhouse";
+    if (Seldom()) info.edition = input_.ConsumeIntegralInRange<std::uint32_t>(0, 3);
+    if (Seldom())
+      info.standing = static_cast<route::Standing>(input_.ConsumeIntegralInRange<int>(0, 3));
     if (Seldom()) info.place = {route::Place::Frame::kWgs84, -180.0, 90.0};
     return info;
   }
@@ -67,7 +71,7 @@ class Stranger {
   static constexpr std::uint32_t kMostSegments = 300;
 
   exchange::Message SayAnything() {
-    switch (input_.ConsumeIntegralInRange<int>(0, 7)) {
+    switch (input_.ConsumeIntegralInRange<int>(0, 8)) {
       case 0:
         return exchange::RouteAnnouncement{.holder = Name(), .info = Info()};
       case 1:
@@ -79,7 +83,9 @@ class Stranger {
                                  .key = Key(),
                                  .durable_prefix = Index().value(),
                                  .durable_beyond = Indices(),
-                                 .durable_state = State()};
+                                 .durable_state = State(),
+                                 .refusal = Refusal(),
+                                 .reason = "so it is"};
       case 4:
         return exchange::CatalogRequest{.client = Name(),
                                         .request = 1,
@@ -89,6 +95,9 @@ class Stranger {
             .server = Name(), .client = Name(), .page = {{Info()}, 1, ""}};
       case 6:
         return exchange::AgentStatus{.agent = Name()};
+      case 7:
+        return exchange::RouteEditRequest{
+            .client = Name(), .request = input_.ConsumeIntegral<std::uint8_t>(), .edit = Edit()};
       default:
         return exchange::AgentGone{.agent = Name()};
     }
@@ -103,6 +112,20 @@ class Stranger {
       if (Seldom()) pieces.back().bytes[0] ^= 1U;
     }
     return pieces;
+  }
+  route::RouteEdit Edit() {
+    route::RouteEdit edit{
+        .action = static_cast<route::EditAction>(input_.ConsumeIntegralInRange<int>(0, 8)),
+        .route = Seldom()               ? "other"
+                 : input_.ConsumeBool() ? "corridor"
+                                        : Key().route.value(),
+        .revision = input_.ConsumeIntegralInRange<std::uint32_t>(0, 2),
+        .text = input_.ConsumeRandomLengthString(20)};
+    if (input_.ConsumeBool()) edit.tags = {"wet"};
+    return edit;
+  }
+  exchange::Refusal Refusal() {
+    return static_cast<exchange::Refusal>(Seldom() ? input_.ConsumeIntegralInRange<int>(1, 2) : 0);
   }
   AgentId Name() {
     return AgentId(input_.PickValueInArray({"scout-1", "follower-1", "server", "stranger"}));

@@ -47,6 +47,17 @@ class Samples {
     wire.durable_beyond._length = Count();
     wire.durable_beyond._buffer = Numbers(wire.durable_beyond._length);
     wire.durable_state = Octet();
+    wire.refusal = Octet();
+    wire.reason = Text();
+  }
+  void Fill(trailcast_wire_RouteEditRequest& wire) {
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.action = Octet();
+    wire.route = Text();
+    wire.revision = Number();
+    wire.text = Text();
+    FillTexts(wire.tags);
   }
   void Fill(trailcast_wire_CatalogRequest& wire) {
     trailcast_wire_CatalogQuery& query = wire.query;
@@ -118,6 +129,9 @@ class Samples {
     Fill(wire.manifest_digest);
     FillTexts(wire.tags);
     Fill(wire.place);
+    wire.description = Text();
+    wire.standing = Octet();
+    wire.edition = Number();
   }
   void Fill(trailcast_wire_SegmentPiece& wire) {
     Fill(wire.key);
@@ -223,7 +237,7 @@ void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   FuzzedDataProvider input(data, size);
-  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 6))) {
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 7))) {
     case Topic::kRoutes:
       FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
       break;
@@ -244,6 +258,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kAgents:
       FillAndTakeIn<trailcast_wire_AgentStatus>(topic, input);
+      break;
+    case Topic::kRouteEdits:
+      FillAndTakeIn<trailcast_wire_RouteEditRequest>(topic, input);
       break;
   }
   return 0;

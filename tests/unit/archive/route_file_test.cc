@@ -141,10 +141,10 @@ TEST_F(RouteFileTest, IsNotWrittenOfSegmentsThatAreNotTheRoutes) {
 
 TEST_F(RouteFileTest, IsNeverWrittenTooLarge) {
   test::TaughtRoute huge = taught_;
-  for (const std::uint64_t bytes : {kMaxFileBytes, ~std::uint64_t{0}}) {
-    huge.info.bytes = bytes;
-    EXPECT_THAT(Export(huge, Existing::kKeep).error().message, HasSubstr("too many for a file"));
-  }
+  huge.info.bytes = kMaxFileBytes;
+  EXPECT_THAT(Export(huge, Existing::kKeep).error().message, HasSubstr("too many for a file"));
+  huge.info.bytes = ~std::uint64_t{0};
+  EXPECT_THAT(Export(huge, Existing::kKeep).error().message, HasSubstr("bytes in a route"));
 }
 
 TEST_F(RouteFileTest, NoticesThatItWasChangedAfterItWasOpened) {
