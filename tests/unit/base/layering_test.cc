@@ -20,7 +20,7 @@ using Folders = std::set<std::string>;
 using testing::IsEmpty;
 
 // What each folder of services/ may include besides itself: base -> motion, route, image -> vision,
-// teach, replay, store -> exchange, archive, catalog -> dds, sim -> agent, route_server.
+// teach, replay, view, store -> exchange, archive, catalog -> dds, sim -> agent, route_server.
 const std::map<std::string, Folders> kMayInclude{
     {"base", {}},
     {"motion", {"base"}},
@@ -29,10 +29,11 @@ const std::map<std::string, Folders> kMayInclude{
     {"vision", {"base", "motion", "image", "route"}},
     {"teach", {"base", "motion", "route"}},
     {"replay", {"base", "motion", "route"}},
+    {"view", {"base", "route"}},
     {"store", {"base", "route"}},
     {"exchange", {"base", "route", "store"}},
     {"archive", {"base", "route", "exchange"}},
-    {"catalog", {"base", "route", "store", "exchange"}},
+    {"catalog", {"base", "route", "view", "store", "exchange"}},
     {"dds", {"base", "motion", "image", "route", "exchange"}},
     {"sim", {"base", "motion", "image"}},
 };

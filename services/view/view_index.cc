@@ -1,0 +1,223 @@
+#include "services/view/view_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "services/view/view_words.h"
+
+namespace trailcast::view {
+namespace {
+
+constexpr std::uint32_t kMostSlots = kWords - 1;  // the last is kNoEntry's
+// In place of a slot's route.
+constexpr std::uint32_t kDead = 0xFFFFFFFFU;
+constexpr std::uint32_t kFree = 0xFFFFFFFEU;
+constexpr std::size_t kBytesARoute = 160;  // a key, its text, a node of a map
+// Chunks of one word that are looked at: a word so common says next to nothing.
+constexpr int kMostChunks = 64;
+// Features of a view that vote, the first, which are the strongest: the time is theirs.
+constexpr std::size_t kMostVoters = 80;
+// Of a segment, the first: more than teaching keeps would only fill the memory.
+constexpr std::size_t kMostFeatures = 64;
+// Added to a segment's number of features where votes are weighed against it.
+constexpr std::uint32_t kUsualFeatures = 10;
+constexpr int kMostVotes = 0xFFFF;
+constexpr std::size_t kSweepFrom = 4096;
+
+}  // namespace
+
+ViewIndex::ViewIndex(const ViewIndexOptions& options)
+    : options_{std::min(options.most_segments, kMostSlots)}, heads_(kTables * kWords), chunks_(1) {}
+
+std::uint32_t ViewIndex::NumberOf(const route::RouteKey& key) {
+  const auto [known, added] = numbers_.try_emplace(key, 0);
+  if (!added) return known->second;
+  if (free_numbers_.empty()) {
+    free_numbers_.push_back(static_cast<std::uint32_t>(keys_.size()));
+    keys_.push_back(nullptr);
+  }
+  known->second = free_numbers_.back();
+  free_numbers_.pop_back();
+  keys_[known->second] = &known->first;
+  return known->second;
+}
+
+std::optional<std::uint32_t> ViewIndex::TakeSlot() {
+  if (full()) return std::nullopt;
+  if (free_slots_.empty() && slots_.size() >= options_.most_segments) Sweep();
+  if (free_slots_.empty()) {
+    slots_.emplace_back();
+    tallies_.emplace_back();
+    return static_cast<std::uint32_t>(slots_.size() - 1);
+  }
+  const std::uint32_t slot = free_slots_.back();
+  free_slots_.pop_back();
+  return slot;
+}
+
+std::uint32_t ViewIndex::TakeChunk(std::uint32_t next) {
+  Chunk fresh{};
+  fresh.entries.fill(kNoEntry);
+  fresh.next = next;
+  if (free_chunks_.empty()) {
+    chunks_.push_back(fresh);
+    return static_cast<std::uint32_t>(chunks_.size() - 1);
+  }
+  const std::uint32_t chunk = free_chunks_.back();
+  free_chunks_.pop_back();
+  chunks_[chunk] = fresh;
+  return chunk;
+}
+
+void ViewIndex::Insert(std::uint32_t word, std::uint32_t entry) {
+  std::uint32_t& head = heads_[word];
+  if (head == 0 || chunks_[head].entries.back() != kNoEntry) head = TakeChunk(head);
+  auto& entries = chunks_[head].entries;
+  *std::find(entries.begin(), entries.end(), kNoEntry) = entry;
+}
+
+bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
+  const std::optional<std::uint32_t> slot = TakeSlot();
+  if (!slot) return false;
+  const std::size_t most = std::min(segment.features.size(), kMostFeatures);
+  slots_[*slot] = {NumberOf(key), segment.index.value(), static_cast<std::uint32_t>(most)};
+  for (const route::Feature& feature : std::span(segment.features).first(most)) {
+    if (!route::IsDescribed(feature.descriptor)) continue;
+    const auto where = WhereIs(feature.descriptor);
+    for (std::uint32_t table = 0; table < kTables; ++table) {
+      Insert(table * kWords + where[table].word, *slot << kCheckBits | where[table].check);
+    }
+  }
+  return true;
+}
+
+void ViewIndex::Remove(const route::RouteKey& key) {
+  const auto known = numbers_.find(key);
+  if (known == numbers_.end()) return;
+  for (Slot& slot : slots_) {
+    if (slot.route != known->second) continue;
+    slot.route = kDead;
+    ++dead_;
+  }
+  free_numbers_.push_back(known->second);
+  numbers_.erase(known);
+  if (dead_ > std::max(kSweepFrom, slots_.size() / 4)) Sweep();
+}
+
+// Takes the removed segments' entries out of the tables.
+void ViewIndex::Sweep() {
+  for (std::uint32_t word = 0; word < heads_.size(); ++word) {
+    if (heads_[word] != 0) SweepWord(word);
+  }
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot].route != kDead) continue;
+    slots_[slot].route = kFree;
+    free_slots_.push_back(slot);
+  }
+  dead_ = 0;
+}
+
+void ViewIndex::SweepWord(std::uint32_t word) {
+  std::vector<std::uint32_t> alive;
+  for (std::uint32_t chunk = std::exchange(heads_[word], 0); chunk != 0;
+       chunk = chunks_[chunk].next) {
+    free_chunks_.push_back(chunk);
+    for (const std::uint32_t entry : chunks_[chunk].entries) {
+      if (entry != kNoEntry && slots_[entry >> kCheckBits].route != kDead) alive.push_back(entry);
+    }
+  }
+  for (const std::uint32_t entry : alive) Insert(word, entry);
+}
+
+// The slots of the features that look like this one, into `alike_`.
+void ViewIndex::FindAlike(const route::Descriptor& descriptor) {
+  constexpr std::size_t kAhead = 8;  // chains fetched into the cache before they are walked
+  alike_.clear();
+  const auto where = WhereIs(descriptor);
+  const std::vector<std::uint32_t>& flips = Flips();
+  std::vector<std::uint32_t>& chains = chains_;
+  for (std::uint32_t table = 0; table < kTables; ++table) {
+    chains.clear();
+    for (const std::uint32_t flip : flips) {
+      const std::uint32_t head = heads_[table * kWords + (where[table].word ^ flip)];
+      if (head != 0) chains.push_back(head);
+    }
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+      if (i + kAhead < chains.size()) __builtin_prefetch(&chunks_[chains[i + kAhead]]);
+      FindAlike(chains[i], where[table].check);
+    }
+  }
+}
+
+void ViewIndex::FindAlike(std::uint32_t chunk, std::uint32_t check) {
+  const auto& few = FewFlips();
+  for (int looked_at = 0; chunk != 0 && looked_at < kMostChunks; ++looked_at) {
+    for (const std::uint32_t entry : chunks_[chunk].entries) {
+      if (entry == kNoEntry) break;
+      if (few[(entry ^ check) & kCheckMask]) alike_.push_back(entry >> kCheckBits);
+    }
+    chunk = chunks_[chunk].next;
+  }
+}
+
+// Each segment with such a feature gets a vote, the greater the fewer there are.
+void ViewIndex::Vote(std::uint8_t number) {
+  constexpr double kFine = 64.0;
+  constexpr std::size_t kAFew = 1000;  // with fewer segments than that all features count
+  const double rare =
+      static_cast<double>(std::max(size(), kAFew)) / static_cast<double>(alike_.size() + 1);
+  if (rare <= 1.0) return;
+  const auto vote = static_cast<std::uint16_t>(kFine * std::log(rare));
+  for (const std::uint32_t slot : alike_) {
+    Tally& tally = tallies_[slot];
+    if (tally.voter == number) continue;
+    tally.voter = number;
+    tally.votes = static_cast<std::uint16_t>(std::min(tally.votes + vote, kMostVotes));
+  }
+}
+
+std::vector<ViewIndex::Place> ViewIndex::Candidates(std::span<const route::ViewFeature> view,
+                                                    std::size_t most) {
+  std::fill(tallies_.begin(), tallies_.end(), Tally{});
+  std::uint8_t number = 0;
+  for (const route::ViewFeature& feature : view.first(std::min(view.size(), kMostVoters))) {
+    if (!route::IsDescribed(feature.descriptor)) continue;
+    FindAlike(feature.descriptor);
+    Vote(++number);
+  }
+  // Votes by chance grow with the number of features.
+  std::vector<std::pair<float, std::uint32_t>> voted;
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    if (tallies_[slot].votes == 0 || slots_[slot].route >= kFree) continue;
+    const auto features = static_cast<float>(slots_[slot].features + kUsualFeatures);
+    voted.emplace_back(-static_cast<float>(tallies_[slot].votes) / std::sqrt(features), slot);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(std::min(most, voted.size()));
+  std::partial_sort(voted.begin(), voted.begin() + count, voted.end());
+  voted.resize(static_cast<std::size_t>(count));
+  std::vector<Place> places;
+  places.reserve(voted.size());
+  for (const auto& [rank, slot] : voted) {
+    places.push_back({*keys_[slots_[slot].route], SegmentIndex(slots_[slot].segment)});
+  }
+  return places;
+}
+
+std::set<SegmentIndex> ViewIndex::SegmentsOf(const route::RouteKey& key) const {
+  std::set<SegmentIndex> segments;
+  const auto known = numbers_.find(key);
+  if (known == numbers_.end()) return segments;
+  for (const Slot& slot : slots_) {
+    if (slot.route == known->second) segments.insert(SegmentIndex(slot.segment));
+  }
+  return segments;
+}
+
+std::size_t ViewIndex::bytes() const {
+  return heads_.size() * sizeof(heads_[0]) + chunks_.size() * sizeof(Chunk) +
+         slots_.capacity() * sizeof(Slot) + tallies_.capacity() * sizeof(Tally) +
+         numbers_.size() * kBytesARoute;
+}
+
+}  // namespace trailcast::view

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "services/route/route.h"
+#include "services/route/view.h"
+
+namespace trailcast::view {
+
+struct ViewIndexOptions {
+  // Bounds the memory: README.md says how much a segment takes, at most 160 MB for so many.
+  std::uint32_t most_segments = 200'000;
+};
+
+// Which segments have features that look like those of a view: an inverted index from 20 bits of a
+// descriptor (its word) to the segments, with 12 more bits to tell apart what shares a word. Words
+// that differ by up to two bits are looked up too, so that nothing need be learnt beforehand. Finds
+// candidates, which are then compared feature by feature (view_match.h). Not thread-safe.
+class ViewIndex {
+ public:
+  struct Place {
+    route::RouteKey key;
+    SegmentIndex segment;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads a defaulted <=>
+    auto operator<=>(const Place&) const = default;
+  };
+
+  explicit ViewIndex(const ViewIndexOptions& options = {});
+
+  // False, and nothing is added, when the index is full. A segment is added once only.
+  [[nodiscard]] bool Add(const route::RouteKey& key, const route::Segment& segment);
+  // All of the route's segments; none is fine.
+  void Remove(const route::RouteKey& key);
+
+  // Those with the most features in common, weighed by how alike they are, the best first.
+  [[nodiscard]] std::vector<Place> Candidates(std::span<const route::ViewFeature> view,
+                                              std::size_t most);
+
+  [[nodiscard]] std::set<SegmentIndex> SegmentsOf(const route::RouteKey& key) const;
+  [[nodiscard]] std::size_t routes() const { return numbers_.size(); }
+  // Segments.
+  [[nodiscard]] std::size_t size() const { return slots_.size() - free_slots_.size() - dead_; }
+  [[nodiscard]] bool full() const { return size() >= options_.most_segments; }
+  // Of the tables and what is in them.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  // The upper 20 bits of an entry are its segment's slot, the lower 12 its check.
+  static constexpr std::uint32_t kNoEntry = 0xFFFFFFFFU;
+  struct Chunk {
+    std::array<std::uint32_t, 7> entries;
+    std::uint32_t next;  // 0: none
+  };
+  struct Slot {
+    std::uint32_t route = 0;  // its number
+    std::uint32_t segment = 0;
+    std::uint32_t features = 0;
+  };
+  struct Tally {
+    std::uint16_t votes = 0;
+    std::uint8_t voter = 0;  // the last feature of the view that voted
+  };
+
+  // Nothing when all are taken.
+  [[nodiscard]] std::optional<std::uint32_t> TakeSlot();
+  [[nodiscard]] std::uint32_t NumberOf(const route::RouteKey& key);
+  void Insert(std::uint32_t word, std::uint32_t entry);
+  [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
+  void Sweep();
+  void SweepWord(std::uint32_t word);
+  void FindAlike(const route::Descriptor& descriptor);
+  void FindAlike(std::uint32_t chunk, std::uint32_t check);
+  void Vote(std::uint8_t number);
+
+  ViewIndexOptions options_;
+  std::vector<std::uint32_t> heads_;  // by word: its first chunk's number, 0: none
+  std::deque<Chunk> chunks_;          // number 0 is not used
+  std::vector<std::uint32_t> free_chunks_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;
+  std::size_t dead_ = 0;  // slots whose segment was removed, their entries not yet
+  std::map<route::RouteKey, std::uint32_t> numbers_;
+  std::vector<const route::RouteKey*> keys_;  // by number: of numbers_
+  std::vector<std::uint32_t> free_numbers_;
+  std::vector<Tally> tallies_;         // by slot, while voting
+  std::vector<std::uint32_t> alike_;   // slots
+  std::vector<std::uint32_t> chains_;  // that are walked for it
+};
+
+}  // namespace trailcast::view
