@@ -32,6 +32,7 @@ std::string LatencyHistogram::Text(const std::string& metric, const std::string&
 }
 
 const char* KindOf(const route::RouteQuery& query) {
+  if (!query.view.empty()) return "view";
   if (!query.name.empty()) return "name";
   if (query.near) return "place";
   return query.tags.empty() ? "other" : "tag";

@@ -26,7 +26,7 @@ class LatencyHistogram {
   double sum_s_ = 0.0;
 };
 
-// By what most a query narrows down: "name", "tag", "place", or "other".
+// By what most a query narrows down: "name", "tag", "place", "view", or "other".
 [[nodiscard]] const char* KindOf(const route::RouteQuery& query);
 
 // What a server did and holds, for Prometheus

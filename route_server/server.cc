@@ -18,6 +18,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kWait{50};
 constexpr milliseconds kStatusEvery{1000};
 constexpr milliseconds kMetricsEvery{1000};
+constexpr std::size_t kViewsASlice = 100;  // segments: about 20 ms
 
 exchange::AgentStatus ServerStatus(const AgentId& name) {
   exchange::AgentStatus status;
@@ -43,6 +44,7 @@ spdlog::level::level_enum LevelOf(exchange::Note::Severity severity) {
 Server::Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
                std::unique_ptr<exchange::RouteExchange> exchange)
     : store_(std::move(store)),
+      views_(*store_),
       exchange_(std::move(exchange)),
       presence_(*exchange_, ServerStatus(name), kStatusEvery) {}
 
@@ -86,7 +88,8 @@ void Server::Receive(const exchange::Message& message) {
 }
 
 void Server::Serve() {
-  for (const exchange::Message& message : exchange_->Take(kWait)) Receive(message);
+  const milliseconds wait = views_.Filled() ? kWait : milliseconds(0);
+  for (const exchange::Message& message : exchange_->Take(wait)) Receive(message);
   const auto now = steady_clock::now();
   const auto outgoing = keeper_->Tick(now);
   for (const exchange::Message& message : outgoing) {
@@ -103,6 +106,7 @@ void Server::Serve() {
     told_dropped_ = exchange_->dropped();
     spdlog::warn("{} messages so far were out of bounds or unreadable, and dropped", told_dropped_);
   }
+  FillViews(outgoing);
   ShowStatus(exchange::AgentMode::kWaiting,
              fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
                          keeper_->counters().answered));
@@ -113,10 +117,24 @@ void Server::Serve() {
   }
 }
 
+// What a receipt was sent for is on the disk.
+void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
+  for (const exchange::Message& message : outgoing) {
+    if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) views_.Note(receipt->key);
+  }
+  if (views_.Filled()) return;
+  if (auto filled = views_.Fill(kViewsASlice); !filled) {
+    spdlog::warn("left out of the index of views: {}", filled.error().message);
+  }
+  if (views_.Filled()) spdlog::debug("{} segments indexed by view", views_.index().size());
+}
+
 exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
                                              const exchange::CatalogRequest& request) {
   const auto begin = steady_clock::now();
-  exchange::CatalogReply reply = catalog::Answer(request, name, *store_);
+  exchange::CatalogReply reply = request.query.view.empty()
+                                     ? catalog::Answer(request, name, *store_)
+                                     : views_.Answer(request, name);
   const std::chrono::duration<double> took = steady_clock::now() - begin;
   metrics_.queries[KindOf(request.query)].Note(took.count());
   return reply;

@@ -8,6 +8,7 @@
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
+#include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
 #include "services/store/route_store.h"
 
@@ -37,10 +38,12 @@ class Server {
   void Serve();
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
+  void FillViews(const std::vector<exchange::Message>& outgoing);
   void ShowMetrics();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   std::unique_ptr<store::RouteStore> store_;
+  catalog::ViewCatalog views_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::unique_ptr<exchange::RouteKeeper> keeper_;
   cli::Presence presence_;

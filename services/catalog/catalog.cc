@@ -19,6 +19,9 @@ Result<std::vector<std::string>> SimilarNames(const std::string& wanted, store::
 Result<void> Fill(exchange::CatalogReply& reply, const route::RouteQuery& query,
                   store::RouteStore& store) {
   if (auto possible = exchange::CheckQuery(query); !possible) return possible;
+  if (!query.view.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "view is given, and there is no index of views here");
+  }
   Result<route::RoutePage> page = store.QueryRoutes(query);
   if (!page) return tl::unexpected(page.error());
   reply.page = std::move(*page);

@@ -16,6 +16,8 @@ using route::RouteInfo;
 using route::RouteKey;
 using route::RouteState;
 
+constexpr float kSubpixels = 16.0F;
+
 // Values are copied as they are, sizes that CheckBounds refuses included; it comes afterwards.
 
 // Too long a text is cut just above what any bound allows.
@@ -112,6 +114,14 @@ Message From(const trailcast_wire_Receipt& wire) {
                  .reason = Text(wire.reason)};
 }
 
+route::ViewFeature From(const trailcast_wire_ViewFeature& wire) {
+  route::ViewFeature feature;
+  std::copy(std::begin(wire.descriptor), std::end(wire.descriptor), feature.descriptor.begin());
+  feature.u_px = static_cast<float>(wire.u_sixteenth_px) / kSubpixels;
+  feature.v_px = static_cast<float>(wire.v_sixteenth_px) / kSubpixels;
+  return feature;
+}
+
 route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
   route::RouteQuery query{.name = Text(wire.name),
                           .name_prefix = Text(wire.name_prefix),
@@ -128,6 +138,7 @@ route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
   if (wire.state != 0) query.state = static_cast<RouteState>(wire.state - 1);
   if (wire.standing != 0) query.standing = static_cast<route::Standing>(wire.standing - 1);
   if (const auto middle = From(wire.near)) query.near = {*middle, wire.radius_m};
+  for (const auto& feature : Elements(wire.view)) query.view.push_back(From(feature));
   return query;
 }
 
@@ -146,6 +157,11 @@ Message From(const trailcast_wire_CatalogReply& wire) {
   for (const trailcast_wire_CatalogRoute& route : Elements(wire.routes)) {
     reply.page.routes.push_back(From(route.key, route.info));
   }
+  for (const trailcast_wire_FoundPlace& place : Elements(wire.places)) {
+    reply.places.push_back({From(place.key), SegmentIndex(place.segment), place.score});
+  }
+  reply.coverage = {wire.coverage.segments_indexed, wire.coverage.segments_stored,
+                    wire.coverage.routes_unseen};
   return reply;
 }
 

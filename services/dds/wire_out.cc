@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <vector>
 
@@ -71,6 +72,19 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   wire.standing = static_cast<std::uint8_t>(info.standing);
   wire.edition = info.edition;
   return wire;
+}
+
+std::vector<trailcast_wire_ViewFeature> ToWire(const route::View& view) {
+  constexpr float kSubpixels = 16.0F;
+  std::vector<trailcast_wire_ViewFeature> features;
+  features.reserve(view.size());
+  for (const route::ViewFeature& feature : view) {
+    trailcast_wire_ViewFeature& wire = features.emplace_back();
+    std::copy(feature.descriptor.begin(), feature.descriptor.end(), wire.descriptor);
+    wire.u_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.u_px));
+    wire.v_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.v_px));
+  }
+  return features;
 }
 
 trailcast_wire_CatalogQuery ToWire(const route::RouteQuery& query, TextArrays& arrays) {
@@ -146,9 +160,11 @@ Result<void> With(const Receipt& message, const UseSample& use) {
 
 Result<void> With(const CatalogRequest& message, const UseSample& use) {
   TextArrays arrays;
-  const trailcast_wire_CatalogRequest sample{.client = Lend(message.client.value()),
-                                             .request = message.request,
-                                             .query = ToWire(message.query, arrays)};
+  std::vector<trailcast_wire_ViewFeature> view = ToWire(message.query.view);
+  trailcast_wire_CatalogRequest sample{.client = Lend(message.client.value()),
+                                       .request = message.request,
+                                       .query = ToWire(message.query, arrays)};
+  Lend(view, sample.query.view);
   return use(&sample);
 }
 
@@ -167,6 +183,13 @@ Result<void> With(const CatalogReply& message, const UseSample& use) {
   sample.next = Lend(message.page.next);
   arrays.Lend(message.similar_names, sample.similar_names);
   sample.error = Lend(message.error);
+  std::vector<trailcast_wire_FoundPlace> places;
+  for (const route::FoundPlace& place : message.places) {
+    places.push_back({ToWire(place.key), place.segment.value(), place.score});
+  }
+  Lend(places, sample.places);
+  sample.coverage = {message.coverage.segments_indexed, message.coverage.segments_stored,
+                     message.coverage.routes_unseen};
   return use(&sample);
 }
 

@@ -171,6 +171,19 @@ Result<void> Check(const RouteEditRequest& message) {
   return CheckName("client", message.client.value());
 }
 
+Result<void> CheckPlaces(const std::vector<route::FoundPlace>& places) {
+  if (auto ok = CheckCount("places in a reply", places.size(), kMaxPlacesPerReply); !ok) return ok;
+  for (const route::FoundPlace& place : places) {
+    if (auto ok = CheckKey(place.key); !ok) return ok;
+    if (auto ok = CheckCount("segment index", place.segment.value(), kMaxSegmentsPerRoute - 1);
+        !ok) {
+      return ok;
+    }
+    if (auto ok = CheckAmount("score", place.score, 1.0); !ok) return ok;
+  }
+  return {};
+}
+
 Result<void> Check(const CatalogReply& message) {
   if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
@@ -188,6 +201,7 @@ Result<void> Check(const CatalogReply& message) {
   for (const std::string& name : message.similar_names) {
     if (auto ok = CheckName("similar name", name); !ok) return ok;
   }
+  if (auto ok = CheckPlaces(message.places); !ok) return ok;
   return CheckText("error", message.error, kMaxLineBytes);
 }
 
@@ -215,6 +229,47 @@ Result<void> Check(const AgentStatus& message) {
     return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
+// A view is asked for alone.
+Result<void> CheckAlone(const route::RouteQuery& query) {
+  for (const auto& [field, asked] : {std::pair{"name", !query.name.empty()},
+                                     {"name prefix", !query.name_prefix.empty()},
+                                     {"tags", !query.tags.empty()},
+                                     {"scout", !query.scout.empty()},
+                                     {"camera prefix", !query.camera_prefix.empty()},
+                                     {"least length", query.min_length_m != 0.0},
+                                     {"largest length", query.max_length_m != 0.0},
+                                     {"taught from", query.taught_from_unix_ms != 0},
+                                     {"taught until", query.taught_until_unix_ms != 0},
+                                     {"state", query.state.has_value()},
+                                     {"near", query.near.has_value()},
+                                     {"order", query.order != route::RouteOrder::kNewest},
+                                     {"cursor", !query.cursor.empty()}}) {
+    if (!asked) continue;
+    return Fail(ErrorCode::kInvalidArgument, "{} is given together with a view: leave it out",
+                field);
+  }
+  return {};
+}
+
+Result<void> CheckView(const route::View& view) {
+  if (auto ok = CheckCount("features in a view", view.size(), route::kMaxViewFeatures); !ok) {
+    return ok;
+  }
+  for (const route::ViewFeature& feature : view) {
+    if (auto ok = CheckAmount("u in a view, to either side, in pixels", std::abs(feature.u_px),
+                              kMaxImageSide_px);
+        !ok) {
+      return ok;
+    }
+    if (auto ok = CheckAmount("v in a view, to either side, in pixels", std::abs(feature.v_px),
+                              kMaxImageSide_px);
+        !ok) {
+      return ok;
+    }
+  }
+  return {};
 }
 
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
@@ -271,7 +326,10 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
       !ok) {
     return ok;
   }
-  return CheckText("cursor", query.cursor, kMaxCursorBytes);
+  if (auto ok = CheckText("cursor", query.cursor, kMaxCursorBytes); !ok) return ok;
+  if (query.view.empty()) return {};
+  if (auto ok = CheckView(query.view); !ok) return ok;
+  return CheckAlone(query);
 }
 
 Result<void> CheckEdit(const route::RouteEdit& edit) {

@@ -84,6 +84,9 @@ struct CatalogReply {
   route::RoutePage page{};
   std::vector<std::string> similar_names{};  // when no route has the name: those that exist
   std::string error{};                       // not empty: the request could not be answered
+  // When asked by view: likest first, `page` has the route of each; none: nothing looks like it.
+  std::vector<route::FoundPlace> places{};
+  route::ViewCoverage coverage{};
   bool operator==(const CatalogReply&) const = default;
 };
 

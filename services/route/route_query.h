@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/route/route.h"
+#include "services/route/view.h"
 
 namespace trailcast::route {
 
@@ -43,6 +44,7 @@ struct RouteQuery {
   RouteOrder order = RouteOrder::kNewest;
   std::uint32_t page_size = 0;  // 0: as many as the server likes
   std::string cursor{};         // RoutePage::next of the page before; empty: the first page
+  View view{};                  // looks like this somewhere; with nothing else but page_size
 
   bool operator==(const RouteQuery&) const = default;
 };

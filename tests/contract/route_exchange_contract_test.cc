@@ -112,6 +112,24 @@ TEST_P(RouteExchangeContract, CarriesCatalogRequests) {
   ExpectRoundTrip(CatalogRequest{AgentId("f"), 0, query}, Topic::kCatalogRequests);
 }
 
+TEST_P(RouteExchangeContract, CarriesTheLongestView) {
+  route::RouteQuery query{.page_size = 3};
+  for (std::size_t i = 0; i < route::kMaxViewFeatures; ++i) {
+    route::ViewFeature feature{{}, 159.9375F, -65535.0F};
+    feature.descriptor.fill(static_cast<std::uint8_t>(i));
+    query.view.push_back(feature);
+  }
+  ExpectRoundTrip(CatalogRequest{AgentId("f"), 1, query}, Topic::kCatalogRequests);
+}
+
+TEST_P(RouteExchangeContract, CarriesPlacesAndHowMuchWasSearched) {
+  CatalogReply reply{AgentId("s"), AgentId("f"), 1, {}, {}, {}};
+  reply.places.assign(kMaxPlacesPerReply,
+                      {KeyNumber(1), SegmentIndex(kMaxSegmentsPerRoute - 1), 1.0});
+  reply.coverage = {1ULL << 40U, ~0ULL, 7};
+  ExpectRoundTrip(reply, Topic::kCatalogReplies);
+}
+
 TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
   CatalogReply reply{AgentId("s"), AgentId("f"), ~0ULL, {}, {}, std::string(kMaxLineBytes, 'e')};
   reply.page = {std::vector(kMaxRoutesPerReply, ExtremeInfo()), ~0ULL,

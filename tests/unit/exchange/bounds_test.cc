@@ -47,6 +47,23 @@ TEST(CheckBounds, RefusesEachBadFieldOfAnAnnouncementByName) {
   ExpectRefused(with([](Info& i) { i.key.revision = RevisionNumber(0); }), "revision");
 }
 
+TEST(CheckBounds, RefusesPlacesThatNoRouteHas) {
+  CatalogReply good{AgentId("s"), AgentId("f"), 1, {}, {}, {}};
+  good.places = {{KeyNumber(1), SegmentIndex(0), 0.5}};
+  EXPECT_TRUE(CheckBounds(good));
+  const auto with = [&](const route::FoundPlace& place) {
+    CatalogReply message = good;
+    message.places = {place};
+    return message;
+  };
+  ExpectRefused(with({{RouteId("x"), RevisionNumber(1)}, SegmentIndex(0), 0.5}), "route id");
+  ExpectRefused(with({KeyNumber(1), SegmentIndex(kMaxSegmentsPerRoute), 0.5}), "segment index");
+  ExpectRefused(with({KeyNumber(1), SegmentIndex(0), 1.5}), "score");
+  CatalogReply many = good;
+  many.places.resize(kMaxPlacesPerReply + 1, good.places[0]);
+  ExpectRefused(many, "places in a reply");
+}
+
 TEST(CheckBounds, RefusesPiecesWithoutBytesOrDigest) {
   route::SegmentPiece no_digest = test::PieceOf(KeyNumber(1), 0);
   no_digest.digest = {};

@@ -45,6 +45,7 @@ TEST(KindOf, IsByWhatMostNarrowsDown) {
   EXPECT_STREQ(KindOf({.tags = {"wet"}}), "tag");
   EXPECT_STREQ(KindOf({.tags = {"wet"}, .near = route::Surroundings{{}, 1.0}}), "place");
   EXPECT_STREQ(KindOf({.name = "yard", .tags = {"wet"}}), "name");
+  EXPECT_STREQ(KindOf({.view = route::View(1)}), "view");
 }
 
 }  // namespace

@@ -1,0 +1,165 @@
+#include "services/catalog/view_catalog.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/exchange/bounds.h"
+#include "services/route/codec.h"
+#include "services/view/view_match.h"
+
+namespace trailcast::catalog {
+namespace {
+
+constexpr std::uint32_t kPage = store::RouteStore::kMaxPage;
+// Candidates that are read and compared feature by feature for one view: those on either side of
+// the right one come soon after it; a doubtful one may come late.
+constexpr std::size_t kCompared = 100;
+constexpr std::size_t kComparedOnceSure = 30;
+constexpr double kSure = 0.5;
+
+}  // namespace
+
+ViewCatalog::ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options)
+    : store_(store), index_(options) {}
+
+bool ViewCatalog::Filled() const {
+  const bool nothing_left = walked_ && page_.empty() && noted_.empty() && segments_.empty();
+  return nothing_left || index_.full();
+}
+
+Result<void> ViewCatalog::Fill(std::size_t most) {
+  Result<void> first_error;
+  for (; most > 0 && !Filled(); --most) {
+    if (auto done = FillOne(); !done && first_error) first_error = std::move(done);
+  }
+  return first_error;
+}
+
+Result<void> ViewCatalog::FillOne() {
+  if (!segments_.empty()) return IndexNext();
+  if (!noted_.empty()) return LookAt(noted_.extract(noted_.begin()).value());
+  if (page_.empty()) return ReadPage();
+  const route::RouteKey key = std::move(page_.front());
+  page_.pop_front();
+  return LookAt(key);
+}
+
+Result<void> ViewCatalog::ReadPage() {
+  const auto page = store_.QueryRoutes({.page_size = kPage, .cursor = cursor_});
+  if (!page) {
+    walked_ = true;  // nobody could say where to go on
+    return tl::unexpected(page.error());
+  }
+  for (const route::RouteInfo& info : page->routes) page_.push_back(info.key);
+  cursor_ = page->next;
+  walked_ = cursor_.empty();
+  return {};
+}
+
+Result<void> ViewCatalog::LookAt(const route::RouteKey& key) {
+  const auto held = store_.HeldSegments(key);
+  if (!held) return tl::unexpected(held.error());
+  const std::set<SegmentIndex> indexed = index_.SegmentsOf(key);
+  for (const SegmentIndex segment : *held) {
+    const Place place{key, segment};
+    if (!indexed.contains(segment) && !unreadable_.contains(place)) segments_.push_back(place);
+  }
+  return {};
+}
+
+Result<void> ViewCatalog::IndexNext() {
+  const Place place = std::move(segments_.front());
+  segments_.pop_front();
+  const auto segment = Read(place);
+  if (!segment) {
+    if (segment.error().code != ErrorCode::kNotFound) unreadable_.insert(place);
+    return tl::unexpected(segment.error());
+  }
+  std::ignore = index_.Add(place.key, *segment);  // not full, or nothing would be read
+  return {};
+}
+
+Result<route::Segment> ViewCatalog::Read(const Place& place) {
+  const auto piece = store_.ReadSegment(place.key, place.segment);
+  if (!piece) return tl::unexpected(piece.error());
+  auto segment = route::Decode(piece->bytes);
+  if (segment) segment->index = place.segment;
+  return segment;
+}
+
+void ViewCatalog::Note(const route::RouteKey& key) {
+  if (!index_.full()) noted_.insert(key);
+}
+
+void ViewCatalog::Forget(const route::RouteKey& key) {
+  const auto of_route = [&](const Place& place) { return place.key == key; };
+  index_.Remove(key);
+  noted_.erase(key);
+  std::erase(page_, key);
+  std::erase_if(segments_, of_route);
+  std::erase_if(unreadable_, of_route);
+}
+
+Result<std::vector<route::FoundPlace>> ViewCatalog::Find(const route::View& view) {
+  std::vector<route::FoundPlace> found;
+  std::size_t compared = 0;
+  bool sure = false;
+  for (const Place& place : index_.Candidates(view, kCompared)) {
+    if (sure && compared >= kComparedOnceSure) break;
+    ++compared;
+    const auto segment = Read(place);
+    if (!segment && segment.error().code == ErrorCode::kNotFound) {
+      Forget(place.key);
+      continue;
+    }
+    if (!segment) return tl::unexpected(segment.error());
+    const view::ViewMatch match = view::Match(view, *segment);
+    if (!match.found()) continue;
+    found.push_back({place.key, place.segment, match.score()});
+    sure = sure || match.score() >= kSure;
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  return found;
+}
+
+Result<void> ViewCatalog::FillReply(exchange::CatalogReply& reply, const route::RouteQuery& query) {
+  if (auto possible = exchange::CheckQuery(query); !possible) return possible;
+  auto found = Find(query.view);
+  if (!found) return tl::unexpected(found.error());
+  const std::size_t most =
+      query.page_size == 0 ? exchange::kMaxPlacesPerReply
+                           : std::min<std::size_t>(query.page_size, exchange::kMaxPlacesPerReply);
+  for (route::FoundPlace& place : *found) {
+    if (reply.places.size() == most) break;
+    auto info = store_.FindRoute(place.key);
+    if (!info) return tl::unexpected(info.error());
+    if (!*info) continue;  // segments came before their route
+    reply.places.push_back(std::move(place));
+    reply.page.routes.push_back(std::move(**info));
+  }
+  reply.page.total = reply.page.routes.size();
+  const auto stored = store_.QueryRoutes({.page_size = 1});
+  if (!stored) return tl::unexpected(stored.error());
+  reply.coverage.segments_indexed = index_.size();
+  reply.coverage.segments_stored = index_.size() + segments_.size() + unreadable_.size();
+  reply.coverage.routes_unseen =
+      stored->total - std::min<std::uint64_t>(stored->total, index_.routes());
+  return {};
+}
+
+exchange::CatalogReply ViewCatalog::Answer(const exchange::CatalogRequest& request,
+                                           const AgentId& server) {
+  exchange::CatalogReply reply;
+  reply.server = server;
+  reply.client = request.client;
+  reply.request = request.request;
+  if (auto filled = FillReply(reply, request.query); !filled) {
+    reply.page = {};
+    reply.places.clear();
+    reply.error = filled.error().message;
+  }
+  return reply;
+}
+
+}  // namespace trailcast::catalog

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "services/exchange/messages.h"
+#include "services/store/route_store.h"
+#include "services/view/view_index.h"
+
+namespace trailcast::catalog {
+
+// "Which routes, and where on them, show what I see now?" Keeps an index of the stored segments in
+// memory, filled bit by bit, the newest routes first, and what is taught meanwhile before them; a
+// reply says how much of the stock it covers. Not thread-safe.
+class ViewCatalog {
+ public:
+  // `store` outlives the catalog.
+  explicit ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options = {});
+
+  // Indexes up to `most` segments more, or looks at so many routes. An error is the store's, is
+  // told once, and what could not be read is left out.
+  [[nodiscard]] Result<void> Fill(std::size_t most);
+  // Nothing to do at present: all is indexed, or the index is full.
+  [[nodiscard]] bool Filled() const;
+
+  // More of this route has been stored.
+  void Note(const route::RouteKey& key);
+  // The route is there no more.
+  void Forget(const route::RouteKey& key);
+
+  // Answers a request that has a view. Never fails: what went wrong is in the reply's `error`.
+  [[nodiscard]] exchange::CatalogReply Answer(const exchange::CatalogRequest& request,
+                                              const AgentId& server);
+
+  [[nodiscard]] const view::ViewIndex& index() const { return index_; }
+
+ private:
+  using Place = view::ViewIndex::Place;
+
+  [[nodiscard]] Result<void> FillOne();
+  [[nodiscard]] Result<void> ReadPage();
+  [[nodiscard]] Result<void> LookAt(const route::RouteKey& key);
+  [[nodiscard]] Result<void> IndexNext();
+  [[nodiscard]] Result<route::Segment> Read(const Place& place);
+  [[nodiscard]] Result<std::vector<route::FoundPlace>> Find(const route::View& view);
+  [[nodiscard]] Result<void> FillReply(exchange::CatalogReply& reply,
+                                       const route::RouteQuery& query);
+
+  store::RouteStore& store_;
+  view::ViewIndex index_;
+  std::string cursor_;                // of the walk through the store
+  bool walked_ = false;               // to its end
+  std::deque<route::RouteKey> page_;  // of the walk: to be looked at
+  std::set<route::RouteKey> noted_;   // to be looked at before
+  std::deque<Place> segments_;        // of the routes looked at: to be indexed
+  std::set<Place> unreadable_;
+};
+
+}  // namespace trailcast::catalog
