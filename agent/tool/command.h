@@ -24,5 +24,6 @@ struct Command {
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);
 [[nodiscard]] Command AddExplainCommand(CLI::App& parent);
 [[nodiscard]] Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common);
+[[nodiscard]] Command AddWhereCommand(CLI::App& parent, const cli::CommonOptions& common);
 
 }  // namespace trailcast::tool

@@ -12,6 +12,7 @@ constexpr const char* kExamples =
     "  trailcast routes                       # what the route server keeps\n"
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
+    "  trailcast where --frame now.png        # which routes show this, and where on them\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
     "Each subcommand has its own --help.";
 
@@ -32,6 +33,7 @@ int Run(int argc, char** argv) {
                                       trailcast::tool::AddRoutesCommand(app, common),
                                       trailcast::tool::AddExportCommand(app, common),
                                       trailcast::tool::AddImportCommand(app, common),
+                                      trailcast::tool::AddWhereCommand(app, common),
                                       trailcast::tool::AddDoctorCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {

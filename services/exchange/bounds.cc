@@ -243,6 +243,7 @@ Result<void> CheckAlone(const route::RouteQuery& query) {
                                      {"taught from", query.taught_from_unix_ms != 0},
                                      {"taught until", query.taught_until_unix_ms != 0},
                                      {"state", query.state.has_value()},
+                                     {"standing", query.standing.has_value()},
                                      {"near", query.near.has_value()},
                                      {"order", query.order != route::RouteOrder::kNewest},
                                      {"cursor", !query.cursor.empty()}}) {

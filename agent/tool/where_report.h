@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "services/exchange/messages.h"
+
+namespace trailcast::tool {
+
+// What a server found of a view, for people: a line a place, likest first, or that there is none;
+// and, where not all that is stored was searched, how much was.
+[[nodiscard]] std::string WhereText(const exchange::CatalogReply& reply);
+// For programs: one object.
+[[nodiscard]] std::string WhereJson(const exchange::CatalogReply& reply);
+
+}  // namespace trailcast::tool
