@@ -117,10 +117,16 @@ void Server::Serve() {
   }
 }
 
-// What a receipt was sent for is on the disk.
+// What a receipt was sent for is on the disk, and what was announced as deleted is not.
 void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
   for (const exchange::Message& message : outgoing) {
-    if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) views_.Note(receipt->key);
+    if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) {
+      if (receipt->refusal != exchange::Refusal::kDeleted) views_.Note(receipt->key);
+    }
+    const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
+    if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
+      views_.Forget(announced->info.key);
+    }
   }
   if (views_.Filled()) return;
   if (auto filled = views_.Fill(kViewsASlice); !filled) {
