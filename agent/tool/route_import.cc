@@ -39,6 +39,13 @@ tl::unexpected<Error> Conflict(const route::RouteInfo& info, const std::string& 
 
 std::string ServerName(const AgentId& server) { return fmt::format("server '{}'", server.value()); }
 
+tl::unexpected<Error> Refused(const route::RouteInfo& info, const exchange::Receipt& refusal) {
+  const bool deleted = refusal.refusal == exchange::Refusal::kDeleted;
+  return Fail(deleted ? ErrorCode::kConflict : ErrorCode::kUnavailable,
+              "{} takes nothing of {}: {}", ServerName(refusal.server), NameOf(info),
+              refusal.reason);
+}
+
 Result<void> AppendAll(const archive::RouteFile& file, store::RouteStore& store) {
   std::vector<route::SegmentPiece> batch;
   std::size_t bytes = 0;
@@ -73,6 +80,7 @@ class Delivery {
       Handle(message);
     }
     if (conflicting_) return Conflict(info_, fmt::format("'{}'", conflicting_->value()));
+    if (sender_.refused()) return Refused(info_, *sender_.refused());
     const auto now = Clock::now();
     std::vector<exchange::Message> messages = sender_.Tick(now);
     if (now >= inquire_at_) {
@@ -108,6 +116,8 @@ class Delivery {
   }
   void Handle(const exchange::RouteAnnouncement& announced) {
     if (announced.info.key != info_.key || !IsComplete(announced.info)) return;
+    // Who announces a tombstone says the same in a receipt, which comes before or after.
+    if (announced.info.standing == route::Standing::kDeleted) return;
     if (!IsSameTeaching(announced.info, info_)) conflicting_ = announced.holder;
     // The scout may announce it too, and confirms nothing.
     if (servers_.contains(announced.holder)) holder_ = announced.holder;

@@ -24,8 +24,9 @@ struct Imported {
                                                store::RouteStore& store, const std::string& name);
 
 // On a server's disk when this returns: it has confirmed every segment, and announced the whole
-// route with this manifest. kConflict as above; kUnavailable when no server answers, or the one
-// that did has confirmed nothing new for the watch's timeout.
+// route with this manifest. kConflict as above, or when an operator deleted the revision there;
+// kUnavailable when no server answers, or the one that did is full, or has confirmed nothing new
+// for the watch's timeout.
 [[nodiscard]] Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,
                                               const TransferWatch& watch);
 

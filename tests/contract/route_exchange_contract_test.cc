@@ -57,7 +57,7 @@ route::RouteInfo ExtremeInfo() {
   info.taught_unix_ms = std::numeric_limits<std::int64_t>::min();
   info.segment_count = kMaxSegmentsPerRoute;
   info.length_m = 1e7;
-  info.bytes = std::numeric_limits<std::uint64_t>::max();
+  info.bytes = exchange::kMaxRouteBytes;
   info.manifest_digest.fill(0xFF);
   for (std::size_t i = 0; i < route::kMaxTags; ++i) {
     info.tags.push_back(fmt::format("{:02}{}", i, std::string(62, 't')));

@@ -16,7 +16,8 @@ class CheckStoreTest : public ProgramsTest {
 };
 
 TEST_F(CheckStoreTest, AStoreCutShortIsFoundRepairedAndWholeThen) {
-  ASSERT_EQ(RunAgent(TeachWords(Walk("taught", kTaughtFrames), "scout.db")).status, 0);
+  // Long enough that its last pages hold segments alone.
+  ASSERT_EQ(RunAgent(TeachWords(Walk("taught", 2 * kTaughtFrames), "scout.db")).status, 0);
   const auto whole = Check();
   EXPECT_EQ(whole.status, 0);
   EXPECT_THAT(whole.output, HasSubstr("is whole"));

@@ -131,6 +131,19 @@ TEST_F(RouteTransferTest, WhatTheServerHasAlreadyIsSaidToBeThere) {
   EXPECT_TRUE(imported->was_there);
 }
 
+TEST_F(RouteTransferTest, WhatAnOperatorDeletedThereIsRefused) {
+  const TaughtRoute taught = TeachSamples(4);
+  route::RouteInfo tombstone = taught.info;
+  tombstone.standing = route::Standing::kDeleted;
+  tombstone.edition = 1;
+  ASSERT_TRUE(store_->PutRoute(tombstone));
+  Serve();
+  const auto imported = Import(FileOf(taught));
+  ASSERT_FALSE(imported);
+  EXPECT_EQ(imported.error().code, ErrorCode::kConflict);
+  EXPECT_THAT(imported.error().message, HasSubstr("deleted"));
+}
+
 TEST_F(RouteTransferTest, UnderAnotherNameItIsThereTooOrInConflict) {
   TaughtRoute renamed = TeachSamples(4, 1, "lobby");
   Hold(renamed);
