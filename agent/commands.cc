@@ -9,6 +9,7 @@
 #include "agent/cli/open_exchange.h"
 #include "agent/cli/place_options.h"
 #include "agent/cli/stop_signal.h"
+#include "agent/fetch.h"
 #include "services/base/time.h"
 
 namespace trailcast::agent {
@@ -22,6 +23,10 @@ constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
 void AddRoute(CLI::App& command, std::string& route) {
   command.add_option("--route", route, "The route's name")->required()->check(cli::NameValidator());
+}
+
+void AddRevision(CLI::App& command, std::uint32_t& revision, const char* help) {
+  command.add_option("--revision", revision, help)->check(CLI::PositiveNumber);
 }
 
 void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
@@ -67,6 +72,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   FollowerOptions follower;
   follower.link.agent = AgentId(options.common.name);
   follower.link.route = replay.route;
+  follower.link.revision.number = replay.revision;
   follower.link.store_file = options.store_file;
   follower.link.wait_for_route = replay.wait_for_route;
   follower.link.wait = Milliseconds(replay.wait_s);
@@ -109,6 +115,7 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
 
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRoute(command, replay.route);
+  AddRevision(command, replay.revision, "Default: the active one");
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
   command.add_option("--log", replay.diagnosis.log,
                      "Writes what the robot saw and why it did what it did here, while it runs; "
@@ -133,6 +140,15 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
   AddDeviceOptions(command, replay.device, false);
+}
+
+void AddFetchOptions(CLI::App& command, FetchCommand& fetch) {
+  AddRoute(command, fetch.route);
+  AddRevision(command, fetch.revision, "Default: the newest that is complete");
+  command
+      .add_option("--wait", fetch.wait_s,
+                  "Seconds to wait for a server, the route or the next segment while none comes")
+      ->check(CLI::Range(0.0, kLongest_s));
 }
 
 void AddDeliverOptions(CLI::App& command, TeachCommand& deliver) {
@@ -160,6 +176,21 @@ Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& delive
   return Ended(
       DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),
       options);
+}
+
+Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return tl::unexpected(store.error());
+  auto exchange = cli::OpenExchange(options.common, cli::WithAgents(exchange::FollowerTopics()));
+  if (!exchange) return tl::unexpected(exchange.error());
+  FollowerLinkOptions link;
+  link.agent = AgentId(options.common.name);
+  link.route = fetch.route;
+  link.revision = {.number = fetch.revision, .newest = true};
+  link.store_file = options.store_file;
+  link.wait = Milliseconds(fetch.wait_s);
+  link.stop = [] { return cli::StopSignal::requested(); };
+  return Ended(Fetch(link, std::move(*store), std::move(*exchange)), options);
 }
 
 Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay) {

@@ -28,9 +28,16 @@ struct TeachCommand {
   double delivery_timeout_s = 30.0;
 };
 
+struct FetchCommand {
+  std::string route;
+  std::uint32_t revision = 0;  // the newest
+  double wait_s = 30.0;
+};
+
 struct ReplayCommand {
   DeviceOptions device;
   std::string route;
+  std::uint32_t revision = 0;  // the active one
   std::filesystem::path csv;
   DiagnosisOptions diagnosis;
   std::string method = "default";
@@ -43,11 +50,13 @@ struct ReplayCommand {
 void AddSharedOptions(CLI::App& app, CommandOptions& options);
 void AddTeachOptions(CLI::App& command, TeachCommand& teach);
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay);
+void AddFetchOptions(CLI::App& command, FetchCommand& fetch);
 void AddDeliverOptions(CLI::App& command, TeachCommand& deliver);
 
 // Each runs one command to its end and returns the process's exit status; an error is one too.
 [[nodiscard]] Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach);
 [[nodiscard]] Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay);
+[[nodiscard]] Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch);
 [[nodiscard]] Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver);
 
 }  // namespace trailcast::agent

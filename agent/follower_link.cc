@@ -48,7 +48,7 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
     : options_(std::move(options)),
       store_(std::move(store)),
       exchange_(std::move(exchange)),
-      finder_(options_.agent, options_.route) {
+      finder_(options_.agent, options_.route, options_.revision) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
 }
 

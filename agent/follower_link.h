@@ -20,7 +20,8 @@ namespace trailcast::agent {
 
 struct FollowerLinkOptions {
   AgentId agent;
-  std::string route;            // name
+  std::string route;  // name
+  RevisionChoice revision{};
   std::string store_file;       // for messages
   bool wait_for_route = false;  // a route that nobody knows yet may still be taught
   // How long the agent waits for a server, the route, or the next segment, while none comes.

@@ -19,12 +19,25 @@ std::string NamesText(const std::vector<std::string>& names) {
   return names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", "));
 }
 
+// There are revisions, but not the one that is meant.
+Error NotOffered(const AgentId& server, const FollowerLinkOptions& options) {
+  const std::string what =
+      options.revision.number != 0
+          ? fmt::format("revision {} of route '{}': 'trailcast routes --name {}' lists what it has",
+                        options.revision.number, options.route, options.route)
+          : fmt::format(
+                "active revision of route '{}': 'trailcast routes activate {}' activates "
+                "the newest",
+                options.route, options.route);
+  return {ErrorCode::kNotFound, fmt::format("server '{}' has no {}", server.value(), what)};
+}
+
 }  // namespace
 
 Result<std::optional<route::RouteInfo>> FollowerLink::FindOwn() {
   auto named = store_->FindRoutesByName(options_.route);
   if (!named) return tl::unexpected(named.error());
-  return ChooseRoute(*named);
+  return ChooseRoute(*named, options_.revision);
 }
 
 Result<void> FollowerLink::Find() {
@@ -63,11 +76,8 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
                  finder_.unknown() ? "the server does not know the route" : "no server answers",
                  options_.route, options_.store_file);
     route_ = own;
-  } else if (finder_.unknown() && finder_.unknown()->inactive && !options_.wait_for_route) {
-    return Fail(ErrorCode::kNotFound,
-                "server '{}' has no active revision of route '{}': 'trailcast routes activate {}' "
-                "activates the newest",
-                finder_.unknown()->server.value(), options_.route, options_.route);
+  } else if (finder_.unknown() && finder_.unknown()->others && !options_.wait_for_route) {
+    return tl::unexpected(NotOffered(finder_.unknown()->server, options_));
   } else if (finder_.unknown() && !options_.wait_for_route) {
     return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
                 finder_.unknown()->server.value(), options_.route,

@@ -13,6 +13,7 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-agent teach  --sim shop.obj --path path.csv --route shop --store scout.db --server
   trailcast-agent replay --sim shop.obj --path path.csv --camera wide --seed 7 --name robot2
                          --route shop --store robot2.db --server --wait-for-route
+  trailcast-agent fetch  --route shop --store robot2.db   # to hold it before it is activated
   trailcast-agent deliver --store scout.db
 
 Exit status: 0 taught and delivered, arrived, or recording replayed to its end; 3 the follower did
@@ -36,23 +37,29 @@ int Run(int argc, char** argv) {
   app.fallthrough();
   agent::TeachCommand teach;
   agent::ReplayCommand replay;
+  agent::FetchCommand fetch;
   agent::TeachCommand deliver;
   CLI::App* teach_app = app.add_subcommand("teach", "Drive a path once: makes a route of it");
   CLI::App* replay_app = app.add_subcommand("replay", "Follow a route");
+  CLI::App* fetch_app =
+      app.add_subcommand("fetch", "Bring a route into the own store without following it");
   CLI::App* deliver_app =
       app.add_subcommand("deliver", "Send a server what earlier runs taught and could not deliver");
   agent::AddTeachOptions(*teach_app, teach);
   agent::AddReplayOptions(*replay_app, replay);
+  agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
-  for (CLI::App* command : {teach_app, replay_app, deliver_app}) ShareHelp(app, *command);
+  for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app})
+    ShareHelp(app, *command);
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
   if (options.common.name.empty()) {
-    options.common.name = replay_app->parsed() ? "follower" : "scout";
+    options.common.name = replay_app->parsed() || fetch_app->parsed() ? "follower" : "scout";
   }
   cli::SetUpLog(options.common);
   const cli::StopSignal stop;
   const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
                       : replay_app->parsed() ? agent::RunReplay(options, replay)
+                      : fetch_app->parsed()  ? agent::RunFetch(options, fetch)
                                              : agent::RunDeliver(options, deliver);
   return status ? *status : cli::Complain(app, status.error());
 }

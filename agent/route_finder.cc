@@ -7,22 +7,28 @@
 
 namespace trailcast::agent {
 
-std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes) {
+std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes,
+                                            const RevisionChoice& which) {
+  using route::Standing;
   std::set<RouteId> spoken_of;
   for (const route::RouteInfo& info : routes) {
     if (info.edition > 0) spoken_of.insert(info.key.route);
   }
-  const auto may_be = [&](const route::RouteInfo& info) {
-    return info.standing == route::Standing::kActive || !spoken_of.contains(info.key.route);
+  const bool to_follow = which.number == 0 && !which.newest;
+  const auto is_meant = [&](const route::RouteInfo& info) {
+    if (info.standing == Standing::kDeleted) return false;
+    if (which.number != 0) return info.key.revision.value() == which.number;
+    if (which.newest) return info.standing != Standing::kRetired;
+    return info.standing == Standing::kActive || !spoken_of.contains(info.key.route);
   };
-  const auto rank = [](const route::RouteInfo& info) {
-    return std::make_tuple(info.standing == route::Standing::kActive,
+  const auto rank = [&](const route::RouteInfo& info) {
+    return std::make_tuple(to_follow && info.standing == Standing::kActive,
                            info.state == route::RouteState::kComplete, info.taught_unix_ms,
                            info.key);
   };
   const route::RouteInfo* best = nullptr;
   for (const route::RouteInfo& info : routes) {
-    if (may_be(info) && (best == nullptr || rank(*best) < rank(info))) best = &info;
+    if (is_meant(info) && (best == nullptr || rank(*best) < rank(info))) best = &info;
   }
   return best == nullptr ? std::nullopt : std::optional(*best);
 }
@@ -54,7 +60,7 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (!reply.error.empty()) return;
   std::vector<route::RouteInfo> named = reply.page.routes;
   std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
-  found_ = ChooseRoute(named);
+  found_ = ChooseRoute(named, which_);
   if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !named.empty()};
 }
 

@@ -9,11 +9,18 @@
 
 namespace trailcast::agent {
 
-// Of several routes (or revisions) with one name, the one to follow: the active one. Where no
-// operator, and no server, has said anything of a route, the newest that is complete, otherwise the
-// newest. Nothing if there is none.
+// Which revision of a route is meant: that of a number; or else the newest that is complete, though
+// another be active, to be held in advance; or else the one to follow.
+struct RevisionChoice {
+  std::uint32_t number = 0;  // 0: none in particular
+  bool newest = false;
+};
+
+// Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
+// one; where no operator, and no server, has said anything of a route, the newest that is complete,
+// otherwise the newest. Nothing if there is none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
-    const std::vector<route::RouteInfo>& routes);
+    const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
 
 // Asks the catalog which route has a name, again and again until one has. No clock, no I/O.
 class RouteFinder {
@@ -22,7 +29,8 @@ class RouteFinder {
   static constexpr std::chrono::milliseconds kAskEvery{1000};
   static constexpr std::size_t kMaxAnnounced = 64;
 
-  RouteFinder(AgentId self, std::string name) : self_(std::move(self)), name_(std::move(name)) {}
+  RouteFinder(AgentId self, std::string name, RevisionChoice which = {})
+      : self_(std::move(self)), name_(std::move(name)), which_(which) {}
 
   void Handle(const exchange::Message& message);
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
@@ -31,14 +39,14 @@ class RouteFinder {
   [[nodiscard]] const std::optional<route::RouteInfo>& found() const { return found_; }
   // Announced by whoever holds or teaches it: second to what a catalog says, which knows them all.
   [[nodiscard]] std::optional<route::RouteInfo> announced() const {
-    return ChooseRoute(announced_);
+    return ChooseRoute(announced_, which_);
   }
 
   // A server's word that it has no route of this name, or none that may be followed.
   struct Unknown {
     AgentId server;
     std::vector<std::string> similar_names;
-    bool inactive = false;  // there are revisions, and none of them is active
+    bool others = false;  // there are revisions, and none of them is meant
   };
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
   // A server's trouble in answering.
@@ -50,6 +58,7 @@ class RouteFinder {
 
   AgentId self_;
   std::string name_;
+  RevisionChoice which_;
   std::uint64_t asked_ = 0;
   std::optional<Time> asked_at_;
   std::optional<route::RouteInfo> found_;

@@ -85,6 +85,15 @@ Result<void> Activate(const RouteEdit& edit, Revisions& revisions) {
     if (!addressed) return tl::unexpected(addressed.error());
     chosen = addressed->front();
   }
+  const bool retired =
+      chosen == nullptr && std::any_of(revisions.begin(), revisions.end(), [](const auto& info) {
+        return info.standing == Standing::kRetired;
+      });
+  if (retired) {
+    return Fail(ErrorCode::kConflict,
+                "route '{}' has retired revisions only: say which to take back with its number",
+                edit.route);
+  }
   if (chosen == nullptr || chosen->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kConflict,
                 "route '{}' has no complete revision{}: it can be activated when all of it is here",

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <future>
 
+#include "agent/fetch.h"
 #include "services/route/labels.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -61,6 +62,41 @@ TEST_F(FollowerTest, WritesOneRowAFrame) {
   int rows = 0;
   for (; std::getline(csv, line); ++rows) EXPECT_THAT(line, StartsWith(std::to_string(rows) + ","));
   EXPECT_EQ(rows, kFollowerFrames) << "a recording is looked at to its end";
+}
+
+TEST_F(FollowerTest, HoldsANewRevisionInAdvanceAndStillFollowsTheActiveOne) {
+  swarm_.StartServer();
+  for (int revision = 1; revision <= 2; ++revision) {
+    WalkDevice scout(kFrames);
+    ASSERT_TRUE(swarm_.Teach(scout, swarm_.ScoutNamed("scout"), true));
+  }
+  FollowerLinkOptions link = swarm_.FollowerNamed("robot").link;
+  link.revision.newest = true;
+  const auto fetched =
+      Fetch(link, swarm_.OpenStore("robot"), swarm_.Join(exchange::FollowerTopics()));
+  ASSERT_TRUE(fetched) << fetched.error().message;
+  EXPECT_EQ(*fetched->Find("revision"), "2");
+  const auto held = swarm_.OpenStore("robot")->FindRoutesByName("hall").value();
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_EQ(held[0].state, route::RouteState::kComplete);
+  const auto outcome = swarm_.Replay(device_, swarm_.FollowerNamed("robot"), true);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->reason;
+  const auto both = swarm_.OpenStore("robot")->FindRoutesByName("hall").value();
+  EXPECT_EQ(ChooseRoute(both)->key.revision, RevisionNumber(1)) << "also out of the server's reach";
+}
+
+TEST_F(FollowerTest, SaysWhatIsMissingOfARevisionThatTheServerDoesNotHave) {
+  swarm_.StartServer();
+  WalkDevice scout(kFrames);
+  ASSERT_TRUE(swarm_.Teach(scout, swarm_.ScoutNamed("scout"), true));
+  FollowerLinkOptions link = swarm_.FollowerNamed("robot").link;
+  link.wait_for_route = false;
+  link.revision.number = 7;
+  const auto fetched =
+      Fetch(link, swarm_.OpenStore("robot"), swarm_.Join(exchange::FollowerTopics()));
+  ASSERT_FALSE(fetched);
+  EXPECT_THAT(fetched.error().message, HasSubstr("no revision 7 of route 'hall'"));
 }
 
 TEST_F(FollowerTest, FollowsWhileTheScoutStillTeaches) {

@@ -115,6 +115,20 @@ TEST(ChooseRoute, TakesNothingOfARouteWhoseOperatorActivatedNone) {
   EXPECT_EQ(ChooseRoute({retired, Info("hall", 2, 20, RouteState::kComplete)}), std::nullopt);
 }
 
+TEST(ChooseRoute, TakesTheRevisionThatIsNamedOrTheNewestToBeHeldInAdvance) {
+  const auto old = Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kActive);
+  const auto retired =
+      Standing(Info("hall", 4, 40, RouteState::kComplete), route::Standing::kRetired);
+  const auto deleted =
+      Standing(Info("hall", 5, 50, RouteState::kComplete), route::Standing::kDeleted);
+  const auto staged = Info("hall", 2, 20, RouteState::kComplete);
+  const std::vector<RouteInfo> all{Info("hall", 3, 30, RouteState::kTeaching), old, staged, retired,
+                                   deleted};
+  EXPECT_EQ(ChooseRoute(all, {.newest = true}), staged);
+  EXPECT_EQ(ChooseRoute(all, {.number = 4}), retired);
+  EXPECT_EQ(ChooseRoute(all, {.number = 5}), std::nullopt);
+}
+
 TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   Ask(milliseconds(0));
   const auto retired =
@@ -122,7 +136,7 @@ TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {retired}}, {}, ""});
   EXPECT_FALSE(finder_.found());
   ASSERT_TRUE(finder_.unknown());
-  EXPECT_TRUE(finder_.unknown()->inactive);
+  EXPECT_TRUE(finder_.unknown()->others);
 }
 
 }  // namespace trailcast::agent

@@ -55,6 +55,14 @@ TEST_F(Editing, OneRevisionIsActiveAndTheWayBackIsTheOneBefore) {
   EXPECT_THAT(Standings(), ElementsAre(Standing::kStaged, Standing::kActive, Standing::kStaged));
 }
 
+TEST_F(Editing, RetiredRevisionsAreTakenBackByNumber) {
+  Teach(1, 1, "yard");
+  EXPECT_EQ(Edit({.action = EditAction::kRetire, .route = "yard"}), "");
+  EXPECT_THAT(Edit({.action = EditAction::kActivate, .route = "yard"}), HasSubstr("retired"));
+  EXPECT_EQ(Edit({.action = EditAction::kActivate, .route = "yard", .revision = 1}), "");
+  EXPECT_THAT(Standings(), ElementsAre(Standing::kActive));
+}
+
 TEST_F(Editing, WhatIsStillTaughtCannotBeActivated) {
   Teach(1, 1, "yard", RouteState::kTeaching);
   EXPECT_THAT(Edit({.action = EditAction::kActivate, .route = "yard"}), HasSubstr("no complete"));

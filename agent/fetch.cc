@@ -1,0 +1,98 @@
+#include "agent/fetch.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWakeUp{200};
+constexpr std::chrono::seconds kTellEvery{2};
+
+// What has come so far.
+class Fetching {
+ public:
+  explicit Fetching(const FollowerLinkOptions& options) : options_(options) {}
+
+  // True when all of it is there.
+  Result<bool> Take(FollowerLink& link) {
+    while (auto item = link.TryTake()) {
+      news_at_ = steady_clock::now();
+      if (std::get_if<RouteComplete>(&*item) != nullptr) return true;
+      if (auto* error = std::get_if<Error>(&*item)) return tl::unexpected(*error);
+      if (auto* route = std::get_if<route::RouteInfo>(&*item)) announced_ = route->segment_count;
+      if (std::get_if<route::Segment>(&*item) != nullptr) ++segments_;
+    }
+    if (options_.stop()) return Fail(ErrorCode::kUnavailable, "stopped by a signal; {}", SoFar());
+    // Before the first news the link has bounds of its own, and says more precisely what fails.
+    if (announced_ > 0 && steady_clock::now() - news_at_ > options_.wait) {
+      return Fail(ErrorCode::kUnavailable, "nothing came for {:.0f} s; {}", Seconds(options_.wait),
+                  SoFar());
+    }
+    Tell();
+    return false;
+  }
+  [[nodiscard]] std::uint32_t segments() const { return segments_; }
+
+ private:
+  [[nodiscard]] std::string SoFar() const {
+    return fmt::format("{} of {} segments of route '{}' are in {}: the next run goes on from there",
+                       segments_, announced_, options_.route, options_.store_file);
+  }
+  void Tell() {
+    const auto now = steady_clock::now();
+    if (segments_ == 0 || now - told_at_ < kTellEvery) return;
+    told_at_ = now;
+    const double left_s = Seconds(now - began_) / segments_ * (announced_ - segments_);
+    spdlog::info("{} of {} segments of '{}' are here, about {:.0f} s left", segments_, announced_,
+                 options_.route, left_s);
+  }
+
+  const FollowerLinkOptions& options_;
+  std::uint32_t announced_ = 0;
+  std::uint32_t segments_ = 0;
+  steady_clock::time_point began_ = steady_clock::now();
+  steady_clock::time_point news_at_ = began_;
+  steady_clock::time_point told_at_ = began_;
+};
+
+Summary Summarize(const route::RouteInfo& route) {
+  Summary summary;
+  summary.Add("route", route.name);
+  summary.Add("revision", std::to_string(route.key.revision.value()));
+  summary.Add("segments", std::to_string(route.segment_count));
+  summary.Add("metres", fmt::format("{:.2f}", route.length_m));
+  summary.Add("bytes", std::to_string(route.bytes));
+  return summary;
+}
+
+}  // namespace
+
+Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store::RouteStore> store,
+                      std::unique_ptr<exchange::RouteExchange> exchange) {
+  FollowerLink link(options, std::move(store), std::move(exchange));
+  if (auto started = link.Start(); !started) return tl::unexpected(started.error());
+  Fetching fetching(options);
+  Result<bool> all = false;
+  while (all && !*all) {
+    link.WaitForFeed(kWakeUp);
+    all = fetching.Take(link);
+  }
+  link.Finish();
+  using exchange::AgentMode;
+  if (!all) {
+    link.Close(options.stop() ? AgentMode::kStopped : AgentMode::kFault, all.error().message);
+    return tl::unexpected(all.error());
+  }
+  link.Close(AgentMode::kArrived, fmt::format("holds revision {} of '{}'",
+                                              link.route()->key.revision.value(), options.route));
+  return Summarize(*link.route());
+}
+
+}  // namespace trailcast::agent
