@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "agent/held_revisions.h"
 #include "services/base/time.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
@@ -95,6 +96,7 @@ void FollowerLink::Run() {
 }
 
 Result<void> FollowerLink::Work() {
+  if (auto told = TellHeld(); !told) return told;
   if (auto found = Find(); !found) return found;
   if (over()) return {};
   if (auto started = StartFetching(); !started) return started;
@@ -204,7 +206,15 @@ Result<void> FollowerLink::StoreNews() {
   if (!fetcher_->Complete()) news.state = route::RouteState::kTeaching;
   if (news == stored_) return {};
   stored_ = news;
-  return store_->PutRoute(news);
+  if (auto put = store_->PutRoute(news); !put) return put;
+  return TellHeld();
+}
+
+Result<void> FollowerLink::TellHeld() {
+  auto held = HeldRevisions(*store_);
+  if (!held) return tl::unexpected(held.error());
+  held_revisions_ = std::move(*held);
+  return {};
 }
 
 Result<void> FollowerLink::CountHeld() {
@@ -253,6 +263,7 @@ void FollowerLink::ShowStatus() {
   status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
   status.found_share = latest_.found_share;
   status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
+  status.held = held_revisions_;
   presence_->Set(std::move(status));
 }
 

@@ -74,6 +74,7 @@ class FollowerLink {
   void Trade();
   [[nodiscard]] Result<void> StoreArrived();
   [[nodiscard]] Result<void> StoreNews();
+  [[nodiscard]] Result<void> TellHeld();
   [[nodiscard]] Result<void> CountHeld();
   [[nodiscard]] Result<void> FeedAll();
   [[nodiscard]] bool all_known() const;
@@ -90,6 +91,7 @@ class FollowerLink {
   std::optional<route::RouteInfo> route_;   // the newest that is known of it
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
+  std::vector<route::RouteKey> held_revisions_;
   std::uint32_t held_ = 0;  // segments in the own store without a gap
   std::uint32_t next_feed_ = 0;
   bool fed_all_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agent/held_revisions.h"
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
@@ -50,6 +51,7 @@ Result<void> ScoutLink::Open() {
   auto notes = outbox_.LoadBacklog();
   if (!notes) return tl::unexpected(notes.error());
   for (const std::string& note : *notes) spdlog::info("{}", note);
+  if (auto told = TellHeld(); !told) return told;
   const auto handle = [this](const exchange::Message& message) {
     outbox_.Handle(message, steady_clock::now());
   };
@@ -120,11 +122,19 @@ void ScoutLink::Run() {
   while (result && !ending_.load()) result = Step();
   if (result) result = StoreOffered();
   if (result && key_) result = outbox_.Complete(*key_);
+  if (result) result = TellHeld();
   if (result && exchange_) result = Deliver();
   if (!result) {
     error_ = result.error();
     failed_ = true;
   }
+}
+
+Result<void> ScoutLink::TellHeld() {
+  auto held = HeldRevisions(*store_);
+  if (!held) return tl::unexpected(held.error());
+  held_revisions_ = std::move(*held);
+  return {};
 }
 
 Result<void> ScoutLink::Step() {
@@ -234,6 +244,7 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
   status.features = driving ? static_cast<std::uint32_t>(std::max(0, latest_.features)) : 0U;
   status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
   status.detail = exchange::PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
+  status.held = held_revisions_;
   presence_->Set(std::move(status));
 }
 

@@ -73,6 +73,7 @@ class ScoutLink {
   [[nodiscard]] Result<void> StoreOffered();
   [[nodiscard]] Result<void> Trade();
   [[nodiscard]] Result<void> Deliver();
+  [[nodiscard]] Result<void> TellHeld();
   void HearServer();
   void HearRefusal();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
@@ -87,6 +88,7 @@ class ScoutLink {
   std::chrono::steady_clock::time_point opened_{};
   std::optional<AgentId> told_server_;
   std::optional<std::string> told_refusal_;
+  std::vector<route::RouteKey> held_revisions_;
   bool told_no_server_ = false;
 
   Mailbox<std::optional<route::Segment>> segments_{256};

@@ -84,6 +84,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
 void Server::Receive(const exchange::Message& message) {
   presence_.Handle(message);
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) holders_.Note(*status);
   keeper_->Handle(message, steady_clock::now());
 }
 
@@ -141,6 +142,7 @@ exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
   exchange::CatalogReply reply = request.query.view.empty()
                                      ? catalog::Answer(request, name, *store_)
                                      : views_.Answer(request, name);
+  reply.holdings = holders_.Of(reply.page.routes);
   const std::chrono::duration<double> took = steady_clock::now() - begin;
   metrics_.queries[KindOf(request.query)].Note(took.count());
   return reply;

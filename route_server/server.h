@@ -5,6 +5,7 @@
 #include <string>
 
 #include "agent/cli/presence.h"
+#include "route_server/holders.h"
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
@@ -48,6 +49,7 @@ class Server {
   std::unique_ptr<exchange::RouteKeeper> keeper_;
   cli::Presence presence_;
   Journal journal_;
+  Holders holders_;
   std::uint64_t told_dropped_ = 0;
   Metrics metrics_;
   std::unique_ptr<HttpPage> page_;  // none: nobody asked for one

@@ -26,10 +26,20 @@ const char* StateName(const route::RouteInfo& info) {
                                                               : "teaching";
 }
 
-std::string Remarks(const route::RouteInfo& info) {
-  const std::string tags = fmt::format("{}", fmt::join(info.tags, " "));
-  if (info.description.empty()) return tags;
-  return fmt::format("{}{}\"{}\"", tags, tags.empty() ? "" : "  ", info.description);
+std::vector<std::string> HoldersOf(const route::RouteKey& key,
+                                   const exchange::CatalogReply& reply) {
+  std::vector<std::string> holders;
+  for (const exchange::Holding& holding : reply.holdings) {
+    if (holding.key == key) holders.push_back(holding.agent.value());
+  }
+  return holders;
+}
+
+std::string Remarks(const route::RouteInfo& info, const std::vector<std::string>& holders) {
+  std::string remarks = holders.empty() ? "-" : fmt::format("{}", fmt::join(holders, ", "));
+  if (!info.tags.empty()) remarks += fmt::format("; {}", fmt::join(info.tags, " "));
+  if (!info.description.empty()) remarks += fmt::format("; \"{}\"", info.description);
+  return remarks;
 }
 
 std::string JsonTexts(const std::vector<std::string>& texts) {
@@ -100,21 +110,25 @@ Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
                                             const AgentId& client, route::RouteQuery query,
                                             std::size_t limit, std::chrono::milliseconds timeout) {
   std::vector<route::RouteInfo> routes;
+  std::vector<exchange::Holding> holdings;
   while (true) {
     query.page_size = static_cast<std::uint32_t>(
         std::min<std::size_t>(limit - routes.size(), exchange::kMaxRoutesPerReply));
     auto reply = AskCatalog(exchange, client, query, timeout);
     if (!reply) return reply;
     routes.insert(routes.end(), reply->page.routes.begin(), reply->page.routes.end());
+    holdings.insert(holdings.end(), reply->holdings.begin(), reply->holdings.end());
     query.cursor = reply->page.next;
     if (query.cursor.empty() || routes.size() >= limit) {
       reply->page.routes = std::move(routes);
+      reply->holdings = std::move(holdings);
       return reply;
     }
   }
 }
 
-std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_t now_unix_ms) {
+std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_unix_ms) {
+  const std::vector<route::RouteInfo>& routes = reply.page.routes;
   if (routes.empty()) return "no routes\n";
   std::size_t name_width = 5;
   std::size_t scout_width = 5;
@@ -124,10 +138,10 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
     scout_width = std::max(scout_width, info.scout.value().size());
     camera_width = std::max(camera_width, info.camera.size());
   }
-  std::string text =
-      fmt::format("{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
-                  "route", name_width, "revision", "state", "segments", "metres", "kB", "B/m",
-                  "scout", scout_width, "camera", camera_width, "age", "tags, description");
+  std::string text = fmt::format(
+      "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n", "route",
+      name_width, "revision", "state", "segments", "metres", "kB", "B/m", "scout", scout_width,
+      "camera", camera_width, "age", "held by; tags, description");
   for (const route::RouteInfo& info : routes) {
     const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
@@ -137,7 +151,7 @@ std::string RoutesTable(const std::vector<route::RouteInfo>& routes, std::int64_
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
         scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
-        Remarks(info));
+        Remarks(info, HoldersOf(info.key, reply)));
   }
   return text;
 }
@@ -171,10 +185,13 @@ std::string RouteJson(const route::RouteInfo& info) {
       JsonText(info.description), info.edition);
 }
 
-std::string RoutesJson(const std::vector<route::RouteInfo>& routes) {
+std::string RoutesJson(const exchange::CatalogReply& reply) {
   std::string text = "[";
-  for (const route::RouteInfo& info : routes) {
-    text += (text.size() > 1 ? ",\n  " : "\n  ") + RouteJson(info);
+  for (const route::RouteInfo& info : reply.page.routes) {
+    std::string route = RouteJson(info);
+    route.pop_back();
+    text += fmt::format("{}{}, \"held_by\": {}}}", text.size() > 1 ? ",\n  " : "\n  ", route,
+                        JsonTexts(HoldersOf(info.key, reply)));
   }
   return text + "\n]\n";
 }

@@ -34,11 +34,11 @@ namespace trailcast::tool {
                                                           std::chrono::milliseconds timeout);
 
 // For people: one line a route, `now_unix_ms` for their ages.
-[[nodiscard]] std::string RoutesTable(const std::vector<route::RouteInfo>& routes,
+[[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
                                       std::int64_t now_unix_ms);
 // For programs: an object, and an array of them.
 [[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
-[[nodiscard]] std::string RoutesJson(const std::vector<route::RouteInfo>& routes);
+[[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply);
 
 // Quoted for JSON.
 [[nodiscard]] std::string JsonText(const std::string& text);

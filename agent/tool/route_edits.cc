@@ -81,7 +81,7 @@ std::vector<Command> AddRouteEdits(CLI::App& routes, const cli::CommonOptions& c
   const auto describe = with_revision(
       add("describe", EditAction::kDescribe, "Say in a line what a route is; '' takes it away"),
       "Default: all revisions");
-  describe.first->add_option("TEXT", describe.second->text, "At most 512 bytes")->required();
+  describe.first->add_option("TEXT", describe.second->text, "At most 256 bytes")->required();
   with_revision(add("retire", EditAction::kRetire, "Keep it, but offer it to nobody"),
                 "Default: all revisions");
   const auto remove =

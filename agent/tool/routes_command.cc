@@ -108,7 +108,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   if (!reply) return cli::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
   if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
-  std::fputs((options.json ? RoutesJson(routes) : RoutesTable(routes, now_unix_ms)).c_str(),
+  std::fputs((options.json ? RoutesJson(*reply) : RoutesTable(*reply, now_unix_ms)).c_str(),
              stdout);
   if (routes.size() < reply->page.total) {
     std::fputs(

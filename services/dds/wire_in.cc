@@ -160,13 +160,16 @@ Message From(const trailcast_wire_CatalogReply& wire) {
   for (const trailcast_wire_FoundPlace& place : Elements(wire.places)) {
     reply.places.push_back({From(place.key), SegmentIndex(place.segment), place.score});
   }
+  for (const trailcast_wire_Holding& holding : Elements(wire.holdings)) {
+    reply.holdings.push_back({From(holding.key), AgentId(Text(holding.agent))});
+  }
   reply.coverage = {wire.coverage.segments_indexed, wire.coverage.segments_stored,
                     wire.coverage.routes_unseen};
   return reply;
 }
 
 Message From(const trailcast_wire_AgentStatus& wire) {
-  return AgentStatus{.agent = AgentId(Text(wire.agent)),
+  AgentStatus status{.agent = AgentId(Text(wire.agent)),
                      .instance = wire.instance,
                      .role = static_cast<AgentRole>(wire.role),
                      .mode = static_cast<AgentMode>(wire.mode),
@@ -179,6 +182,8 @@ Message From(const trailcast_wire_AgentStatus& wire) {
                      .found_share = wire.found_share,
                      .backlog = wire.backlog,
                      .detail = Text(wire.detail)};
+  for (const trailcast_wire_RouteKey& key : Elements(wire.held)) status.held.push_back(From(key));
+  return status;
 }
 
 Message From(const trailcast_wire_RouteEditRequest& wire) {

@@ -188,6 +188,11 @@ Result<void> With(const CatalogReply& message, const UseSample& use) {
     places.push_back({ToWire(place.key), place.segment.value(), place.score});
   }
   Lend(places, sample.places);
+  std::vector<trailcast_wire_Holding> holdings;
+  for (const Holding& holding : message.holdings) {
+    holdings.push_back({.key = ToWire(holding.key), .agent = Lend(holding.agent.value())});
+  }
+  Lend(holdings, sample.holdings);
   sample.coverage = {message.coverage.segments_indexed, message.coverage.segments_stored,
                      message.coverage.routes_unseen};
   return use(&sample);
@@ -208,6 +213,9 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   sample.found_share = message.found_share;
   sample.backlog = message.backlog;
   sample.detail = Lend(message.detail);
+  std::vector<trailcast_wire_RouteKey> held;
+  for (const RouteKey& key : message.held) held.push_back(ToWire(key));
+  Lend(held, sample.held);
   return use(&sample);
 }
 

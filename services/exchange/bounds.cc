@@ -99,7 +99,8 @@ Result<void> CheckInfo(const RouteInfo& info) {
     return ok;
   }
   if (auto ok = CheckStanding(info.standing); !ok) return ok;
-  if (auto ok = CheckText("description", info.description, kMaxLineBytes); !ok) return ok;
+  if (auto ok = CheckText("description", info.description, route::kMaxDescriptionBytes); !ok)
+    return ok;
   if (auto ok = CheckCount("bytes in a route", info.bytes, kMaxRouteBytes); !ok) return ok;
   if (auto ok = CheckTags(info.tags); !ok) return ok;
   if (auto ok = CheckOrdered(info.tags); !ok) return ok;
@@ -202,6 +203,13 @@ Result<void> Check(const CatalogReply& message) {
     if (auto ok = CheckName("similar name", name); !ok) return ok;
   }
   if (auto ok = CheckPlaces(message.places); !ok) return ok;
+  if (auto ok = CheckCount("holdings", message.holdings.size(), kMaxHoldingsPerReply); !ok) {
+    return ok;
+  }
+  for (const Holding& holding : message.holdings) {
+    if (auto ok = CheckKey(holding.key); !ok) return ok;
+    if (auto ok = CheckName("holder", holding.agent.value()); !ok) return ok;
+  }
   return CheckText("error", message.error, kMaxLineBytes);
 }
 
@@ -227,6 +235,10 @@ Result<void> Check(const AgentStatus& message) {
           CheckAmount("speed, forward or backward", std::abs(message.speed_mps), kMaxSpeed_mps);
       !ok) {
     return ok;
+  }
+  if (auto ok = CheckCount("revisions held", message.held.size(), kMaxHeldTold); !ok) return ok;
+  for (const RouteKey& key : message.held) {
+    if (auto ok = CheckKey(key); !ok) return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
@@ -343,7 +355,7 @@ Result<void> CheckEdit(const route::RouteEdit& edit) {
   if (auto ok = CheckName("route", edit.route); !ok) return ok;
   if (auto ok = CheckTags(edit.tags); !ok) return ok;
   if (edit.action == EditAction::kRename) return CheckName("new name", edit.text);
-  return CheckText("description", edit.text, kMaxLineBytes);
+  return CheckText("description", edit.text, route::kMaxDescriptionBytes);
 }
 
 Result<void> CheckBounds(const Message& message) {

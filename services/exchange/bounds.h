@@ -18,10 +18,12 @@ inline constexpr std::size_t kMaxIndicesPerRequest = 1024;
 inline constexpr std::size_t kMaxIndicesPerReceipt = 4096;
 inline constexpr std::size_t kMaxRoutesPerReply = 1000;
 inline constexpr std::size_t kMaxSimilarNames = 16;
+inline constexpr std::size_t kMaxHeldTold = 64;  // by one agent
+inline constexpr std::size_t kMaxHoldingsPerReply = 1024;
 inline constexpr std::size_t kMaxPlacesPerReply = 16;  // by view
 inline constexpr std::size_t kMaxCameraBytes = 128;
 inline constexpr std::size_t kMaxCursorBytes = 256;
-inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons, descriptions
+inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
 inline constexpr int kMaxImageSide_px = 65535;
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is

@@ -77,6 +77,13 @@ struct RouteEditRequest {
   bool operator==(const RouteEditRequest&) const = default;
 };
 
+// An agent has all of a revision in its own store.
+struct Holding {
+  route::RouteKey key{};
+  AgentId agent{};
+  bool operator==(const Holding&) const = default;
+};
+
 struct CatalogReply {
   AgentId server{};
   AgentId client{};
@@ -84,6 +91,7 @@ struct CatalogReply {
   route::RoutePage page{};
   std::vector<std::string> similar_names{};  // when no route has the name: those that exist
   std::string error{};                       // not empty: the request could not be answered
+  std::vector<Holding> holdings{};           // of the revisions on this page, as far as agents told
   // When asked by view: likest first, `page` has the route of each; none: nothing looks like it.
   std::vector<route::FoundPlace> places{};
   route::ViewCoverage coverage{};
@@ -114,10 +122,11 @@ struct AgentStatus {
   std::uint32_t segments = 0;  // segments known of the route
   double progress = 0.0;       // 0..1 of the route as far as it is known; the scout: of its drive
   double speed_mps = 0.0;
-  std::uint32_t features = 0;  // tracked at present
-  double found_share = 0.0;    // mean share of features found at hand-overs so far
-  std::uint32_t backlog = 0;   // scout: segments without a receipt
-  std::string detail{};        // one line for people
+  std::uint32_t features = 0;           // tracked at present
+  double found_share = 0.0;             // mean share of features found at hand-overs so far
+  std::uint32_t backlog = 0;            // scout: segments without a receipt
+  std::string detail{};                 // one line for people
+  std::vector<route::RouteKey> held{};  // revisions of which all is in its store, newest first
   bool operator==(const AgentStatus&) const = default;
 };
 

@@ -105,6 +105,7 @@ struct Place {
 };
 
 inline constexpr std::size_t kMaxTags = 16;
+inline constexpr std::size_t kMaxDescriptionBytes = 256;
 
 // What is known of a route without its segments: announced by the scout, kept in the catalog. What
 // operators may change afterwards are its labels (labels.h): name, tags, description and standing.
@@ -124,7 +125,7 @@ struct RouteInfo {
   Digest manifest_digest{};
   std::vector<std::string> tags{};  // IsValidName each, rising, none twice, at most kMaxTags
   std::optional<Place> place{};     // given when teaching
-  std::string description{};        // for people: one line, at most 512 bytes
+  std::string description{};        // for people: one line, at most kMaxDescriptionBytes
   Standing standing = Standing::kStaged;
   std::uint32_t edition = 0;  // how often the labels were changed since it was taught
 

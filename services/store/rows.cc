@@ -15,7 +15,6 @@ namespace trailcast::store {
 namespace {
 
 constexpr std::size_t kMaxCameraBytes = 128;
-constexpr std::size_t kMaxDescriptionBytes = 512;
 constexpr int kMaxImagePx = 65536;
 
 route::Digest Sha256(const std::string& text) {
@@ -122,9 +121,9 @@ Result<void> CheckRoute(const route::RouteInfo& info) {
   if (info.place && (!std::isfinite(info.place->x) || !std::isfinite(info.place->y))) {
     return Refuse(info, "place", "must be finite");
   }
-  if (info.description.size() > kMaxDescriptionBytes) {
+  if (info.description.size() > route::kMaxDescriptionBytes) {
     return Refuse(info, "description",
-                  fmt::format("must have at most {} bytes", kMaxDescriptionBytes));
+                  fmt::format("must have at most {} bytes", route::kMaxDescriptionBytes));
   }
   if (info.standing > route::Standing::kDeleted) {
     return Refuse(info, "standing", "must be staged, active, retired or deleted");

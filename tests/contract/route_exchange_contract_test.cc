@@ -63,6 +63,9 @@ route::RouteInfo ExtremeInfo() {
     info.tags.push_back(fmt::format("{:02}{}", i, std::string(62, 't')));
   }
   info.place = route::Place{route::Place::Frame::kSite, -1e7, 1e7};
+  info.description = std::string(route::kMaxDescriptionBytes, 'd');
+  info.standing = route::Standing::kRetired;
+  info.edition = 0xFFFFFFFF;
   return info;
 }
 
@@ -135,6 +138,8 @@ TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
   reply.page = {std::vector(kMaxRoutesPerReply, ExtremeInfo()), ~0ULL,
                 std::string(kMaxCursorBytes, '/')};
   reply.similar_names.assign(kMaxSimilarNames, std::string(64, 'n'));
+  reply.holdings.assign(exchange::kMaxHoldingsPerReply,
+                        {KeyNumber(7, 0xFFFFFFFF), AgentId(std::string(64, 'h'))});
   ExpectRoundTrip(reply, Topic::kCatalogReplies);
 }
 
@@ -151,8 +156,25 @@ TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
                            .features = ~0U,
                            .found_share = 1.0,
                            .backlog = ~0U,
-                           .detail = std::string(kMaxLineBytes, 'd')};
+                           .detail = std::string(kMaxLineBytes, 'd'),
+                           .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7))};
   ExpectRoundTrip(status, Topic::kAgents);
+}
+
+TEST_P(RouteExchangeContract, CarriesAnEditOfExtremes) {
+  const route::RouteEdit edit{.action = route::EditAction::kDelete,
+                              .route = std::string(64, 'x'),
+                              .revision = ~0U,
+                              .text = std::string(kMaxLineBytes, 't'),
+                              .tags = std::vector(route::kMaxTags, std::string(64, 't'))};
+  ExpectRoundTrip(exchange::RouteEditRequest{AgentId("o"), ~0ULL, edit}, Topic::kRouteEdits);
+}
+
+TEST_P(RouteExchangeContract, CarriesARefusal) {
+  Receipt receipt{.server = AgentId("s"), .key = KeyNumber(1)};
+  receipt.refusal = exchange::Refusal::kFull;
+  receipt.reason = std::string(kMaxLineBytes, 'r');
+  ExpectRoundTrip(receipt, Topic::kReceipts);
 }
 
 TEST_P(RouteExchangeContract, DeliversFiveHundredSegmentsToTwoReadersInOrder) {

@@ -14,7 +14,8 @@ trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$findings"
 
 run_target() {
-  local target=$1 log="$findings/$1.log" status=0 seeds=("$here/corpus/$1")
+  local target=$1 log="$findings/$1.log" status=0 seeds=()
+  [[ ! -d $here/corpus/$target ]] || seeds+=("$here/corpus/$target")
   [[ $target != segment && $target != route_file ]] || seeds+=("$here/../golden")
   mkdir -p "$build/corpus/$target"
   TMPDIR=$scratch "$build/bin/fuzz_$target" -max_total_time="$seconds" -timeout=20 \

@@ -50,6 +50,20 @@ class Samples {
     wire.refusal = Octet();
     wire.reason = Text();
   }
+  void Fill(trailcast_wire_FoundPlace& wire) {
+    Fill(wire.key);
+    wire.segment = Number();
+    wire.score = Real();
+  }
+  void Fill(trailcast_wire_ViewFeature& wire) {
+    std::fill(std::begin(wire.descriptor), std::end(wire.descriptor), Octet());
+    wire.u_sixteenth_px = static_cast<std::int32_t>(Number());
+    wire.v_sixteenth_px = static_cast<std::int32_t>(Number());
+  }
+  void Fill(trailcast_wire_Holding& wire) {
+    Fill(wire.key);
+    wire.agent = Name();
+  }
   void Fill(trailcast_wire_RouteEditRequest& wire) {
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
@@ -77,6 +91,9 @@ class Samples {
     query.radius_m = Real();
     query.order = Octet();
     query.page_size = Number();
+    query.standing = Octet();
+    query.view._length = Count();
+    query.view._buffer = Many<trailcast_wire_ViewFeature>(view_, query.view._length);
   }
   void Fill(trailcast_wire_CatalogReply& wire) {
     wire.server = Name();
@@ -88,6 +105,10 @@ class Samples {
     wire.next = Text();
     FillTexts(wire.similar_names);
     wire.error = Text();
+    wire.places._length = Count();
+    wire.places._buffer = Many<trailcast_wire_FoundPlace>(places_, wire.places._length);
+    wire.holdings._length = Count();
+    wire.holdings._buffer = Many<trailcast_wire_Holding>(holdings_, wire.holdings._length);
   }
   void Fill(trailcast_wire_AgentStatus& wire) {
     wire.agent = Name();
@@ -103,6 +124,8 @@ class Samples {
     wire.found_share = Real();
     wire.backlog = Number();
     wire.detail = Text();
+    wire.held._length = Count();
+    wire.held._buffer = Many<trailcast_wire_RouteKey>(keys_, wire.held._length);
   }
 
  private:
@@ -197,6 +220,10 @@ class Samples {
   std::deque<std::vector<std::uint8_t>> bytes_;
   std::deque<std::vector<trailcast_wire_SegmentPiece>> pieces_;
   std::deque<std::vector<trailcast_wire_CatalogRoute>> routes_;
+  std::deque<std::vector<trailcast_wire_FoundPlace>> places_;
+  std::deque<std::vector<trailcast_wire_Holding>> holdings_;
+  std::deque<std::vector<trailcast_wire_RouteKey>> keys_;
+  std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
 };
 
 // A query is judged when it is answered; one with no number in it equals nothing, itself included.

@@ -90,8 +90,20 @@ TEST_F(CatalogClientTest, PassesOnWhatTheServerCouldNotDo) {
   EXPECT_THAT(answer.error().message, HasSubstr("the disk is gone"));
 }
 
+exchange::CatalogReply Reply(std::vector<route::RouteInfo> routes) {
+  return {.page = {.routes = std::move(routes)}};
+}
+
+TEST(RoutesTable, SaysWhichAgentsHoldARevision) {
+  exchange::CatalogReply reply = Reply({Aisle()});
+  EXPECT_THAT(RoutesJson(reply), HasSubstr("\"held_by\": []"));
+  reply.holdings = {{Aisle().key, AgentId("robot-1")}, {Aisle().key, AgentId("robot-2")}};
+  EXPECT_THAT(RoutesTable(reply, 0), HasSubstr("robot-1, robot-2"));
+  EXPECT_THAT(RoutesJson(reply), HasSubstr("\"held_by\": [\"robot-1\", \"robot-2\"]"));
+}
+
 TEST(RoutesTable, ShowsWhatARouteWeighsAMetre) {
-  const std::string table = RoutesTable({Aisle()}, 1'000'000 + 300'000);
+  const std::string table = RoutesTable(Reply({Aisle()}), 1'000'000 + 300'000);
   EXPECT_THAT(table, HasSubstr("aisle-3"));
   EXPECT_THAT(table, HasSubstr("4000"));  // B/m
   EXPECT_THAT(table, HasSubstr("64.0"));  // kB
@@ -103,7 +115,7 @@ TEST(RoutesTable, SaysThatThereAreNone) { EXPECT_EQ(RoutesTable({}, 0), "no rout
 TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {
   route::RouteInfo info = Aisle();
   info.camera = "8\" \\ lens\n";
-  const std::string json = RoutesJson({info, Aisle()});
+  const std::string json = RoutesJson(Reply({info, Aisle()}));
   EXPECT_THAT(json, HasSubstr(R"("camera": "8\" \\ lens\u000a")"));
   EXPECT_THAT(json, HasSubstr("},\n  {"));
   EXPECT_THAT(json, HasSubstr("\"bytes_per_m\": 4000.0"));

@@ -1,0 +1,50 @@
+#include "route_server/holders.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/pieces.h"
+
+namespace trailcast::server {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const route::RouteKey kOld = test::KeyNumber(1, 1);
+const route::RouteKey kNew = test::KeyNumber(1, 2);
+
+exchange::AgentStatus Status(const std::string& agent, std::vector<route::RouteKey> held,
+                             exchange::AgentMode mode = exchange::AgentMode::kWaiting) {
+  exchange::AgentStatus status;
+  status.agent = AgentId(agent);
+  status.mode = mode;
+  status.held = std::move(held);
+  return status;
+}
+
+std::vector<route::RouteInfo> Page(const route::RouteKey& key) {
+  return {test::InfoOf(key, {}, route::RouteState::kComplete)};
+}
+
+TEST(Holders, TheLastWordOfEachAgentCounts) {
+  Holders holders;
+  holders.Note(Status("robot-1", {kOld}));
+  holders.Note(Status("robot-2", {kNew, kOld}));
+  EXPECT_THAT(holders.Of(Page(kNew)), ElementsAre(exchange::Holding{kNew, AgentId("robot-2")}));
+  holders.Note(Status("robot-1", {kNew}));
+  EXPECT_THAT(holders.Of(Page(kOld)), ElementsAre(exchange::Holding{kOld, AgentId("robot-2")}));
+  EXPECT_EQ(holders.Of(Page(kNew)).size(), 2U);
+}
+
+TEST(Holders, OneThatHasJustStartedHasNotLookedYet) {
+  Holders holders;
+  holders.Note(Status("robot-1", {kOld}));
+  holders.Note(Status("robot-1", {}, exchange::AgentMode::kStarting));
+  EXPECT_EQ(holders.Of(Page(kOld)).size(), 1U);
+  holders.Note(Status("robot-1", {}));
+  EXPECT_THAT(holders.Of(Page(kOld)), IsEmpty());
+}
+
+}  // namespace
+}  // namespace trailcast::server
