@@ -207,7 +207,7 @@ Result<void> FollowerLink::StoreNews() {
   if (news == stored_) return {};
   stored_ = news;
   if (auto put = store_->PutRoute(news); !put) return put;
-  return TellHeld();
+  return news.state == route::RouteState::kComplete ? TellHeld() : Result<void>();
 }
 
 Result<void> FollowerLink::TellHeld() {

@@ -1,7 +1,5 @@
 #include "route_server/holders.h"
 
-#include <algorithm>
-
 #include "services/exchange/bounds.h"
 
 namespace trailcast::server {
@@ -10,18 +8,26 @@ void Holders::Note(const exchange::AgentStatus& status) {
   // One that has just started has not looked yet.
   if (status.mode == exchange::AgentMode::kStarting) return;
   const auto known = held_.find(status.agent);
-  if (known != held_.end()) {
-    known->second = status.held;
-  } else if (!status.held.empty() && held_.size() < kMostAgents) {
-    held_.emplace(status.agent, status.held);
+  const bool is_new = known == held_.end();
+  if (is_new ? status.held.empty() || held_.size() >= kMostAgents : known->second == status.held) {
+    return;
   }
+  std::vector<route::RouteKey>& held = held_[status.agent];
+  for (const route::RouteKey& key : held) {
+    std::set<AgentId>& holders = holders_[key];
+    holders.erase(status.agent);
+    if (holders.empty()) holders_.erase(key);
+  }
+  held = status.held;
+  for (const route::RouteKey& key : held) holders_[key].insert(status.agent);
 }
 
 std::vector<exchange::Holding> Holders::Of(const std::vector<route::RouteInfo>& routes) const {
   std::vector<exchange::Holding> holdings;
   for (const route::RouteInfo& info : routes) {
-    for (const auto& [agent, held] : held_) {
-      if (std::find(held.begin(), held.end(), info.key) == held.end()) continue;
+    const auto holders = holders_.find(info.key);
+    if (holders == holders_.end()) continue;
+    for (const AgentId& agent : holders->second) {
       if (holdings.size() == exchange::kMaxHoldingsPerReply) return holdings;
       holdings.push_back({info.key, agent});
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "services/exchange/messages.h"
@@ -20,6 +21,8 @@ class Holders {
   static constexpr std::size_t kMostAgents = 4096;  // strangers can make up names
 
   std::map<AgentId, std::vector<route::RouteKey>> held_;
+  std::map<route::RouteKey, std::set<AgentId>>
+      holders_;  // the same, for the catalog's many questions
 };
 
 }  // namespace trailcast::server
