@@ -62,16 +62,6 @@ class Fetching {
   steady_clock::time_point told_at_ = began_;
 };
 
-Summary Summarize(const route::RouteInfo& route) {
-  Summary summary;
-  summary.Add("route", route.name);
-  summary.Add("revision", std::to_string(route.key.revision.value()));
-  summary.Add("segments", std::to_string(route.segment_count));
-  summary.Add("metres", fmt::format("{:.2f}", route.length_m));
-  summary.Add("bytes", std::to_string(route.bytes));
-  return summary;
-}
-
 }  // namespace
 
 Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store::RouteStore> store,
@@ -92,7 +82,9 @@ Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store:
   }
   link.Close(AgentMode::kArrived, fmt::format("holds revision {} of '{}'",
                                               link.route()->key.revision.value(), options.route));
-  return Summarize(*link.route());
+  Summary summary;
+  summary.AddRoute(*link.route());
+  return summary;
 }
 
 }  // namespace trailcast::agent

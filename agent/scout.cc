@@ -91,11 +91,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
 Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
   const route::RouteInfo& route = *outcome.route;
   Summary summary;
-  summary.Add("route", route.name);
-  summary.Add("revision", std::to_string(route.key.revision.value()));
-  summary.Add("segments", std::to_string(route.segment_count));
-  summary.Add("metres", fmt::format("{:.2f}", route.length_m));
-  summary.Add("bytes", std::to_string(route.bytes));
+  summary.AddRoute(route);
   summary.Add("bytes_per_m", route.length_m > 0.0
                                  ? fmt::format("{:.0f}", route.bytes / route.length_m)
                                  : "unknown");

@@ -11,6 +11,14 @@ void Summary::Add(std::string key, std::string value) {
   lines_.emplace_back(std::move(key), std::move(value));
 }
 
+void Summary::AddRoute(const route::RouteInfo& route) {
+  Add("route", route.name);
+  Add("revision", std::to_string(route.key.revision.value()));
+  Add("segments", std::to_string(route.segment_count));
+  Add("metres", fmt::format("{:.2f}", route.length_m));
+  Add("bytes", std::to_string(route.bytes));
+}
+
 const std::string* Summary::Find(const std::string& key) const {
   const auto line = std::find_if(lines_.begin(), lines_.end(),
                                  [&](const auto& entry) { return entry.first == key; });

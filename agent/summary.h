@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/route/route.h"
 
 namespace trailcast::agent {
 
@@ -14,6 +15,8 @@ namespace trailcast::agent {
 class Summary {
  public:
   void Add(std::string key, std::string value);
+  // Its name, revision, segments, metres and bytes.
+  void AddRoute(const route::RouteInfo& route);
 
   [[nodiscard]] const std::string* Find(const std::string& key) const;
   [[nodiscard]] std::string Text() const;

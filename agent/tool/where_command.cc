@@ -1,13 +1,11 @@
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
 
-#include "agent/cli/open_exchange.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
+#include "agent/tool/transfer.h"
 #include "agent/tool/where_report.h"
 #include "services/image/files.h"
 #include "services/vision/view_features.h"
@@ -40,14 +38,11 @@ Result<route::RouteQuery> QueryOf(const WhereOptions& options) {
 int Run(const CLI::App& app, const cli::CommonOptions& common, const WhereOptions& options) {
   const auto query = QueryOf(options);
   if (!query) return cli::Complain(app, query.error());
-  // Two operators may ask at the same time.
-  cli::CommonOptions network = common;
-  network.name = fmt::format("{}-{}", common.name, getpid());
-  auto exchange = cli::OpenExchange(network, exchange::OperatorTopics());
-  if (!exchange) return cli::Complain(app, exchange.error());
+  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  if (!peer) return cli::Complain(app, peer.error());
   const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(options.timeout_s));
-  const auto reply = AskCatalog(**exchange, AgentId(network.name), *query, timeout);
+  const auto reply = AskCatalog(*peer->exchange, peer->self, *query, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   std::fputs((options.json ? WhereJson(*reply) : WhereText(*reply)).c_str(), stdout);
   return cli::kExitOk;
