@@ -14,6 +14,11 @@
 
 namespace trailcast::store {
 
+struct HeldSegment {
+  SegmentIndex index;
+  route::Digest digest{};
+};
+
 // Durable routes: their infos and their segments' bytes. One process opens a store for writing;
 // not thread-safe. Every read of a segment checks its digest. Errors name the file.
 class RouteStore {
@@ -49,6 +54,13 @@ class RouteStore {
   // Indices held, rising.
   [[nodiscard]] virtual Result<std::vector<SegmentIndex>> HeldSegments(
       const route::RouteKey& key) = 0;
+  // The same with their digests; those of which nobody can say it any more, for the damage, are
+  // left out. That the bytes are still whole only reading them tells.
+  [[nodiscard]] virtual Result<std::vector<HeldSegment>> SegmentDigests(
+      const route::RouteKey& key) = 0;
+  // Bytes with this digest, whole, whichever route's segment they are; nothing if none are held.
+  [[nodiscard]] virtual Result<std::optional<route::Bytes>> FindContent(
+      const route::Digest& digest) = 0;
 
   // Tombstones included.
   [[nodiscard]] virtual Result<std::optional<route::RouteInfo>> FindRoute(

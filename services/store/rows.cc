@@ -49,10 +49,6 @@ tl::unexpected<Error> Refuse(const route::RouteInfo& info, std::string_view fiel
               field, expected);
 }
 
-void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest) {
-  statement.bind(parameter, digest.data(), static_cast<int>(digest.size()));
-}
-
 // As text they are one column; route_tag, by which routes are found, is made from it.
 std::string JoinTags(const std::vector<std::string>& tags) {
   return fmt::format("{}", fmt::join(tags, " "));
@@ -82,6 +78,12 @@ Result<route::Digest> ReadDigest(const SQLite::Column& column) {
   }
   std::copy_n(bytes, digest.size(), digest.begin());
   return digest;
+}
+
+// None if the column is NULL.
+route::Bytes ReadBytes(const SQLite::Column& column) {
+  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
+  return bytes == nullptr ? route::Bytes() : route::Bytes(bytes, bytes + column.getBytes());
 }
 
 }  // namespace
@@ -132,6 +134,10 @@ Result<void> CheckRoute(const route::RouteInfo& info) {
     return Refuse(info, "state", "must be teaching or complete");
   }
   return {};
+}
+
+void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest) {
+  statement.bind(parameter, digest.data(), static_cast<int>(digest.size()));
 }
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
@@ -211,6 +217,7 @@ void BindSegment(SQLite::Statement& statement, const route::SegmentPiece& piece)
   statement.bind(3, piece.index.value());
   BindDigest(statement, 4, piece.digest);
   BindDigest(statement, 5, Seal(piece));
+  if (piece.bytes.empty()) return;  // NULL
   statement.bindNoCopy(6, piece.bytes.data(), static_cast<int>(piece.bytes.size()));
 }
 
@@ -220,16 +227,11 @@ Result<route::SegmentPiece> ReadSegmentRow(const SQLite::Statement& statement,
   if (!digest) return Wrap(digest.error(), Describe(key, index));
   const Result<route::Digest> seal = ReadDigest(statement.getColumn(1));
   if (!seal) return Wrap(seal.error(), Describe(key, index));
-  const SQLite::Column column = statement.getColumn(2);
-  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
-  route::SegmentPiece piece{key, index, *digest, {bytes, bytes + column.getBytes()}};
+  route::SegmentPiece piece{key, index, *digest, ReadBytes(statement.getColumn(2))};
   if (*seal != Seal(piece)) {
     return Fail(ErrorCode::kCorrupt,
                 "{}: its row is damaged; it mends when the segment is stored again",
                 Describe(key, index));
-  }
-  if (Result<void> whole = route::CheckDigest(piece); !whole) {
-    return tl::unexpected(whole.error());
   }
   return piece;
 }

@@ -21,16 +21,18 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info);
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key);  // parameters 1 and 2
 
-// Columns of table `segment`, in the order of BindSegment and ReadSegmentRow's.
+// Columns of table `segment`, in the order of BindSegment, and those that ReadSegmentRow reads.
 inline constexpr const char* kSegmentColumns = "route, revision, number, digest, seal, bytes";
 inline constexpr const char* kSegmentContent = "digest, seal, bytes";
 
 // kInvalidArgument or kCorrupt for a piece that no segment can be.
 [[nodiscard]] Result<void> CheckSegment(const route::SegmentPiece& piece);
-// Borrows the piece's bytes until the statement is done.
+// Borrows the piece's bytes until the statement is done; without bytes it relies on another's.
 void BindSegment(SQLite::Statement& statement, const route::SegmentPiece& piece);
-// The statement's current row, asked for under this key and index. kCorrupt if its bytes fail their
-// digest, or if damage made the row answer to another's name.
+void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest);
+// The statement's current row, asked for under this key and index; without bytes if it relies on
+// another's. kCorrupt if it is damaged, or if damage made it answer to another's name. Whether the
+// bytes are those of the digest is for CheckDigest.
 [[nodiscard]] Result<route::SegmentPiece> ReadSegmentRow(const SQLite::Statement& statement,
                                                          const route::RouteKey& key,
                                                          SegmentIndex index);

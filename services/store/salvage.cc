@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "services/route/digest.h"
 #include "services/store/rows.h"
 #include "services/store/sqlite_database.h"
 #include "services/store/store_file.h"
@@ -97,7 +98,7 @@ class Salvaging {
 
   Result<Salvaged> Run() {
     for (auto part : {&Salvaging::SaveTombstones, &Salvaging::SaveRoutes, &Salvaging::SaveSegments,
-                      &Salvaging::SaveReceipts, &Salvaging::TellLost}) {
+                      &Salvaging::SaveRelying, &Salvaging::SaveReceipts, &Salvaging::TellLost}) {
       if (auto done = (this->*part)(); !done) return tl::unexpected(done.error());
     }
     return std::move(salvaged_);
@@ -130,14 +131,32 @@ class Salvaging {
                                   RevisionNumber(row->getColumn(4).getUInt())};
         return ReadSegmentRow(*row, key, SegmentIndex(row->getColumn(5).getUInt()));
       });
+      if (piece && !piece->bytes.empty() && !route::CheckDigest(*piece)) continue;
       if (!piece) continue;
       if (row->getColumn(6).getInt() != 0) receipted_[piece->key].push_back(piece->index);
+      if (piece->bytes.empty()) {
+        relying_.push_back(std::move(*piece));
+        continue;
+      }
       pieces_.push_back(std::move(*piece));
       if (pieces_.size() < kBatch) continue;
       if (auto flushed = FlushSegments(); !flushed) return flushed;
     }
     TellStretches("segments", rows.stretches());
     return FlushSegments();
+  }
+
+  // Those that rely on another's bytes, if these were saved.
+  Result<void> SaveRelying() {
+    for (route::SegmentPiece& piece : relying_) {
+      auto content = whole_.FindContent(piece.digest);
+      if (!content) return tl::unexpected(content.error());
+      if (!*content) continue;
+      piece.bytes = std::move(**content);
+      pieces_.push_back(std::move(piece));
+      if (auto flushed = FlushSegments(); !flushed) return flushed;
+    }
+    return {};
   }
 
   Result<void> FlushRoutes() {
@@ -215,6 +234,7 @@ class Salvaging {
   RouteStore& whole_;
   std::vector<route::RouteInfo> routes_;
   std::vector<route::SegmentPiece> pieces_;
+  std::vector<route::SegmentPiece> relying_;  // their bytes are another's
   std::map<route::RouteKey, std::vector<SegmentIndex>> receipted_;
   Salvaged salvaged_;
 };
@@ -250,6 +270,14 @@ Result<Salvaged> SaveWhole(const std::filesystem::path& from, const std::filesys
     const Copy copy(from, to.string() + ".copy");
     SQLite::Database damaged(copy.path().string(), SQLite::OPEN_READWRITE);
     damaged.exec("PRAGMA writable_schema = ON");  // SQLite then reads what was cut short
+    if (const auto version = damaged.execAndGet("PRAGMA user_version").getUInt();
+        version != kSchemaVersion) {
+      return Fail(
+          ErrorCode::kCorrupt,
+          "route store {} has version {}, expected {}: an older one is saved by the program "
+          "that wrote it",
+          from.string(), version, kSchemaVersion);
+    }
     auto whole = OpenSqliteStore(to, options);
     if (!whole) return tl::unexpected(whole.error());
     return Salvaging(damaged, **whole).Run();

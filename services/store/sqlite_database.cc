@@ -58,6 +58,12 @@ CREATE TABLE route_tag (
 CREATE INDEX route_tag_by_id ON route_tag (id);
 CREATE VIRTUAL TABLE route_place USING rtree(
   id, east_low, east_high, north_low, north_high, +frame INTEGER);
+)";
+
+// Of segments that are alike, whichever route's they are, one has the bytes; in the others they are
+// NULL. A table of bytes apart would be simpler to read, and a damaged page of names would cost
+// thirty segments instead of one.
+constexpr const char* kSegmentTable = R"(
 CREATE TABLE segment (
   route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
   revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
@@ -65,10 +71,11 @@ CREATE TABLE segment (
   receipted INTEGER NOT NULL DEFAULT 0 CHECK (receipted IN (0, 1)),
   digest BLOB NOT NULL CHECK (length(digest) = 32),
   seal BLOB NOT NULL CHECK (length(seal) = 32),
-  bytes BLOB NOT NULL CHECK (length(bytes) <= 1048576),
+  bytes BLOB CHECK (length(bytes) <= 1048576),
   PRIMARY KEY (route, revision, number)
 ) STRICT;
 CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
+CREATE INDEX segment_by_digest ON segment (digest);
 )";
 
 // Table `route` is what is offered and searched; deleted revisions are apart, so that searching
@@ -83,6 +90,7 @@ void CreateRouteTables(SQLite::Database& db) {
 void CreateTables(SQLite::Database& db) {
   CreateRouteTables(db);
   db.exec(kOtherTables);
+  db.exec(kSegmentTable);
 }
 
 // Version 1 knew neither tags nor places; what it held is the same row without them.
@@ -92,10 +100,7 @@ INSERT INTO route (route, revision, name, scout, camera, image_width_px, image_h
 SELECT route, revision, name, scout, camera, image_width_px, image_height_px,
   taught_unix_ms, state, segment_count, length_m, bytes, manifest_digest, seal, ''
 FROM old_route;
-INSERT INTO segment (route, revision, number, receipted, digest, seal, bytes)
-SELECT route, revision, number, receipted, digest, seal, bytes FROM old_segment;
 DROP TABLE old_route;
-DROP TABLE old_segment;
 )";
 
 // Version 2 knew no labels and no tombstones.
@@ -105,6 +110,13 @@ INSERT INTO route (id, route, revision, name, scout, camera, image_width_px, ima
   place_frame, place_east, place_north)
 SELECT * FROM old_route;
 DROP TABLE old_route;
+)";
+
+// Up to version 3 all had their bytes; they keep them.
+constexpr const char* kFromVersion3 = R"(
+INSERT INTO segment (route, revision, number, receipted, digest, seal, bytes)
+SELECT route, revision, number, receipted, digest, seal, bytes FROM old_segment;
+DROP TABLE old_segment;
 )";
 
 void MarkVersion(SQLite::Database& db) {
@@ -123,16 +135,19 @@ void MakeStore(SQLite::Database& db) {
 // Interrupted, it leaves the version that it found.
 void BringUpToDate(SQLite::Database& db, std::uint32_t version) {
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
-  db.exec("DROP INDEX route_by_name; ALTER TABLE route RENAME TO old_route");
+  if (version < 3) db.exec("DROP INDEX route_by_name; ALTER TABLE route RENAME TO old_route");
   if (version == 1) {
-    db.exec("DROP INDEX segment_unreceipted; ALTER TABLE segment RENAME TO old_segment");
-    CreateTables(db);
+    CreateRouteTables(db);
+    db.exec(kOtherTables);
     db.exec(kFromVersion1);
-  } else {
+  } else if (version == 2) {
     db.exec("DROP INDEX route_by_time; DROP INDEX route_by_length; DROP INDEX route_by_scout");
     CreateRouteTables(db);
     db.exec(kFromVersion2);
   }
+  db.exec("DROP INDEX segment_unreceipted; ALTER TABLE segment RENAME TO old_segment");
+  db.exec(kSegmentTable);
+  db.exec(kFromVersion3);
   MarkVersion(db);
   transaction.commit();
 }

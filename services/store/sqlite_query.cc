@@ -12,6 +12,16 @@ using route::RouteInfo;
 using route::RoutePage;
 using route::RouteQuery;
 
+// Bytes that other revisions' segments rely on go to the first of those.
+constexpr const char* kBequeath = R"(
+WITH leaving AS (
+  SELECT digest, bytes FROM segment WHERE route = ?1 AND revision = ?2 AND bytes IS NOT NULL)
+UPDATE segment AS heir SET bytes = (SELECT bytes FROM leaving WHERE digest = heir.digest)
+WHERE digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND revision = ?2)
+  AND rowid = (SELECT MIN(rowid) FROM segment WHERE digest = heir.digest
+               AND NOT (route = ?1 AND revision = ?2)) AND bytes IS NULL
+)";
+
 void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
   statement.bind(parameter, static_cast<std::int64_t>(size));
 }
@@ -42,11 +52,11 @@ void SqliteRouteStore::Bury(const RouteInfo& info) {
   BindKey(find, info.key);
   if (find.executeStep()) ForgetPlaceAndTags(find.getColumn(0).getInt64());
   find.reset();
-  for (const char* table : {"route", "segment"}) {
-    SQLite::Statement forget(*db_,
-                             fmt::format("DELETE FROM {} WHERE route = ? AND revision = ?", table));
-    BindKey(forget, info.key);
-    forget.exec();
+  for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND revision = ?",
+                              "DELETE FROM route WHERE route = ? AND revision = ?"}) {
+    SQLite::Statement part(*db_, parting);
+    BindKey(part, info.key);
+    part.exec();
   }
   PutRow("tombstone", info);
 }

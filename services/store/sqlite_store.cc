@@ -85,12 +85,15 @@ Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   if (held.error().code != ErrorCode::kNotFound && held.error().code != ErrorCode::kCorrupt) {
     return tl::unexpected(held.error());
   }
+  const auto content = FindContent(piece.digest);
+  if (!content) return tl::unexpected(content.error());
   SQLite::Statement insert(
       *db_,
       fmt::format("INSERT INTO segment ({}) VALUES (?,?,?,?,?,?) ON CONFLICT DO UPDATE "
                   "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes",
                   kSegmentColumns));
-  BindSegment(insert, piece);
+  const SegmentPiece relying{piece.key, piece.index, piece.digest, {}};
+  BindSegment(insert, *content ? relying : piece);
   insert.exec();
   return {};
 }
@@ -108,7 +111,47 @@ Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentI
     }
     Result<SegmentPiece> piece = ReadSegmentRow(select, key, index);
     if (!piece) return Wrap(piece.error(), "route store " + file_.path().string());
+    if (piece->bytes.empty()) {
+      auto content = FindContent(piece->digest);
+      if (!content) return tl::unexpected(content.error());
+      if (*content) piece->bytes = std::move(**content);
+    }
+    if (Result<void> whole = route::CheckDigest(*piece); !whole) {
+      return Wrap(whole.error(), "route store " + file_.path().string());
+    }
     return piece;
+  });
+}
+
+Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey& key) {
+  return Guarded(
+      "listing the segments of " + Describe(key), [&]() -> Result<std::vector<HeldSegment>> {
+        SQLite::Statement select(*db_,
+                                 "SELECT digest, seal, NULL, number FROM segment WHERE route = ? "
+                                 "AND revision = ? ORDER BY number");
+        BindKey(select, key);
+        std::vector<HeldSegment> held;
+        while (select.executeStep()) {
+          const SegmentIndex index(select.getColumn(3).getUInt());
+          const Result<SegmentPiece> named = ReadSegmentRow(select, key, index);
+          if (named) held.push_back({index, named->digest});
+        }
+        return held;
+      });
+}
+
+Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::Digest& digest) {
+  return Guarded("looking up a segment's bytes", [&]() -> Result<std::optional<route::Bytes>> {
+    SQLite::Statement select(*db_,
+                             "SELECT bytes FROM segment WHERE digest = ? AND bytes IS NOT NULL");
+    BindDigest(select, 1, digest);
+    while (select.executeStep()) {
+      const SQLite::Column column = select.getColumn(0);
+      const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
+      const std::span whole(bytes, static_cast<std::size_t>(column.getBytes()));
+      if (route::Sha256(whole) == digest) return route::Bytes(whole.begin(), whole.end());
+    }
+    return std::nullopt;
   });
 }
 

@@ -70,6 +70,21 @@ class MemoryStore : public store::RouteStore {
     return held;
   }
 
+  Result<std::vector<store::HeldSegment>> SegmentDigests(const route::RouteKey& key) override {
+    std::vector<store::HeldSegment> held;
+    for (const auto& [where, piece] : segments_) {
+      if (where.first == key) held.push_back({where.second, piece.digest});
+    }
+    return held;
+  }
+
+  Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override {
+    for (const auto& [where, piece] : segments_) {
+      if (piece.digest == digest) return piece.bytes;
+    }
+    return std::nullopt;
+  }
+
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override {
     const auto found = routes_.find(key);
     if (found == routes_.end()) return std::nullopt;

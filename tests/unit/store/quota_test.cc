@@ -61,6 +61,23 @@ TEST(StoreQuota, BatchThatDoesNotFitIsRefusedWhole) {
   ExpectHoldsExactly(*store, 0);
 }
 
+TEST(StoreQuota, ARevisionCostsWhatIsNewInIt) {
+  test::TempDir dir;
+  auto store = OpenSqliteStore(dir / "routes.db", {.max_bytes = 256 * kKiB}).value();
+  const std::uint32_t taken = Fill(*store).first;
+  ASSERT_GT(taken, 20U);
+  const route::SegmentPiece again = [] {
+    route::SegmentPiece piece = Piece(0);
+    piece.key.revision = RevisionNumber(2);
+    return piece;
+  }();
+  EXPECT_TRUE(store->AppendSegments({&again, 1})) << "its bytes are there";
+  route::SegmentPiece other = Piece(0, 1);
+  other.key = again.key;
+  other.index = SegmentIndex(1);
+  EXPECT_FALSE(store->AppendSegments({&other, 1}));
+}
+
 // The nearest thing to a full disk that a process can stage: the kernel refuses to let files grow.
 class FileSizeLimit {
  public:

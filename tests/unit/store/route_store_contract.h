@@ -200,6 +200,33 @@ TEST_P(RouteStoreContract, ATombstoneTakesTheSegmentsAndLateOnesAreRefused) {
   EXPECT_THAT(store_->Verify().value(), testing::IsEmpty());
 }
 
+TEST_P(RouteStoreContract, DigestsOfWhatIsHeldAreToldByIndex) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 2})));
+  const auto held = store_->SegmentDigests(kYard).value();
+  ASSERT_EQ(held.size(), 2U);
+  EXPECT_EQ(held[0].index, SegmentIndex(0));
+  EXPECT_EQ(held[0].digest, Piece(0).digest);
+  EXPECT_EQ(held[1].index, SegmentIndex(2));
+  EXPECT_EQ(held[1].digest, Piece(2).digest);
+}
+
+// A revision that has segments of another one in it.
+TEST_P(RouteStoreContract, SegmentsThatAreAlikeOutliveEachOther) {
+  route::SegmentPiece again = Piece(0);
+  again.key.revision = RevisionNumber(2);
+  again.index = SegmentIndex(5);
+  EXPECT_EQ(store_->FindContent(again.digest).value(), std::nullopt);
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1})));
+  ASSERT_TRUE(store_->AppendSegments({&again, 1}));
+  EXPECT_EQ(store_->FindContent(again.digest).value(), again.bytes);
+  ASSERT_TRUE(store_->PutRoute(Labelled(Teaching(2), "yard", route::Standing::kDeleted, 1)));
+  Reopen();
+  EXPECT_EQ(store_->ReadSegment(again.key, again.index).value(), again);
+  EXPECT_EQ(store_->FindContent(again.digest).value(), again.bytes);
+  EXPECT_EQ(store_->FindContent(Piece(1).digest).value(), std::nullopt);
+  EXPECT_THAT(store_->Verify().value(), testing::IsEmpty());
+}
+
 TEST_P(RouteStoreContract, ImpossibleRoutesAreRefusedNamingTheField) {
   const auto message = [this](auto&& spoil) {
     route::RouteInfo info = Complete(1);

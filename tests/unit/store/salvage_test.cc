@@ -141,6 +141,22 @@ TEST_F(SalvageTest, WhatWasDeletedStaysDeleted) {
   EXPECT_EQ(saved->FindRoute(gone).value()->standing, route::Standing::kDeleted);
 }
 
+TEST_F(SalvageTest, SegmentsThatRelyOnOthersBytesAreSavedWithThem) {
+  route::SegmentPiece again = Piece(3);
+  again.key.revision = RevisionNumber(2);
+  {
+    const auto store = OpenSqliteStore(file_).value();
+    ASSERT_TRUE(store->AppendSegments({&again, 1}));
+    ASSERT_TRUE(store->MarkReceipted(again.key, {&again.index, 1}));
+  }
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments + 1);
+  const auto saved = OpenSqliteStore(saved_).value();
+  EXPECT_EQ(saved->ReadSegment(again.key, again.index).value(), again);
+  EXPECT_THAT(saved->UnreceiptedSegments(again.key).value(), IsEmpty());
+}
+
 TEST_F(SalvageTest, WithoutRoomForItNothingIsMade) {
   const auto salvaged = Salvage(file_, saved_, {.max_bytes = 120'000});
   ASSERT_FALSE(salvaged);

@@ -55,7 +55,29 @@ PRAGMA user_version = 1;
 COMMIT;
 )";
 
-// Those of version 2, likewise.
+// Those of version 3, likewise.
+constexpr const char* kBackToVersion3 = R"(
+BEGIN;
+CREATE TABLE s1 AS SELECT * FROM segment;
+DROP TABLE segment;
+CREATE TABLE segment (
+  route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
+  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
+  number INTEGER NOT NULL CHECK (number BETWEEN 0 AND 4294967295),
+  receipted INTEGER NOT NULL DEFAULT 0 CHECK (receipted IN (0, 1)),
+  digest BLOB NOT NULL CHECK (length(digest) = 32),
+  seal BLOB NOT NULL CHECK (length(seal) = 32),
+  bytes BLOB NOT NULL CHECK (length(bytes) <= 1048576),
+  PRIMARY KEY (route, revision, number)
+) STRICT;
+CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
+INSERT INTO segment SELECT route, revision, number, receipted, digest, seal, bytes FROM s1;
+DROP TABLE s1;
+PRAGMA user_version = 3;
+COMMIT;
+)";
+
+// Those of version 2: its segments are as in version 3.
 constexpr const char* kBackToVersion2 = R"(
 BEGIN;
 CREATE TABLE r1 AS SELECT * FROM route;
@@ -136,8 +158,23 @@ TEST(Upgrade, StoreOfVersion2KeepsEverything) {
   yard.tags = {"night"};
   yard.place = {route::Place::Frame::kSite, 1.0, 2.0};
   Fill(file, yard);
+  Age(file, kBackToVersion3);
   Age(file, kBackToVersion2);
   ExpectEverything(file, yard);
+}
+
+TEST(Upgrade, StoreOfVersion3KeepsEverythingAndItsTombstones) {
+  test::TempDir dir;
+  const auto file = dir / "routes.db";
+  route::RouteInfo gone = Complete(1);
+  gone.key.revision = RevisionNumber(9);
+  gone.standing = route::Standing::kDeleted;
+  gone.edition = 1;
+  Fill(file, Complete(3));
+  ASSERT_TRUE(OpenSqliteStore(file).value()->PutRoute(gone));
+  Age(file, kBackToVersion3);
+  ExpectEverything(file, Complete(3));
+  EXPECT_EQ(OpenSqliteStore(file).value()->FindRoute(gone.key).value(), gone);
 }
 
 }  // namespace
