@@ -54,6 +54,10 @@ std::string Metrics::Text() const {
            keeper.conflicting) +
       Line("store_failures_total", kCounter, "Writes and reads that the store refused.",
            keeper.store_failures) +
+      Line("segments_damaged_total", kCounter, "Segments found damaged in the store.",
+           keeper.damaged) +
+      Line("segments_repaired_total", kCounter, "Damaged segments replaced by what a holder had.",
+           keeper.repaired) +
       Line("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
   text += fmt::format(

@@ -129,9 +129,13 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
       views_.Forget(announced->info.key);
     }
   }
+  for (const auto& [key, segment] : keeper_->TakeRepaired()) views_.Mend(key, segment);
   if (views_.Filled()) return;
   if (auto filled = views_.Fill(kViewsASlice); !filled) {
     spdlog::warn("left out of the index of views: {}", filled.error().message);
+  }
+  for (const auto& [key, segment] : views_.TakeDamaged()) {
+    keeper_->NoteDamage(key, segment, steady_clock::now());
   }
   if (views_.Filled()) spdlog::debug("{} segments indexed by view", views_.index().size());
 }

@@ -73,6 +73,7 @@ Result<void> ViewCatalog::IndexNext() {
   const auto segment = Read(place);
   if (!segment) {
     if (segment.error().code != ErrorCode::kNotFound) unreadable_.insert(place);
+    if (segment.error().code == ErrorCode::kCorrupt) damaged_.push_back(place);
     return tl::unexpected(segment.error());
   }
   std::ignore = index_.Add(place.key, *segment);  // not full, or nothing would be read
@@ -89,6 +90,14 @@ Result<route::Segment> ViewCatalog::Read(const Place& place) {
 
 void ViewCatalog::Note(const route::RouteKey& key) {
   if (!index_.full()) noted_.insert(key);
+}
+
+std::vector<view::ViewIndex::Place> ViewCatalog::TakeDamaged() {
+  return std::exchange(damaged_, {});
+}
+
+void ViewCatalog::Mend(const route::RouteKey& key, SegmentIndex segment) {
+  if (unreadable_.erase({key, segment}) > 0) Note(key);
 }
 
 void ViewCatalog::Forget(const route::RouteKey& key) {

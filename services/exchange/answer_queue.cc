@@ -18,13 +18,14 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
       continue;
     }
     while (!asked.indices.empty() && bytes < max_bytes) {
-      auto piece = read(key, *asked.indices.begin());
+      const SegmentIndex index = *asked.indices.begin();
       asked.indices.erase(asked.indices.begin());
+      auto piece = read(key, index);
       if (piece) {
         bytes += piece->bytes.size();
         due.pieces.push_back(*std::move(piece));
       } else {
-        due.unreadable.push_back(piece.error());
+        due.unreadable.push_back({key, index, piece.error()});
       }
     }
     at = asked.indices.empty() ? asked_.erase(at) : std::next(at);

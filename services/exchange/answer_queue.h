@@ -25,9 +25,14 @@ class AnswerQueue {
 
   using ReadPiece =
       std::function<Result<route::SegmentPiece>(const route::RouteKey&, SegmentIndex)>;
+  struct Unreadable {
+    route::RouteKey key;
+    SegmentIndex index;
+    Error error;
+  };
   struct Answers {
     std::vector<route::SegmentPiece> pieces;  // of each route, lowest index first
-    std::vector<Error> unreadable;            // asked for, but `read` failed: not sent
+    std::vector<Unreadable> unreadable;       // asked for, but `read` failed: not sent
   };
   // What is to be sent now, from the routes whose window has passed: up to `max_bytes`, and the
   // rest the next time.

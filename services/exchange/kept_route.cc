@@ -1,5 +1,7 @@
 #include "services/exchange/kept_route.h"
 
+#include <algorithm>
+
 #include "services/base/result.h"
 #include "services/exchange/bounds.h"
 #include "services/route/labels.h"
@@ -13,10 +15,10 @@ std::string Describe(const route::RouteKey& key) {
   return fmt::format("route {} revision {}", key.route.value(), key.revision.value());
 }
 
-KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<SegmentIndex>& held,
+KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::HeldSegment>& held,
                      WantList::Options want_options)
     : want(want_options), stored_(std::move(stored)), claim_(stored_) {
-  for (const SegmentIndex index : held) held_.emplace(index, std::nullopt);
+  for (const store::HeldSegment& segment : held) held_.emplace(segment.index, segment.digest);
   AdvancePrefix();
   if (!stored_ || deleted()) return;
   // A store that lost segments which its info counts gets them again.
@@ -55,13 +57,24 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
 
 void KeptRoute::MarkHeld(SegmentIndex index, const route::Digest& digest) {
   held_[index] = digest;
+  damaged_.erase(index);
   want.Remove(index);
   AdvancePrefix();
 }
 
+void KeptRoute::MarkDamaged(SegmentIndex index, Time now) {
+  if (auto held = held_.extract(index)) {
+    damaged_.insert(std::move(held));
+    prefix_ = std::min(prefix_, index.value());
+    want.Want(index, now);
+  }
+}
+
 std::optional<route::Digest> KeptRoute::DigestOf(SegmentIndex index) const {
-  const auto held = held_.find(index);
-  return held == held_.end() ? std::nullopt : held->second;
+  for (const auto* segments : {&held_, &damaged_}) {
+    if (const auto found = segments->find(index); found != segments->end()) return found->second;
+  }
+  return std::nullopt;
 }
 
 std::optional<RouteInfo> KeptRoute::DurableInfo() const {
@@ -85,6 +98,7 @@ void KeptRoute::MarkStored(const RouteInfo& info) {
   if (!deleted()) return;
   claim_ = stored_;
   held_.clear();
+  damaged_.clear();
   prefix_ = 0;
   want.Clear();
   receipt_due = true;

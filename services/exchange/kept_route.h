@@ -9,6 +9,7 @@
 
 #include "services/exchange/messages.h"
 #include "services/exchange/want_list.h"
+#include "services/store/route_store.h"
 
 namespace trailcast::exchange {
 
@@ -21,7 +22,7 @@ class KeptRoute {
   using Time = std::chrono::steady_clock::time_point;
 
   // As found in the store: `stored` may be empty when segments came before their route.
-  KeptRoute(std::optional<route::RouteInfo> stored, const std::vector<SegmentIndex>& held,
+  KeptRoute(std::optional<route::RouteInfo> stored, const std::vector<store::HeldSegment>& held,
             WantList::Options want);
 
   enum class ClaimResult : std::uint8_t {
@@ -34,10 +35,12 @@ class KeptRoute {
   ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
 
   void MarkHeld(SegmentIndex index, const route::Digest& digest);
+  // Its bytes on the disk are not what they were: no longer held, and asked for from now on.
+  void MarkDamaged(SegmentIndex index, Time now);
   [[nodiscard]] bool Holds(SegmentIndex index) const { return held_.contains(index); }
-  // Known if the segment was received by this process, or LearnDigest was called.
+  [[nodiscard]] bool IsDamaged(SegmentIndex index) const { return damaged_.contains(index); }
+  // What the segment is, or was before it was damaged.
   [[nodiscard]] std::optional<route::Digest> DigestOf(SegmentIndex index) const;
-  void LearnDigest(SegmentIndex index, const route::Digest& digest) { held_[index] = digest; }
 
   // The route as far as it is durable: the claim if all of it is held, else the durable prefix with
   // length and bytes in proportion. Empty if nothing can be said, or nothing is held yet.
@@ -83,7 +86,8 @@ class KeptRoute {
 
   std::optional<route::RouteInfo> stored_;
   std::optional<route::RouteInfo> claim_;
-  std::map<SegmentIndex, std::optional<route::Digest>> held_;
+  std::map<SegmentIndex, route::Digest> held_;
+  std::map<SegmentIndex, route::Digest> damaged_;
   std::uint32_t prefix_ = 0;  // all below are held
   std::string full_;          // why the store takes nothing; empty: it does
 };

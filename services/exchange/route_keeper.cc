@@ -25,7 +25,7 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
   const auto newest = store.QueryRoutes({.page_size = options.announced_at_start});
   if (!newest) return Wrap(newest.error(), "listing the stored routes");
   for (const RouteInfo& info : newest->routes) {
-    const auto held = store.HeldSegments(info.key);
+    const auto held = store.SegmentDigests(info.key);
     if (!held) return Wrap(held.error(), "listing the segments of " + Describe(info.key));
     auto [at, added] = keeper->routes_.try_emplace(info.key, info, *held, options.want);
     at->second.announce_due = at->second.resend_due = at->second.receipt_due = true;
@@ -125,6 +125,10 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   }
   SendAnswers(now, out);
   return out;
+}
+
+std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeRepaired() {
+  return std::exchange(repaired_, {});
 }
 
 std::vector<Note> RouteKeeper::TakeNotes() { return std::exchange(notes_, {}); }

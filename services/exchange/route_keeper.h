@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/exchange/answer_queue.h"
@@ -45,6 +46,8 @@ struct KeeperCounters {
   std::uint64_t corrupt = 0;      // pieces that failed their digest: dropped, asked for again
   std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held: dropped
   std::uint64_t store_failures = 0;
+  std::uint64_t damaged = 0;   // segments found damaged in the store: asked for again
+  std::uint64_t repaired = 0;  // of these, those that somebody had
   std::uint64_t answered = 0;  // pieces sent to whoever asked
   std::uint64_t receipts = 0;  // sent
 };
@@ -73,6 +76,11 @@ class RouteKeeper {
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
 
+  // Reading the segment found it damaged: it is asked for, of any holder.
+  void NoteDamage(const route::RouteKey& key, SegmentIndex index, Time now);
+  // Segments repaired since the last call.
+  [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeRepaired();
+
   [[nodiscard]] std::vector<Note> TakeNotes();
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
 
@@ -93,16 +101,14 @@ class RouteKeeper {
   enum class Which : std::uint8_t { kAny, kStored };
   KeptRoute* Find(const route::RouteKey& key, Time now, Which which = Which::kAny);
   [[nodiscard]] bool MakeRoom(Time now);
-  [[nodiscard]] Result<route::Digest> HeldDigest(const route::RouteKey& key, KeptRoute& kept,
-                                                 SegmentIndex index);
-
   [[nodiscard]] bool IsNew(const route::SegmentPiece& piece, Time now);
+  void MarkStored(const route::SegmentPiece& piece, Time now);
   void Commit(Time now);
   void Append(std::span<const route::SegmentPiece> pieces, Time now);
   void TellFull(std::span<const route::SegmentPiece> pieces, const Error& error);
   void Refuse(const Error& error, const route::RouteKey& key, Time now);
   // True if the announced manifest is that of the segments held.
-  [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, KeptRoute& kept, Time now);
+  [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, const KeptRoute& kept, Time now);
   // Stores what has become durable of routes' infos, in one commit, and announces it.
   void Announce(Time now, std::vector<Message>& out);
   // What is to be announced of the route now, if anything.
@@ -122,8 +128,9 @@ class RouteKeeper {
 
   std::map<route::RouteKey, KeptRoute> routes_;
   std::vector<route::SegmentPiece> arrived_;  // since the last Tick
-  std::vector<Message> replies_;              // to the catalog's clients
-  std::deque<CatalogReply> edited_;           // the last replies to edits
+  std::vector<std::pair<route::RouteKey, SegmentIndex>> repaired_;
+  std::vector<Message> replies_;     // to the catalog's clients
+  std::deque<CatalogReply> edited_;  // the last replies to edits
   AnswerQueue answers_;
   std::vector<Note> notes_;
   std::map<std::string, Time> noted_at_;

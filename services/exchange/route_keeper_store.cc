@@ -22,7 +22,7 @@ KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now, Which which) {
     return &found->second;
   }
   const auto info = store_.FindRoute(key);
-  const auto held = store_.HeldSegments(key);
+  const auto held = store_.SegmentDigests(key);
   if (!info || !held) {
     Refuse(info ? held.error() : info.error(), key, now);
     return nullptr;
@@ -58,15 +58,6 @@ bool RouteKeeper::MakeRoom(Time now) {
   return true;
 }
 
-Result<route::Digest> RouteKeeper::HeldDigest(const RouteKey& key, KeptRoute& kept,
-                                              SegmentIndex index) {
-  if (const auto digest = kept.DigestOf(index)) return *digest;
-  const auto piece = store_.ReadSegment(key, index);
-  if (!piece) return tl::unexpected(piece.error());
-  kept.LearnDigest(index, piece->digest);
-  return piece->digest;
-}
-
 // Counts and reports what is not: held already, or in conflict with what is held.
 bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
   KeptRoute* kept = Find(piece.key, now);
@@ -76,18 +67,13 @@ bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
     return false;
   }
   const bool beyond = kept->complete() && piece.index.value() >= kept->stored()->segment_count;
-  if (!kept->Holds(piece.index) && !beyond) return true;
-  if (!beyond) {
-    const auto held = HeldDigest(piece.key, *kept, piece.index);
-    if (!held) {
-      Refuse(held.error(), piece.key, now);
-      return false;
-    }
-    if (*held == piece.digest) {
-      ++counters_.duplicates;
-      kept->receipt_due = true;  // whoever sent it again missed the receipt
-      return false;
-    }
+  const auto digest = kept->DigestOf(piece.index);
+  const bool fits = !beyond && (!digest || *digest == piece.digest);
+  if (fits && !kept->Holds(piece.index)) return true;
+  if (fits) {
+    ++counters_.duplicates;
+    kept->receipt_due = true;  // whoever sent it again missed the receipt
+    return false;
   }
   Refuse({ErrorCode::kConflict, fmt::format("segment {} of {} contradicts what is held",
                                             piece.index.value(), Describe(piece.key))},
@@ -130,13 +116,37 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
     return;
   }
   counters_.appended += pieces.size();
-  for (const SegmentPiece& piece : pieces) {
-    KeptRoute& kept = routes_.at(piece.key);
-    kept.MarkHeld(piece.index, piece.digest);
-    kept.MarkRoom();
-    kept.announce_due = kept.receipt_due = true;
-    kept.receipt_at.reset();  // something new is durable: not held back
+  for (const SegmentPiece& piece : pieces) MarkStored(piece, now);
+}
+
+void RouteKeeper::MarkStored(const SegmentPiece& piece, Time now) {
+  KeptRoute& kept = routes_.at(piece.key);
+  if (kept.IsDamaged(piece.index)) {
+    ++counters_.repaired;
+    repaired_.emplace_back(piece.key, piece.index);
+    AddNote(
+        Note::Severity::kInfo,
+        fmt::format("repaired/{}/{}", Describe(piece.key), piece.index.value()),
+        fmt::format("segment {} of {} is whole again", piece.index.value(), Describe(piece.key)),
+        now);
   }
+  kept.MarkHeld(piece.index, piece.digest);
+  kept.MarkRoom();
+  kept.announce_due = kept.receipt_due = true;
+  kept.receipt_at.reset();  // something new is durable: not held back
+}
+
+void RouteKeeper::NoteDamage(const RouteKey& key, SegmentIndex index, Time now) {
+  KeptRoute* kept = Find(key, now, Which::kStored);
+  if (kept == nullptr || !kept->Holds(index)) return;
+  ++counters_.damaged;
+  kept->MarkDamaged(index, now);
+  AddNote(
+      Note::Severity::kWarning, fmt::format("damaged/{}/{}", Describe(key), index.value()),
+      fmt::format("segment {} of {} is damaged on the disk: asking its scout, other servers and "
+                  "followers for it",
+                  index.value(), Describe(key)),
+      now);
 }
 
 // Their scouts are to know that nothing is taken, and why.
@@ -157,15 +167,10 @@ void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
           conflict ? "refused: " + error.message : error.message, now);
 }
 
-bool RouteKeeper::ManifestIsRight(const RouteInfo& info, KeptRoute& kept, Time now) {
+bool RouteKeeper::ManifestIsRight(const RouteInfo& info, const KeptRoute& kept, Time now) {
   std::vector<route::Digest> digests;
   for (std::uint32_t i = 0; i < info.segment_count; ++i) {
-    const auto digest = HeldDigest(info.key, kept, SegmentIndex(i));
-    if (!digest) {
-      Refuse(digest.error(), info.key, now);
-      return false;
-    }
-    digests.push_back(*digest);
+    digests.push_back(kept.DigestOf(SegmentIndex(i)).value_or(route::Digest{}));
   }
   if (integrity_.manifest(digests) == info.manifest_digest) return true;
   Refuse({ErrorCode::kConflict,
@@ -274,7 +279,11 @@ void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
   for (SegmentBatch& batch : SplitBatch({.sender = self_, .pieces = std::move(answers.pieces)})) {
     out.emplace_back(std::move(batch));
   }
-  for (const Error& error : answers.unreadable) {
+  for (const auto& [key, index, error] : answers.unreadable) {
+    if (error.code == ErrorCode::kCorrupt) {
+      NoteDamage(key, index, now);
+      continue;
+    }
     ++counters_.store_failures;
     AddNote(Note::Severity::kError, "unreadable", error.message, now);
   }

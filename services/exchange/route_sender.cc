@@ -81,7 +81,9 @@ std::vector<Message> RouteSender::Tick(Time now) {
   AnswerQueue::Answers answers =
       answers_.Due(now, options_.answer_bytes_per_tick,
                    [this](const route::RouteKey&, SegmentIndex index) { return read_(index); });
-  std::move(answers.unreadable.begin(), answers.unreadable.end(), std::back_inserter(read_errors_));
+  for (AnswerQueue::Unreadable& unreadable : answers.unreadable) {
+    read_errors_.push_back(std::move(unreadable.error));
+  }
   SegmentBatch batch{.sender = self_, .pieces = std::exchange(to_stream_, {})};
   std::move(answers.pieces.begin(), answers.pieces.end(), std::back_inserter(batch.pieces));
 

@@ -17,6 +17,7 @@ namespace trailcast::test {
 class MemoryStore : public store::RouteStore {
  public:
   bool full = false;
+  std::set<std::pair<route::RouteKey, SegmentIndex>> damaged;  // read as kCorrupt until replaced
   int commits = 0;        // AppendSegments that stored something
   int route_commits = 0;  // PutRoutes that did
 
@@ -49,6 +50,7 @@ class MemoryStore : public store::RouteStore {
     }
     for (const route::SegmentPiece& piece : pieces) {
       segments_.emplace(std::pair(piece.key, piece.index), piece);
+      damaged.erase({piece.key, piece.index});
     }
     ++commits;
     return {};
@@ -58,6 +60,9 @@ class MemoryStore : public store::RouteStore {
     const auto found = segments_.find({key, index});
     if (found == segments_.end()) {
       return Fail(ErrorCode::kNotFound, "segment {} is not held", index.value());
+    }
+    if (damaged.contains({key, index})) {
+      return Fail(ErrorCode::kCorrupt, "segment {} is damaged", index.value());
     }
     return found->second;
   }

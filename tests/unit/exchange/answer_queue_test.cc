@@ -47,7 +47,7 @@ TEST(AnswerQueue, ReportsWhatCannotBeReadAndSendsTheRest) {
   const auto answers = queue.Due(kStart, kPlenty, damaged);
   EXPECT_EQ(answers.pieces.size(), 2U);
   ASSERT_EQ(answers.unreadable.size(), 1U);
-  EXPECT_EQ(answers.unreadable[0].message, "damaged");
+  EXPECT_EQ(answers.unreadable[0].error.message, "damaged");
 }
 
 }  // namespace

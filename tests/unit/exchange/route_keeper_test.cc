@@ -368,5 +368,39 @@ TEST_F(RouteKeeperTest, AnotherServersLaterEditionCounts) {
   EXPECT_EQ(store_.FindRoute(key_).value(), retired);
 }
 
+TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
+  Announce(3, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1], pieces_[2]});
+  Tick();
+  store_.damaged = {{key_, SegmentIndex(1)}};
+  Restart();
+  Tick();
+  Ask("follower", Indices(0, 2));
+  Tick();
+  const auto out = TickAfter(milliseconds(50));  // the window for others' requests
+  const auto sent = Only<SegmentBatch>(out);
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_EQ(sent[0].pieces, std::vector{pieces_[0]});
+  const auto asked = Only<SegmentRequest>(Tick());
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].lacking, Indices(1, 2));
+  EXPECT_EQ(keeper_->counters().damaged, 1U);
+  EXPECT_THAT(keeper_->TakeNotes().at(0).text, testing::HasSubstr("is damaged on the disk"));
+  // Another's content for it is refused, whoever sends it.
+  route::SegmentPiece forged = pieces_[2];
+  forged.index = SegmentIndex(1);
+  Deliver({forged});
+  Tick();
+  EXPECT_EQ(keeper_->counters().conflicting, 1U);
+  EXPECT_EQ(keeper_->counters().repaired, 0U);
+  Deliver({pieces_[1]});
+  const auto receipts = Only<Receipt>(Tick());
+  ASSERT_EQ(receipts.size(), 1U);
+  EXPECT_EQ(receipts[0].durable_prefix, 3U);
+  EXPECT_EQ(keeper_->counters().repaired, 1U);
+  EXPECT_EQ(keeper_->TakeRepaired(), (std::vector{std::pair(key_, SegmentIndex(1))}));
+  EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
+}
+
 }  // namespace
 }  // namespace trailcast::exchange
