@@ -49,7 +49,10 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
     : options_(std::move(options)),
       store_(std::move(store)),
       exchange_(std::move(exchange)),
-      finder_(options_.agent, options_.route, options_.revision) {
+      finder_(options_.agent, options_.route, options_.revision),
+      spare_(options_.agent, [this](const route::RouteKey& key, SegmentIndex index) {
+        return store_->ReadSegment(key, index);
+      }) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
 }
 
@@ -110,8 +113,14 @@ Result<void> FollowerLink::StartFetching() {
   std::vector<exchange::RouteFetcher::Held> held;
   for (const SegmentIndex index : *indices) {
     auto piece = store_->ReadSegment(key, index);
-    if (!piece) return tl::unexpected(piece.error());
-    held.push_back({index, piece->digest});
+    if (piece) {
+      held.push_back({index, piece->digest});
+    } else if (exchange_ && piece.error().code == ErrorCode::kCorrupt) {
+      spdlog::warn("fetching it anew: {}", piece.error().message);
+      damaged_.insert(index);
+    } else {
+      return tl::unexpected(piece.error());
+    }
   }
   spdlog::info("route '{}' of scout '{}', camera {}: {} segments so far, {} of them here",
                route_->name, route_->scout.value(), route_->camera, route_->segment_count,
@@ -153,13 +162,15 @@ void FollowerLink::Trade() {
   const auto now = steady_clock::now();
   for (const exchange::Message& message : messages) {
     presence_->Handle(message);
+    spare_.Handle(message, now);
     if (fetcher_) {
       fetcher_->Handle(message, now);
     } else {
       finder_.Handle(message);
     }
   }
-  const auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
+  auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
+  for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
   if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
@@ -175,7 +186,10 @@ Result<void> FollowerLink::StoreArrived() {
     // These are another agent's to deliver: never ours.
     std::vector<SegmentIndex> indices;
     indices.reserve(arrived.size());
-    for (const route::SegmentPiece& piece : arrived) indices.push_back(piece.index);
+    for (const route::SegmentPiece& piece : arrived) {
+      indices.push_back(piece.index);
+      damaged_.erase(piece.index);
+    }
     if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
     if (auto counted = CountHeld(); !counted) return counted;
   }
@@ -214,12 +228,14 @@ Result<void> FollowerLink::TellHeld() {
   auto held = HeldRevisions(*store_);
   if (!held) return tl::unexpected(held.error());
   held_revisions_ = std::move(*held);
+  spare_.Hold(held_revisions_);
   return {};
 }
 
 Result<void> FollowerLink::CountHeld() {
   auto indices = store_->HeldSegments(route_->key);
   if (!indices) return tl::unexpected(indices.error());
+  std::erase_if(*indices, [this](SegmentIndex index) { return damaged_.contains(index); });
   while (held_ < indices->size() && (*indices)[held_].value() == held_) ++held_;
   if (exchange_) spdlog::debug("{} segments of '{}' are here", held_, route_->name);
   return {};

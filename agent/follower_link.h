@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "agent/replay_session.h"
 #include "agent/route_finder.h"
 #include "services/exchange/route_fetcher.h"
+#include "services/exchange/spare_holder.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::agent {
@@ -91,8 +93,10 @@ class FollowerLink {
   std::optional<route::RouteInfo> route_;   // the newest that is known of it
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
+  exchange::SpareHolder spare_;
   std::vector<route::RouteKey> held_revisions_;
-  std::uint32_t held_ = 0;  // segments in the own store without a gap
+  std::set<SegmentIndex> damaged_;  // in the own store: fetched anew
+  std::uint32_t held_ = 0;          // segments in the own store without a gap
   std::uint32_t next_feed_ = 0;
   bool fed_all_ = false;
   std::string waiting_for_ = "starting";

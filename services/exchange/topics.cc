@@ -10,8 +10,9 @@ TopicUse ScoutTopics() {
 }
 
 TopicUse FollowerTopics() {
-  return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kCatalogReplies}};
+  return {
+      .write = {Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
+      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogReplies}};
 }
 
 TopicUse ServerTopics() {

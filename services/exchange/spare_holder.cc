@@ -1,0 +1,84 @@
+#include "services/exchange/spare_holder.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "services/exchange/batches.h"
+
+namespace trailcast::exchange {
+namespace {
+
+// Of requests that were not answered; beyond it everything counts as asked for the first time.
+constexpr std::size_t kMostRemembered = 100'000;
+
+}  // namespace
+
+SpareHolder::SpareHolder(AgentId self, ReadPiece read, SpareHolderOptions options)
+    : self_(std::move(self)), read_(std::move(read)), options_(options) {
+  const std::size_t share = std::hash<std::string_view>()(self_.value()) % 1024;
+  patience_ = options_.patience + options_.patience * static_cast<int>(share) / 1024;
+}
+
+void SpareHolder::Hold(const std::vector<route::RouteKey>& revisions) {
+  held_ = {revisions.begin(), revisions.end()};
+}
+
+void SpareHolder::Handle(const Message& message, Time now) {
+  if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    for (const route::SegmentPiece& piece : batch->pieces) {
+      to_answer_.erase({piece.key, piece.index});
+    }
+  }
+  if (const auto* status = std::get_if<AgentStatus>(&message)) HandleStatus(*status);
+  if (const auto* gone = std::get_if<AgentGone>(&message)) {
+    servers_.erase({gone->agent, gone->instance});
+  }
+}
+
+void SpareHolder::HandleStatus(const AgentStatus& status) {
+  if (status.role != AgentRole::kServer) return;
+  if (status.mode == AgentMode::kStopped) {
+    servers_.erase({status.agent, status.instance});
+  } else {
+    servers_.emplace(status.agent, status.instance);
+  }
+}
+
+void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
+  if (!held_.contains(request.key)) return;
+  const bool of_server = std::any_of(servers_.begin(), servers_.end(), [&](const auto& server) {
+    return server.first == request.requester;
+  });
+  if (!servers_.empty() && !of_server) return;
+  if (asked_once_.size() > kMostRemembered) asked_once_.clear();
+  for (const SegmentIndex index : request.lacking) {
+    const Place place{request.key, index};
+    if (asked_once_.emplace(request.requester, place).second) continue;
+    asked_once_.erase({request.requester, place});
+    to_answer_.try_emplace(place, now + patience_);
+  }
+}
+
+std::vector<Message> SpareHolder::Tick(Time now) {
+  SegmentBatch batch{.sender = self_, .pieces = {}};
+  std::size_t bytes = 0;
+  for (auto at = to_answer_.begin();
+       at != to_answer_.end() && bytes < options_.answer_bytes_per_tick;) {
+    if (now < at->second) {
+      ++at;
+      continue;
+    }
+    if (auto piece = read_(at->first.first, at->first.second)) {
+      bytes += piece->bytes.size();
+      batch.pieces.push_back(*std::move(piece));
+    }
+    at = to_answer_.erase(at);
+  }
+  std::vector<Message> messages;
+  if (batch.pieces.empty()) return messages;
+  for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
+  return messages;
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+struct SpareHolderOptions {
+  // How long others are left to answer first: between once and twice this, by the holder's name,
+  // so that of many spare holders one answers and the others hear it.
+  std::chrono::milliseconds patience{300};
+  std::size_t answer_bytes_per_tick = 64U << 10U;
+};
+
+// A follower that has whole revisions in its own store, and lends them: to a server, whose copy
+// was damaged, and to anybody while no server is there. Only what was asked for in vain: the first
+// time it is left to the scout and to other servers, and what somebody else answers is forgotten.
+// So a busy link carries nothing twice. No clock, no I/O: messages in, messages out.
+class SpareHolder {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  // Reads from the owner's store; what fails is not sent.
+  using ReadPiece =
+      std::function<Result<route::SegmentPiece>(const route::RouteKey&, SegmentIndex)>;
+
+  SpareHolder(AgentId self, ReadPiece read, SpareHolderOptions options = {});
+
+  // The revisions that the owner has all of.
+  void Hold(const std::vector<route::RouteKey>& revisions);
+
+  void Handle(const Message& message, Time now);
+  [[nodiscard]] std::vector<Message> Tick(Time now);
+
+ private:
+  using Place = std::pair<route::RouteKey, SegmentIndex>;
+
+  void HandleRequest(const SegmentRequest& request, Time now);
+  void HandleStatus(const AgentStatus& status);
+
+  AgentId self_;
+  ReadPiece read_;
+  SpareHolderOptions options_;
+  std::chrono::milliseconds patience_;
+  std::set<route::RouteKey> held_;
+  std::set<std::pair<AgentId, std::uint64_t>> servers_;  // present, and their instances
+  std::set<std::pair<AgentId, Place>> asked_once_;
+  std::map<Place, Time> to_answer_;  // and when, unless somebody else does
+};
+
+}  // namespace trailcast::exchange

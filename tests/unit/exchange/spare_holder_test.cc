@@ -1,0 +1,116 @@
+#include "services/exchange/spare_holder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using std::chrono::milliseconds;
+using test::Indices;
+using test::Only;
+using testing::IsEmpty;
+
+class SpareHolderTest : public testing::Test {
+ protected:
+  SpareHolderTest() { holder_.Hold({key_}); }
+
+  void Ask(const std::string& who, const route::RouteKey& key, std::uint32_t first,
+           std::uint32_t end) {
+    holder_.Handle(SegmentRequest{AgentId(who), key, Indices(first, end)}, now_);
+  }
+  std::vector<route::SegmentPiece> SentAfter(milliseconds passed) {
+    now_ += passed;
+    std::vector<route::SegmentPiece> sent;
+    for (const SegmentBatch& batch : Only<SegmentBatch>(holder_.Tick(now_))) {
+      EXPECT_EQ(batch.sender, AgentId("robot-7"));
+      sent.insert(sent.end(), batch.pieces.begin(), batch.pieces.end());
+    }
+    return sent;
+  }
+
+  const route::RouteKey key_ = test::KeyNumber(1);
+  const std::vector<route::SegmentPiece> pieces_ = test::PiecesOf(key_, 4);
+  SpareHolder::Time now_{};
+  SpareHolder holder_{
+      AgentId("robot-7"),
+      [this](const route::RouteKey&, SegmentIndex index) -> Result<route::SegmentPiece> {
+        if (index.value() >= pieces_.size()) {
+          return Fail(ErrorCode::kNotFound, "no segment {}", index.value());
+        }
+        return pieces_[index.value()];
+      },
+      {.patience = milliseconds(100)}};
+};
+
+TEST_F(SpareHolderTest, AnswersWhatTheSameAgentAskedForTwice) {
+  Ask("server", key_, 1, 3);
+  EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty());
+  Ask("other", key_, 1, 3);
+  EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty());
+  Ask("server", key_, 2, 3);
+  EXPECT_THAT(SentAfter(milliseconds(99)), IsEmpty()) << "others may answer first";
+  EXPECT_EQ(SentAfter(milliseconds(101)), std::vector{pieces_[2]});
+  EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty()) << "once";
+}
+
+TEST_F(SpareHolderTest, LeavesItToWhoeverAnswersFirst) {
+  Ask("server", key_, 0, 2);
+  Ask("server", key_, 0, 2);
+  holder_.Handle(SegmentBatch{AgentId("scout-1"), {pieces_[0]}}, now_);
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[1]});
+}
+
+TEST_F(SpareHolderTest, WhileAServerIsThereItLendsToServersOnly) {
+  AgentStatus server;
+  server.agent = AgentId("server");
+  server.instance = 5;
+  server.role = AgentRole::kServer;
+  holder_.Handle(server, now_);
+  for (int time = 0; time < 2; ++time) {
+    Ask("robot-1", key_, 0, 1);
+    Ask("server", key_, 1, 2);
+  }
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[1]});
+  holder_.Handle(AgentGone{AgentId("server"), 5}, now_);
+  Ask("robot-1", key_, 0, 1);
+  Ask("robot-1", key_, 0, 1);
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[0]});
+}
+
+TEST_F(SpareHolderTest, AnswersForWholeRevisionsOnlyAndForWhatItCanRead) {
+  const route::RouteKey other = test::KeyNumber(2);
+  for (int time = 0; time < 2; ++time) {
+    Ask("server", other, 0, 1);
+    Ask("server", key_, 3, 9);
+  }
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[3]});
+}
+
+TEST_F(SpareHolderTest, SendsALongAnswerInParts) {
+  const auto many = test::PiecesOf(key_, 64, 5000);
+  SpareHolder holder(
+      AgentId("robot-7"),
+      [&](const route::RouteKey&, SegmentIndex index) -> Result<route::SegmentPiece> {
+        return many[index.value()];
+      });
+  holder.Hold({key_});
+  for (int time = 0; time < 2; ++time) {
+    holder.Handle(SegmentRequest{AgentId("server"), key_, Indices(0, 64)}, now_);
+  }
+  now_ += milliseconds(1000);
+  std::size_t ticks = 0;
+  std::size_t sent = 0;
+  for (; sent < many.size() && ticks < 100; ++ticks) {
+    for (const SegmentBatch& batch : Only<SegmentBatch>(holder.Tick(now_))) {
+      sent += batch.pieces.size();
+    }
+  }
+  EXPECT_EQ(sent, many.size());
+  EXPECT_GE(ticks, 4U);
+}
+
+}  // namespace
+}  // namespace trailcast::exchange
