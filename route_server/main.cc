@@ -26,17 +26,49 @@ struct HttpOptions {
   int port = 0;  // 0: no page
 };
 
-int Serve(const CLI::App& app, const cli::CommonOptions& common, const std::string& store_file,
-          const trailcast::store::SqliteOptions& limits, const HttpOptions& http) {
+struct StoreOptions {
+  std::string file;
+  std::uint64_t limit_mb = 0;
+  std::uint32_t keep_revisions = 0;
+  std::uint32_t keep_days = 0;
+};
+
+void AddStoreOptions(CLI::App& app, StoreOptions& options) {
+  app.add_option("--store", options.file, "SQLite file that holds the routes; created if missing")
+      ->required()
+      ->envname("TRAILCAST_STORE");
+  app.add_option(
+         "--store-limit-mb", options.limit_mb,
+         "How large the file may grow, in megabytes; scouts are told when it is full and keep "
+         "what they taught; 0: as large as the disk")
+      ->envname("TRAILCAST_STORE_LIMIT_MB");
+  app.add_option("--keep-revisions", options.keep_revisions,
+                 "How many complete revisions of a route to keep, the newest, besides the active "
+                 "one; older ones are deleted; 0: all")
+      ->envname("TRAILCAST_KEEP_REVISIONS");
+  app.add_option("--keep-days", options.keep_days,
+                 "Delete revisions that are not active so many days after they were taught; 0: "
+                 "never")
+      ->check(CLI::Range(0, 36500))
+      ->envname("TRAILCAST_KEEP_DAYS");
+}
+
+int Serve(const CLI::App& app, const cli::CommonOptions& common, const StoreOptions& options,
+          const HttpOptions& http) {
   cli::SetUpLog(common);
   const cli::StopSignal stop;
-  auto store = trailcast::store::OpenSqliteStore(store_file, limits);
+  auto store =
+      trailcast::store::OpenSqliteStore(options.file, {.max_bytes = options.limit_mb * 1'000'000});
   if (!store) return cli::Complain(app, store.error());
   auto exchange = cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
   if (!exchange) return cli::Complain(app, exchange.error());
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
   if (!server) return cli::Complain(app, server.error());
+  const trailcast::catalog::RetentionPolicy policy{
+      .keep_revisions = options.keep_revisions,
+      .keep_for = std::chrono::hours(24) * options.keep_days};
+  if (policy.any()) (*server)->Retain(policy);
   if (http.port != 0) {
     auto page = trailcast::server::HttpPage::Open(http.host, http.port);
     if (!page) return cli::Complain(app, page.error());
@@ -61,17 +93,9 @@ int Run(int argc, char** argv) {
   app.footer(kFooter);
   cli::CommonOptions common;
   common.name = "server";
-  std::string store_file;
+  StoreOptions store;
   cli::AddCommonOptions(app, common);
-  app.add_option("--store", store_file, "SQLite file that holds the routes; created if missing")
-      ->required()
-      ->envname("TRAILCAST_STORE");
-  std::uint64_t limit_mb = 0;
-  app.add_option(
-         "--store-limit-mb", limit_mb,
-         "How large the file may grow, in megabytes; scouts are told when it is full and keep "
-         "what they taught; 0: as large as the disk")
-      ->envname("TRAILCAST_STORE_LIMIT_MB");
+  AddStoreOptions(app, store);
   HttpOptions http;
   app.add_option("--http-port", http.port,
                  "Serve /health and /metrics (Prometheus) over HTTP on this port; 0: do not")
@@ -86,8 +110,8 @@ int Run(int argc, char** argv) {
   check->add_flag("--repair", repair,
                   "Make a store of what is whole, and keep the damaged file beside it");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  if (check->parsed()) return CheckStore(app, store_file, repair);
-  return Serve(app, common, store_file, {.max_bytes = limit_mb * 1'000'000}, http);
+  if (check->parsed()) return CheckStore(app, store.file, repair);
+  return Serve(app, common, store, http);
 }
 
 }  // namespace

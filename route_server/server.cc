@@ -18,7 +18,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kWait{50};
 constexpr milliseconds kStatusEvery{1000};
 constexpr milliseconds kMetricsEvery{1000};
-constexpr std::size_t kViewsASlice = 100;  // segments: about 20 ms
+constexpr milliseconds kRetentionEvery{1000};  // some routes at a time
+constexpr std::size_t kViewsASlice = 100;      // segments: about 20 ms
 
 exchange::AgentStatus ServerStatus(const AgentId& name) {
   exchange::AgentStatus status;
@@ -112,6 +113,10 @@ void Server::Serve() {
              fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
                          keeper_->counters().answered));
   presence_.Tick(now);
+  if (retention_ && now >= retention_due_) {
+    retention_due_ = now + kRetentionEvery;
+    DeleteOutdated();
+  }
   if (page_ && now >= metrics_due_) {
     metrics_due_ = now + kMetricsEvery;
     ShowMetrics();
@@ -150,6 +155,23 @@ exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
   const std::chrono::duration<double> took = steady_clock::now() - begin;
   metrics_.queries[KindOf(request.query)].Note(took.count());
   return reply;
+}
+
+void Server::DeleteOutdated() {
+  const auto outdated = retention_->Next(std::chrono::system_clock::now());
+  if (!outdated) {
+    spdlog::warn("looking for outdated revisions: {}", outdated.error().message);
+    return;
+  }
+  if (outdated->empty()) return;
+  if (auto deleted = keeper_->Relabel(*outdated, steady_clock::now()); !deleted) {
+    spdlog::warn("deleting outdated revisions: {}", deleted.error().message);
+    return;
+  }
+  for (const route::RouteInfo& info : *outdated) {
+    spdlog::info("outdated: revision {} of route '{}' deleted", info.key.revision.value(),
+                 info.name);
+  }
 }
 
 void Server::ShowMetrics() {

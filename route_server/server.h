@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "agent/cli/presence.h"
@@ -9,6 +10,7 @@
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
+#include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
 #include "services/store/route_store.h"
@@ -24,6 +26,8 @@ class Server {
       const AgentId& name, std::unique_ptr<store::RouteStore> store,
       std::unique_ptr<exchange::RouteExchange> exchange);
 
+  // Deletes what the policy does not keep, from now on.
+  void Retain(const catalog::RetentionPolicy& policy) { retention_.emplace(*store_, policy); }
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -40,6 +44,7 @@ class Server {
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
   void FillViews(const std::vector<exchange::Message>& outgoing);
+  void DeleteOutdated();
   void ShowMetrics();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
@@ -54,6 +59,8 @@ class Server {
   Metrics metrics_;
   std::unique_ptr<HttpPage> page_;  // none: nobody asked for one
   std::chrono::steady_clock::time_point metrics_due_{};
+  std::optional<catalog::Retention> retention_;  // none: everything is kept
+  std::chrono::steady_clock::time_point retention_due_{};
 };
 
 }  // namespace trailcast::server

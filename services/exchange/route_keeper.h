@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,6 +77,8 @@ class RouteKeeper {
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
 
+  // Stores later labels of revisions, in one commit, and has them announced.
+  [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);
   // Reading the segment found it damaged: it is asked for, of any holder.
   void NoteDamage(const route::RouteKey& key, SegmentIndex index, Time now);
   // Segments repaired since the last call.
@@ -93,7 +96,6 @@ class RouteKeeper {
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleCatalogRequest(const CatalogRequest& request);
   void HandleEdit(const RouteEditRequest& request, Time now);
-  // Carries an edit out, in one commit, and has it announced.
   [[nodiscard]] Result<std::vector<route::RouteInfo>> Edit(const route::RouteEdit& edit, Time now);
 
   // The route's state, taken up from the store if need be; null (and a note) if that fails, or for

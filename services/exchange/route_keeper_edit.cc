@@ -45,8 +45,13 @@ void RouteKeeper::HandleEdit(const RouteEditRequest& request, Time now) {
 Result<std::vector<RouteInfo>> RouteKeeper::Edit(const route::RouteEdit& edit, Time now) {
   auto changed = catalog_.plan(edit);
   if (!changed) return changed;
-  if (auto stored = store_.PutRoutes(*changed); !stored) return tl::unexpected(stored.error());
-  for (const RouteInfo& info : *changed) {
+  if (auto done = Relabel(*changed, now); !done) return tl::unexpected(done.error());
+  return changed;
+}
+
+Result<void> RouteKeeper::Relabel(std::span<const RouteInfo> infos, Time now) {
+  if (auto stored = store_.PutRoutes(infos); !stored) return stored;
+  for (const RouteInfo& info : infos) {
     KeptRoute* kept = Find(info.key, now);
     if (kept == nullptr) continue;  // the store has it; it is announced when somebody asks
     kept->MarkStored(info);
@@ -54,7 +59,7 @@ Result<std::vector<RouteInfo>> RouteKeeper::Edit(const route::RouteEdit& edit, T
     kept->announced_at.reset();  // not held back
     kept->receipt_at.reset();
   }
-  return changed;
+  return {};
 }
 
 }  // namespace trailcast::exchange
