@@ -5,6 +5,7 @@
 #include "agent/cli/stop_signal.h"
 #include "route_server/check.h"
 #include "route_server/server.h"
+#include "services/store/damaged_store.h"
 
 namespace {
 
@@ -53,12 +54,28 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
       ->envname("TRAILCAST_KEEP_DAYS");
 }
 
+// A damaged one is served as far as it is whole.
+trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
+    const StoreOptions& options) {
+  auto store =
+      trailcast::store::OpenSqliteStore(options.file, {.max_bytes = options.limit_mb * 1'000'000});
+  if (store || store.error().code != trailcast::ErrorCode::kCorrupt) return store;
+  auto damaged = trailcast::store::OpenDamagedStore(options.file);
+  if (!damaged) return store;
+  spdlog::error("{}", store.error().message);
+  for (const std::string& line : damaged->lost) spdlog::error("lost: {}", line);
+  spdlog::error(
+      "serving what is whole, read only: scouts keep what they teach; to mend it, stop this server "
+      "and run 'trailcast-server check --repair --store {}'",
+      options.file);
+  return std::move(damaged->whole);
+}
+
 int Serve(const CLI::App& app, const cli::CommonOptions& common, const StoreOptions& options,
           const HttpOptions& http) {
   cli::SetUpLog(common);
   const cli::StopSignal stop;
-  auto store =
-      trailcast::store::OpenSqliteStore(options.file, {.max_bytes = options.limit_mb * 1'000'000});
+  auto store = OpenStore(options);
   if (!store) return cli::Complain(app, store.error());
   auto exchange = cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
   if (!exchange) return cli::Complain(app, exchange.error());

@@ -37,6 +37,24 @@ TEST_F(CheckStoreTest, AStoreCutShortIsFoundRepairedAndWholeThen) {
   EXPECT_EQ(Check().status, 0);
 }
 
+TEST_F(CheckStoreTest, AServerOnADamagedStoreServesWhatIsWholeAndTakesNothing) {
+  ASSERT_EQ(RunAgent(TeachWords(Walk("taught", 2 * kTaughtFrames), "scout.db")).status, 0);
+  std::filesystem::copy(Path("scout.db"), Path("server.db"));
+  std::filesystem::resize_file(Path("server.db"),
+                               std::filesystem::file_size(Path("server.db")) - 6 * 4096);
+  const auto server = Server();
+  EXPECT_THAT(server->output(), HasSubstr("is cut short"));
+  EXPECT_THAT(server->output(), HasSubstr("lost: segment"));
+  EXPECT_THAT(server->output(), HasSubstr("read only"));
+  const auto routes = End(*Start("trailcast", {"routes"}, "tool"));
+  EXPECT_THAT(routes.output, HasSubstr("hall"));
+  const auto retire = End(*Start("trailcast", {"routes", "retire", "hall"}, "tool"));
+  EXPECT_EQ(retire.status, 1);
+  EXPECT_THAT(retire.output, HasSubstr("read only until it is repaired"));
+  const auto scout = Agent(With(TeachWords(Path("taught"), "other.db"), {"--server"}), "scout");
+  EXPECT_TRUE(scout->WaitForOutput("read only until it is repaired")) << scout->output();
+}
+
 TEST_F(CheckStoreTest, AStoreInUseOrNotThereIsNotTouched) {
   EXPECT_THAT(Check().output, HasSubstr("there is no route store"));
   const auto server = Server("scout.db");
