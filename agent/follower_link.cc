@@ -127,8 +127,17 @@ Result<void> FollowerLink::StartFetching() {
                held.size());
   if (exchange_) {
     const auto now = steady_clock::now();
+    auto others = store_->FindRevisions(key.route);
+    if (!others) return tl::unexpected(others.error());
+    std::erase_if(*others, [&](const route::RouteInfo& info) { return info.key == key; });
+    exchange::RouteFetcherOptions options;
+    if (!others->empty()) {
+      options.own_content = [this](const route::Digest& digest) {
+        return store_->FindContent(digest).value_or(std::nullopt);
+      };
+    }
     fetcher_.emplace(options_.agent, key, held,
-                     exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now);
+                     exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now, options);
     fetcher_->Learn(*route_, now);
     // What the own store knows may be more than what the finder heard.
     auto own = store_->FindRoute(key);

@@ -105,8 +105,11 @@ Result<void> Outbox::Begin(const route::RouteInfo& info) {
 Result<void> Outbox::Add(const route::RouteKey& key, const route::Segment& segment) {
   Sending& sending = sending_.at(key);
   route::SegmentPiece piece = sending.teaching->Add(segment);
+  const auto taught_before = store_.FindContent(piece.digest);
+  if (!taught_before) return tl::unexpected(taught_before.error());
   if (auto appended = store_.AppendSegments({&piece, 1}); !appended) return appended;
   if (auto put = store_.PutRoute(sending.teaching->info()); !put) return put;
+  if (*taught_before) piece.bytes.clear();
   sending.sender.Add(std::move(piece), sending.teaching->info());
   return {};
 }

@@ -101,7 +101,8 @@ Message From(const trailcast_wire_SegmentBatch& wire) {
 Message From(const trailcast_wire_SegmentRequest& wire) {
   return SegmentRequest{.requester = AgentId(Text(wire.requester)),
                         .key = From(wire.key),
-                        .lacking = Indices(wire.lacking)};
+                        .lacking = Indices(wire.lacking),
+                        .digests_only = wire.digests_only != 0};
 }
 
 Message From(const trailcast_wire_Receipt& wire) {

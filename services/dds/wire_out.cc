@@ -142,6 +142,7 @@ Result<void> With(const SegmentRequest& message, const UseSample& use) {
   sample.requester = Lend(message.requester.value());
   sample.key = ToWire(message.key);
   Lend(lacking, sample.lacking);
+  sample.digests_only = message.digests_only ? 1 : 0;
   return use(&sample);
 }
 

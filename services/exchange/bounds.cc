@@ -115,8 +115,8 @@ Result<void> CheckPiece(const SegmentPiece& piece) {
   if (auto ok = CheckCount("segment index", piece.index.value(), kMaxSegmentsPerRoute - 1); !ok) {
     return ok;
   }
-  if (piece.bytes.empty() || piece.digest == route::Digest{}) {
-    return Fail(ErrorCode::kInvalidArgument, "segment {} of route {} has no bytes or no digest",
+  if (piece.digest == route::Digest{}) {
+    return Fail(ErrorCode::kInvalidArgument, "segment {} of route {} has no digest",
                 piece.index.value(), piece.key.route.value());
   }
   return CheckCount("bytes in a segment", piece.bytes.size(), kMaxPieceBytes);

@@ -26,6 +26,8 @@ struct RouteAnnouncement {
 };
 
 // trailcast/segments: from a scout teaching, or a holder answering a request. 32 to 64 KiB a batch.
+// A piece without bytes tells its digest: who has these bytes already, in another revision, needs
+// no more; who has not asks for them.
 struct SegmentBatch {
   AgentId sender{};
   std::vector<route::SegmentPiece> pieces{};
@@ -38,6 +40,7 @@ struct SegmentRequest {
   AgentId requester{};
   route::RouteKey key{};
   std::vector<SegmentIndex> lacking{};
+  bool digests_only = false;  // the pieces without their bytes
   bool operator==(const SegmentRequest&) const = default;
 };
 

@@ -1,5 +1,6 @@
 #include "services/exchange/route_fetcher.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "services/exchange/bounds.h"
@@ -14,10 +15,10 @@ RouteFetcher::RouteFetcher(AgentId self, route::RouteKey key, const std::vector<
     : self_(std::move(self)),
       key_(std::move(key)),
       integrity_(std::move(integrity)),
-      options_(options),
-      want_(options.want),
+      options_(std::move(options)),
+      want_(options_.want),
       heard_at_(now),
-      inquire_at_(now + options.fresh_grace) {
+      inquire_at_(now + options_.fresh_grace) {
   for (const Held& piece : held) held_.emplace(piece.index, piece.digest);
 }
 
@@ -59,7 +60,17 @@ void RouteFetcher::Handle(const Message& message, Time now) {
 
 void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
-    if (piece.key == key_) Accept(piece, now);
+    if (piece.key != key_) continue;
+    piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);
+  }
+}
+
+void RouteFetcher::TakeFromOwn(const route::SegmentPiece& named, Time now) {
+  if (!options_.own_content || held_.contains(named.index)) return;
+  if (auto content = options_.own_content(named.digest)) {
+    Accept({named.key, named.index, named.digest, std::move(*content)}, now);
+  } else {
+    want_.AskAgain(named.index, now);
   }
 }
 
@@ -108,20 +119,35 @@ void RouteFetcher::Judge() {
 }
 
 std::vector<Message> RouteFetcher::Tick(Time now) {
-  std::vector<SegmentIndex> due = want_.Due(now);
+  std::vector<SegmentIndex> bytes = want_.Due(now);
+  std::vector<SegmentIndex> digests;
+  if (options_.own_content) {
+    const auto first_asked = std::stable_partition(
+        bytes.begin(), bytes.end(), [this](SegmentIndex i) { return asked_digest_.contains(i); });
+    digests.assign(first_asked, bytes.end());
+    bytes.erase(first_asked, bytes.end());
+    asked_digest_.insert(digests.begin(), digests.end());
+  }
   std::vector<Message> messages;
   if (IsInquiryDue(now)) {
     messages.emplace_back(SegmentRequest{.requester = self_, .key = key_, .lacking = {}});
   }
-  for (std::size_t at = 0; at < due.size(); at += kMaxIndicesPerRequest) {
-    const auto end =
-        due.begin() + static_cast<std::ptrdiff_t>(std::min(due.size(), at + kMaxIndicesPerRequest));
+  Ask(digests, true, messages);
+  Ask(bytes, false, messages);
+  return messages;
+}
+
+void RouteFetcher::Ask(const std::vector<SegmentIndex>& lacking, bool digests_only,
+                       std::vector<Message>& messages) const {
+  for (std::size_t at = 0; at < lacking.size(); at += kMaxIndicesPerRequest) {
+    const std::size_t end = std::min(lacking.size(), at + kMaxIndicesPerRequest);
     messages.emplace_back(
         SegmentRequest{.requester = self_,
                        .key = key_,
-                       .lacking = {due.begin() + static_cast<std::ptrdiff_t>(at), end}});
+                       .lacking = {lacking.begin() + static_cast<std::ptrdiff_t>(at),
+                                   lacking.begin() + static_cast<std::ptrdiff_t>(end)},
+                       .digests_only = digests_only});
   }
-  return messages;
 }
 
 // An announcement was missed or nobody is there: soon at first, then after each silence.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "services/exchange/integrity.h"
@@ -18,6 +20,9 @@ struct RouteFetcherOptions {
   // Above the scout's announce_every: a scout in range is never taken for nobody. After so long a
   // silence the fetcher asks who has the route, and again each time it has passed.
   std::chrono::milliseconds quiet_after{5000};
+  // Bytes with this digest that the owner has already, in other revisions of the route. If set,
+  // digests are asked for first, and bytes only of what is new.
+  std::function<std::optional<route::Bytes>(const route::Digest&)> own_content{};
 };
 
 enum class FetchState : std::uint8_t {
@@ -74,6 +79,9 @@ class RouteFetcher {
  private:
   void HandleBatch(const SegmentBatch& batch, Time now);
   void Accept(const route::SegmentPiece& piece, Time now);
+  void TakeFromOwn(const route::SegmentPiece& named, Time now);
+  void Ask(const std::vector<SegmentIndex>& lacking, bool digests_only,
+           std::vector<Message>& messages) const;
   void WantMissing(Time ask_at);
   void Judge();
   [[nodiscard]] bool IsInquiryDue(Time now);
@@ -87,9 +95,10 @@ class RouteFetcher {
   std::map<SegmentIndex, route::Digest> held_;
   WantList want_;
   std::vector<route::SegmentPiece> arrived_;
-  std::optional<FetchState> verdict_;  // kComplete or kWrong, once all is held
-  Time heard_at_;                      // of a holder of this route; at first: creation
-  Time inquire_at_;                    // when to ask who has it
+  std::set<SegmentIndex> asked_digest_;  // of these: now the bytes are asked for
+  std::optional<FetchState> verdict_;    // kComplete or kWrong, once all is held
+  Time heard_at_;                        // of a holder of this route; at first: creation
+  Time inquire_at_;                      // when to ask who has it
   bool deleted_ = false;
   FetchProgress counts_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/exchange/batches.h"
+
 namespace trailcast::exchange {
 using route::RouteInfo;
 using route::SegmentPiece;
@@ -75,7 +77,9 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
 
 void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const SegmentPiece& piece : batch.pieces) {
-    if (const auto intact = integrity_.check_piece(piece); intact) {
+    if (piece.bytes.empty()) {
+      TakeFromOthers(piece, now);
+    } else if (const auto intact = integrity_.check_piece(piece); intact) {
       arrived_.push_back(piece);
     } else {
       ++counters_.corrupt;
@@ -83,6 +87,22 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
               fmt::format("from {}: {}", batch.sender.value(), intact.error().message), now);
       if (KeptRoute* kept = Find(piece.key, now)) kept->want.AskAgain(piece.index, now);
     }
+  }
+}
+
+// The bytes may be held in another revision, or lie damaged in this one.
+void RouteKeeper::TakeFromOthers(const SegmentPiece& named, Time now) {
+  KeptRoute* kept = Find(named.key, now);
+  if (kept == nullptr) return;
+  const bool held = kept->Holds(named.index);
+  auto content = held ? std::optional<route::Bytes>()
+                      : store_.FindContent(named.digest).value_or(std::nullopt);
+  if (content) {
+    arrived_.push_back({named.key, named.index, named.digest, std::move(*content)});
+  } else if (held) {
+    kept->receipt_due = true;
+  } else {
+    kept->want.AskAgain(named.index, now);
   }
 }
 
@@ -94,7 +114,21 @@ void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
   std::vector<SegmentIndex> held;
   std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
                [&](SegmentIndex index) { return kept->Holds(index); });
-  answers_.Ask(request.key, held, now);
+  if (request.digests_only) {
+    TellDigests(request.key, *kept, held);
+  } else {
+    answers_.Ask(request.key, held, now);
+  }
+}
+
+void RouteKeeper::TellDigests(const route::RouteKey& key, const KeptRoute& kept,
+                              const std::vector<SegmentIndex>& indices) {
+  SegmentBatch batch{.sender = self_, .pieces = {}};
+  for (const SegmentIndex index : indices) {
+    batch.pieces.push_back({key, index, kept.DigestOf(index).value_or(route::Digest{}), {}});
+  }
+  if (batch.pieces.empty()) return;
+  for (SegmentBatch& part : SplitBatch(std::move(batch))) replies_.emplace_back(std::move(part));
 }
 
 void RouteKeeper::HandleCatalogRequest(const CatalogRequest& request) {

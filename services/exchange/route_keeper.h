@@ -94,6 +94,9 @@ class RouteKeeper {
   void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
   void HandleBatch(const SegmentBatch& batch, Time now);
   void HandleRequest(const SegmentRequest& request, Time now);
+  void TakeFromOthers(const route::SegmentPiece& named, Time now);
+  void TellDigests(const route::RouteKey& key, const KeptRoute& kept,
+                   const std::vector<SegmentIndex>& indices);
   void HandleCatalogRequest(const CatalogRequest& request);
   void HandleEdit(const RouteEditRequest& request, Time now);
   [[nodiscard]] Result<std::vector<route::RouteInfo>> Edit(const route::RouteEdit& edit, Time now);
@@ -131,7 +134,7 @@ class RouteKeeper {
   std::map<route::RouteKey, KeptRoute> routes_;
   std::vector<route::SegmentPiece> arrived_;  // since the last Tick
   std::vector<std::pair<route::RouteKey, SegmentIndex>> repaired_;
-  std::vector<Message> replies_;     // to the catalog's clients
+  std::vector<Message> replies_;     // to the catalog's clients; digests
   std::deque<CatalogReply> edited_;  // the last replies to edits
   AnswerQueue answers_;
   std::vector<Note> notes_;

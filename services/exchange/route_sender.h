@@ -35,7 +35,8 @@ class RouteSender {
   RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
               const std::vector<SegmentIndex>& receipted, RouteSenderOptions options = {});
 
-  // A segment was taught and stored; `info` counts it. Streamed at the next Tick.
+  // A segment was taught and stored; `info` counts it. Streamed at the next Tick, without its bytes
+  // if it has none here: for one whose bytes were taught before, so that servers have them.
   void Add(route::SegmentPiece piece, route::RouteInfo info);
   // The route changed without a new segment: complete.
   void Update(route::RouteInfo info);

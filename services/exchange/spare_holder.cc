@@ -27,7 +27,7 @@ void SpareHolder::Handle(const Message& message, Time now) {
   if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const route::SegmentPiece& piece : batch->pieces) {
-      to_answer_.erase({piece.key, piece.index});
+      if (!piece.bytes.empty()) to_answer_.erase({piece.key, piece.index});
     }
   }
   if (const auto* status = std::get_if<AgentStatus>(&message)) HandleStatus(*status);
@@ -46,7 +46,7 @@ void SpareHolder::HandleStatus(const AgentStatus& status) {
 }
 
 void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
-  if (!held_.contains(request.key)) return;
+  if (!held_.contains(request.key) || request.digests_only) return;
   const bool of_server = std::any_of(servers_.begin(), servers_.end(), [&](const auto& server) {
     return server.first == request.requester;
   });

@@ -77,7 +77,8 @@ class Stranger {
       case 1:
         return exchange::SegmentBatch{.sender = Name(), .pieces = Pieces()};
       case 2:
-        return exchange::SegmentRequest{.requester = Name(), .key = Key(), .lacking = Indices()};
+        return exchange::SegmentRequest{
+            .requester = Name(), .key = Key(), .lacking = Indices(), .digests_only = Seldom()};
       case 3:
         return exchange::Receipt{.server = Name(),
                                  .key = Key(),

@@ -39,6 +39,7 @@ class Samples {
     Fill(wire.key);
     wire.lacking._length = Count();
     wire.lacking._buffer = Numbers(wire.lacking._length);
+    wire.digests_only = Octet();
   }
   void Fill(trailcast_wire_Receipt& wire) {
     wire.server = Name();

@@ -46,6 +46,47 @@ class RouteFetcherTest : public testing::Test {
   RouteFetcher::Time now_{};
 };
 
+TEST_F(RouteFetcherTest, OfWhatAnotherRevisionHasItAsksForDigestsOnly) {
+  RouteFetcherOptions options;
+  options.own_content = [this](const route::Digest& digest) -> std::optional<route::Bytes> {
+    if (digest == pieces_[1].digest) return pieces_[1].bytes;
+    return std::nullopt;
+  };
+  RouteFetcher fetcher(AgentId("follower-1"), key_, {}, test::ToyIntegrity(), now_, options);
+  Announce(fetcher, 3, RouteState::kComplete);
+  now_ += milliseconds(200);
+  auto asked = Only<SegmentRequest>(fetcher.Tick(now_));
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_TRUE(asked[0].digests_only);
+  EXPECT_EQ(asked[0].lacking, Indices(0, 3));
+  for (route::SegmentPiece piece : {pieces_[0], pieces_[1]}) {
+    piece.bytes.clear();
+    Deliver(fetcher, piece);
+  }
+  EXPECT_EQ(fetcher.TakeArrived(), std::vector{pieces_[1]});
+  asked = Only<SegmentRequest>(fetcher.Tick(now_));
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_FALSE(asked[0].digests_only);
+  EXPECT_EQ(asked[0].lacking, Indices(0, 1));
+  // Segment 2's digest was lost, or its holder tells none: its bytes will do.
+  now_ += milliseconds(1000);
+  asked = Only<SegmentRequest>(fetcher.Tick(now_));
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_FALSE(asked[0].digests_only);
+  for (const std::uint32_t i : {0U, 2U}) Deliver(fetcher, pieces_[i]);
+  EXPECT_TRUE(fetcher.Complete());
+}
+
+TEST_F(RouteFetcherTest, ADigestAloneIsNoSegment) {
+  RouteFetcher fetcher = Fetcher(0);
+  Announce(fetcher, 1, RouteState::kComplete);
+  route::SegmentPiece named = pieces_[0];
+  named.bytes.clear();
+  Deliver(fetcher, named);
+  EXPECT_FALSE(fetcher.Complete());
+  EXPECT_EQ(fetcher.Progress(now_).bad_pieces, 0U);
+}
+
 TEST_F(RouteFetcherTest, AsksForWhatItLacksAndIsCompleteWhenTheManifestIsRight) {
   RouteFetcher fetcher = Fetcher(2);
   Announce(fetcher, 5, RouteState::kComplete);

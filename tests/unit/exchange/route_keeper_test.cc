@@ -402,5 +402,49 @@ TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
   EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
 }
 
+TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  Tick();
+  const route::RouteKey again{key_.route, RevisionNumber(2)};
+  route::SegmentPiece known = pieces_[0];
+  route::SegmentPiece fresh = pieces_[2];
+  known.key = fresh.key = again;
+  fresh.index = SegmentIndex(1);
+  route::SegmentPiece named = known;
+  named.bytes.clear();
+  Deliver({named});
+  keeper_->Handle(
+      RouteAnnouncement{AgentId("scout-1"),
+                        test::InfoOf(again, std::vector{known, fresh}, RouteState::kComplete)},
+      now_);
+  Tick();
+  EXPECT_EQ(store_.ReadSegment(again, SegmentIndex(0)).value(), known);
+  // Of the other one it has the name alone: it asks for it at once.
+  EXPECT_TRUE(Only<SegmentRequest>(TickAfter(milliseconds(200))).size() == 1U);
+  route::SegmentPiece name_alone = fresh;
+  name_alone.bytes.clear();
+  Deliver({name_alone});
+  const auto asked = Only<SegmentRequest>(Tick());
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].key, again);
+  EXPECT_EQ(asked[0].lacking, Indices(1, 2));
+  Deliver({fresh});
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(600))).at(0).durable_state,
+            RouteState::kComplete);
+}
+
+TEST_F(RouteKeeperTest, TellsDigestsAloneToWhoAsksForNoMore) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  Tick();
+  keeper_->Handle(SegmentRequest{AgentId("follower"), key_, Indices(0, 5), true}, now_);
+  const auto told = Only<SegmentBatch>(Tick());
+  ASSERT_EQ(told.size(), 1U);
+  ASSERT_EQ(told[0].pieces.size(), 2U);
+  EXPECT_TRUE(told[0].pieces[1].bytes.empty());
+  EXPECT_EQ(told[0].pieces[1].digest, pieces_[1].digest);
+}
+
 }  // namespace
 }  // namespace trailcast::exchange
