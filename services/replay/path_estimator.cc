@@ -118,7 +118,8 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   covariance_ = f * covariance_ * f.transpose();
   const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
   covariance_(kAlong, kAlong) += driven * Square(options_.along_noise);
-  covariance_(kLeft, kLeft) += driven * Square(options_.left_noise_m);
+  covariance_(kLeft, kLeft) +=
+      driven * (Square(options_.left_noise_m) + Square(options_.left_noise_share * state_[kLeft]));
   covariance_(kHeading, kHeading) += driven * Square(options_.heading_noise_rad);
   covariance_(kMagnification, kMagnification) +=
       driven * Square(options_.magnification_noise * state_[kMagnification]);

@@ -30,6 +30,7 @@ struct PathEstimatorOptions {
   // Of the odometry, per root metre, and what may change besides.
   double along_noise = 0.05;
   double left_noise_m = 0.01;
+  double left_noise_share = 0.4;  // of the offset itself: the depths that tell it err by a share
   double heading_noise_rad = 0.02;
   double magnification_noise = 0.001;
   double roll_rad = 0.05;  // of each frame alone, as pitch

@@ -430,8 +430,7 @@ TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
   EXPECT_EQ(asked[0].key, again);
   EXPECT_EQ(asked[0].lacking, Indices(1, 2));
   Deliver({fresh});
-  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(600))).at(0).durable_state,
-            RouteState::kComplete);
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(600))).at(0).durable_state, RouteState::kComplete);
 }
 
 TEST_F(RouteKeeperTest, TellsDigestsAloneToWhoAsksForNoMore) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "services/replay/lane_keeping.h"
 #include "services/replay/path_follower.h"
@@ -109,6 +110,27 @@ TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
   const auto seen = WithMismatches(run);
   for (int i = 0; i < 30; ++i) EXPECT_FALSE(estimator.Update(seen).carried_left_m);
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
+}
+
+// Far off the path the offset is known by depths that err by a share of it: it must stay open to
+// correction from look to look. On the path that costs nothing.
+TEST(PathEstimator, IsLessSureTheFurtherOffItIs) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto sigma_after_driving = [&](double share) {
+    PathEstimatorOptions options;
+    options.left_noise_share = share;
+    PathEstimator estimator(320, 1.0, options);
+    estimator.Begin(run.segment);
+    estimator.Predict({0.8, 0.0});
+    const auto far_off = test::Matched(kScene, run, {0.8, 1.0, 0.0});
+    for (int i = 0; i < 20; ++i) std::ignore = estimator.Update(far_off);
+    EXPECT_NEAR(estimator.offset().left_m, 1.0, 0.2);
+    estimator.Predict({0.5, 0.0});
+    return estimator.offset_sigma_m();
+  };
+  const double share = PathEstimatorOptions{}.left_noise_share;
+  EXPECT_GT(sigma_after_driving(share), 0.9 * share * std::sqrt(0.5));
+  EXPECT_LT(sigma_after_driving(0.0), 0.1);
 }
 
 TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
