@@ -43,9 +43,12 @@ std::string Metrics::Text() const {
   constexpr const char* kGauge = "gauge";
   std::string text =
       Line("routes", kGauge, "Routes in the store, all revisions.", routes) +
-      Line("agents", kGauge, "Agents present.", agents) +
+      Line("agents", kGauge, "Agents present: the server's DDS peers.", agents) +
+      Line("backlog_segments", kGauge, "Segments announced and not durable yet.", backlog) +
       Line("segments_stored_total", kCounter, "Segments made durable.", keeper.appended) +
+      Line("segment_bytes_stored_total", kCounter, "Bytes of these.", keeper.appended_bytes) +
       Line("segments_sent_total", kCounter, "Segments sent to whoever asked.", keeper.answered) +
+      Line("segment_bytes_sent_total", kCounter, "Bytes of these.", keeper.answered_bytes) +
       Line("receipts_total", kCounter, "Receipts sent.", keeper.receipts) +
       Line("segments_duplicate_total", kCounter, "Segments received again.", keeper.duplicates) +
       Line("segments_corrupt_total", kCounter, "Segments that failed their digest.",

@@ -35,6 +35,7 @@ struct Metrics {
   exchange::KeeperCounters keeper;
   std::uint64_t dropped = 0;                        // messages out of bounds or unreadable
   std::size_t routes = 0;                           // in the store
+  std::size_t backlog = 0;                          // segments announced, not durable yet
   std::size_t agents = 0;                           // present
   std::map<std::string, LatencyHistogram> queries;  // by kind
 

@@ -177,6 +177,7 @@ void Server::DeleteOutdated() {
 void Server::ShowMetrics() {
   metrics_.keeper = keeper_->counters();
   metrics_.dropped = exchange_->dropped();
+  metrics_.backlog = keeper_->backlog();
   metrics_.agents = journal_.agents();
   if (const auto page = store_->QueryRoutes({.page_size = 1})) metrics_.routes = page->total;
   page_->Show(metrics_.Text());

@@ -165,6 +165,12 @@ std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeRepaired(
   return std::exchange(repaired_, {});
 }
 
+std::size_t RouteKeeper::backlog() const {
+  std::size_t wanted = 0;
+  for (const auto& [key, kept] : routes_) wanted += kept.want.size();
+  return wanted;
+}
+
 std::vector<Note> RouteKeeper::TakeNotes() { return std::exchange(notes_, {}); }
 
 }  // namespace trailcast::exchange

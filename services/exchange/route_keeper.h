@@ -42,7 +42,8 @@ struct Note {
 };
 
 struct KeeperCounters {
-  std::uint64_t appended = 0;     // pieces made durable
+  std::uint64_t appended = 0;  // pieces made durable
+  std::uint64_t appended_bytes = 0;
   std::uint64_t duplicates = 0;   // pieces held already
   std::uint64_t corrupt = 0;      // pieces that failed their digest: dropped, asked for again
   std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held: dropped
@@ -50,6 +51,7 @@ struct KeeperCounters {
   std::uint64_t damaged = 0;   // segments found damaged in the store: asked for again
   std::uint64_t repaired = 0;  // of these, those that somebody had
   std::uint64_t answered = 0;  // pieces sent to whoever asked
+  std::uint64_t answered_bytes = 0;
   std::uint64_t receipts = 0;  // sent
 };
 
@@ -86,6 +88,8 @@ class RouteKeeper {
 
   [[nodiscard]] std::vector<Note> TakeNotes();
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
+  // Segments that were announced and are not durable here.
+  [[nodiscard]] std::size_t backlog() const;
 
  private:
   RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog, Integrity integrity,

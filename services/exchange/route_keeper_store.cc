@@ -116,7 +116,10 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
     return;
   }
   counters_.appended += pieces.size();
-  for (const SegmentPiece& piece : pieces) MarkStored(piece, now);
+  for (const SegmentPiece& piece : pieces) {
+    counters_.appended_bytes += piece.bytes.size();
+    MarkStored(piece, now);
+  }
 }
 
 void RouteKeeper::MarkStored(const SegmentPiece& piece, Time now) {
@@ -276,6 +279,7 @@ void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
       now, options_.answer_bytes_per_tick,
       [this](const RouteKey& key, SegmentIndex index) { return store_.ReadSegment(key, index); });
   counters_.answered += answers.pieces.size();
+  for (const SegmentPiece& piece : answers.pieces) counters_.answered_bytes += piece.bytes.size();
   for (SegmentBatch& batch : SplitBatch({.sender = self_, .pieces = std::move(answers.pieces)})) {
     out.emplace_back(std::move(batch));
   }
