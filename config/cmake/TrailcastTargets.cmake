@@ -47,9 +47,10 @@ function(trailcast_executable name)
 endfunction()
 
 # trailcast_test(<name> LABEL unit|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
-# Every case is a ctest test of its own, so that they run in parallel and are named by situation.
+# Every case is a ctest test of its own, so that they run in parallel and are named by situation;
+# with TOGETHER they are one, since they share what is slow to start.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
@@ -62,6 +63,11 @@ function(trailcast_test name)
   target_compile_definitions(
     ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                     TRAILCAST_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  if(ARG_TOGETHER)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
                        PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -41,6 +41,14 @@ done < <(wanted "$@")
 ((${#missing[@]})) || exit 0
 
 printf 'setup: installing %d packages: %s\n' "${#missing[@]}" "${missing[*]}"
+# Debian's PostgreSQL would make and start a database of its own; the tests make theirs. Where it was
+# never installed, that is left out, and the next to install it decides anew.
+no_cluster=/etc/postgresql-common/createcluster.d/trailcast.conf
+if [[ " ${missing[*]} " == *" postgresql-"* && ! -e /etc/postgresql-common ]]; then
+  as_root mkdir -p "${no_cluster%/*}"
+  as_root tee "$no_cluster" <<<'create_main_cluster = false' >/dev/null
+  trap 'as_root rm -f "$no_cluster"' EXIT
+fi
 apt=(env DEBIAN_FRONTEND=noninteractive apt-get -o Dpkg::Use-Pty=0 -qq)
 install=("${apt[@]}" install -y --no-install-recommends "${missing[@]}")
 # An index that is there may do; one that is absent or too old is fetched, once.

@@ -68,10 +68,10 @@ std::optional<SqlCondition::Value> ValueIn(RouteOrder order, std::string_view te
   return std::nullopt;
 }
 
-// The tree of places knows boxes; the circle inside is cut out by distance. On the globe a degree
-// of longitude shortens towards the poles: right for surroundings that are small beside the Earth
-// and do not reach across the 180th meridian.
-void BeginsNear(const route::Surroundings& near, SqlCondition& condition) {
+// Found by box (SQLite's tree of places knows nothing else); the circle inside is cut out by
+// distance. On the globe a degree of longitude shortens towards the poles: right for surroundings
+// that are small beside the Earth and do not reach across the 180th meridian.
+void BeginsNear(const route::Surroundings& near, SqlDialect dialect, SqlCondition& condition) {
   const bool globe = near.middle.frame == route::Place::Frame::kWgs84;
   constexpr double kDegree_m = kEarthRadius_m * std::numbers::pi / 180.0;
   const double y_m = globe ? kDegree_m : 1.0;
@@ -80,15 +80,24 @@ void BeginsNear(const route::Surroundings& near, SqlCondition& condition) {
   const double x = near.radius_m / x_m;
   const double y = near.radius_m / y_m;
   const auto frame = static_cast<std::int64_t>(near.middle.frame);
-  condition.FindBy(
-      "route_place",
-      "frame = ? AND east_low <= ? AND east_high >= ? AND north_low <= ? AND north_high >= ?",
-      {frame, near.middle.x + x, near.middle.x - x, near.middle.y + y, near.middle.y - y});
+  const std::vector<SqlCondition::Value> box{frame, near.middle.x + x, near.middle.x - x,
+                                             near.middle.y + y, near.middle.y - y};
+  if (dialect == SqlDialect::kSqlite) {
+    condition.FindBy(
+        "route_place",
+        "frame = ? AND east_low <= ? AND east_high >= ? AND north_low <= ? AND north_high >= ?",
+        box);
+  } else {
+    condition.And(
+        "place_frame = ? AND place_east <= ? AND place_east >= ? AND place_north <= ? AND "
+        "place_north >= ?",
+        box);
+  }
   condition.And(
       "((place_east - ?) * ?) * ((place_east - ?) * ?) + "
-      "((place_north - ?) * ?) * ((place_north - ?) * ?) <= ? * ?",
+      "((place_north - ?) * ?) * ((place_north - ?) * ?) <= ?",
       {near.middle.x, x_m, near.middle.x, x_m, near.middle.y, y_m, near.middle.y, y_m,
-       near.radius_m, near.radius_m});
+       near.radius_m * near.radius_m});
 }
 
 }  // namespace
@@ -119,16 +128,7 @@ std::string SqlCondition::FromWhere() const {
                      Where());
 }
 
-int SqlCondition::Bind(SQLite::Statement& statement) const {
-  int parameter = 1;
-  for (const Value& value : values_) {
-    std::visit([&](const auto& each) { statement.bind(parameter, each); }, value);
-    ++parameter;
-  }
-  return parameter;
-}
-
-SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag) {
+SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag, SqlDialect dialect) {
   SqlCondition match;
   const bool found_by_tag = !by_tag.empty() && !query.near;
   if (found_by_tag) match.FindBy("route_tag", "tag = ?", {by_tag});
@@ -157,7 +157,7 @@ SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag) {
   if (query.standing) {
     match.And("standing = ?", {static_cast<std::int64_t>(*query.standing)});
   }
-  if (query.near) BeginsNear(*query.near, match);
+  if (query.near) BeginsNear(*query.near, dialect, match);
   return match;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -11,6 +9,10 @@
 #include "services/route/route_query.h"
 
 namespace trailcast::store {
+
+// SQLite is told how to find rows (by the places' R-tree, by a rare tag); PostgreSQL's planner
+// finds its own way, by its statistics, and keeps a place in the route's row.
+enum class SqlDialect : std::uint8_t { kSqlite, kPostgres };
 
 // Which rows of table `route`: FROM and WHERE in SQL with the values of the question marks, in
 // their order.
@@ -25,8 +27,7 @@ class SqlCondition {
   [[nodiscard]] std::string FromWhere() const;
   // The same for counting alone, which looks up no more than it must.
   [[nodiscard]] std::string CountedFromWhere() const;
-  // From parameter 1 on; the number of the next one.
-  int Bind(SQLite::Statement& statement) const;
+  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
 
  private:
   [[nodiscard]] std::string Where() const;
@@ -38,7 +39,8 @@ class SqlCondition {
 
 // What a row of table `route` must fulfil; the page asked for does not matter here. `by_tag`: the
 // one of the query's tags by which rows are to be found; empty: none, as when many routes have it.
-[[nodiscard]] SqlCondition MatchOf(const route::RouteQuery& query, const std::string& by_tag);
+[[nodiscard]] SqlCondition MatchOf(const route::RouteQuery& query, const std::string& by_tag,
+                                   SqlDialect dialect = SqlDialect::kSqlite);
 // Adds that a row comes after the query's cursor. kInvalidArgument for one that is none of ours.
 [[nodiscard]] Result<void> StartAfterCursor(const route::RouteQuery& query,
                                             SqlCondition& condition);

@@ -19,8 +19,9 @@ struct HeldSegment {
   route::Digest digest{};
 };
 
-// Durable routes: their infos and their segments' bytes. One process opens a store for writing;
-// not thread-safe. Every read of a segment checks its digest. Errors name the file.
+// Durable routes: their infos and their segments' bytes. One process opens a file for writing,
+// several may share a database; not thread-safe. Every read of a segment checks its digest. Errors
+// name the file or database.
 class RouteStore {
  public:
   static constexpr std::uint32_t kMaxPage = 1000;
@@ -106,5 +107,16 @@ struct SqliteOptions {
 // be written. Takes milliseconds: damage inside is found by reading, and all of it by Verify().
 [[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenSqliteStore(
     const std::filesystem::path& file, const SqliteOptions& options = {});
+
+struct PostgresOptions {
+  bool read_only = false;  // nothing is written, the tables must be there
+};
+
+// `url` as postgresql://user@host:port/database; its tables are made where there are none.
+// kInvalidArgument when that is not one (or the password, the database, a right or the version is
+// wrong), kUnavailable when it cannot be reached. A connection that is lost later is made anew;
+// until it is there, everything is kUnavailable. No message has the password.
+[[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenPostgresStore(
+    const std::string& url, const PostgresOptions& options = {});
 
 }  // namespace trailcast::store

@@ -26,6 +26,16 @@ void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
   statement.bind(parameter, static_cast<std::int64_t>(size));
 }
 
+// From parameter 1 on; the number of the next one.
+int BindValues(SQLite::Statement& statement, const SqlCondition& condition) {
+  int parameter = 1;
+  for (const SqlCondition::Value& value : condition.values()) {
+    std::visit([&](const auto& each) { statement.bind(parameter, each); }, value);
+    ++parameter;
+  }
+  return parameter;
+}
+
 }  // namespace
 
 std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
@@ -103,7 +113,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
         query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
     SQLite::Statement select(*db_, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
                                                match.FromWhere(), OrderBy(query.order)));
-    const int limit = match.Bind(select);
+    const int limit = BindValues(select, match);
     BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
     RoutePage page;
     while (select.executeStep()) {
@@ -120,7 +130,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
     // However many have the tag: nothing is sorted here.
     const SqlCondition all = MatchOf(query, query.tags.empty() ? "" : query.tags.front());
     SQLite::Statement count(*db_, "SELECT COUNT(*)" + all.CountedFromWhere());
-    all.Bind(count);
+    BindValues(count, all);
     count.executeStep();
     page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
     return page;

@@ -70,7 +70,6 @@ class SqliteRouteStore final : public RouteStore {
   // Parts of Verify (sqlite_verify.cc); each adds a line for whatever is damaged.
   Result<void> VerifyPages(std::vector<std::string>& damage);
   Result<void> VerifyRoutes(std::vector<std::string>& damage);
-  Result<void> VerifyRoute(const route::RouteKey& key, std::vector<std::string>& damage);
 
   StoreFile file_;  // outlives db_: see ~StoreFile
   std::unique_ptr<SQLite::Database> db_;

@@ -1,7 +1,7 @@
 // SqliteRouteStore::Verify: everything in the store read once, and what is wrong said line by line.
-#include "services/route/digest.h"
 #include "services/store/rows.h"
 #include "services/store/sqlite_store.h"
+#include "services/store/verify.h"
 
 namespace trailcast::store {
 namespace {
@@ -47,39 +47,10 @@ Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
   });
   if (!listed) return listed;
   for (const route::RouteKey& key : keys) {
-    Result<void> verified = VerifyRoute(key, damage);
+    Result<void> verified = VerifyRevision(*this, file_.path().string(), key, damage);
     if (verified) continue;
     if (verified.error().code != ErrorCode::kCorrupt) return verified;
     damage.push_back(verified.error().message);
-  }
-  return {};
-}
-
-Result<void> SqliteRouteStore::VerifyRoute(const route::RouteKey& key,
-                                           std::vector<std::string>& damage) {
-  const Result<std::vector<SegmentIndex>> held = HeldSegments(key);
-  if (!held) return tl::unexpected(held.error());
-  std::vector<route::Digest> digests;
-  for (const SegmentIndex index : *held) {
-    const Result<route::SegmentPiece> piece = ReadSegment(key, index);
-    if (piece) {
-      if (index.value() == digests.size()) digests.push_back(piece->digest);
-    } else if (piece.error().code == ErrorCode::kUnavailable) {
-      return tl::unexpected(piece.error());
-    } else {
-      damage.push_back(piece.error().message);
-    }
-  }
-  const Result<std::optional<route::RouteInfo>> info = FindRoute(key);
-  if (!info) return tl::unexpected(info.error());
-  const bool living = info->has_value() && (*info)->standing != route::Standing::kDeleted;
-  if (living && (*info)->state == route::RouteState::kComplete &&
-      digests.size() == (*info)->segment_count &&
-      route::ManifestDigest(digests) != (*info)->manifest_digest) {
-    damage.push_back(
-        fmt::format("route store {}: {} (named '{}'): its {} segments are each whole but not those "
-                    "its scout announced",
-                    file_.path().string(), Describe(key), (*info)->name, digests.size()));
   }
   return {};
 }

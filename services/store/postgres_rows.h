@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <pqxx/pqxx>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/route/route.h"
+#include "services/store/query_sql.h"
+
+namespace trailcast::store {
+
+// The values of a statement's parameters, in their order; what they mean is the statement's to say.
+class PostgresValues {
+ public:
+  void Add(const std::string& text);
+  void Add(std::int64_t number) { values_.emplace_back(fmt::format("{}", number)); }
+  void Add(double number) { values_.emplace_back(fmt::format("{}", number)); }  // reads back same
+  void AddBytes(const std::uint8_t* bytes, std::size_t size);
+  void Add(const route::Digest& digest) { AddBytes(digest.data(), digest.size()); }
+  void AddNull() { values_.emplace_back(std::nullopt); }
+  void Add(const route::RouteKey& key);  // two
+  void Add(const std::vector<SqlCondition::Value>& values);
+  void AddRoute(const route::RouteInfo& info);        // in the order of kRouteColumns
+  void AddSegment(const route::SegmentPiece& piece);  // route, revision, number, digest, seal
+
+  // "($1,$2),($3,$4)" for rows of two.
+  [[nodiscard]] std::string Rows(std::size_t columns) const;
+  // `sql` with its question marks numbered.
+  [[nodiscard]] pqxx::result Execute(pqxx::transaction_base& transaction,
+                                     const std::string& sql) const;
+
+ private:
+  std::vector<std::optional<std::string>> values_;
+};
+
+[[nodiscard]] route::RouteKey ReadKey(const pqxx::row& row);  // its first two columns
+// A row of kRouteColumns. kCorrupt if it fails its seal.
+[[nodiscard]] Result<route::RouteInfo> ReadRoute(const pqxx::row& row);
+// The columns digest, seal, bytes of a row asked for under this key and index. kCorrupt if its
+// bytes fail their digest, or if damage made the row answer to another's name.
+[[nodiscard]] Result<route::SegmentPiece> ReadSegmentRow(const pqxx::row& row,
+                                                         const route::RouteKey& key,
+                                                         SegmentIndex index);
+
+}  // namespace trailcast::store
