@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "services/store/postgres_url.h"
 #include "services/store/route_store.h"
 #include "services/store/salvage.h"
 
@@ -49,27 +52,50 @@ Result<void> Repair(const fs::path& file) {
   return {};
 }
 
-}  // namespace
+// True if there is no damage to tell.
+bool Tell(const std::vector<std::string>& damage, const std::string& store) {
+  if (damage.empty()) fmt::print("{} is whole\n", store);
+  for (const std::string& line : damage) fmt::print("damaged: {}\n", line);
+  return damage.empty();
+}
 
-Result<bool> Check(const fs::path& store, bool repair) {
+Result<bool> CheckFile(const fs::path& file, bool repair) {
   std::error_code ignored;
-  if (!fs::exists(store, ignored)) {
-    return Fail(ErrorCode::kNotFound, "there is no route store {}", store.string());
+  if (!fs::exists(file, ignored)) {
+    return Fail(ErrorCode::kNotFound, "there is no route store {}", file.string());
   }
-  const auto damage = FindDamage(store);
+  const auto damage = FindDamage(file);
   if (!damage) return tl::unexpected(damage.error());
-  if (damage->empty()) {
-    fmt::print("{} is whole\n", store.string());
-    return true;
-  }
-  for (const std::string& line : *damage) fmt::print("damaged: {}\n", line);
+  if (Tell(*damage, file.string())) return true;
   if (!repair) {
-    fmt::print("'trailcast-server check --repair --store {}' saves what is whole\n",
-               store.string());
+    fmt::print("'trailcast-server check --repair --store {}' saves what is whole\n", file.string());
     return false;
   }
-  if (auto repaired = Repair(store); !repaired) return tl::unexpected(repaired.error());
+  if (auto repaired = Repair(file); !repaired) return tl::unexpected(repaired.error());
   return true;
+}
+
+// Servers may be using it.
+Result<bool> CheckDatabase(const std::string& location, bool repair) {
+  const auto url = store::ParsePostgresUrl(location);
+  if (!url) return tl::unexpected(url.error());
+  if (repair) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{} is not repaired from here: use PostgreSQL's own tools (a standby, a backup)",
+                url->shown);
+  }
+  const auto store = store::OpenPostgresStore(location, {.read_only = true});
+  if (!store) return tl::unexpected(store.error());
+  const auto damage = (*store)->Verify();
+  if (!damage) return tl::unexpected(damage.error());
+  return Tell(*damage, url->shown);
+}
+
+}  // namespace
+
+Result<bool> Check(const std::string& location, bool repair) {
+  return store::IsPostgresUrl(location) ? CheckDatabase(location, repair)
+                                        : CheckFile(location, repair);
 }
 
 }  // namespace trailcast::server

@@ -6,6 +6,8 @@
 #include "route_server/check.h"
 #include "route_server/server.h"
 #include "services/store/damaged_store.h"
+#include "services/store/open_store.h"
+#include "services/store/postgres_url.h"
 
 namespace {
 
@@ -18,6 +20,7 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-server --config server.toml
   trailcast-server check --store routes.db            # while no server has it open
   trailcast-server check --repair --store routes.db
+  trailcast-server --name server-2 --store postgresql://trailcast@db.site/trailcast
 
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
 it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
@@ -28,20 +31,23 @@ struct HttpOptions {
 };
 
 struct StoreOptions {
-  std::string file;
+  std::string location;
   std::uint64_t limit_mb = 0;
   std::uint32_t keep_revisions = 0;
   std::uint32_t keep_days = 0;
 };
 
 void AddStoreOptions(CLI::App& app, StoreOptions& options) {
-  app.add_option("--store", options.file, "SQLite file that holds the routes; created if missing")
+  app.add_option(
+         "--store", options.location,
+         "SQLite file that holds the routes, created if missing; or the URL of a PostgreSQL "
+         "database, postgresql://user@host/database, which several servers may share")
       ->required()
       ->envname("TRAILCAST_STORE");
   app.add_option(
          "--store-limit-mb", options.limit_mb,
          "How large the file may grow, in megabytes; scouts are told when it is full and keep "
-         "what they taught; 0: as large as the disk")
+         "what they taught; 0: as large as the disk; not with PostgreSQL")
       ->envname("TRAILCAST_STORE_LIMIT_MB");
   app.add_option("--keep-revisions", options.keep_revisions,
                  "How many complete revisions of a route to keep, the newest, besides the active "
@@ -54,20 +60,21 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
       ->envname("TRAILCAST_KEEP_DAYS");
 }
 
-// A damaged one is served as far as it is whole.
+// A damaged file is served as far as it is whole.
 trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
     const StoreOptions& options) {
-  auto store =
-      trailcast::store::OpenSqliteStore(options.file, {.max_bytes = options.limit_mb * 1'000'000});
-  if (store || store.error().code != trailcast::ErrorCode::kCorrupt) return store;
-  auto damaged = trailcast::store::OpenDamagedStore(options.file);
+  auto store = trailcast::store::OpenStore(options.location,
+                                           {.max_bytes = options.limit_mb * 1'000'000});
+  const bool is_file = !trailcast::store::IsPostgresUrl(options.location);
+  if (store || !is_file || store.error().code != trailcast::ErrorCode::kCorrupt) return store;
+  auto damaged = trailcast::store::OpenDamagedStore(options.location);
   if (!damaged) return store;
   spdlog::error("{}", store.error().message);
   for (const std::string& line : damaged->lost) spdlog::error("lost: {}", line);
   spdlog::error(
       "serving what is whole, read only: scouts keep what they teach; to mend it, stop this server "
       "and run 'trailcast-server check --repair --store {}'",
-      options.file);
+      options.location);
   return std::move(damaged->whole);
 }
 
@@ -98,8 +105,8 @@ int Serve(const CLI::App& app, const cli::CommonOptions& common, const StoreOpti
   return cli::kExitOk;
 }
 
-int CheckStore(const CLI::App& app, const std::string& store_file, bool repair) {
-  const auto whole = trailcast::server::Check(store_file, repair);
+int CheckStore(const CLI::App& app, const std::string& location, bool repair) {
+  const auto whole = trailcast::server::Check(location, repair);
   if (!whole) return cli::Complain(app, whole.error());
   return *whole ? cli::kExitOk : cli::kExitFailure;
 }
@@ -127,7 +134,7 @@ int Run(int argc, char** argv) {
   check->add_flag("--repair", repair,
                   "Make a store of what is whole, and keep the damaged file beside it");
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  if (check->parsed()) return CheckStore(app, store.file, repair);
+  if (check->parsed()) return CheckStore(app, store.location, repair);
   return Serve(app, common, store, http);
 }
 

@@ -86,11 +86,21 @@ void Server::Receive(const exchange::Message& message) {
   presence_.Handle(message);
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) holders_.Note(*status);
+  if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    NoteViews(*announced);
+  }
   keeper_->Handle(message, steady_clock::now());
 }
 
+// Another server may have put it into the store that both share.
+void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
+  const bool scouts = announcement.holder == announcement.info.scout;
+  if (scouts || announcement.info.standing == route::Standing::kDeleted) return;
+  views_.Note(announcement.info.key);
+}
+
 void Server::Serve() {
-  const milliseconds wait = views_.Filled() ? kWait : milliseconds(0);
+  const milliseconds wait = views_.Filled() || views_wait_ ? kWait : milliseconds(0);
   for (const exchange::Message& message : exchange_->Take(wait)) Receive(message);
   const auto now = steady_clock::now();
   const auto outgoing = keeper_->Tick(now);
@@ -136,7 +146,12 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
   }
   for (const auto& [key, segment] : keeper_->TakeRepaired()) views_.Mend(key, segment);
   if (views_.Filled()) return;
-  if (auto filled = views_.Fill(kViewsASlice); !filled) {
+  const auto filled = views_.Fill(kViewsASlice);
+  const bool waited =
+      std::exchange(views_wait_, !filled && filled.error().code == ErrorCode::kUnavailable);
+  if (views_wait_) {
+    if (!waited) spdlog::warn("the index of views waits: {}", filled.error().message);
+  } else if (!filled) {
     spdlog::warn("left out of the index of views: {}", filled.error().message);
   }
   for (const auto& [key, segment] : views_.TakeDamaged()) {

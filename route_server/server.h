@@ -43,6 +43,7 @@ class Server {
   void Serve();
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
+  void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
   void DeleteOutdated();
   void ShowMetrics();
@@ -56,6 +57,7 @@ class Server {
   Journal journal_;
   Holders holders_;
   std::uint64_t told_dropped_ = 0;
+  bool views_wait_ = false;  // for the store
   Metrics metrics_;
   std::unique_ptr<HttpPage> page_;  // none: nobody asked for one
   std::chrono::steady_clock::time_point metrics_due_{};

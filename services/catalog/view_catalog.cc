@@ -30,7 +30,10 @@ bool ViewCatalog::Filled() const {
 Result<void> ViewCatalog::Fill(std::size_t most) {
   Result<void> first_error;
   for (; most > 0 && !Filled(); --most) {
-    if (auto done = FillOne(); !done && first_error) first_error = std::move(done);
+    auto done = FillOne();
+    if (done) continue;
+    if (done.error().code == ErrorCode::kUnavailable) return done;
+    if (first_error) first_error = std::move(done);
   }
   return first_error;
 }
@@ -47,7 +50,8 @@ Result<void> ViewCatalog::FillOne() {
 Result<void> ViewCatalog::ReadPage() {
   const auto page = store_.QueryRoutes({.page_size = kPage, .cursor = cursor_});
   if (!page) {
-    walked_ = true;  // nobody could say where to go on
+    // Nobody could say where to go on.
+    walked_ = page.error().code != ErrorCode::kUnavailable;
     return tl::unexpected(page.error());
   }
   for (const route::RouteInfo& info : page->routes) page_.push_back(info.key);
@@ -58,7 +62,10 @@ Result<void> ViewCatalog::ReadPage() {
 
 Result<void> ViewCatalog::LookAt(const route::RouteKey& key) {
   const auto held = store_.HeldSegments(key);
-  if (!held) return tl::unexpected(held.error());
+  if (!held) {
+    if (held.error().code == ErrorCode::kUnavailable) noted_.insert(key);
+    return tl::unexpected(held.error());
+  }
   const std::set<SegmentIndex> indexed = index_.SegmentsOf(key);
   for (const SegmentIndex segment : *held) {
     const Place place{key, segment};
@@ -72,7 +79,11 @@ Result<void> ViewCatalog::IndexNext() {
   segments_.pop_front();
   const auto segment = Read(place);
   if (!segment) {
-    if (segment.error().code != ErrorCode::kNotFound) unreadable_.insert(place);
+    if (segment.error().code == ErrorCode::kUnavailable) {
+      segments_.push_front(place);
+    } else if (segment.error().code != ErrorCode::kNotFound) {
+      unreadable_.insert(place);
+    }
     if (segment.error().code == ErrorCode::kCorrupt) damaged_.push_back(place);
     return tl::unexpected(segment.error());
   }

@@ -20,8 +20,8 @@ class ViewCatalog {
   // `store` outlives the catalog.
   explicit ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options = {});
 
-  // Indexes up to `most` segments more, or looks at so many routes. An error is the store's, is
-  // told once, and what could not be read is left out.
+  // Indexes up to `most` segments more, or looks at so many routes. An error is the store's; what
+  // could not be read is left out and told once, or left for later when the store is kUnavailable.
   [[nodiscard]] Result<void> Fill(std::size_t most);
   // Nothing to do at present: all is indexed, or the index is full.
   [[nodiscard]] bool Filled() const;

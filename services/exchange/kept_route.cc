@@ -70,6 +70,12 @@ void KeptRoute::MarkDamaged(SegmentIndex index, Time now) {
   }
 }
 
+std::vector<SegmentIndex> KeptRoute::Damaged() const {
+  std::vector<SegmentIndex> indices;
+  for (const auto& [index, digest] : damaged_) indices.push_back(index);
+  return indices;
+}
+
 std::optional<route::Digest> KeptRoute::DigestOf(SegmentIndex index) const {
   for (const auto* segments : {&held_, &damaged_}) {
     if (const auto found = segments->find(index); found != segments->end()) return found->second;
@@ -95,6 +101,7 @@ std::optional<RouteInfo> KeptRoute::DurableInfo() const {
 void KeptRoute::MarkStored(const RouteInfo& info) {
   stored_ = info;
   if (claim_) route::TakeLabels(*claim_, info);
+  if (!claim_ || complete() || claim_->segment_count < info.segment_count) claim_ = stored_;
   if (!deleted()) return;
   claim_ = stored_;
   held_.clear();
@@ -102,6 +109,26 @@ void KeptRoute::MarkStored(const RouteInfo& info) {
   prefix_ = 0;
   want.Clear();
   receipt_due = true;
+}
+
+bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
+                       const std::vector<store::HeldSegment>& held, Time ask_at) {
+  bool is_new = false;
+  if (stored && stored != stored_) {
+    MarkStored(*stored);
+    is_new = true;
+  }
+  if (deleted()) return is_new;
+  for (const store::HeldSegment& segment : held) {
+    if (Holds(segment.index) || IsDamaged(segment.index)) continue;
+    MarkHeld(segment.index, segment.digest);
+    is_new = true;
+  }
+  if (is_new) MarkRoom();  // somebody's pieces were taken
+  for (std::uint32_t i = prefix_; stored_ && i < stored_->segment_count; ++i) {
+    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
+  }
+  return is_new;
 }
 
 void KeptRoute::ForgetClaim() {

@@ -39,14 +39,20 @@ class KeptRoute {
   void MarkDamaged(SegmentIndex index, Time now);
   [[nodiscard]] bool Holds(SegmentIndex index) const { return held_.contains(index); }
   [[nodiscard]] bool IsDamaged(SegmentIndex index) const { return damaged_.contains(index); }
+  [[nodiscard]] std::vector<SegmentIndex> Damaged() const;
   // What the segment is, or was before it was damaged.
   [[nodiscard]] std::optional<route::Digest> DigestOf(SegmentIndex index) const;
 
   // The route as far as it is durable: the claim if all of it is held, else the durable prefix with
   // length and bytes in proportion. Empty if nothing can be said, or nothing is held yet.
   [[nodiscard]] std::optional<route::RouteInfo> DurableInfo() const;
-  // The store took `info`, its labels included; with a tombstone nothing is held any more.
+  // The store has `info`, its labels included, and perhaps more of it than was claimed here; with a
+  // tombstone nothing is held any more.
   void MarkStored(const route::RouteInfo& info);
+  // The store has this, perhaps from another process. Segments that nobody stored are wanted from
+  // `ask_at` on. True if anything of it is new here.
+  [[nodiscard]] bool TakeUp(const std::optional<route::RouteInfo>& stored,
+                            const std::vector<store::HeldSegment>& held, Time ask_at);
   // The claim does not fit the segments: forget it, and never announce it.
   void ForgetClaim();
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }
@@ -78,6 +84,7 @@ class KeptRoute {
     return want.empty() && !receipt_due && !announce_due && !resend_due;
   }
   Time spoken_of_at{};
+  Time refreshed_at{};  // when the store was last looked at
   std::optional<Time> receipt_at;
   std::optional<Time> announced_at;
 

@@ -110,10 +110,13 @@ void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
   // Asking for routes that nobody has must not fill the memory.
   KeptRoute* kept = Find(request.key, now, Which::kStored);
   if (kept == nullptr) return;
+  const auto holds = [&](SegmentIndex index) { return kept->Holds(index); };
   if (request.lacking.empty()) kept->announce_due = kept->resend_due = true;
+  if (!std::all_of(request.lacking.begin(), request.lacking.end(), holds)) {
+    Refresh(request.key, *kept, now);
+  }
   std::vector<SegmentIndex> held;
-  std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held),
-               [&](SegmentIndex index) { return kept->Holds(index); });
+  std::copy_if(request.lacking.begin(), request.lacking.end(), std::back_inserter(held), holds);
   if (request.digests_only) {
     TellDigests(request.key, *kept, held);
   } else {
@@ -152,7 +155,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
       kept.receipt_at = now;
       kept.receipt_due = false;
     }
-    if (std::vector<SegmentIndex> lacking = kept.want.Due(now); !lacking.empty()) {
+    if (std::vector<SegmentIndex> lacking = Lacking(key, kept, now); !lacking.empty()) {
       out.emplace_back(
           SegmentRequest{.requester = self_, .key = key, .lacking = std::move(lacking)});
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,6 +24,7 @@ struct RouteKeeperOptions {
   std::chrono::milliseconds announce_every{250};  // at most so often while a route grows
   std::chrono::milliseconds receipt_again{500};   // at most so often when nothing new is durable
   std::chrono::milliseconds note_again{10'000};   // the same trouble is reported at most so often
+  std::chrono::milliseconds refresh_again{1000};  // the store is looked at again for another's work
   std::size_t answer_bytes_per_tick = 1U << 20U;
   // Routes that the keeper has at hand; the others are in the store alone, and are taken up when
   // somebody speaks of them. A full one lays aside what nobody spoke of for `laid_aside_after`.
@@ -57,8 +57,9 @@ struct KeeperCounters {
 
 // The server's end of the protocol for all routes: makes durable what arrives, says so only then,
 // asks for what it lacks, answers who asks. No clock, no socket: messages in, messages out; the
-// store is its only effect. Handle everything one Take returned, then Tick: the pieces of one Take
-// are one commit.
+// store is its only effect. Other servers may share the store: what they put there counts as held
+// here, and of what all hear alike, as an edit, it lets one do it. Handle everything one Take
+// returned, then Tick: the pieces of one Take are one commit.
 class RouteKeeper {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -103,15 +104,28 @@ class RouteKeeper {
                    const std::vector<SegmentIndex>& indices);
   void HandleCatalogRequest(const CatalogRequest& request);
   void HandleEdit(const RouteEditRequest& request, Time now);
-  [[nodiscard]] Result<std::vector<route::RouteInfo>> Edit(const route::RouteEdit& edit, Time now);
+  // Carries the edit out, unless some server did: its answer, to be read by TakeUpEdit.
+  [[nodiscard]] Result<std::string> EditOnce(const RouteEditRequest& request, Time now);
+  [[nodiscard]] Result<std::string> Edit(const route::RouteEdit& edit);
+  // The store has these labels: has them announced.
+  void TellRelabelled(const route::RouteInfo& info, Time now);
+  // Has what was changed announced; the revisions as they are now.
+  [[nodiscard]] Result<std::vector<route::RouteInfo>> TakeUpEdit(const std::string& answer,
+                                                                 Time now);
 
   // The route's state, taken up from the store if need be; null (and a note) if that fails, or for
   // a route of which the store has nothing when only stored ones are asked for.
   enum class Which : std::uint8_t { kAny, kStored };
   KeptRoute* Find(const route::RouteKey& key, Time now, Which which = Which::kAny);
   [[nodiscard]] bool MakeRoom(Time now);
+  // Takes up what another server may have stored; not when that was just done.
+  void Refresh(const route::RouteKey& key, KeptRoute& kept, Time now);
+  // What is due to be asked for.
+  [[nodiscard]] std::vector<SegmentIndex> Lacking(const route::RouteKey& key, KeptRoute& kept,
+                                                  Time now);
+
   [[nodiscard]] bool IsNew(const route::SegmentPiece& piece, Time now);
-  void MarkStored(const route::SegmentPiece& piece, Time now);
+  void MarkAppended(const route::SegmentPiece& piece, Time now);
   void Commit(Time now);
   void Append(std::span<const route::SegmentPiece> pieces, Time now);
   void TellFull(std::span<const route::SegmentPiece> pieces, const Error& error);
@@ -123,9 +137,12 @@ class RouteKeeper {
   // What is to be announced of the route now, if anything.
   [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now);
   // A route's first complete revision is the active one.
-  void ActivateFirst(std::vector<route::RouteInfo>& completing);
-  void StoreInfos(std::span<const route::RouteInfo> infos, Time now);
-  void TellComplete(const route::RouteInfo& info, KeptRoute& kept, Time now);
+  [[nodiscard]] Result<void> ActivateFirst(std::vector<route::RouteInfo>& completing);
+  [[nodiscard]] Result<void> Put(std::span<const route::RouteInfo> infos, bool completing);
+  void StoreInfos(std::span<const route::RouteInfo> infos, bool completing, Time now,
+                  std::vector<route::RouteKey>& stored);
+  void MarkStored(const route::RouteInfo& info, Time now, std::vector<route::RouteKey>& stored);
+  void TellComplete(const route::RouteKey& key, Time now);
   void SendAnswers(Time now, std::vector<Message>& out);
   void AddNote(Note::Severity severity, const std::string& about, std::string text, Time now);
 
@@ -138,8 +155,7 @@ class RouteKeeper {
   std::map<route::RouteKey, KeptRoute> routes_;
   std::vector<route::SegmentPiece> arrived_;  // since the last Tick
   std::vector<std::pair<route::RouteKey, SegmentIndex>> repaired_;
-  std::vector<Message> replies_;     // to the catalog's clients; digests
-  std::deque<CatalogReply> edited_;  // the last replies to edits
+  std::vector<Message> replies_;  // to the catalog's clients; digests
   AnswerQueue answers_;
   std::vector<Note> notes_;
   std::map<std::string, Time> noted_at_;

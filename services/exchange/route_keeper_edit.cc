@@ -1,5 +1,7 @@
 // RouteKeeper's dealings with operators: edits of what it keeps.
 #include <algorithm>
+#include <charconv>
+#include <sstream>
 
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_keeper.h"
@@ -9,57 +11,117 @@ namespace trailcast::exchange {
 namespace {
 
 using route::RouteInfo;
+using route::RouteKey;
 
-// An operator who heard no answer asks again; carried out twice, some edits would do something
-// else.
-constexpr std::size_t kRemembered = 64;
+// An operator who heard no answer asks again, and all servers that share a store hear it; carried
+// out twice, some edits would do something else. So the store remembers the answer: this and why it
+// was refused, or the keys of the revisions that were changed.
+constexpr std::string_view kRefused = "refused ";
+constexpr std::string_view kChanged = "changed";
+
+std::string ToText(const std::vector<RouteInfo>& changed) {
+  std::string text(kChanged);
+  for (const RouteInfo& info : changed) {
+    text += fmt::format(" {} {}", info.key.route.value(), info.key.revision.value());
+  }
+  return text;
+}
+
+std::vector<RouteKey> KeysIn(const std::string& answer) {
+  std::istringstream words(answer.substr(kChanged.size()));
+  std::vector<RouteKey> keys;
+  std::uint32_t revision = 0;
+  for (std::string route; words >> route >> revision;) {
+    keys.push_back({RouteId(route), RevisionNumber(revision)});
+  }
+  return keys;
+}
+
+// Waiting, or asking again, would not change it.
+bool IsRefusal(const Error& error) {
+  return error.code == ErrorCode::kInvalidArgument || error.code == ErrorCode::kNotFound ||
+         error.code == ErrorCode::kConflict;
+}
 
 }  // namespace
 
 void RouteKeeper::HandleEdit(const RouteEditRequest& request, Time now) {
-  const auto said = std::find_if(edited_.begin(), edited_.end(), [&](const CatalogReply& reply) {
-    return reply.client == request.client && reply.request == request.request;
-  });
-  if (said != edited_.end()) {
-    replies_.emplace_back(*said);
-    return;
-  }
   CatalogReply reply{.server = self_, .client = request.client, .request = request.request};
-  if (auto edited = Edit(request.edit, now)) {
-    AddNote(Note::Severity::kInfo,
-            fmt::format("edit/{}/{}", request.client.value(), request.request),
-            fmt::format("'{}' changes {} revisions of route '{}'", request.client.value(),
-                        edited->size(), request.edit.route),
-            now);
+  const auto answer = EditOnce(request, now);
+  auto edited = answer ? TakeUpEdit(*answer, now) : tl::unexpected(answer.error());
+  if (edited) {
     reply.page.total = edited->size();
     edited->resize(std::min(edited->size(), kMaxRoutesPerReply));
     reply.page.routes = std::move(*edited);
   } else {
     reply.error = PlainText(edited.error().message, kMaxLineBytes);
   }
-  edited_.push_back(reply);
-  if (edited_.size() > kRemembered) edited_.pop_front();
   replies_.emplace_back(std::move(reply));
 }
 
-Result<std::vector<RouteInfo>> RouteKeeper::Edit(const route::RouteEdit& edit, Time now) {
-  auto changed = catalog_.plan(edit);
-  if (!changed) return changed;
-  if (auto done = Relabel(*changed, now); !done) return tl::unexpected(done.error());
+Result<std::string> RouteKeeper::EditOnce(const RouteEditRequest& request, Time now) {
+  const std::string id = fmt::format("{}/{}", request.client.value(), request.request);
+  std::string answer;
+  bool is_first = false;
+  const auto done = store_.Exclusively([&]() -> Result<void> {
+    const auto said = store_.FindAnswer(id);
+    if (!said) return tl::unexpected(said.error());
+    is_first = !said->has_value();
+    if (!is_first) {
+      answer = **said;
+      return {};
+    }
+    auto carried_out = Edit(request.edit);
+    if (!carried_out) return tl::unexpected(carried_out.error());
+    answer = std::move(*carried_out);
+    return store_.RememberAnswer(id, answer);
+  });
+  if (!done) return tl::unexpected(done.error());
+  if (is_first && answer.starts_with(kChanged)) {
+    AddNote(Note::Severity::kInfo, "edit/" + id,
+            fmt::format("'{}' changes {} revisions of route '{}'", request.client.value(),
+                        KeysIn(answer).size(), request.edit.route),
+            now);
+  }
+  return answer;
+}
+
+Result<std::string> RouteKeeper::Edit(const route::RouteEdit& edit) {
+  const auto changed = catalog_.plan(edit);
+  const auto stored = changed ? store_.PutRoutes(*changed) : tl::unexpected(changed.error());
+  if (stored) return ToText(*changed);
+  if (!IsRefusal(stored.error())) return tl::unexpected(stored.error());
+  return std::string(kRefused) + stored.error().message;
+}
+
+Result<std::vector<RouteInfo>> RouteKeeper::TakeUpEdit(const std::string& answer, Time now) {
+  if (answer.starts_with(kRefused)) {
+    return Fail(ErrorCode::kConflict, "{}", answer.substr(kRefused.size()));
+  }
+  std::vector<RouteInfo> changed;
+  for (const RouteKey& key : KeysIn(answer)) {
+    auto info = store_.FindRoute(key);
+    if (!info) return tl::unexpected(info.error());
+    if (!*info) continue;
+    TellRelabelled(**info, now);
+    changed.push_back(std::move(**info));
+  }
   return changed;
 }
 
 Result<void> RouteKeeper::Relabel(std::span<const RouteInfo> infos, Time now) {
   if (auto stored = store_.PutRoutes(infos); !stored) return stored;
-  for (const RouteInfo& info : infos) {
-    KeptRoute* kept = Find(info.key, now);
-    if (kept == nullptr) continue;  // the store has it; it is announced when somebody asks
-    kept->MarkStored(info);
-    kept->announce_due = kept->resend_due = true;
-    kept->announced_at.reset();  // not held back
-    kept->receipt_at.reset();
-  }
+  for (const RouteInfo& info : infos) TellRelabelled(info, now);
   return {};
+}
+
+void RouteKeeper::TellRelabelled(const RouteInfo& info, Time now) {
+  KeptRoute* kept = Find(info.key, now);
+  if (kept == nullptr) return;  // the store has it; it is announced when somebody asks
+  kept->MarkStored(info);
+  kept->announce_due = kept->resend_due = true;
+  kept->announced_at.reset();  // not held back
+  kept->receipt_at.reset();
 }
 
 }  // namespace trailcast::exchange

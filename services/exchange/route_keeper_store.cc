@@ -37,8 +37,33 @@ KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now, Which which) {
     return nullptr;
   }
   KeptRoute& kept = routes_.try_emplace(key, *info, *held, options_.want).first->second;
-  kept.spoken_of_at = now;
+  kept.spoken_of_at = kept.refreshed_at = now;
   return &kept;
+}
+
+void RouteKeeper::Refresh(const RouteKey& key, KeptRoute& kept, Time now) {
+  if (now < kept.refreshed_at + options_.refresh_again) return;
+  kept.refreshed_at = now;
+  const auto info = store_.FindRoute(key);
+  const auto held = store_.SegmentDigests(key);
+  if (!info || !held) {
+    Refuse(info ? held.error() : info.error(), key, now);
+    return;
+  }
+  for (const SegmentIndex index : kept.Damaged()) {
+    if (const auto mended = store_.ReadSegment(key, index)) kept.MarkHeld(index, mended->digest);
+  }
+  if (kept.TakeUp(*info, *held, now + options_.fresh_grace)) {
+    kept.receipt_due = kept.announce_due = kept.resend_due = true;
+  }
+}
+
+std::vector<SegmentIndex> RouteKeeper::Lacking(const RouteKey& key, KeptRoute& kept, Time now) {
+  std::vector<SegmentIndex> lacking = kept.want.Due(now);
+  if (lacking.empty()) return lacking;
+  Refresh(key, kept, now);
+  std::erase_if(lacking, [&](SegmentIndex index) { return !kept.want.contains(index); });
+  return lacking;
 }
 
 // Lays the one aside of which nobody spoke for longest.
@@ -108,6 +133,7 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
     if (!one_is_bad || pieces.size() == 1) {
       Refuse(stored.error(), pieces.front().key, now);
       if (code == ErrorCode::kUnavailable) TellFull(pieces, stored.error());
+      if (one_is_bad) Refresh(pieces.front().key, routes_.at(pieces.front().key), now);
       return;
     }
     const std::size_t half = pieces.size() / 2;
@@ -118,11 +144,11 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
   counters_.appended += pieces.size();
   for (const SegmentPiece& piece : pieces) {
     counters_.appended_bytes += piece.bytes.size();
-    MarkStored(piece, now);
+    MarkAppended(piece, now);
   }
 }
 
-void RouteKeeper::MarkStored(const SegmentPiece& piece, Time now) {
+void RouteKeeper::MarkAppended(const SegmentPiece& piece, Time now) {
   KeptRoute& kept = routes_.at(piece.key);
   if (kept.IsDamaged(piece.index)) {
     ++counters_.repaired;
@@ -165,8 +191,10 @@ void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
   const bool conflict = error.code == ErrorCode::kConflict;
   const bool corrupt = error.code == ErrorCode::kCorrupt;
   ++(conflict ? counters_.conflicting : corrupt ? counters_.corrupt : counters_.store_failures);
+  // A store that takes nothing takes nothing of any route.
+  const bool of_all = error.code == ErrorCode::kUnavailable;
   AddNote(conflict ? Note::Severity::kWarning : Note::Severity::kError,
-          fmt::format("{}/{}", static_cast<int>(error.code), Describe(key)),
+          fmt::format("{}/{}", static_cast<int>(error.code), of_all ? "" : Describe(key)),
           conflict ? "refused: " + error.message : error.message, now);
 }
 
@@ -195,37 +223,34 @@ void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
     const bool completes = !kept.complete() && info->state == RouteState::kComplete;
     (stored_already ? again : completes ? completing : grown).push_back(std::move(*info));
   }
-  ActivateFirst(completing);
-  StoreInfos(grown, now);
-  StoreInfos(completing, now);
-  for (const RouteInfo& info : completing) {
-    KeptRoute& kept = routes_.at(info.key);
-    if (kept.complete()) TellComplete(info, kept, now);
-  }
-  for (const auto* infos : {&again, &grown, &completing}) {
-    for (const RouteInfo& info : *infos) {
-      KeptRoute& kept = routes_.at(info.key);
-      if (info != kept.stored()) continue;
-      kept.resend_due = false;
-      out.emplace_back(RouteAnnouncement{.holder = self_, .info = info});
-    }
+  std::vector<RouteKey> stored;
+  StoreInfos(grown, false, now, stored);
+  const std::size_t completed_from = stored.size();
+  StoreInfos(completing, true, now, stored);
+  for (std::size_t i = completed_from; i < stored.size(); ++i) TellComplete(stored[i], now);
+  for (const RouteInfo& info : again) stored.push_back(info.key);
+  for (const RouteKey& key : stored) {
+    KeptRoute& kept = routes_.at(key);
+    kept.resend_due = false;
+    out.emplace_back(RouteAnnouncement{.holder = self_, .info = *kept.stored()});
   }
 }
 
-void RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
+Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
   std::set<RouteId> activated;
   for (RouteInfo& info : completing) {
     if (info.standing != route::Standing::kStaged || activated.contains(info.key.route)) continue;
     const auto revisions = store_.FindRevisions(info.key.route);
-    const bool edited =
-        !revisions || std::any_of(revisions->begin(), revisions->end(), [](const RouteInfo& each) {
-          return each.standing != route::Standing::kStaged;
-        });
+    if (!revisions) return tl::unexpected(revisions.error());
+    const bool edited = std::any_of(
+        revisions->begin(), revisions->end(),
+        [](const RouteInfo& each) { return each.standing != route::Standing::kStaged; });
     if (edited) continue;
     info.standing = route::Standing::kActive;
     ++info.edition;
     activated.insert(info.key.route);
   }
+  return {};
 }
 
 std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
@@ -245,18 +270,29 @@ std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
   return durable;
 }
 
+Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing) {
+  if (!completing) return store_.PutRoutes(infos);
+  // Two servers must not each activate another revision.
+  return store_.Exclusively([&]() -> Result<void> {
+    std::vector<RouteInfo> activated(infos.begin(), infos.end());
+    if (auto chosen = ActivateFirst(activated); !chosen) return chosen;
+    return store_.PutRoutes(activated);
+  });
+}
+
 // One commit. When the store refuses the group for a route in it, each is tried alone.
-void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, Time now) {
+void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, Time now,
+                             std::vector<RouteKey>& stored) {
   if (infos.empty()) return;
-  if (const auto stored = store_.PutRoutes(infos); stored) {
-    for (const RouteInfo& info : infos) routes_.at(info.key).MarkStored(info);
-  } else if (infos.size() > 1 && stored.error().code != ErrorCode::kUnavailable) {
-    for (const RouteInfo& info : infos) StoreInfos({&info, 1}, now);
+  if (const auto put = Put(infos, completing); put) {
+    for (const RouteInfo& info : infos) MarkStored(info, now, stored);
+  } else if (infos.size() > 1 && put.error().code != ErrorCode::kUnavailable) {
+    for (const RouteInfo& info : infos) StoreInfos({&info, 1}, completing, now, stored);
   } else {
-    Refuse(stored.error(), infos.front().key, now);
+    Refuse(put.error(), infos.front().key, now);
     for (const RouteInfo& info : infos) {
       KeptRoute& kept = routes_.at(info.key);
-      if (stored.error().code == ErrorCode::kConflict) {
+      if (put.error().code == ErrorCode::kConflict) {
         kept.ForgetClaim();
       } else {
         kept.announce_due = true;  // disk full: again when it may have been cleared
@@ -265,11 +301,27 @@ void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, Time now) {
   }
 }
 
-void RouteKeeper::TellComplete(const RouteInfo& info, KeptRoute& kept, Time now) {
+// The store's word counts: another server may have stored later news.
+void RouteKeeper::MarkStored(const RouteInfo& info, Time now, std::vector<RouteKey>& stored) {
+  KeptRoute& kept = routes_.at(info.key);
+  const auto found = store_.FindRoute(info.key);
+  if (!found || !*found) {
+    kept.announce_due = true;
+    return;
+  }
+  kept.MarkStored(**found);
+  if ((*found)->segment_count > info.segment_count) Refresh(info.key, kept, now);
+  stored.push_back(info.key);
+}
+
+void RouteKeeper::TellComplete(const RouteKey& key, Time now) {
+  KeptRoute& kept = routes_.at(key);
+  if (!kept.complete()) return;
+  const RouteInfo& info = *kept.stored();
   kept.receipt_due = true;
   kept.receipt_at.reset();
-  AddNote(Note::Severity::kInfo, "complete/" + Describe(info.key),
-          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(info.key), info.name,
+  AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
+          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(key), info.name,
                       info.segment_count, info.length_m),
           now);
 }

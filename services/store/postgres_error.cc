@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <pqxx/except>
+#include <sstream>
 #include <string_view>
 
 namespace trailcast::store {
@@ -18,10 +19,15 @@ bool Is(const std::exception& thrown) {
   return dynamic_cast<const Kind*>(&thrown) != nullptr;
 }
 
-std::string OneLine(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+// Lines that begin with a tab are libpq's own advice.
+std::string OneLine(const std::string& text) {
+  std::string joined;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line.front() == '\t') continue;
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  return joined;
 }
 
 struct Advice {

@@ -17,7 +17,6 @@ using Transaction = pqxx::transaction_base;
 using Infos = std::map<RouteKey, RouteInfo>;
 
 constexpr std::size_t kColumns = 21;  // kRouteColumns
-constexpr std::size_t kRowsAtOnce = 500;
 constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, revision DESC";
 
 std::string SelectFrom(const std::string& table) {
@@ -40,21 +39,25 @@ std::string AllFromExcluded() {
 
 // What is known of the revisions, tombstones included; nothing of one whose row is damaged.
 Infos FindKnown(Transaction& transaction, const std::set<RouteKey>& keys) {
-  PostgresValues values;
-  for (const RouteKey& key : keys) values.Add(key);
-  const std::string where = "WHERE (route, revision) IN (" + values.Rows(2) + ") ";
-  const pqxx::result rows = values.Execute(
-      transaction, SelectFrom("route") + where + "UNION ALL " + SelectFrom("tombstone") + where);
   Infos known;
-  for (const pqxx::row& row : rows) {
-    if (auto info = ReadRoute(row)) known.emplace(info->key, std::move(*info));
-  }
+  ForSome(keys, [&](auto begin, auto end) {
+    PostgresValues values;
+    std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
+    const std::string where = "WHERE (route, revision) IN (" + values.Rows(2) + ") ";
+    const pqxx::result rows = values.Execute(
+        transaction, SelectFrom("route") + where + "UNION ALL " + SelectFrom("tombstone") + where);
+    for (const pqxx::row& row : rows) {
+      if (auto info = ReadRoute(row)) known.emplace(info->key, std::move(*info));
+    }
+  });
   return known;
 }
 
-pqxx::result PutRows(Transaction& transaction, const std::string& table, const Infos& infos) {
+using Some = Infos::const_iterator;
+
+pqxx::result PutRows(Transaction& transaction, const std::string& table, Some begin, Some end) {
   PostgresValues values;
-  for (const auto& [key, info] : infos) values.AddRoute(info);
+  for (Some each = begin; each != end; ++each) values.AddRoute(each->second);
   return values.Execute(
       transaction,
       fmt::format("INSERT INTO {} ({}) VALUES {} ON CONFLICT (route, revision) DO UPDATE SET {} "
@@ -62,47 +65,55 @@ pqxx::result PutRows(Transaction& transaction, const std::string& table, const I
                   table, kRouteColumns, values.Rows(kColumns), AllFromExcluded()));
 }
 
-void PutLiving(Transaction& transaction, const Infos& infos) {
-  const pqxx::result rows = PutRows(transaction, "route", infos);
+void ReplaceTags(Transaction& transaction, const pqxx::result& rows, const Infos& infos) {
   PostgresValues ids;
   PostgresValues tags;
-  std::size_t tag_count = 0;
   for (const pqxx::row& row : rows) {
-    ids.Add(row[2].as<std::int64_t>());
+    const auto id = row[2].as<std::int64_t>();
+    ids.Add(id);
     for (const std::string& tag : infos.at(ReadKey(row)).tags) {
       tags.Add(tag);
-      tags.Add(row[2].as<std::int64_t>());
-      ++tag_count;
+      tags.Add(id);
     }
   }
   (void)ids.Execute(transaction, "DELETE FROM route_tag WHERE id IN (" + ids.Rows(1) + ")");
-  if (tag_count == 0) return;
+  if (tags.empty()) return;
   (void)tags.Execute(transaction, "INSERT INTO route_tag (tag, id) VALUES " + tags.Rows(2));
 }
 
+void PutLiving(Transaction& transaction, const Infos& infos) {
+  ForSome(infos, [&](Some begin, Some end) {
+    ReplaceTags(transaction, PutRows(transaction, "route", begin, end), infos);
+  });
+}
+
 // Contents that no other revision has go too.
-void DeleteContents(Transaction& transaction, const pqxx::result& digests) {
-  for (pqxx::result::size_type at = 0; at < digests.size();) {
+void DeleteSegments(Transaction& transaction, const PostgresValues& keys) {
+  const pqxx::result digests =
+      keys.Execute(transaction, "DELETE FROM segment WHERE (route, revision) IN (" + keys.Rows(2) +
+                                    ") RETURNING digest");
+  ForSome(digests, [&](auto begin, auto end) {
     PostgresValues values;
-    for (std::size_t n = 0; n < kRowsAtOnce && at < digests.size(); ++n, ++at) {
-      const pqxx::binarystring digest(digests[at][0]);
+    for (auto each = begin; each != end; ++each) {
+      const pqxx::binarystring digest((*each)[0]);
       values.AddBytes(digest.data(), digest.size());
     }
     (void)values.Execute(transaction,
                          "DELETE FROM content WHERE digest IN (" + values.Rows(1) +
                              ") AND NOT EXISTS (SELECT FROM segment WHERE segment.digest = "
                              "content.digest)");
-  }
+  });
 }
 
 void Bury(Transaction& transaction, const Infos& infos) {
-  PostgresValues values;
-  for (const auto& [key, info] : infos) values.Add(key);
-  const std::string where = " WHERE (route, revision) IN (" + values.Rows(2) + ")";
-  (void)values.Execute(transaction, "DELETE FROM route" + where);
-  DeleteContents(transaction,
-                 values.Execute(transaction, "DELETE FROM segment" + where + " RETURNING digest"));
-  PutRows(transaction, "tombstone", infos);
+  ForSome(infos, [&](Some begin, Some end) {
+    PostgresValues keys;
+    for (Some each = begin; each != end; ++each) keys.Add(each->first);
+    (void)keys.Execute(transaction,
+                       "DELETE FROM route WHERE (route, revision) IN (" + keys.Rows(2) + ")");
+    DeleteSegments(transaction, keys);
+    (void)PutRows(transaction, "tombstone", begin, end);
+  });
 }
 
 }  // namespace
@@ -115,14 +126,7 @@ Result<void> PostgresRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
   return session_->Run(
       Kind::kWrite,
       fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)),
-      [&](Transaction& transaction) -> Result<void> {
-        for (auto left = infos; !left.empty();
-             left = left.subspan(std::min(kRowsAtOnce, left.size()))) {
-          const auto some = left.first(std::min(kRowsAtOnce, left.size()));
-          if (auto put = Put(transaction, some); !put) return put;
-        }
-        return {};
-      });
+      [&](Transaction& transaction) { return Put(transaction, infos); });
 }
 
 Result<void> PostgresRouteStore::Put(Transaction& transaction, std::span<const RouteInfo> infos) {
@@ -146,8 +150,8 @@ Result<void> PostgresRouteStore::Put(Transaction& transaction, std::span<const R
     }
     (info.standing == route::Standing::kDeleted ? buried : living).emplace(key, std::move(info));
   }
-  if (!living.empty()) PutLiving(transaction, living);
-  if (!buried.empty()) Bury(transaction, buried);
+  PutLiving(transaction, living);
+  Bury(transaction, buried);
   return {};
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <pqxx/pqxx>
 #include <string>
@@ -26,6 +28,7 @@ class PostgresValues {
   void AddRoute(const route::RouteInfo& info);        // in the order of kRouteColumns
   void AddSegment(const route::SegmentPiece& piece);  // route, revision, number, digest, seal
 
+  [[nodiscard]] bool empty() const { return values_.empty(); }
   // "($1,$2),($3,$4)" for rows of two.
   [[nodiscard]] std::string Rows(std::size_t columns) const;
   // `sql` with its question marks numbered.
@@ -35,6 +38,19 @@ class PostgresValues {
  private:
   std::vector<std::optional<std::string>> values_;
 };
+
+// Calls `work` with the ends of successive parts of `items`, none larger than one statement takes
+// (PostgreSQL counts parameters with 16 bits).
+template <typename Items, typename Work>
+void ForSome(const Items& items, const Work& work) {
+  constexpr std::ptrdiff_t kMost = 500;
+  for (auto begin = std::begin(items); begin != std::end(items);) {
+    auto end = begin;
+    for (std::ptrdiff_t n = 0; n < kMost && end != std::end(items); ++n) ++end;
+    work(begin, end);
+    begin = end;
+  }
+}
 
 [[nodiscard]] route::RouteKey ReadKey(const pqxx::row& row);  // its first two columns
 // A row of kRouteColumns. kCorrupt if it fails its seal.

@@ -14,47 +14,50 @@ namespace {
 using route::RouteKey;
 using route::SegmentPiece;
 
-// Rows that one statement takes: PostgreSQL numbers parameters with 16 bits.
-constexpr std::size_t kRowsAtOnce = 500;
-
 // Sorted, as two processes that lock the same rows must do so in the same order.
 using Pieces = std::map<std::pair<RouteKey, SegmentIndex>, const SegmentPiece*>;
 
 void InsertContents(pqxx::transaction_base& transaction, const Pieces& pieces) {
   std::map<route::Digest, const SegmentPiece*> contents;
   for (const auto& [where, piece] : pieces) contents.emplace(piece->digest, piece);
-  PostgresValues values;
-  for (const auto& [digest, piece] : contents) {
-    values.Add(digest);
-    values.AddBytes(piece->bytes.data(), piece->bytes.size());
-  }
-  // One held already is written again only where it is damaged.
-  (void)values.Execute(transaction,
-                       "INSERT INTO content (digest, bytes) VALUES " + values.Rows(2) +
-                           " ON CONFLICT (digest) DO UPDATE SET bytes = excluded.bytes "
-                           "WHERE content.bytes <> excluded.bytes");
+  ForSome(contents, [&](auto begin, auto end) {
+    PostgresValues values;
+    for (auto each = begin; each != end; ++each) {
+      values.Add(each->first);
+      values.AddBytes(each->second->bytes.data(), each->second->bytes.size());
+    }
+    // One held already is written again only where it is damaged.
+    (void)values.Execute(transaction,
+                         "INSERT INTO content (digest, bytes) VALUES " + values.Rows(2) +
+                             " ON CONFLICT (digest) DO UPDATE SET bytes = excluded.bytes "
+                             "WHERE content.bytes <> excluded.bytes");
+  });
 }
 
 void InsertSegments(pqxx::transaction_base& transaction, const Pieces& pieces) {
-  PostgresValues values;
-  for (const auto& [where, piece] : pieces) values.AddSegment(*piece);
-  (void)values.Execute(transaction,
-                       "INSERT INTO segment (route, revision, number, digest, seal) VALUES " +
-                           values.Rows(5) +
-                           " ON CONFLICT (route, revision, number) DO UPDATE "
-                           "SET digest = excluded.digest, seal = excluded.seal");
+  ForSome(pieces, [&](auto begin, auto end) {
+    PostgresValues values;
+    for (auto each = begin; each != end; ++each) values.AddSegment(*each->second);
+    (void)values.Execute(transaction,
+                         "INSERT INTO segment (route, revision, number, digest, seal) VALUES " +
+                             values.Rows(5) +
+                             " ON CONFLICT (route, revision, number) DO UPDATE "
+                             "SET digest = excluded.digest, seal = excluded.seal");
+  });
 }
 
 }  // namespace
 
 void PostgresRouteStore::Lock(Transaction& transaction, const Keys& keys) {
-  PostgresValues values;
-  for (const RouteKey& key : keys) values.Add(key);
-  const std::string rows = values.Rows(2);
-  (void)values.Execute(transaction, "INSERT INTO revision (route, revision) VALUES " + rows +
-                                        " ON CONFLICT DO NOTHING");
-  (void)values.Execute(transaction, "SELECT FROM revision WHERE (route, revision) IN (" + rows +
-                                        ") ORDER BY route, revision FOR UPDATE");
+  ForSome(keys, [&](auto begin, auto end) {
+    PostgresValues values;
+    std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
+    const std::string rows = values.Rows(2);
+    (void)values.Execute(transaction, "INSERT INTO revision (route, revision) VALUES " + rows +
+                                          " ON CONFLICT DO NOTHING");
+    (void)values.Execute(transaction, "SELECT FROM revision WHERE (route, revision) IN (" + rows +
+                                          ") ORDER BY route, revision FOR UPDATE");
+  });
 }
 
 Result<void> PostgresRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {
@@ -74,53 +77,56 @@ Result<void> PostgresRouteStore::Append(Transaction& transaction,
   for (const SegmentPiece& piece : pieces) keys.insert(piece.key);
   Lock(transaction, keys);
   if (auto living = RefuseBuried(transaction, keys); !living) return living;
-  Digests held;
-  for (; !pieces.empty(); pieces = pieces.subspan(std::min(kRowsAtOnce, pieces.size()))) {
-    const auto some = pieces.first(std::min(kRowsAtOnce, pieces.size()));
-    FindHeld(transaction, some, held);
-    Pieces lacking;
-    for (const SegmentPiece& piece : some) {
-      const auto [at, is_new] = held.try_emplace({piece.key, piece.index}, piece.digest);
-      if (is_new) lacking.emplace(at->first, &piece);
-      if (at->second != piece.digest) return Conflict(piece, at->second);
-    }
-    if (lacking.empty()) continue;
-    InsertContents(transaction, lacking);
-    InsertSegments(transaction, lacking);
+  Digests held = FindHeld(transaction, pieces);
+  Pieces lacking;
+  for (const SegmentPiece& piece : pieces) {
+    const auto [at, is_new] = held.try_emplace({piece.key, piece.index}, piece.digest);
+    if (is_new) lacking.emplace(at->first, &piece);
+    if (at->second != piece.digest) return Conflict(piece, at->second);
   }
+  InsertContents(transaction, lacking);
+  InsertSegments(transaction, lacking);
   return {};
 }
 
 Result<void> PostgresRouteStore::RefuseBuried(Transaction& transaction, const Keys& keys) const {
-  PostgresValues values;
-  for (const RouteKey& key : keys) values.Add(key);
-  const pqxx::result buried = values.Execute(
-      transaction, "SELECT route, revision FROM tombstone WHERE (route, revision) IN (" +
-                       values.Rows(2) + ") LIMIT 1");
-  if (buried.empty()) return {};
+  std::optional<RouteKey> buried;
+  ForSome(keys, [&](auto begin, auto end) {
+    PostgresValues values;
+    std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
+    const pqxx::result rows = values.Execute(
+        transaction, "SELECT route, revision FROM tombstone WHERE (route, revision) IN (" +
+                         values.Rows(2) + ") LIMIT 1");
+    if (!rows.empty()) buried = ReadKey(rows[0]);
+  });
+  if (!buried) return {};
   return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
-              session_->name(), Describe(ReadKey(buried[0])));
+              session_->name(), Describe(*buried));
 }
 
-void PostgresRouteStore::FindHeld(Transaction& transaction, std::span<const SegmentPiece> pieces,
-                                  Digests& held) {
-  PostgresValues values;
-  for (const SegmentPiece& piece : pieces) {
-    values.Add(piece.key);
-    values.Add(std::int64_t{piece.index.value()});
-  }
-  const pqxx::result rows = values.Execute(
-      transaction,
-      "SELECT route, revision, number, digest, seal, bytes FROM segment LEFT JOIN content USING "
-      "(digest) WHERE (route, revision, number) IN (" +
-          values.Rows(3) + ")");
-  for (const pqxx::row& row : rows) {
-    const RouteKey key = ReadKey(row);
-    const SegmentIndex index(row[2].as<std::uint32_t>());
-    if (const auto whole = ReadSegmentRow(row, key, index)) {
-      held.try_emplace({key, index}, whole->digest);
+PostgresRouteStore::Digests PostgresRouteStore::FindHeld(Transaction& transaction,
+                                                         std::span<const SegmentPiece> pieces) {
+  Digests held;
+  ForSome(pieces, [&](auto begin, auto end) {
+    PostgresValues values;
+    for (auto piece = begin; piece != end; ++piece) {
+      values.Add(piece->key);
+      values.Add(std::int64_t{piece->index.value()});
     }
-  }
+    const pqxx::result rows = values.Execute(
+        transaction,
+        "SELECT route, revision, number, digest, seal, bytes FROM segment LEFT JOIN content USING "
+        "(digest) WHERE (route, revision, number) IN (" +
+            values.Rows(3) + ")");
+    for (const pqxx::row& row : rows) {
+      const RouteKey key = ReadKey(row);
+      const SegmentIndex index(row[2].as<std::uint32_t>());
+      if (const auto whole = ReadSegmentRow(row, key, index)) {
+        held.try_emplace({key, index}, whole->digest);
+      }
+    }
+  });
+  return held;
 }
 
 Result<void> PostgresRouteStore::Conflict(const SegmentPiece& piece,
@@ -183,21 +189,55 @@ Result<std::vector<SegmentIndex>> PostgresRouteStore::UnreceiptedSegments(const 
 Result<void> PostgresRouteStore::MarkReceipted(const RouteKey& key,
                                                std::span<const SegmentIndex> indices) {
   if (indices.empty()) return {};
-  return session_->Run(
-      Kind::kWrite, "noting receipts of " + Describe(key),
-      [&](Transaction& transaction) -> Result<void> {
-        for (auto left = indices; !left.empty();
-             left = left.subspan(std::min(kRowsAtOnce, left.size()))) {
-          PostgresValues values;
-          for (const SegmentIndex index : left.first(std::min(kRowsAtOnce, left.size()))) {
-            values.Add(key);
-            values.Add(std::int64_t{index.value()});
-          }
-          (void)values.Execute(transaction,
+  return session_->Run(Kind::kWrite, "noting receipts of " + Describe(key),
+                       [&](Transaction& transaction) -> Result<void> {
+                         ForSome(indices, [&](auto begin, auto end) {
+                           PostgresValues values;
+                           for (auto index = begin; index != end; ++index) {
+                             values.Add(key);
+                             values.Add(std::int64_t{index->value()});
+                           }
+                           (void)values.Execute(
+                               transaction,
                                "UPDATE segment SET receipted = true WHERE NOT receipted AND "
                                "(route, revision, number) IN (" +
                                    values.Rows(3) + ")");
-        }
+                         });
+                         return {};
+                       });
+}
+
+Result<void> PostgresRouteStore::Exclusively(const std::function<Result<void>()>& work) {
+  return session_->Run(Kind::kWrite, "changing what servers share",
+                       [&](Transaction& transaction) -> Result<void> {
+                         transaction.exec("SELECT FROM store FOR UPDATE");
+                         return work();
+                       });
+}
+
+Result<std::optional<std::string>> PostgresRouteStore::FindAnswer(const std::string& request) {
+  return session_->Run(Kind::kRead, "looking up an answered request",
+                       [&](Transaction& transaction) -> Result<std::optional<std::string>> {
+                         PostgresValues values;
+                         values.Add(request);
+                         const pqxx::result rows = values.Execute(
+                             transaction, "SELECT answer FROM answer WHERE request = ?");
+                         if (rows.empty()) return std::nullopt;
+                         return rows[0][0].as<std::string>();
+                       });
+}
+
+Result<void> PostgresRouteStore::RememberAnswer(const std::string& request,
+                                                const std::string& answer) {
+  return session_->Run(
+      Kind::kWrite, "noting an answered request", [&](Transaction& transaction) -> Result<void> {
+        transaction.exec("DELETE FROM answer WHERE answered_at < now() - interval '1 hour'");
+        PostgresValues values;
+        values.Add(request);
+        values.Add(answer);
+        (void)values.Execute(transaction,
+                             "INSERT INTO answer (request, answer) VALUES (?, ?) "
+                             "ON CONFLICT (request) DO NOTHING");
         return {};
       });
 }

@@ -35,6 +35,9 @@ class PostgresRouteStore final : public RouteStore {
   Result<void> MarkReceipted(const route::RouteKey& key,
                              std::span<const SegmentIndex> indices) override;
   Result<std::vector<SegmentIndex>> UnreceiptedSegments(const route::RouteKey& key) override;
+  Result<void> Exclusively(const std::function<Result<void>()>& work) override;
+  Result<std::optional<std::string>> FindAnswer(const std::string& request) override;
+  Result<void> RememberAnswer(const std::string& request, const std::string& answer) override;
   Result<std::vector<std::string>> Verify() override;
 
  private:
@@ -48,9 +51,8 @@ class PostgresRouteStore final : public RouteStore {
 
   Result<void> Append(Transaction& transaction, std::span<const route::SegmentPiece> pieces);
   [[nodiscard]] Result<void> RefuseBuried(Transaction& transaction, const Keys& keys) const;
-  // Adds the digests of those of `pieces` that are held and whole.
-  static void FindHeld(Transaction& transaction, std::span<const route::SegmentPiece> pieces,
-                       Digests& held);
+  // The digests of those of `pieces` that are held and whole.
+  static Digests FindHeld(Transaction& transaction, std::span<const route::SegmentPiece> pieces);
   [[nodiscard]] Result<void> Conflict(const route::SegmentPiece& piece,
                                       const route::Digest& held) const;
 

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/base/result.h"
@@ -89,11 +93,36 @@ class RouteStore {
   [[nodiscard]] virtual Result<std::vector<SegmentIndex>> UnreceiptedSegments(
       const route::RouteKey& key) = 0;
 
+  // Runs `work`, which reads and writes this store. Where several processes share it, no other's
+  // Exclusively comes between, what is written is there when this returns, all or nothing, and
+  // `work` may be run again when something else did. With a store of one process it is just run.
+  [[nodiscard]] virtual Result<void> Exclusively(const std::function<Result<void>()>& work) {
+    return work();
+  }
+  // What an operator's request was answered with, by whichever process: it is carried out once.
+  // Remembered for an hour, or (where no other process shares the store) among the last 64.
+  [[nodiscard]] virtual Result<std::optional<std::string>> FindAnswer(const std::string& request) {
+    const auto found = std::find_if(answers_.begin(), answers_.end(),
+                                    [&](const auto& each) { return each.first == request; });
+    if (found == answers_.end()) return std::nullopt;
+    return found->second;
+  }
+  [[nodiscard]] virtual Result<void> RememberAnswer(const std::string& request,
+                                                    const std::string& answer) {
+    constexpr std::size_t kRemembered = 64;
+    answers_.emplace_back(request, answer);
+    if (answers_.size() > kRemembered) answers_.pop_front();
+    return {};
+  }
+
   // What would be read wrong: one line per damaged segment or route. Empty when all is whole.
   [[nodiscard]] virtual Result<std::vector<std::string>> Verify() = 0;
 
  protected:
   RouteStore() = default;
+
+ private:
+  std::deque<std::pair<std::string, std::string>> answers_;  // with their requests, oldest first
 };
 
 struct SqliteOptions {
