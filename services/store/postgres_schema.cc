@@ -118,13 +118,14 @@ Result<void> PrepareSchema(pqxx::connection& connection, const std::string& stor
   pqxx::work transaction(connection);
   const std::string encoding = transaction.exec1("SHOW server_encoding")[0].as<std::string>();
   if (auto fit = CheckServer(connection.server_version(), encoding, store); !fit) return fit;
-  std::optional<int> version = VersionOf(transaction);
+  // Before it is looked whether there are tables: what was looked up once in a transaction is not
+  // seen to change.
+  if (create) transaction.exec(kMakersLock);
+  const std::optional<int> version = VersionOf(transaction);
   if (!version && create) {
-    transaction.exec(kMakersLock);
-    version = VersionOf(transaction);  // another may have made them meanwhile
-    if (!version) MakeTables(transaction);
+    MakeTables(transaction);
     transaction.commit();
-    if (!version) return {};
+    return {};
   }
   if (!version) {
     return Fail(ErrorCode::kInvalidArgument, "route store {}: there is none in this database",
