@@ -242,5 +242,30 @@ TEST_F(SharedStore, AnEditThatBothHearIsCarriedOutOnce) {
   EXPECT_EQ(told, 2U * kTimes) << logs;
 }
 
+TEST_F(SharedStore, CheckReadsItWhileServersUseItAndRepairsNothing) {
+  const auto check = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"check", "--store", url_};
+    words.insert(words.end(), more.begin(), more.end());
+    Process checked(Words("trailcast-server", words), folder_ / "check.log");
+    const auto status = checked.Wait();
+    return std::pair(status.value_or(-1), checked.output());
+  };
+  EXPECT_THAT(check({}).second, HasSubstr("there is none in this database"));
+  StartServers();
+  auto store = store::OpenPostgresStore(url_).value();
+  ASSERT_TRUE(store->AppendSegments(std::array{TaughtPiece(1, 0), TaughtPiece(1, 1)}));
+  const auto whole = check({});
+  EXPECT_EQ(whole.first, 0);
+  EXPECT_THAT(whole.second, HasSubstr("is whole"));
+  PostgresServer::Execute(url_, "UPDATE trailcast.segment SET number = 7 WHERE number = 1");
+  const auto damaged = check({});
+  EXPECT_EQ(damaged.first, 1);
+  EXPECT_THAT(damaged.second, HasSubstr("damaged: "));
+  const auto repair = check({"--repair"});
+  EXPECT_NE(repair.first, 0);
+  EXPECT_THAT(repair.second, HasSubstr("is not repaired from here"));
+  EXPECT_EQ(store->HeldSegments(KeyNumber(1)).value().size(), 2U);
+}
+
 }  // namespace
 }  // namespace trailcast::test

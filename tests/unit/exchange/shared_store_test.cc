@@ -1,0 +1,146 @@
+// Two keepers of one store, as two servers are.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "services/exchange/route_keeper.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/pieces.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteState;
+using std::chrono::milliseconds;
+using test::Only;
+using testing::IsEmpty;
+
+constexpr std::size_t kA = 0;
+constexpr std::size_t kB = 1;
+
+class SharedStoreTest : public testing::Test {
+ protected:
+  SharedStoreTest() {
+    for (std::size_t which : {kA, kB}) {
+      const auto plan = [this](const route::RouteEdit&) {
+        ++plans_;
+        return planned_;
+      };
+      keepers_[which] = RouteKeeper::Open(AgentId(fmt::format("server-{}", which)), store_,
+                                          {.answer = {}, .plan = plan}, test::ToyIntegrity())
+                            .value();
+    }
+  }
+  route::RouteInfo Info(std::uint32_t count, RouteState state) {
+    return test::InfoOf(key_, std::span(pieces_).first(count), state);
+  }
+  void Announce(std::size_t to, std::uint32_t count, RouteState state = RouteState::kTeaching) {
+    keepers_[to]->Handle(RouteAnnouncement{AgentId("scout-1"), Info(count, state)}, now_);
+  }
+  void Deliver(std::size_t to, std::vector<route::SegmentPiece> pieces) {
+    keepers_[to]->Handle(SegmentBatch{AgentId("scout-1"), std::move(pieces)}, now_);
+  }
+  std::vector<Message> TickAfter(std::size_t which, milliseconds passed) {
+    now_ += passed;
+    return keepers_[which]->Tick(now_);
+  }
+  void Complete(std::size_t which, std::uint32_t count) {
+    Announce(which, count, RouteState::kComplete);
+    Deliver(which, {pieces_.begin(), pieces_.begin() + count});
+    (void)TickAfter(which, milliseconds(300));
+  }
+
+  const route::RouteKey key_ = test::KeyNumber(1);
+  const std::vector<route::SegmentPiece> pieces_ = test::PiecesOf(key_, 10);
+  test::MemoryStore store_;
+  std::array<std::unique_ptr<RouteKeeper>, 2> keepers_;
+  RouteKeeper::Time now_{};
+  Result<std::vector<route::RouteInfo>> planned_;  // what the next edit changes
+  int plans_ = 0;
+};
+
+TEST_F(SharedStoreTest, WhatTheOtherStoredIsReceiptedAndNotAskedFor) {
+  Announce(kB, 3);
+  Deliver(kA, {pieces_[0], pieces_[1]});
+  (void)TickAfter(kA, milliseconds(0));
+  const auto out = TickAfter(kB, milliseconds(1200));
+  const auto requests = Only<SegmentRequest>(out);
+  ASSERT_EQ(requests.size(), 1U);
+  EXPECT_EQ(requests[0].lacking, test::Indices(2, 3));
+  const auto receipts = Only<Receipt>(TickAfter(kB, milliseconds(0)));
+  ASSERT_EQ(receipts.size(), 1U);
+  EXPECT_EQ(receipts[0].durable_prefix, 2U);
+}
+
+TEST_F(SharedStoreTest, AFollowerIsSentWhatTheOtherStored) {
+  Announce(kB, 1);
+  Deliver(kB, {pieces_[0]});
+  (void)TickAfter(kB, milliseconds(0));
+  Complete(kA, 4);
+  now_ += milliseconds(2000);
+  keepers_[kB]->Handle(SegmentRequest{AgentId("follower-1"), key_, test::Indices(1, 4)}, now_);
+  const auto out = TickAfter(kB, milliseconds(100));
+  EXPECT_EQ(test::PiecesIn(out), (std::vector{pieces_[1], pieces_[2], pieces_[3]}));
+  const auto announced = Only<RouteAnnouncement>(out);
+  ASSERT_EQ(announced.size(), 1U);
+  EXPECT_EQ(announced[0].info, store_.FindRoute(key_).value());
+}
+
+TEST_F(SharedStoreTest, TheOthersWordIsAnnouncedWhereItIsLater) {
+  Complete(kA, 2);  // and active, an edition later than the scout's
+  Announce(kB, 2, RouteState::kComplete);
+  const auto announced = Only<RouteAnnouncement>(TickAfter(kB, milliseconds(300)));
+  for (const RouteAnnouncement& each : announced) {
+    EXPECT_EQ(each.info.standing, route::Standing::kActive);
+  }
+  EXPECT_EQ(store_.FindRoute(key_).value()->edition, 1U);
+}
+
+TEST_F(SharedStoreTest, AnEditThatBothHearIsCarriedOutOnceAndAnsweredByBoth) {
+  Complete(kA, 2);
+  Complete(kB, 2);
+  route::RouteInfo renamed = *store_.FindRoute(key_).value();
+  renamed.name = "hall";
+  ++renamed.edition;
+  planned_ = {renamed};
+  for (std::size_t which : {kA, kB}) {
+    keepers_[which]->Handle(RouteEditRequest{AgentId("operator"), 7, {.route = "corridor"}}, now_);
+    const auto out = TickAfter(which, milliseconds(0));
+    ASSERT_EQ(Only<CatalogReply>(out).size(), 1U);
+    EXPECT_EQ(Only<CatalogReply>(out)[0].page.routes, std::vector{renamed});
+    ASSERT_EQ(Only<RouteAnnouncement>(out).size(), 1U);
+    EXPECT_EQ(Only<RouteAnnouncement>(out)[0].info, renamed);
+  }
+  EXPECT_EQ(plans_, 1);
+}
+
+TEST_F(SharedStoreTest, ARefusedEditIsRefusedByBothEvenIfItWouldDoByNow) {
+  planned_ = Fail(ErrorCode::kConflict, "it is not complete");
+  for (std::size_t which : {kA, kB}) {
+    keepers_[which]->Handle(RouteEditRequest{AgentId("operator"), 7, {.route = "corridor"}}, now_);
+    const auto replies = Only<CatalogReply>(TickAfter(which, milliseconds(0)));
+    ASSERT_EQ(replies.size(), 1U);
+    EXPECT_EQ(replies[0].error, "it is not complete");
+    planned_ = std::vector<route::RouteInfo>{};
+  }
+}
+
+TEST_F(SharedStoreTest, WhatTheOtherDeletedIsTakenFromNobody) {
+  Announce(kB, 3);
+  Deliver(kB, {pieces_[0]});
+  (void)TickAfter(kB, milliseconds(0));
+  route::RouteInfo tombstone = *store_.FindRoute(key_).value();
+  tombstone.standing = route::Standing::kDeleted;
+  ++tombstone.edition;
+  ASSERT_TRUE(store_.PutRoute(tombstone));
+  now_ += milliseconds(2000);
+  Deliver(kB, {pieces_[1]});
+  const auto receipts = Only<Receipt>(TickAfter(kB, milliseconds(0)));
+  ASSERT_EQ(receipts.size(), 1U);
+  EXPECT_EQ(receipts[0].refusal, Refusal::kDeleted);
+  EXPECT_THAT(store_.HeldSegments(key_).value(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace trailcast::exchange
