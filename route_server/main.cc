@@ -63,8 +63,8 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
 // A damaged file is served as far as it is whole.
 trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
     const StoreOptions& options) {
-  auto store = trailcast::store::OpenStore(options.location,
-                                           {.max_bytes = options.limit_mb * 1'000'000});
+  auto store =
+      trailcast::store::OpenStore(options.location, {.max_bytes = options.limit_mb * 1'000'000});
   const bool is_file = !trailcast::store::IsPostgresUrl(options.location);
   if (store || !is_file || store.error().code != trailcast::ErrorCode::kCorrupt) return store;
   auto damaged = trailcast::store::OpenDamagedStore(options.location);

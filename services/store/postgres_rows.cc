@@ -11,13 +11,6 @@ namespace {
 
 double ReadDouble(const pqxx::field& field) { return std::strtod(field.c_str(), nullptr); }
 
-// Empty where the column is NULL, as of a content that is gone.
-route::Bytes ReadBytes(const pqxx::field& field) {
-  if (field.is_null()) return {};
-  const pqxx::binarystring bytes(field);
-  return {bytes.begin(), bytes.end()};
-}
-
 // Nothing when it has another length than a digest.
 std::optional<route::Digest> ReadDigest(const pqxx::field& field) {
   const route::Bytes bytes = ReadBytes(field);
@@ -34,6 +27,12 @@ std::optional<route::Place> ReadPlace(const pqxx::row& row, int first) {
 }
 
 }  // namespace
+
+route::Bytes ReadBytes(const pqxx::field& field) {
+  if (field.is_null()) return {};
+  const pqxx::binarystring bytes(field);
+  return {bytes.begin(), bytes.end()};
+}
 
 void PostgresValues::Add(const std::string& text) {
   // It would be cut off there.
@@ -151,11 +150,19 @@ Result<route::RouteInfo> ReadRoute(const pqxx::row& row) {
   return info;
 }
 
+Result<route::Digest> ReadSegmentDigest(const pqxx::row& row, const route::RouteKey& key,
+                                        SegmentIndex index) {
+  const std::optional<route::Digest> digest = ReadDigest(row["digest"]);
+  const route::SegmentPiece named{key, index, digest.value_or(route::Digest{}), {}};
+  if (!digest || ReadDigest(row["seal"]) != Seal(named)) return DamagedSegment(key, index);
+  return *digest;
+}
+
 Result<route::SegmentPiece> ReadSegmentRow(const pqxx::row& row, const route::RouteKey& key,
                                            SegmentIndex index) {
-  const std::optional<route::Digest> digest = ReadDigest(row["digest"]);
-  route::SegmentPiece piece{key, index, digest.value_or(route::Digest{}), ReadBytes(row["bytes"])};
-  if (!digest || ReadDigest(row["seal"]) != Seal(piece)) return DamagedSegment(key, index);
+  const Result<route::Digest> digest = ReadSegmentDigest(row, key, index);
+  if (!digest) return tl::unexpected(digest.error());
+  route::SegmentPiece piece{key, index, *digest, ReadBytes(row["bytes"])};
   if (auto whole = route::CheckDigest(piece); !whole) return tl::unexpected(whole.error());
   return piece;
 }

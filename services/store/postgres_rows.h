@@ -60,5 +60,11 @@ void ForSome(const Items& items, const Work& work) {
 [[nodiscard]] Result<route::SegmentPiece> ReadSegmentRow(const pqxx::row& row,
                                                          const route::RouteKey& key,
                                                          SegmentIndex index);
+// Of its columns `digest` and `seal` alone.
+[[nodiscard]] Result<route::Digest> ReadSegmentDigest(const pqxx::row& row,
+                                                      const route::RouteKey& key,
+                                                      SegmentIndex index);
+// Empty where the column is NULL, as of a content that is gone.
+[[nodiscard]] route::Bytes ReadBytes(const pqxx::field& field);
 
 }  // namespace trailcast::store

@@ -157,6 +157,39 @@ Result<SegmentPiece> PostgresRouteStore::ReadSegment(const RouteKey& key, Segmen
       });
 }
 
+Result<std::vector<HeldSegment>> PostgresRouteStore::SegmentDigests(const RouteKey& key) {
+  return session_->Run(Kind::kRead, "listing the segments of " + Describe(key),
+                       [&](Transaction& transaction) -> Result<std::vector<HeldSegment>> {
+                         PostgresValues values;
+                         values.Add(key);
+                         std::vector<HeldSegment> held;
+                         for (const pqxx::row& row : values.Execute(
+                                  transaction,
+                                  "SELECT number, digest, seal FROM segment WHERE route = ? AND "
+                                  "revision = ? ORDER BY number")) {
+                           const SegmentIndex index(row[0].as<std::uint32_t>());
+                           if (const auto digest = ReadSegmentDigest(row, key, index)) {
+                             held.push_back({index, *digest});
+                           }
+                         }
+                         return held;
+                       });
+}
+
+Result<std::optional<route::Bytes>> PostgresRouteStore::FindContent(const route::Digest& digest) {
+  return session_->Run(Kind::kRead, "looking up a segment's bytes",
+                       [&](Transaction& transaction) -> Result<std::optional<route::Bytes>> {
+                         PostgresValues values;
+                         values.Add(digest);
+                         const pqxx::result rows = values.Execute(
+                             transaction, "SELECT bytes FROM content WHERE digest = ?");
+                         if (rows.empty()) return std::nullopt;
+                         route::Bytes bytes = ReadBytes(rows[0][0]);
+                         if (route::Sha256(bytes) != digest) return std::nullopt;
+                         return bytes;
+                       });
+}
+
 Result<std::vector<SegmentIndex>> PostgresRouteStore::SelectIndices(const RouteKey& key,
                                                                     bool unreceipted) {
   return session_->Run(

@@ -26,6 +26,8 @@ class PostgresRouteStore final : public RouteStore {
   Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
+  Result<std::vector<HeldSegment>> SegmentDigests(const route::RouteKey& key) override;
+  Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override;
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
   Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override;
   Result<std::vector<route::RouteInfo>> ListRoutes() override;
