@@ -104,6 +104,7 @@ TEST_F(PostgresStore, ServersThatStartAtOnceMakeTheTablesOnce) {
   std::array<Result<std::unique_ptr<RouteStore>>, 4> opened;
   {
     std::vector<std::jthread> threads;
+    threads.reserve(opened.size());
     for (auto& each : opened) threads.emplace_back([&] { each = OpenStore(url_); });
   }
   for (const auto& each : opened) EXPECT_EQ(MessageOf(each), "opened");

@@ -1,0 +1,142 @@
+// What RouteKeeper says of its routes: as far as they are durable, once the store has it.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "services/exchange/route_keeper.h"
+
+namespace trailcast::exchange {
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::RouteState;
+
+bool RouteKeeper::ManifestIsRight(const RouteInfo& info, const KeptRoute& kept, Time now) {
+  std::vector<route::Digest> digests;
+  for (std::uint32_t i = 0; i < info.segment_count; ++i) {
+    digests.push_back(kept.DigestOf(SegmentIndex(i)).value_or(route::Digest{}));
+  }
+  if (integrity_.manifest(digests) == info.manifest_digest) return true;
+  Refuse({ErrorCode::kConflict,
+          fmt::format("{} \"{}\" was announced complete, but its {} segments held here are not "
+                      "those of its manifest; teach it again as a new revision",
+                      Describe(info.key), info.name, info.segment_count)},
+         info.key, now);
+  return false;
+}
+
+void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
+  std::vector<RouteInfo> again;
+  std::vector<RouteInfo> grown;
+  std::vector<RouteInfo> completing;
+  for (auto& [key, kept] : routes_) {
+    auto info = News(kept, now);
+    if (!info) continue;
+    const bool stored_already = info == kept.stored();
+    const bool completes = !kept.complete() && info->state == RouteState::kComplete;
+    (stored_already ? again : completes ? completing : grown).push_back(std::move(*info));
+  }
+  std::vector<RouteKey> stored;
+  StoreInfos(grown, false, now, stored);
+  const std::size_t completed_from = stored.size();
+  StoreInfos(completing, true, now, stored);
+  for (std::size_t i = completed_from; i < stored.size(); ++i) TellComplete(stored[i], now);
+  for (const RouteInfo& info : again) stored.push_back(info.key);
+  for (const RouteKey& key : stored) {
+    KeptRoute& kept = routes_.at(key);
+    kept.resend_due = false;
+    out.emplace_back(RouteAnnouncement{.holder = self_, .info = *kept.stored()});
+  }
+}
+
+Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
+  std::set<RouteId> activated;
+  for (RouteInfo& info : completing) {
+    if (info.standing != route::Standing::kStaged || activated.contains(info.key.route)) continue;
+    const auto revisions = store_.FindRevisions(info.key.route);
+    if (!revisions) return tl::unexpected(revisions.error());
+    const bool edited = std::any_of(
+        revisions->begin(), revisions->end(),
+        [](const RouteInfo& each) { return each.standing != route::Standing::kStaged; });
+    if (edited) continue;
+    info.standing = route::Standing::kActive;
+    ++info.edition;
+    activated.insert(info.key.route);
+  }
+  return {};
+}
+
+std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
+  const bool too_soon = kept.announced_at && now < *kept.announced_at + options_.announce_every;
+  if (!kept.announce_due || too_soon) return std::nullopt;
+  kept.announce_due = false;
+  std::optional<RouteInfo> durable = kept.DurableInfo();
+  const bool stored_already = durable && durable == kept.stored();
+  if (!durable || (stored_already && !kept.resend_due)) return std::nullopt;
+  kept.announced_at = now;
+  const bool completes = durable->state == RouteState::kComplete && !kept.complete() &&
+                         durable->standing != route::Standing::kDeleted;
+  if (completes && !ManifestIsRight(*durable, kept, now)) {
+    kept.ForgetClaim();
+    return std::nullopt;
+  }
+  return durable;
+}
+
+Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing) {
+  if (!completing) return store_.PutRoutes(infos);
+  // Two servers must not each activate another revision.
+  return store_.Exclusively([&]() -> Result<void> {
+    std::vector<RouteInfo> activated(infos.begin(), infos.end());
+    if (auto chosen = ActivateFirst(activated); !chosen) return chosen;
+    return store_.PutRoutes(activated);
+  });
+}
+
+// One commit. When the store refuses the group for a route in it, each is tried alone.
+void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, Time now,
+                             std::vector<RouteKey>& stored) {
+  if (infos.empty()) return;
+  if (const auto put = Put(infos, completing); put) {
+    for (const RouteInfo& info : infos) MarkStored(info, now, stored);
+  } else if (infos.size() > 1 && put.error().code != ErrorCode::kUnavailable) {
+    for (const RouteInfo& info : infos) StoreInfos({&info, 1}, completing, now, stored);
+  } else {
+    Refuse(put.error(), infos.front().key, now);
+    for (const RouteInfo& info : infos) {
+      KeptRoute& kept = routes_.at(info.key);
+      if (put.error().code == ErrorCode::kConflict) {
+        kept.ForgetClaim();
+      } else {
+        kept.announce_due = true;  // disk full: again when it may have been cleared
+      }
+    }
+  }
+}
+
+// The store's word counts: another server may have stored later news.
+void RouteKeeper::MarkStored(const RouteInfo& info, Time now, std::vector<RouteKey>& stored) {
+  KeptRoute& kept = routes_.at(info.key);
+  const auto found = store_.FindRoute(info.key);
+  if (!found || !*found) {
+    kept.announce_due = true;
+    return;
+  }
+  kept.MarkStored(**found);
+  if ((*found)->segment_count > info.segment_count) Refresh(info.key, kept, now);
+  stored.push_back(info.key);
+}
+
+void RouteKeeper::TellComplete(const RouteKey& key, Time now) {
+  KeptRoute& kept = routes_.at(key);
+  if (!kept.complete()) return;
+  const RouteInfo& info = *kept.stored();
+  kept.receipt_due = true;
+  kept.receipt_at.reset();
+  AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
+          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(key), info.name,
+                      info.segment_count, info.length_m),
+          now);
+}
+
+}  // namespace trailcast::exchange
