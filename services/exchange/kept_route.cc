@@ -55,10 +55,10 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
   return ClaimResult::kNews;
 }
 
-void KeptRoute::MarkHeld(SegmentIndex index, const route::Digest& digest) {
+void KeptRoute::MarkHeld(SegmentIndex index, const route::Digest& digest, Time now) {
   held_[index] = digest;
   damaged_.erase(index);
-  want.Remove(index);
+  want.Arrived(index, now);
   AdvancePrefix();
 }
 
@@ -112,7 +112,7 @@ void KeptRoute::MarkStored(const RouteInfo& info) {
 }
 
 bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
-                       const std::vector<store::HeldSegment>& held, Time ask_at) {
+                       const std::vector<store::HeldSegment>& held, Time now, Time ask_at) {
   bool is_new = false;
   if (stored && stored != stored_) {
     MarkStored(*stored);
@@ -121,7 +121,7 @@ bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
   if (deleted()) return is_new;
   for (const store::HeldSegment& segment : held) {
     if (Holds(segment.index) || IsDamaged(segment.index)) continue;
-    MarkHeld(segment.index, segment.digest);
+    MarkHeld(segment.index, segment.digest, now);
     is_new = true;
   }
   if (is_new) MarkRoom();  // somebody's pieces were taken

@@ -34,7 +34,7 @@ class KeptRoute {
   // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.
   ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
 
-  void MarkHeld(SegmentIndex index, const route::Digest& digest);
+  void MarkHeld(SegmentIndex index, const route::Digest& digest, Time now);
   // Its bytes on the disk are not what they were: no longer held, and asked for from now on.
   void MarkDamaged(SegmentIndex index, Time now);
   [[nodiscard]] bool Holds(SegmentIndex index) const { return held_.contains(index); }
@@ -52,7 +52,8 @@ class KeptRoute {
   // The store has this, perhaps from another process. Segments that nobody stored are wanted from
   // `ask_at` on. True if anything of it is new here.
   [[nodiscard]] bool TakeUp(const std::optional<route::RouteInfo>& stored,
-                            const std::vector<store::HeldSegment>& held, Time ask_at);
+                            const std::vector<store::HeldSegment>& held, Time now,
+                            Time ask_at);
   // The claim does not fit the segments: forget it, and never announce it.
   void ForgetClaim();
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }

@@ -40,10 +40,11 @@ void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
     }
   } else if (!info_ || info.state == RouteState::kComplete ||
              info.segment_count > info_->segment_count) {
+    const bool fresh = info_ || info.state == RouteState::kTeaching;
     route::RouteInfo grown = info;
     if (info_ && info_->edition > info.edition) route::TakeLabels(grown, *info_);
     info_ = std::move(grown);
-    WantMissing(now + options_.fresh_grace);
+    WantMissing(fresh ? now + options_.fresh_grace : now);
     Judge();
   }
   heard_at_ = now;
@@ -91,18 +92,14 @@ void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
   }
   heard_at_ = now;
   held_.emplace(piece.index, piece.digest);
-  want_.Remove(piece.index);
+  want_.Arrived(piece.index, now);
   arrived_.push_back(piece);
   Judge();
 }
 
 // A complete route's count is final, so what was wanted beyond it is forgotten.
 void RouteFetcher::WantMissing(Time ask_at) {
-  if (info_->state == RouteState::kComplete) {
-    while (!want_.empty() && want_.last()->value() >= info_->segment_count) {
-      want_.Remove(*want_.last());
-    }
-  }
+  if (info_->state == RouteState::kComplete) want_.Truncate(info_->segment_count);
   for (std::uint32_t i = 0; i < info_->segment_count; ++i) {
     if (!held_.contains(SegmentIndex(i))) want_.Want(SegmentIndex(i), ask_at);
   }

@@ -15,7 +15,8 @@ namespace trailcast::exchange {
 
 struct RouteFetcherOptions {
   WantList::Options want{};
-  // Segments announced just now are probably on their way: not asked for before this has passed.
+  // The newest segments of a route that is being taught are probably on their way: not asked for
+  // before this has passed.
   std::chrono::milliseconds fresh_grace{200};
   // Above the scout's announce_every: a scout in range is never taken for nobody. After so long a
   // silence the fetcher asks who has the route, and again each time it has passed.

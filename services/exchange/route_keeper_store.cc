@@ -51,9 +51,9 @@ void RouteKeeper::Refresh(const RouteKey& key, KeptRoute& kept, Time now) {
     return;
   }
   for (const SegmentIndex index : kept.Damaged()) {
-    if (const auto mended = store_.ReadSegment(key, index)) kept.MarkHeld(index, mended->digest);
+    if (const auto mended = store_.ReadSegment(key, index)) kept.MarkHeld(index, mended->digest, now);
   }
-  if (kept.TakeUp(*info, *held, now + options_.fresh_grace)) {
+  if (kept.TakeUp(*info, *held, now, now + options_.fresh_grace)) {
     kept.receipt_due = kept.announce_due = kept.resend_due = true;
   }
 }
@@ -159,7 +159,7 @@ void RouteKeeper::MarkAppended(const SegmentPiece& piece, Time now) {
         fmt::format("segment {} of {} is whole again", piece.index.value(), Describe(piece.key)),
         now);
   }
-  kept.MarkHeld(piece.index, piece.digest);
+  kept.MarkHeld(piece.index, piece.digest, now);
   kept.MarkRoom();
   kept.announce_due = kept.receipt_due = true;
   kept.receipt_at.reset();  // something new is durable: not held back

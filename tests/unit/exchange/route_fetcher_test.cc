@@ -100,6 +100,12 @@ TEST_F(RouteFetcherTest, AsksForWhatItLacksAndIsCompleteWhenTheManifestIsRight) 
   EXPECT_TRUE(fetcher.TakeArrived().empty());
 }
 
+TEST_F(RouteFetcherTest, AsksAtOnceForARouteThatWasTaughtBefore) {
+  RouteFetcher fetcher = Fetcher();
+  Announce(fetcher, 3, RouteState::kComplete);
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(0)), Indices(0, 3));
+}
+
 TEST_F(RouteFetcherTest, DoesNotAskForWhatIsBeingStreamed) {
   RouteFetcher fetcher = Fetcher();
   Announce(fetcher, 1);
@@ -150,9 +156,10 @@ TEST_F(RouteFetcherTest, IgnoresOtherRoutes) {
 TEST_F(RouteFetcherTest, AsksForALongRouteBitByBit) {
   RouteFetcher fetcher = Fetcher();
   Announce(fetcher, 300);
-  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 128));
-  for (std::uint32_t i = 0; i < 100; ++i) Deliver(fetcher, pieces_[i]);
-  EXPECT_EQ(AskedAfter(fetcher, milliseconds(10)), Indices(128, 228));
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 32));
+  for (std::uint32_t i = 0; i < 20; ++i) Deliver(fetcher, pieces_[i]);
+  // Each quick answer lets one more be under way.
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(10)), Indices(32, 72));
 }
 
 TEST_F(RouteFetcherTest, NoticesThatNobodyHoldsTheRouteAndAsksWhoDoes) {
