@@ -16,6 +16,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{50};
+constexpr milliseconds kWaitAnswering{1};
 constexpr milliseconds kStatusEvery{1000};
 constexpr milliseconds kMetricsEvery{1000};
 constexpr milliseconds kRetentionEvery{1000};  // some routes at a time
@@ -77,8 +78,11 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   while (!stop()) Serve();
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();
-  spdlog::info("stopped by a signal; {} segments stored since the start, {} sent to followers",
-               keeper_->counters().appended, keeper_->counters().answered);
+  const exchange::KeeperCounters& counters = keeper_->counters();
+  spdlog::info(
+      "stopped by a signal; since the start {} segments stored, {} received again, {} sent to "
+      "followers",
+      counters.appended, counters.duplicates, counters.answered);
   return {};
 }
 
@@ -100,7 +104,9 @@ void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
 }
 
 void Server::Serve() {
-  const milliseconds wait = views_.Filled() || views_wait_ ? kWait : milliseconds(0);
+  const milliseconds wait = !views_.Filled() && !views_wait_ ? milliseconds(0)
+                            : keeper_->answering()           ? kWaitAnswering
+                                                             : kWait;
   for (const exchange::Message& message : exchange_->Take(wait)) Receive(message);
   const auto now = steady_clock::now();
   const auto outgoing = keeper_->Tick(now);

@@ -1,11 +1,18 @@
 #include "services/exchange/answer_queue.h"
 
+#include <algorithm>
+
 namespace trailcast::exchange {
 
 void AnswerQueue::Ask(const route::RouteKey& key, std::span<const SegmentIndex> indices, Time now) {
   if (indices.empty()) return;
-  Asked& asked = asked_.try_emplace(key, Asked{.since = now, .indices = {}}).first->second;
-  asked.indices.insert(indices.begin(), indices.end());
+  auto [at, is_new] = asked_.try_emplace(key);
+  Asked& asked = at->second;
+  if (is_new) asked.due_at = now + options_.window;
+  for (const SegmentIndex index : indices) {
+    const auto sent = asked.sent.find(index);
+    if (sent == asked.sent.end() || !IsOnItsWay(sent->second, now)) asked.indices.insert(index);
+  }
 }
 
 AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const ReadPiece& read) {
@@ -13,7 +20,7 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
   std::size_t bytes = 0;
   for (auto at = asked_.begin(); at != asked_.end() && bytes < max_bytes;) {
     auto& [key, asked] = *at;
-    if (now < asked.since + window_) {
+    if (now < asked.due_at) {
       ++at;
       continue;
     }
@@ -23,14 +30,21 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
       auto piece = read(key, index);
       if (piece) {
         bytes += piece->bytes.size();
+        asked.sent[index] = asked.sent_last = now;
         due.pieces.push_back(*std::move(piece));
       } else {
         due.unreadable.push_back({key, index, piece.error()});
       }
     }
-    at = asked.indices.empty() ? asked_.erase(at) : std::next(at);
+    const bool over = asked.indices.empty() && !IsOnItsWay(asked.sent_last, now);
+    at = over ? asked_.erase(at) : std::next(at);
   }
   return due;
+}
+
+bool AnswerQueue::empty() const {
+  return std::all_of(asked_.begin(), asked_.end(),
+                     [](const auto& entry) { return entry.second.indices.empty(); });
 }
 
 }  // namespace trailcast::exchange

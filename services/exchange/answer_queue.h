@@ -13,13 +13,21 @@
 
 namespace trailcast::exchange {
 
-// Which segments were asked for and are to be sent. What several agents ask for within a short
-// window is sent once, by multicast; repeated requests for what is queued cost nothing.
+// Which segments were asked for and are to be sent. What several agents ask for is sent once, by
+// multicast: together with what others ask for within a short window, and not again for a while
+// after, in which it is on its way to all of them. Who did not get it asks once more, later.
 class AnswerQueue {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  explicit AnswerQueue(std::chrono::milliseconds window) : window_(window) {}
+  struct Options {
+    // The first who ask for a route after a pause are waited for together.
+    std::chrono::milliseconds window{10};
+    // Below WantList's retry_after, so that whoever asks again is answered.
+    std::chrono::milliseconds on_its_way{800};
+  };
+
+  explicit AnswerQueue(Options options) : options_(options) {}
 
   void Ask(const route::RouteKey& key, std::span<const SegmentIndex> indices, Time now);
 
@@ -38,14 +46,21 @@ class AnswerQueue {
   // rest the next time.
   [[nodiscard]] Answers Due(Time now, std::size_t max_bytes, const ReadPiece& read);
 
-  [[nodiscard]] bool empty() const { return asked_.empty(); }
+  // Nothing is to be sent, now or soon.
+  [[nodiscard]] bool empty() const;
 
  private:
   struct Asked {
-    Time since;
+    Time due_at{};
     std::set<SegmentIndex> indices;
+    std::map<SegmentIndex, Time> sent;
+    Time sent_last{};
   };
-  std::chrono::milliseconds window_;
+  [[nodiscard]] bool IsOnItsWay(Time sent, Time now) const {
+    return now < sent + options_.on_its_way;
+  }
+
+  Options options_;
   std::map<route::RouteKey, Asked> asked_;
 };
 

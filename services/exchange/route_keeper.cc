@@ -16,7 +16,7 @@ RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog
       catalog_(std::move(catalog)),
       integrity_(std::move(integrity)),
       options_(options),
-      answers_(options.answer_window) {}
+      answers_(options.answers) {}
 
 Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::RouteStore& store,
                                                        Catalog catalog, Integrity integrity,

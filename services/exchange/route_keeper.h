@@ -19,13 +19,14 @@ namespace trailcast::exchange {
 
 struct RouteKeeperOptions {
   WantList::Options want{};
-  std::chrono::milliseconds fresh_grace{200};     // as in RouteFetcherOptions
-  std::chrono::milliseconds answer_window{50};    // who asks within it is answered once, together
+  std::chrono::milliseconds fresh_grace{200};  // as in RouteFetcherOptions
+  AnswerQueue::Options answers{};
   std::chrono::milliseconds announce_every{250};  // at most so often while a route grows
   std::chrono::milliseconds receipt_again{500};   // at most so often when nothing new is durable
   std::chrono::milliseconds note_again{10'000};   // the same trouble is reported at most so often
   std::chrono::milliseconds refresh_again{1000};  // the store is looked at again for another's work
-  std::size_t answer_bytes_per_tick = 1U << 20U;
+  // A slow link holds the caller up for so much, and nothing is received meanwhile.
+  std::size_t answer_bytes_per_tick = 128U << 10U;
   // Routes that the keeper has at hand; the others are in the store alone, and are taken up when
   // somebody speaks of them. A full one lays aside what nobody spoke of for `laid_aside_after`.
   std::size_t most_at_hand = 1024;
@@ -86,6 +87,8 @@ class RouteKeeper {
   void NoteDamage(const route::RouteKey& key, SegmentIndex index, Time now);
   // Segments repaired since the last call.
   [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeRepaired();
+  // Somebody waits for segments: Tick soon.
+  [[nodiscard]] bool answering() const { return !answers_.empty(); }
 
   [[nodiscard]] std::vector<Note> TakeNotes();
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }

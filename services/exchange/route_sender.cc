@@ -14,7 +14,7 @@ RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
       info_(std::move(info)),
       read_(std::move(read)),
       options_(options),
-      answers_(options.answer_window) {
+      answers_(options.answers) {
   for (std::uint32_t i = 0; i < info_.segment_count; ++i) unreceipted_.insert(SegmentIndex(i));
   for (const SegmentIndex index : receipted) unreceipted_.erase(index);
 }

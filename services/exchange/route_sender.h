@@ -17,7 +17,7 @@ struct RouteSenderOptions {
   // Servers answer each announcement with what they have and what they lack, so this is also how
   // soon a returning server, or a scout returning into radio range, goes on.
   std::chrono::milliseconds announce_every{2000};
-  std::chrono::milliseconds answer_window{50};
+  AnswerQueue::Options answers{};
   std::size_t answer_bytes_per_tick = 512U << 10U;  // so that one Tick never floods a radio link
 };
 

@@ -19,7 +19,7 @@ Result<route::SegmentPiece> Read(const route::RouteKey& key, SegmentIndex index)
 }
 
 TEST(AnswerQueue, AnswersAllWhoAskWithinTheWindowOnce) {
-  AnswerQueue queue(milliseconds(50));
+  AnswerQueue queue({.window = milliseconds(50)});
   queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
   queue.Ask(KeyNumber(1), Indices(1, 5), kStart + milliseconds(40));
   EXPECT_TRUE(queue.Due(kStart + milliseconds(49), kPlenty, Read).pieces.empty());
@@ -28,8 +28,28 @@ TEST(AnswerQueue, AnswersAllWhoAskWithinTheWindowOnce) {
   EXPECT_TRUE(queue.empty());
 }
 
+TEST(AnswerQueue, WhatIsOnItsWayIsNotSentAgainUntilAskedForLater) {
+  AnswerQueue queue({.window = milliseconds(50), .on_its_way = milliseconds(800)});
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  const auto sent_at = kStart + milliseconds(50);
+  EXPECT_EQ(queue.Due(sent_at, kPlenty, Read).pieces.size(), 3U);
+  queue.Ask(KeyNumber(1), Indices(0, 3), sent_at + milliseconds(799));
+  EXPECT_TRUE(queue.empty());
+  EXPECT_TRUE(queue.Due(sent_at + milliseconds(799), kPlenty, Read).pieces.empty());
+  queue.Ask(KeyNumber(1), Indices(0, 3), sent_at + milliseconds(800));
+  EXPECT_EQ(queue.Due(sent_at + milliseconds(900), kPlenty, Read).pieces.size(), 3U);
+}
+
+TEST(AnswerQueue, WhoeverIsBeingAnsweredNeedNotWaitForOthers) {
+  AnswerQueue queue({.window = milliseconds(50)});
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  (void)queue.Due(kStart + milliseconds(50), kPlenty, Read);
+  queue.Ask(KeyNumber(1), Indices(3, 5), kStart + milliseconds(60));
+  EXPECT_EQ(queue.Due(kStart + milliseconds(60), kPlenty, Read).pieces.size(), 2U);
+}
+
 TEST(AnswerQueue, SendsALongAnswerInTurns) {
-  AnswerQueue queue(milliseconds(0));
+  AnswerQueue queue({.window = milliseconds(0)});
   queue.Ask(KeyNumber(1), Indices(0, 5), kStart);
   EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
   EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
@@ -37,7 +57,7 @@ TEST(AnswerQueue, SendsALongAnswerInTurns) {
 }
 
 TEST(AnswerQueue, ReportsWhatCannotBeReadAndSendsTheRest) {
-  AnswerQueue queue(milliseconds(0));
+  AnswerQueue queue({.window = milliseconds(0)});
   queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
   const auto damaged = [](const route::RouteKey& key,
                           SegmentIndex index) -> Result<route::SegmentPiece> {

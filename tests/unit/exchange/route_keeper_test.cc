@@ -146,7 +146,7 @@ TEST_F(RouteKeeperTest, AnswersFollowersWhoAskTogetherOnce) {
   (void)Tick();
   Ask("follower-1", Indices(0, 5));
   Ask("follower-2", Indices(0, 2));
-  EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(49))).empty());
+  EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(9))).empty());
   EXPECT_EQ(test::PiecesIn(TickAfter(milliseconds(1))), (std::vector{pieces_[0], pieces_[1]}));
   EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(100))).empty());
 }

@@ -95,7 +95,7 @@ TEST_F(RouteSenderTest, AnswersWhatOnlyItHas) {
   for (int i = 0; i < 3; ++i) Teach(sender);
   (void)sender.Tick(now_);
   Ask(sender, "server-1", {SegmentIndex(1), SegmentIndex(2), SegmentIndex(9)});
-  EXPECT_TRUE(TickAfter(sender, milliseconds(49)).empty());
+  EXPECT_TRUE(TickAfter(sender, milliseconds(9)).empty());
   const auto sent = test::PiecesIn(TickAfter(sender, milliseconds(1)));
   EXPECT_EQ(sent, (std::vector{pieces_[1], pieces_[2]}));
 }
