@@ -2,8 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "agent/fetch_estimate.h"
 #include "services/base/time.h"
 
 namespace trailcast::agent {
@@ -26,9 +29,15 @@ class Fetching {
       news_at_ = steady_clock::now();
       if (std::get_if<RouteComplete>(&*item) != nullptr) return true;
       if (auto* error = std::get_if<Error>(&*item)) return tl::unexpected(*error);
-      if (auto* route = std::get_if<route::RouteInfo>(&*item)) announced_ = route->segment_count;
-      if (std::get_if<route::Segment>(&*item) != nullptr) ++segments_;
+      if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
+        announced_ = route->segment_count;
+        estimate_.emplace(news_at_);
+        told_at_ = news_at_;
+      }
     }
+    if (link.fetched() > fetched_) news_at_ = steady_clock::now();
+    fetched_ = link.fetched();
+    held_ = link.held_before() + fetched_;
     if (options_.stop()) return Fail(ErrorCode::kUnavailable, "stopped by a signal; {}", SoFar());
     // Before the first news the link has bounds of its own, and says more precisely what fails.
     if (announced_ > 0 && steady_clock::now() - news_at_ > options_.wait) {
@@ -38,28 +47,29 @@ class Fetching {
     Tell();
     return false;
   }
-  [[nodiscard]] std::uint32_t segments() const { return segments_; }
 
  private:
   [[nodiscard]] std::string SoFar() const {
     return fmt::format("{} of {} segments of route '{}' are in {}: the next run goes on from there",
-                       segments_, announced_, options_.route, options_.store_file);
+                       held_, announced_, options_.route, options_.store_file);
   }
   void Tell() {
     const auto now = steady_clock::now();
-    if (segments_ == 0 || now - told_at_ < kTellEvery) return;
+    if (!estimate_ || now - told_at_ < kTellEvery) return;
     told_at_ = now;
-    const double left_s = Seconds(now - began_) / segments_ * (announced_ - segments_);
-    spdlog::info("{} of {} segments of '{}' are here, about {:.0f} s left", segments_, announced_,
-                 options_.route, left_s);
+    estimate_->Note(now, fetched_);
+    const auto left = estimate_->Left(announced_ - std::min(announced_, held_));
+    spdlog::info("{} of {} segments of '{}' are here, {}", held_, announced_, options_.route,
+                 left ? fmt::format("about {:.0f} s left", left->count()) : "none came lately");
   }
 
   const FollowerLinkOptions& options_;
   std::uint32_t announced_ = 0;
-  std::uint32_t segments_ = 0;
-  steady_clock::time_point began_ = steady_clock::now();
-  steady_clock::time_point news_at_ = began_;
-  steady_clock::time_point told_at_ = began_;
+  std::uint32_t fetched_ = 0;  // by this run
+  std::uint32_t held_ = 0;     // now, those of earlier runs included
+  std::optional<FetchEstimate> estimate_;
+  steady_clock::time_point news_at_ = steady_clock::now();
+  steady_clock::time_point told_at_ = news_at_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{20};
+constexpr milliseconds kWaitFeeding{5};
 
 exchange::AgentStatus FollowerStatus(const AgentId& agent, const std::string& route) {
   exchange::AgentStatus status;
@@ -125,6 +126,7 @@ Result<void> FollowerLink::StartFetching() {
   spdlog::info("route '{}' of scout '{}', camera {}: {} segments so far, {} of them here",
                route_->name, route_->scout.value(), route_->camera, route_->segment_count,
                held.size());
+  held_before_ = static_cast<std::uint32_t>(held.size());
   if (exchange_) {
     const auto now = steady_clock::now();
     auto others = store_->FindRevisions(key.route);
@@ -167,7 +169,7 @@ Result<void> FollowerLink::Follow() {
 
 void FollowerLink::Trade() {
   while (auto report = reports_.TryGet()) latest_ = std::move(*report);
-  auto messages = exchange_->Take(kWait);
+  auto messages = exchange_->Take(next_feed_ < held_ ? kWaitFeeding : kWait);
   const auto now = steady_clock::now();
   for (const exchange::Message& message : messages) {
     presence_->Handle(message);
@@ -200,6 +202,7 @@ Result<void> FollowerLink::StoreArrived() {
       damaged_.erase(piece.index);
     }
     if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
+    fetched_ += static_cast<std::uint32_t>(arrived.size());
     if (auto counted = CountHeld(); !counted) return counted;
   }
   const auto progress = fetcher_->Progress(steady_clock::now());

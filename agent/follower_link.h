@@ -53,6 +53,10 @@ class FollowerLink {
   // For the control loop. Neither takes a lock nor waits.
   [[nodiscard]] std::optional<Feed> TryTake() { return feed_.TryGet(); }
   void Report(const ReplayStep& step);
+  // Of the route's segments, those that were in the own store when the fetching began, and those
+  // that came since. Any thread.
+  [[nodiscard]] std::uint32_t held_before() const { return held_before_; }
+  [[nodiscard]] std::uint32_t fetched() const { return fetched_; }
   // While there is nothing to follow: waits until something was fed, or `at_most`.
   void WaitForFeed(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
 
@@ -98,6 +102,8 @@ class FollowerLink {
   std::set<SegmentIndex> damaged_;  // in the own store: fetched anew
   std::uint32_t held_ = 0;          // segments in the own store without a gap
   std::uint32_t next_feed_ = 0;
+  std::atomic<std::uint32_t> held_before_ = 0;
+  std::atomic<std::uint32_t> fetched_ = 0;
   bool fed_all_ = false;
   std::string waiting_for_ = "starting";
   std::optional<AgentId> told_server_;
