@@ -1,0 +1,240 @@
+#!/usr/bin/env bash
+# Measures how routes are shared over networks staged on this machine, and the rivals beside it.
+# Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
+#   tests/bench/network.sh followers|loss|wire|ingest|latency [RUNS]
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+bin=$(cd "$here/../../build/release/bin" && pwd)
+# shellcheck source=tests/bench/network_lab.sh
+source "$here/network_lab.sh"
+
+fetch_timeout=120
+
+median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+
+# start_server NUMBER STORE: the route server, running.
+start_server() {
+  local log="$work/server.log"
+  : >"$log"
+  on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug >"$log" 2>&1 &
+  server=$!
+  until grep -q ready "$log"; do sleep 0.05; done
+}
+
+# start_fetch NUMBER: into a store of its own.
+fetch() {
+  on "$1" timeout "$fetch_timeout" "$bin/trailcast-agent" --name "robot$1" --network-interface eth0 \
+    --log-level debug --store "$work/robot$1.db" fetch --route hall >"$work/robot$1.log" 2>&1
+}
+
+# Seconds from the first request for a segment to the last segment.
+fetch_time() {
+  awk '
+    function at(clock, part) { split(clock, part, ":"); return part[1] * 3600 + part[2] * 60 + part[3] }
+    /segments so far/ { from = at($1) }
+    / all [0-9]+ segments of .* are here$/ { whole = 1; exit }
+    /segments of .* are here$/ { to = at($1) }
+    END { if (whole) printf "%.2f\n", to - from; else print "failed" }' "$work/robot$1.log"
+}
+
+# at_once COMMAND...: the command with each of the robots' numbers, all at once; the slowest one's
+# seconds, and the bytes that the server sent.
+at_once() {
+  local robot before after start
+  before=$(lab_sent 1)
+  start=$EPOCHREALTIME
+  for robot in "${robots[@]}"; do "$@" "$robot" & done
+  wait_for_robots
+  after=$(lab_sent 1)
+  awk -v from="$start" -v to="$EPOCHREALTIME" -v bytes=$((after - before)) \
+    'BEGIN { printf "%.2f %d\n", to - from, bytes }'
+}
+wait_for_robots() {
+  local job
+  for job in $(jobs -p); do
+    [[ $job == "${server:-}" ]] || wait "$job" || true
+  done
+}
+
+# Of the routes' seconds the programs' own start is no part.
+fetch_all() {
+  local bytes robot
+  rm -f "$work"/robot*
+  bytes=$(at_once fetch | cut -d' ' -f2)
+  for robot in "${robots[@]}"; do fetch_time "$robot"; done | sort -n |
+    awk -v bytes="$bytes" 'END { print $1, bytes }'
+}
+by_rsync() { on "$1" rsync "rsync://10.77.0.1/routes/route" "$work/robot$1.rsync"; }
+by_curl() { on "$1" curl --silent --output "$work/robot$1.curl" http://10.77.0.1:8080/route; }
+
+# What the rivals serve: one file with as many bytes as the route has.
+start_rivals() {
+  mkdir -p "$work/served"
+  head -c "$route_bytes" /dev/urandom >"$work/served/route"
+  chmod 755 "$work" "$work/served"
+  printf 'use chroot = no\n[routes]\npath = %s/served\n' "$work" >"$work/rsyncd.conf"
+  cat >"$work/nginx.conf" <<CONF
+daemon off; master_process off; pid $work/nginx.pid; error_log $work/nginx.log;
+events {}
+http { access_log off; client_body_temp_path $work; proxy_temp_path $work; fastcgi_temp_path $work;
+  uwsgi_temp_path $work; scgi_temp_path $work; server { listen 8080; root $work/served; } }
+CONF
+  on 1 rsync --daemon --no-detach --config="$work/rsyncd.conf" &
+  disown
+  on 1 nginx -c "$work/nginx.conf" 2>/dev/null &
+  disown
+  until on 2 curl --silent --head --output /dev/null http://10.77.0.1:8080/route; do sleep 0.1; done
+}
+
+make_route() {
+  local made
+  made=$("$bin/network_bench" store "$work/server.db" --segments "$1")
+  route_bytes=$(awk '{ print $3 }' <<<"$made")
+  printf '# %s\n' "$made"
+}
+
+# medians COMMAND...: of each column of what it prints, over all runs.
+medians() {
+  local run
+  for ((run = 0; run < runs; ++run)); do "$@"; done >"$work/runs"
+  local columns column
+  columns=$(head -1 "$work/runs" | wc -w)
+  for ((column = 1; column <= columns; ++column)); do
+    cut -d' ' -f"$column" "$work/runs" | median
+  done | paste -sd' '
+}
+
+followers() {
+  local host what one many
+  lab_open
+  for ((host = 1; host <= 17; ++host)); do lab_host "$host"; done
+  make_route 1000
+  lab_rate 1 20mbit
+  start_server 1 "$work/server.db"
+  start_rivals
+  printf '| by | one: s, MB | sixteen: s, MB | times |\n'
+  for what in ${rivals:-fetch_all "at_once by_rsync" "at_once by_curl"}; do
+    robots=(2)
+    # shellcheck disable=SC2086
+    one=$(medians $what)
+    mapfile -t robots < <(seq 2 17)
+    # shellcheck disable=SC2086
+    many=$(medians $what)
+    awk -v what="$what" -v one="$one" -v many="$many" 'BEGIN {
+      split(one, a, " "); split(many, b, " ")
+      printf "| %s | %.2f, %.1f | %.2f, %.1f | %.1f, %.1f |\n", what, a[1], a[2] / 1e6, b[1],
+        b[2] / 1e6, b[1] / a[1], b[2] / a[2] }'
+  done
+}
+
+# Cyclone alone, its own defaults: the writer at host 1, a late reader at host 2.
+plain_uri='<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="eth0"/></Interfaces></General></Domain></CycloneDDS>'
+plain_time() {
+  local writer
+  export CYCLONEDDS_URI=$plain_uri
+  on 1 "$bin/network_bench" write-transient-local --samples "$1" >"$work/writer.log" &
+  writer=$!
+  until grep -q written "$work/writer.log"; do sleep 0.05; done
+  on 2 timeout "$fetch_timeout" "$bin/network_bench" read-transient-local --samples "$1" |
+    sed 's/.*=//'
+  kill "$writer"
+  unset CYCLONEDDS_URI
+}
+
+loss() {
+  local share ours plain
+  lab_open
+  lab_host 1
+  lab_host 2
+  robots=(2)
+  make_route 500
+  start_server 1 "$work/server.db"
+  printf '| loss | fetch, s | plain, s | times |\n'
+  for share in ${shares:-0 0.01 0.05 0.20}; do
+    lab_loss 1 "$share"
+    lab_loss 2 "$share"
+    ours=$(medians fetch_all | cut -d' ' -f1)
+    plain=$(medians plain_time 500)
+    printf '| %s | %s | %s | %s |\n' "$share" "$ours" "$plain" \
+      "$(awk -v a="$plain" -v b="$ours" 'BEGIN { printf "%.1f", a / b }')"
+  done
+}
+
+# ddsperf's throughput with samples of a batch's size, payload in Mbit/s.
+wire_rate() {
+  local sub
+  export CYCLONEDDS_URI=$plain_uri
+  on 2 ddsperf -D 8 sub >"$work/sub.log" 2>&1 &
+  sub=$!
+  on 1 ddsperf -D 7 pub size 48k >/dev/null 2>&1 || true
+  wait "$sub" || true
+  unset CYCLONEDDS_URI
+  sed -n 's/.* rate .*S\/s \([0-9.]*\) Mb\/s (.*/\1/p' "$work/sub.log" | median
+}
+
+wire() {
+  local rate seconds
+  lab_open
+  lab_host 1
+  lab_host 2
+  robots=(2)
+  make_route 500
+  start_server 1 "$work/server.db"
+  printf '| link | fetch of 500, Mbit/s | ddsperf, Mbit/s | share |\n'
+  for rate in 20mbit 100mbit ''; do
+    [[ -z $rate ]] && on 1 tc qdisc del dev eth0 root || lab_rate 1 "$rate"
+    seconds=$(medians fetch_all | cut -d' ' -f1)
+    awk -v link="${rate:-unlimited}" -v bytes="$route_bytes" -v s="$seconds" -v wire="$(medians wire_rate)" \
+      'BEGIN { ours = bytes * 8 / s / 1e6; printf "| %s | %.1f | %.1f | %.2f |\n", link, ours, wire, ours / wire }'
+  done
+}
+
+ingest() {
+  local rate
+  ip link set lo up
+  for rate in 1 10 20 30 40; do
+    rm -f "$work"/server.db*
+    "$bin/trailcast-server" --store "$work/server.db" --dds-tag ingest --network-interface lo \
+      >"$work/server.log" 2>&1 &
+    server=$!
+    until grep -q ready "$work/server.log"; do sleep 0.05; done
+    "$bin/network_bench" ingest --tag ingest --rate "$rate"
+    kill "$server"
+    wait "$server" || true
+  done
+  for rate in 1 10 50 100; do "$bin/network_bench" commits "$work" --group "$rate"; done
+}
+
+latency() {
+  local pong
+  ip link set lo up
+  export CYCLONEDDS_URI=${plain_uri/eth0\"/lo\" multicast=\"true\"}
+  for ((run = 0; run < runs; ++run)); do
+    "$bin/network_bench" latency
+    ddsperf -D 6 pong >/dev/null 2>&1 &
+    pong=$!
+    printf 'ddsperf, one way: '
+    ddsperf -D 5 ping size 4k 2>&1 | grep -o 'mean.*' | tail -1
+    wait "$pong" || true
+  done
+}
+
+die() {
+  printf 'network.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+main() {
+  case ${1:-} in
+    followers | loss | wire | ingest | latency) ;;
+    *) die 'say what to measure: followers, loss, wire, ingest or latency' ;;
+  esac
+  [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
+  lab_enter "$@"
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  runs=${2:-5}
+  "$1"
+}
+
+main "$@"

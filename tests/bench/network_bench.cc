@@ -1,0 +1,76 @@
+// What tests/bench/network.sh measures with; see network_bench.h.
+#include "tests/bench/network_bench.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "services/store/route_store.h"
+#include "tests/support/taught_route.h"
+
+namespace trailcast::bench {
+
+double Percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+Result<void> MakeStore(const std::filesystem::path& file, std::uint32_t segments, int features) {
+  auto store = store::OpenSqliteStore(file);
+  if (!store) return tl::unexpected(store.error());
+  test::TaughtRoute taught = test::TeachSamples(segments, features);
+  taught.info.standing = route::Standing::kActive;
+  if (auto put = (*store)->PutRoute(taught.info); !put) return put;
+  if (auto put = (*store)->AppendSegments(taught.pieces); !put) return put;
+  fmt::print("{} segments, {} bytes\n", segments, taught.info.bytes);
+  return {};
+}
+
+}  // namespace trailcast::bench
+
+int main(int argc, char** argv) {
+  namespace bench = trailcast::bench;
+  CLI::App app("Measures the sharing of routes");
+  app.require_subcommand(1);
+
+  std::string file;
+  std::uint32_t segments = 500;
+  int features = 38;
+  int samples = 2000;
+  int group = 10;
+  bench::IngestOptions ingest;
+  CLI::App* store = app.add_subcommand("store", "Makes a store with one route");
+  store->add_option("file", file)->required();
+  store->add_option("--segments", segments);
+  store->add_option("--features", features);
+  CLI::App* latency = app.add_subcommand("latency", "One segment's way over the loopback");
+  latency->add_option("--samples", samples);
+  CLI::App* load = app.add_subcommand("ingest", "Many scouts teach at once");
+  load->add_option("--tag", ingest.tag)->required();
+  load->add_option("--scouts", ingest.scouts);
+  load->add_option("--participants", ingest.participants);
+  load->add_option("--rate", ingest.segments_per_s);
+  load->add_option("--duration", ingest.duration_s);
+  CLI::App* commits = app.add_subcommand("commits", "Bare SQLite group commits");
+  commits->add_option("folder", file)->required();
+  commits->add_option("--group", group);
+  CLI::App* write = app.add_subcommand("write-transient-local", "Plain Cyclone, the writer");
+  write->add_option("--samples", samples);
+  CLI::App* read = app.add_subcommand("read-transient-local", "Plain Cyclone, the late reader");
+  read->add_option("--samples", samples);
+  CLI11_PARSE(app, argc, argv);
+
+  trailcast::Result<void> done;
+  if (store->parsed()) done = bench::MakeStore(file, segments, features);
+  if (latency->parsed()) done = bench::MeasureLatency(samples);
+  if (load->parsed()) done = bench::MeasureIngest(ingest);
+  if (commits->parsed()) done = bench::MeasureCommits(file, group);
+  if (write->parsed()) done = bench::WriteTransientLocal(samples);
+  if (read->parsed()) done = bench::ReadTransientLocal(samples);
+  if (done) return 0;
+  fmt::print(stderr, "{}\n", done.error().message);
+  return 1;
+}

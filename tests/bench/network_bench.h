@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::bench {
+
+// What tests/bench/network.sh measures with, each a subcommand of network_bench.
+
+// A store as a server has it, with one complete route, "hall", of segments that decode.
+[[nodiscard]] Result<void> MakeStore(const std::filesystem::path& file, std::uint32_t segments,
+                                     int features);
+
+// From Publish on one exchange to Take on another, 4 KiB on the loopback interface.
+[[nodiscard]] Result<void> MeasureLatency(int samples);
+
+struct IngestOptions {
+  std::uint32_t scouts = 200;
+  std::uint32_t participants = 4;
+  double segments_per_s = 1.0;  // each scout
+  double duration_s = 20.0;
+  std::string tag;
+};
+// Plays many scouts to a running server, and tells how long their receipts take.
+[[nodiscard]] Result<void> MeasureIngest(const IngestOptions& options);
+
+// Group commits of pieces by SQLite's own interface, nothing of ours around it.
+[[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);
+
+// Cyclone alone, with its own defaults: 4 KiB samples from a transient-local, keep-all writer to a
+// reader that comes late.
+[[nodiscard]] Result<void> WriteTransientLocal(int samples);
+[[nodiscard]] Result<void> ReadTransientLocal(int samples);
+
+[[nodiscard]] double Percentile(std::vector<double> values, double share);
+
+}  // namespace trailcast::bench

@@ -1,0 +1,50 @@
+# Networks on one machine, for network.sh: a bridge that is the air, and hosts on it, each in a
+# network namespace without a name. All of it goes with the processes that hold it, whatever ends
+# them. Needs root.
+lab_enter() {
+  [[ -n ${TRAILCAST_LAB:-} ]] || TRAILCAST_LAB=1 exec unshare --net --kill-child --fork -- "$0" "$@"
+}
+
+declare -A host_pid
+
+# lab_open: the air.
+lab_open() {
+  ip link set lo up
+  ip link add air type bridge mcast_snooping 0
+  ip link set air up
+}
+
+# lab_host NUMBER: 10.77.0.NUMBER on eth0.
+lab_host() {
+  local number=$1 pid
+  setpriv --pdeathsig KILL unshare --net sleep infinity &
+  pid=$!
+  disown "$pid"
+  until [[ $(readlink "/proc/$pid/ns/net") != $(readlink /proc/self/ns/net) ]] &&
+    [[ $(cat "/proc/$pid/comm") == sleep ]]; do sleep 0.01; done
+  host_pid[$number]=$pid
+  ip link add "port$number" type veth peer name eth0 netns "$pid"
+  ip link set "port$number" master air up
+  on "$number" ip link set lo up
+  on "$number" ip address add "10.77.0.$number/24" dev eth0
+  on "$number" ip link set eth0 up
+}
+
+# on NUMBER COMMAND...: runs it there.
+on() {
+  local number=$1
+  shift
+  setpriv --pdeathsig KILL nsenter --target "${host_pid[$number]}" --net -- "$@"
+}
+
+# lab_rate NUMBER RATE: what the host sends; lab_loss NUMBER SHARE: of the frames it receives, IP
+# fragments one by one.
+lab_rate() { on "$1" tc qdisc replace dev eth0 root tbf rate "$2" burst 32kb latency 200ms; }
+lab_loss() {
+  on "$1" iptables -t raw -F PREROUTING
+  [[ $2 == 0 ]] ||
+    on "$1" iptables -t raw -A PREROUTING -p udp -m statistic --mode random --probability "$2" -j DROP
+}
+
+# Bytes that the host has sent.
+lab_sent() { on "$1" awk '/eth0:/ { print $10 }' /proc/net/dev; }
