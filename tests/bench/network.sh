@@ -206,15 +206,14 @@ ingest() {
 }
 
 latency() {
-  local pong
+  local run pong uri=${plain_uri/eth0\"/lo\" multicast=\"true\"}
   ip link set lo up
-  export CYCLONEDDS_URI=${plain_uri/eth0\"/lo\" multicast=\"true\"}
   for ((run = 0; run < runs; ++run)); do
     "$bin/network_bench" latency
-    ddsperf -D 6 pong >/dev/null 2>&1 &
+    CYCLONEDDS_URI=$uri ddsperf -D 6 pong >/dev/null 2>&1 &
     pong=$!
     printf 'ddsperf, one way: '
-    ddsperf -D 5 ping size 4k 2>&1 | grep -o 'mean.*' | tail -1
+    CYCLONEDDS_URI=$uri ddsperf -D 5 ping size 4k 2>&1 | grep -o 'mean.*' | tail -1
     wait "$pong" || true
   done
 }

@@ -1,8 +1,9 @@
 # Networks on one machine, for network.sh: a bridge that is the air, and hosts on it, each in a
-# network namespace without a name. All of it goes with the processes that hold it, whatever ends
-# them. Needs root.
+# network namespace without a name. Everything runs in a process namespace, too: with the script,
+# whatever ends it, all processes end and all networks go. Needs root.
 lab_enter() {
-  [[ -n ${TRAILCAST_LAB:-} ]] || TRAILCAST_LAB=1 exec unshare --net --kill-child --fork -- "$0" "$@"
+  [[ -n ${TRAILCAST_LAB:-} ]] ||
+    TRAILCAST_LAB=1 exec unshare --net --pid --mount-proc --kill-child -- "$0" "$@"
 }
 
 declare -A host_pid
