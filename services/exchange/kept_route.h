@@ -52,8 +52,7 @@ class KeptRoute {
   // The store has this, perhaps from another process. Segments that nobody stored are wanted from
   // `ask_at` on. True if anything of it is new here.
   [[nodiscard]] bool TakeUp(const std::optional<route::RouteInfo>& stored,
-                            const std::vector<store::HeldSegment>& held, Time now,
-                            Time ask_at);
+                            const std::vector<store::HeldSegment>& held, Time now, Time ask_at);
   // The claim does not fit the segments: forget it, and never announce it.
   void ForgetClaim();
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }

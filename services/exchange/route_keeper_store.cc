@@ -51,7 +51,8 @@ void RouteKeeper::Refresh(const RouteKey& key, KeptRoute& kept, Time now) {
     return;
   }
   for (const SegmentIndex index : kept.Damaged()) {
-    if (const auto mended = store_.ReadSegment(key, index)) kept.MarkHeld(index, mended->digest, now);
+    if (const auto mended = store_.ReadSegment(key, index))
+      kept.MarkHeld(index, mended->digest, now);
   }
   if (kept.TakeUp(*info, *held, now, now + options_.fresh_grace)) {
     kept.receipt_due = kept.announce_due = kept.resend_due = true;
