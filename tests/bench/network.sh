@@ -21,7 +21,7 @@ start_server() {
   until grep -q ready "$log"; do sleep 0.05; done
 }
 
-# start_fetch NUMBER: into a store of its own.
+# fetch NUMBER: the robot's, into a store of its own.
 fetch() {
   on "$1" timeout "$fetch_timeout" "$bin/trailcast-agent" --name "robot$1" --network-interface eth0 \
     --log-level debug --store "$work/robot$1.db" fetch --route hall >"$work/robot$1.log" 2>&1
@@ -56,7 +56,7 @@ wait_for_robots() {
   done
 }
 
-# Of the routes' seconds the programs' own start is no part.
+# The same of our robots; their own start is no part of it.
 fetch_all() {
   local bytes robot
   rm -f "$work"/robot*
@@ -64,7 +64,10 @@ fetch_all() {
   for robot in "${robots[@]}"; do fetch_time "$robot"; done | sort -n |
     awk -v bytes="$bytes" 'END { print $1, bytes }'
 }
-by_rsync() { on "$1" rsync "rsync://10.77.0.1/routes/route" "$work/robot$1.rsync"; }
+by_rsync() {
+  rm -f "$work/robot$1.rsync"  # it would see that there is nothing to do
+  on "$1" rsync "rsync://10.77.0.1/routes/route" "$work/robot$1.rsync"
+}
 by_curl() { on "$1" curl --silent --output "$work/robot$1.curl" http://10.77.0.1:8080/route; }
 
 # What the rivals serve: one file with as many bytes as the route has.
@@ -113,7 +116,7 @@ followers() {
   start_server 1 "$work/server.db"
   start_rivals
   printf '| by | one: s, MB | sixteen: s, MB | times |\n'
-  for what in ${rivals:-fetch_all "at_once by_rsync" "at_once by_curl"}; do
+  for what in fetch_all 'at_once by_rsync' 'at_once by_curl'; do
     robots=(2)
     # shellcheck disable=SC2086
     one=$(medians $what)
@@ -150,7 +153,7 @@ loss() {
   make_route 500
   start_server 1 "$work/server.db"
   printf '| loss | fetch, s | plain, s | times |\n'
-  for share in ${shares:-0 0.01 0.05 0.20}; do
+  for share in 0 0.01 0.05; do
     lab_loss 1 "$share"
     lab_loss 2 "$share"
     ours=$(medians fetch_all | cut -d' ' -f1)
