@@ -195,7 +195,7 @@ wire() {
 ingest() {
   local rate
   ip link set lo up
-  for rate in 1 10 20 30 40; do
+  for rate in 1 10 20 30; do
     rm -f "$work"/server.db*
     "$bin/trailcast-server" --store "$work/server.db" --dds-tag ingest --network-interface lo \
       >"$work/server.log" 2>&1 &
@@ -213,10 +213,10 @@ latency() {
   ip link set lo up
   for ((run = 0; run < runs; ++run)); do
     "$bin/network_bench" latency
-    CYCLONEDDS_URI=$uri ddsperf -D 6 pong >/dev/null 2>&1 &
+    CYCLONEDDS_URI=$uri ddsperf -D 6 pong waitset >/dev/null 2>&1 &
     pong=$!
     printf 'ddsperf, one way: '
-    CYCLONEDDS_URI=$uri ddsperf -D 5 ping size 4k 2>&1 | grep -o 'mean.*' | tail -1
+    CYCLONEDDS_URI=$uri ddsperf -D 5 ping size 4k waitset 2>&1 | grep -o 'mean.*' | tail -1
     wait "$pong" || true
   done
 }

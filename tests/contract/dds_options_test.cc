@@ -26,6 +26,13 @@ TEST(DomainConfig, GivesTheLastWordToTheExtraConfiguration) {
   EXPECT_NE(extra, std::string::npos);
 }
 
+TEST(DomainConfig, PacketsFitAFrameOfTheNetwork) {
+  DdsOptions options;
+  EXPECT_THAT(DomainConfig(options, "").value(), HasSubstr("<MaxMessageSize>1400B<"));
+  options.network_interface = "lo";  // whose frames are large
+  EXPECT_THAT(DomainConfig(options, "").value(), testing::Not(HasSubstr("MaxMessageSize")));
+}
+
 TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
   DdsOptions options;
   options.domain_id = 231;
