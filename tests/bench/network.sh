@@ -197,6 +197,7 @@ ingest() {
   ip link set lo up
   for rate in 1 10 20 30; do
     rm -f "$work"/server.db*
+    : >"$work/server.log"
     "$bin/trailcast-server" --store "$work/server.db" --dds-tag ingest --network-interface lo \
       >"$work/server.log" 2>&1 &
     server=$!
