@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "agent/cli/command_line.h"
 #include "services/store/route_store.h"
 #include "tests/support/taught_route.h"
 
@@ -31,7 +32,9 @@ Result<void> MakeStore(const std::filesystem::path& file, std::uint32_t segments
 
 }  // namespace trailcast::bench
 
-int main(int argc, char** argv) {
+namespace {
+
+int Run(int argc, char** argv) {
   namespace bench = trailcast::bench;
   CLI::App app("Measures the sharing of routes");
   app.require_subcommand(1);
@@ -73,4 +76,10 @@ int main(int argc, char** argv) {
   if (done) return 0;
   fmt::print(stderr, "{}\n", done.error().message);
   return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return trailcast::cli::RunMain("network_bench", [&] { return Run(argc, argv); });
 }

@@ -55,8 +55,7 @@ Result<void> WriteTransientLocal(int samples) {
     const exchange::SegmentBatch batch{
         .sender = AgentId("plain"),
         .pieces = {test::PieceOf(test::KeyNumber(1), static_cast<std::uint32_t>(i), kBytes)}};
-    const auto written =
-        dds::WithWire(batch, [&](const void* sample) { return writer->Write(sample); });
+    auto written = dds::WithWire(batch, [&](const void* sample) { return writer->Write(sample); });
     if (!written) return written;
   }
   fmt::print("written\n");
@@ -85,8 +84,8 @@ Result<void> ReadTransientLocal(int samples) {
   int got = 0;
   while (got < samples && Clock::now() < deadline) {
     if (auto waited = waiting->Wait(std::chrono::milliseconds(1000)); !waited) return waited;
-    const auto taken = reader->Take(static_cast<std::size_t>(samples),
-                                    [&](const void*, const dds_sample_info_t&) { ++got; });
+    auto taken = reader->Take(static_cast<std::size_t>(samples),
+                              [&](const void*, const dds_sample_info_t&) { ++got; });
     if (!taken) return taken;
   }
   const std::chrono::duration<double> took = Clock::now() - began;

@@ -203,7 +203,7 @@ class FetchOverBadNetworks : public NetworkTest {
     ASSERT_FALSE(estimates.empty()) << log;
     for (const auto& [said_at, left_s] : estimates) {
       if (ended < said_at) continue;  // midnight
-      EXPECT_NEAR(left_s, ended - said_at, 1.0 + 0.4 * (ended - said_at)) << log;
+      EXPECT_NEAR(left_s, ended - said_at, 3.0 + 0.4 * (ended - said_at)) << log;
     }
   }
 
@@ -212,10 +212,12 @@ class FetchOverBadNetworks : public NetworkTest {
 
 TEST_F(FetchOverBadNetworks, ResumesWithWhatIsMissingWhereverItWasCut) {
   constexpr std::uint32_t kSegments = 600;
-  Prepare(kSegments, "2mbit");
+  Prepare(kSegments, "8mbit");
   std::size_t held = 0;
-  for (const int wanted : {50, 250, 450}) {
-    const std::string log = fmt::format("fetch{}", wanted);
+  int kills = 0;
+  while (kills < 3 && held < kSegments - 100) {
+    const std::size_t wanted = held + 50;
+    const std::string log = fmt::format("fetch{}", kills++);
     const auto fetch = Fetch(log);
     // Killed at any moment after so many.
     const auto enough = [&] {
@@ -226,7 +228,7 @@ TEST_F(FetchOverBadNetworks, ResumesWithWhatIsMissingWhereverItWasCut) {
       for (std::sregex_iterator at(output.begin(), output.end(), here), end; at != end; ++at) {
         last = (*at)[1];
       }
-      return !last.empty() && std::stoi(last) >= wanted;
+      return !last.empty() && std::stoul(last) >= wanted;
     };
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
     while (!enough() && !fetch->Ended() && std::chrono::steady_clock::now() < deadline) {
@@ -237,14 +239,13 @@ TEST_F(FetchOverBadNetworks, ResumesWithWhatIsMissingWhereverItWasCut) {
     (void)fetch->Wait();
     ASSERT_GT(HeldByRobot(), held);
     held = HeldByRobot();
-    ASSERT_LT(held, kSegments);
   }
   const auto fetch = Fetch("last");
   const auto ended = End(*fetch);
   EXPECT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, HasSubstr(fmt::format("{} of them here", held)));
   ExpectAllHere();
-  // What was on its way at each of three cuts is sent again, and nothing else.
+  // What was on its way at each cut is sent again, and nothing else.
   constexpr std::uint64_t kUnderWay = 160;
   EXPECT_LE(ServersCountOf("sent to followers"), kSegments + 3 * kUnderWay);
 }
@@ -260,11 +261,12 @@ TEST_F(FetchOverBadNetworks, GoesOnAfterTheLinkWasCut) {
   const auto ended = End(*fetch);
   EXPECT_EQ(ended.status, 0) << ended.output;
   ExpectAllHere();
-  EXPECT_LE(ServersCountOf("sent to followers"), kSegments + 500);
+  // The outage costs less than fetching all of it anew.
+  EXPECT_LT(ServersCountOf("sent to followers"), 2 * kSegments);
 }
 
 TEST_F(FetchOverBadNetworks, SaysHowLongItTakesAndCountsOnlyWhatThisRunFetched) {
-  Prepare(1200, "2mbit");
+  Prepare(1100, "1mbit");
   {
     auto store = store::OpenSqliteStore(Path("robot.db"));
     ASSERT_TRUE(store) << store.error().message;
