@@ -267,11 +267,10 @@ TEST_P(RouteExchangeContract, KeepsTheOrderOfRequestsOfSeveralAgents) {
 
 TEST_P(RouteExchangeContract, RefusesATopicNotOpenedForWriting) {
   const auto follower = Open(FollowerTopics());
-  const auto result =
-      follower->Publish(SegmentBatch{AgentId("f"), {test::PieceOf(KeyNumber(1), 0)}});
+  const auto result = follower->Publish(Receipt{AgentId("f"), KeyNumber(1), 1});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
-  EXPECT_THAT(result.error().message, testing::HasSubstr("trailcast/segments"));
+  EXPECT_THAT(result.error().message, testing::HasSubstr("trailcast/receipts"));
 }
 
 TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
