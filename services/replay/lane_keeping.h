@@ -7,7 +7,7 @@ namespace trailcast::replay {
 struct LaneKeepingOptions {
   // The path is met again along a curve of about this length, without swinging over.
   double convergence_m = 0.5;
-  double steepest_rad = 0.65;  // towards the path, from however far
+  double steepest_rad = 0.5;  // towards the path, from however far
 };
 
 // Steers back onto the taught path and along its bends: omega = kappa v - c1 alpha - c2 e with both
