@@ -1,8 +1,6 @@
 #include "agent/cli/command_line.h"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include <cstdio>
 #include <memory>
@@ -73,6 +71,10 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   app.add_option("--log-level", options.log_level, "What is told on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->envname("TRAILCAST_LOG_LEVEL");
+  app.add_option("--log-format", options.log_format,
+                 "Lines for people, or a JSON object a line for programs")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->envname("TRAILCAST_LOG_FORMAT");
 }
 
 std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
@@ -95,13 +97,6 @@ CLI::Validator NameValidator() {
                                name);
           },
           "NAME"};
-}
-
-void SetUpLog(const CommonOptions& options) {
-  auto logger = spdlog::stderr_color_mt(options.name);
-  logger->set_pattern("%H:%M:%S.%e %^%-5l%$ %n: %v");
-  logger->set_level(spdlog::level::from_str(options.log_level));
-  spdlog::set_default_logger(std::move(logger));
 }
 
 int Complain(const CLI::App& app, const Error& error) {

@@ -22,6 +22,7 @@ struct CommonOptions {
   std::string dds_tag;
   std::string network_interface;
   std::string log_level = "info";
+  std::string log_format = "text";
 };
 
 // --version, --config, --name and the options of the network and the log, each with its
@@ -36,7 +37,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options);
 // Accepts names that IsValidName accepts.
 [[nodiscard]] CLI::Validator NameValidator();
 
-// spdlog's default logger to stderr, one line an event.
+// spdlog's default logger to stderr, one line an event (log.cc).
 void SetUpLog(const CommonOptions& options);
 
 // Runs a program's `body` and returns its exit status; an exception that gets this far is told on

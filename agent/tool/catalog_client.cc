@@ -6,6 +6,7 @@
 #include <random>
 #include <variant>
 
+#include "agent/cli/json.h"
 #include "services/exchange/bounds.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
@@ -44,7 +45,7 @@ std::string Remarks(const route::RouteInfo& info, const std::vector<std::string>
 
 std::string JsonTexts(const std::vector<std::string>& texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + JsonText(text);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + cli::JsonText(text);
   return "[" + list + "]";
 }
 
@@ -156,33 +157,17 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
   return text;
 }
 
-std::string JsonText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  quoted += '"';
-  return quoted;
-}
-
 std::string RouteJson(const route::RouteInfo& info) {
   return fmt::format(
       "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
       "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
       "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
       "\"place\": {}, \"description\": {}, \"edition\": {}}}",
-      JsonText(info.name), JsonText(info.key.route.value()), info.key.revision.value(),
+      cli::JsonText(info.name), cli::JsonText(info.key.route.value()), info.key.revision.value(),
       StateName(info), info.segment_count, info.length_m, info.bytes, BytesPerMeter(info),
-      JsonText(info.scout.value()), JsonText(info.camera), info.taught_unix_ms,
+      cli::JsonText(info.scout.value()), cli::JsonText(info.camera), info.taught_unix_ms,
       route::ToHex(info.manifest_digest), JsonTexts(info.tags), JsonPlace(info.place),
-      JsonText(info.description), info.edition);
+      cli::JsonText(info.description), info.edition);
 }
 
 std::string RoutesJson(const exchange::CatalogReply& reply) {

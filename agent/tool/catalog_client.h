@@ -40,9 +40,6 @@ namespace trailcast::tool {
 [[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
 [[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply);
 
-// Quoted for JSON.
-[[nodiscard]] std::string JsonText(const std::string& text);
-
 // "12 s", "5 min", "3 h", "2 d".
 [[nodiscard]] std::string Age(std::int64_t milliseconds);
 

@@ -5,6 +5,7 @@
 
 #include <ctime>
 
+#include "agent/cli/json.h"
 #include "agent/tool/catalog_client.h"
 #include "services/route/digest.h"
 
@@ -51,11 +52,11 @@ std::string FileText(const std::string& path, const archive::RouteFile& file) {
 
 std::string FileJson(const std::string& path, const Result<archive::RouteFile>& file) {
   if (!file) {
-    return fmt::format("{{\"file\": {}, \"whole\": false, \"error\": {}}}", JsonText(path),
-                       JsonText(file.error().message));
+    return fmt::format("{{\"file\": {}, \"whole\": false, \"error\": {}}}", cli::JsonText(path),
+                       cli::JsonText(file.error().message));
   }
   return fmt::format("{{\"file\": {}, \"whole\": true, \"file_bytes\": {}, \"route\": {}}}",
-                     JsonText(path), file->file_bytes(), RouteJson(file->info()));
+                     cli::JsonText(path), file->file_bytes(), RouteJson(file->info()));
 }
 
 }  // namespace trailcast::tool

@@ -104,6 +104,18 @@ TEST_F(SharingTest, TheExampleConfigurationsAreAccepted) {
   EXPECT_EQ(End(*server).status, 0);
 }
 
+TEST_F(SharingTest, LogsAreObjectsForProgramsOnRequest) {
+  const auto server =
+      Start("trailcast-server", {"--store", Path("server.db"), "--log-format", "json"}, "server");
+  ASSERT_TRUE(server->WaitForOutput("ready")) << server->output();
+  server->Signal(SIGTERM);
+  EXPECT_EQ(End(*server).status, 0);
+  EXPECT_THAT(server->output(),
+              testing::ContainsRegex("[{]\"time\": \"20[0-9-]+T[0-9:.]+Z\", \"level\": \"info\", "
+                                     "\"name\": \"server\", \"text\": \"ready: 0 routes in the "
+                                     "store\"[}]\n"));
+}
+
 TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
   const auto walk = Walk("walk", 2);
   const auto first =
