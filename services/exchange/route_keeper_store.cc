@@ -11,9 +11,7 @@
 
 namespace trailcast::exchange {
 
-using route::RouteInfo;
 using route::RouteKey;
-using route::RouteState;
 using route::SegmentPiece;
 
 KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now, Which which) {

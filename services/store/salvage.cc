@@ -160,13 +160,13 @@ class Salvaging {
   }
 
   Result<void> FlushRoutes() {
-    const auto flushed = Flush<route::RouteInfo>(
+    auto flushed = Flush<route::RouteInfo>(
         routes_, [&](auto infos) { return whole_.PutRoutes(infos); }, salvaged_.routes);
     routes_.clear();
     return flushed;
   }
   Result<void> FlushSegments() {
-    const auto flushed = Flush<route::SegmentPiece>(
+    auto flushed = Flush<route::SegmentPiece>(
         pieces_, [&](auto pieces) { return whole_.AppendSegments(pieces); }, salvaged_.segments);
     pieces_.clear();
     return flushed;
@@ -176,7 +176,7 @@ class Salvaging {
   // store that takes nothing, on a full disk, ends it: what was not written would count as lost.
   template <typename Item, typename Store>
   static Result<void> Flush(std::span<const Item> items, const Store& store, std::size_t& saved) {
-    const Result<void> stored = store(items);
+    Result<void> stored = store(items);
     if (stored) {
       saved += items.size();
       return {};
