@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/image/picture_size.h"
+
 namespace trailcast::image {
 namespace {
 
@@ -59,8 +61,16 @@ bool IsTruncatedJpeg(const std::vector<std::uint8_t>& bytes) {
   return std::search(scan, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
 }
 
+// A camera's picture has no more; a header of a few bytes can promise a thousand times as many.
+constexpr std::uint64_t kMostPixels = 100'000'000;
+
 Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
                             int flags) {
+  if (const std::uint64_t pixels = PromisedPixels(bytes); pixels > kMostPixels) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the picture {} says that it has {} pixels; at most {} are read: make it smaller",
+                name, pixels, kMostPixels);
+  }
   cv::Mat picture;
   if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
     try {

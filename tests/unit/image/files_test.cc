@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/image/picture_size.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::image {
@@ -108,6 +109,34 @@ TEST_P(TruncatedPicture, IsCorruptAndNamed) {
 INSTANTIATE_TEST_SUITE_P(Formats, TruncatedPicture,
                          ::testing::Combine(::testing::Values(".png", ".jpg", ".bmp"),
                                             ::testing::Values(0.3, 0.6, 0.9)));
+
+TEST(PromisedPixels, AreThoseOfWhatWasEncoded) {
+  GrayImage image = Gradient(64, 48);
+  const cv::Mat view(image.height, image.width, CV_8UC1, image.pixels.data());
+  for (const char* extension : {".png", ".jpg"}) {
+    std::vector<std::uint8_t> bytes;
+    ASSERT_TRUE(cv::imencode(extension, view, bytes));
+    EXPECT_EQ(PromisedPixels(bytes), 64U * 48U) << extension;
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      const std::uint64_t promised = PromisedPixels(std::span(bytes).first(length));
+      EXPECT_TRUE(promised == 0 || promised == 64U * 48U) << extension << " cut to " << length;
+    }
+  }
+  EXPECT_EQ(PromisedPixels({}), 0U);
+}
+
+// A few bytes, for which OpenCV would make room for a milliard pixels.
+TEST(Files, APictureThatPromisesTooMuchIsRefusedBeforeItIsDecoded) {
+  GrayImage image = Gradient(8, 8);
+  const cv::Mat view(image.height, image.width, CV_8UC1, image.pixels.data());
+  std::vector<std::uint8_t> bytes;
+  ASSERT_TRUE(cv::imencode(".png", view, bytes));
+  for (const std::size_t at : {18U, 22U}) bytes[at] = 0x7F;  // 32 520 each way
+  const auto refused = DecodeRgb(bytes, "huge.png");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_THAT(refused.error().message, HasSubstr("huge.png says that it has 1057"));
+}
 
 TEST(Files, WritingIntoAMissingFolderFailsWithItsName) {
   const test::TempDir folder;
