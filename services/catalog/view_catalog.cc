@@ -84,7 +84,6 @@ Result<void> ViewCatalog::IndexNext() {
     } else if (segment.error().code != ErrorCode::kNotFound) {
       unreadable_.insert(place);
     }
-    if (segment.error().code == ErrorCode::kCorrupt) damaged_.push_back(place);
     return tl::unexpected(segment.error());
   }
   std::ignore = index_.Add(place.key, *segment);  // not full, or nothing would be read
@@ -93,7 +92,11 @@ Result<void> ViewCatalog::IndexNext() {
 
 Result<route::Segment> ViewCatalog::Read(const Place& place) {
   const auto piece = store_.ReadSegment(place.key, place.segment);
-  if (!piece) return tl::unexpected(piece.error());
+  if (!piece) {
+    if (piece.error().code == ErrorCode::kCorrupt) damaged_.push_back(place);
+    return tl::unexpected(piece.error());
+  }
+  // Bytes that are whole and mean nothing are as their scout sent them.
   auto segment = route::Decode(piece->bytes);
   if (segment) segment->index = place.segment;
   return segment;

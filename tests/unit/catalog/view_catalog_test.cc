@@ -144,6 +144,7 @@ TEST_F(ViewCatalogTest, ASegmentThatIsNoneIsLeftOutAndCounted) {
   EXPECT_EQ(AskFor(views, 10).coverage, (route::ViewCoverage{3, 4, 0}));
   views.Note(KeyNumber(1));
   EXPECT_TRUE(views.Fill(100)) << "told once";
+  EXPECT_THAT(views.TakeDamaged(), IsEmpty()) << "it is as it was sent";
 }
 
 TEST_F(ViewCatalogTest, GivesNoMorePlacesThanAskedFor) {
