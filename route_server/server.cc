@@ -151,6 +151,9 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
     }
   }
   for (const auto& [key, segment] : keeper_->TakeRepaired()) views_.Mend(key, segment);
+  for (const auto& [key, segment] : views_.TakeDamaged()) {
+    keeper_->NoteDamage(key, segment, steady_clock::now());
+  }
   if (views_.Filled()) return;
   const auto filled = views_.Fill(kViewsASlice);
   const bool waited =
@@ -159,9 +162,6 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
     if (!waited) spdlog::warn("the index of views waits: {}", filled.error().message);
   } else if (!filled) {
     spdlog::warn("left out of the index of views: {}", filled.error().message);
-  }
-  for (const auto& [key, segment] : views_.TakeDamaged()) {
-    keeper_->NoteDamage(key, segment, steady_clock::now());
   }
   if (views_.Filled()) spdlog::debug("{} segments indexed by view", views_.index().size());
 }

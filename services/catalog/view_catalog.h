@@ -28,7 +28,8 @@ class ViewCatalog {
 
   // More of this route has been stored.
   void Note(const route::RouteKey& key);
-  // Segments that could not be read, for their damage, since the last call.
+  // Segments that could not be read, for their damage, since the last call: in filling, or for an
+  // answer.
   [[nodiscard]] std::vector<view::ViewIndex::Place> TakeDamaged();
   // The segment can be read again.
   void Mend(const route::RouteKey& key, SegmentIndex segment);
@@ -61,7 +62,7 @@ class ViewCatalog {
   std::set<route::RouteKey> noted_;   // to be looked at before
   std::deque<Place> segments_;        // of the routes looked at: to be indexed
   std::set<Place> unreadable_;
-  std::vector<Place> damaged_;  // of these, those that nobody was told of yet
+  std::vector<Place> damaged_;  // that nobody was told of yet
 };
 
 }  // namespace trailcast::catalog

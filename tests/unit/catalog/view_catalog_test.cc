@@ -8,6 +8,7 @@
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
 #include "services/route/digest.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/pieces.h"
 #include "tests/support/seen_segment.h"
 #include "tests/support/temp_dir.h"
@@ -145,6 +146,24 @@ TEST_F(ViewCatalogTest, ASegmentThatIsNoneIsLeftOutAndCounted) {
   views.Note(KeyNumber(1));
   EXPECT_TRUE(views.Fill(100)) << "told once";
   EXPECT_THAT(views.TakeDamaged(), IsEmpty()) << "it is as it was sent";
+}
+
+TEST(ViewCatalogDamage, ThatAnAnswerMeetsIsToldAsWell) {
+  route::SegmentPiece piece = route::MakePiece(KeyNumber(1), SegmentToSee(10, 0));
+  piece.digest = test::ToyDigest(piece.bytes);
+  test::MemoryStore store;
+  ASSERT_TRUE(store.AppendSegments({&piece, 1}));
+  ASSERT_TRUE(store.PutRoute(test::InfoOf(piece.key, {&piece, 1}, route::RouteState::kComplete)));
+  ViewCatalog views(store);
+  while (!views.Filled()) ASSERT_TRUE(views.Fill(5));
+  EXPECT_THAT(views.TakeDamaged(), IsEmpty());
+  store.damaged = {{piece.key, piece.index}};
+  const auto reply =
+      views.Answer({AgentId("robot"), 1, {.view = ViewOf(SegmentToSee(10, 0))}}, AgentId("server"));
+  EXPECT_NE(reply.error, "");
+  const auto damaged = views.TakeDamaged();
+  ASSERT_EQ(damaged.size(), 1U);
+  EXPECT_EQ(damaged[0].segment, piece.index);
 }
 
 TEST_F(ViewCatalogTest, GivesNoMorePlacesThanAskedFor) {
