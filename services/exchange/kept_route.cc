@@ -22,9 +22,7 @@ KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::H
   AdvancePrefix();
   if (!stored_ || deleted()) return;
   // A store that lost segments which its info counts gets them again.
-  for (std::uint32_t i = prefix_; i < stored_->segment_count; ++i) {
-    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), Time{});
-  }
+  WantMissing(stored_->segment_count, Time{});
 }
 
 KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
@@ -49,9 +47,7 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
   RouteInfo claim = info;
   if (claim_ && claim_->edition > info.edition) route::TakeLabels(claim, *claim_);
   claim_ = std::move(claim);
-  for (std::uint32_t i = prefix_; i < info.segment_count; ++i) {
-    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
-  }
+  WantMissing(info.segment_count, ask_at);
   return ClaimResult::kNews;
 }
 
@@ -125,9 +121,7 @@ bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
     is_new = true;
   }
   if (is_new) MarkRoom();  // somebody's pieces were taken
-  for (std::uint32_t i = prefix_; stored_ && i < stored_->segment_count; ++i) {
-    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
-  }
+  if (stored_) WantMissing(stored_->segment_count, ask_at);
   return is_new;
 }
 
@@ -156,6 +150,12 @@ Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key
     receipt.durable_beyond.push_back(at->first);
   }
   return receipt;
+}
+
+void KeptRoute::WantMissing(std::uint32_t count, Time ask_at) {
+  for (std::uint32_t i = prefix_; i < count; ++i) {
+    if (!Holds(SegmentIndex(i))) want.Want(SegmentIndex(i), ask_at);
+  }
 }
 
 void KeptRoute::AdvancePrefix() {

@@ -89,6 +89,8 @@ class KeptRoute {
   std::optional<Time> announced_at;
 
  private:
+  // Of the route's first `count` segments those that are not held, from `ask_at` on.
+  void WantMissing(std::uint32_t count, Time ask_at);
   void AdvancePrefix();
 
   std::optional<route::RouteInfo> stored_;

@@ -90,17 +90,17 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   }
 }
 
-// The bytes may be held in another revision, or lie damaged in this one.
+// A piece without bytes, which another revision may have.
 void RouteKeeper::TakeFromOthers(const SegmentPiece& named, Time now) {
   KeptRoute* kept = Find(named.key, now);
   if (kept == nullptr) return;
-  const bool held = kept->Holds(named.index);
-  auto content = held ? std::optional<route::Bytes>()
-                      : store_.FindContent(named.digest).value_or(std::nullopt);
-  if (content) {
-    arrived_.push_back({named.key, named.index, named.digest, std::move(*content)});
-  } else if (held) {
+  if (kept->Holds(named.index)) {
     kept->receipt_due = true;
+    return;
+  }
+  auto content = store_.FindContent(named.digest);
+  if (content && *content) {
+    arrived_.push_back({named.key, named.index, named.digest, std::move(**content)});
   } else {
     kept->want.AskAgain(named.index, now);
   }

@@ -1,6 +1,5 @@
 // RouteKeeper's dealings with operators: edits of what it keeps.
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "services/exchange/bounds.h"

@@ -1,7 +1,6 @@
 // RouteKeeper's dealings with its store: what is durable, and what follows from that.
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "services/exchange/batches.h"

@@ -131,16 +131,15 @@ class Salvaging {
                                   RevisionNumber(row->getColumn(4).getUInt())};
         return ReadSegmentRow(*row, key, SegmentIndex(row->getColumn(5).getUInt()));
       });
-      if (piece && !piece->bytes.empty() && !route::CheckDigest(*piece)) continue;
       if (!piece) continue;
+      const bool relies = piece->bytes.empty();
+      if (!relies && !route::CheckDigest(*piece)) continue;
       if (row->getColumn(6).getInt() != 0) receipted_[piece->key].push_back(piece->index);
-      if (piece->bytes.empty()) {
+      if (relies) {
         relying_.push_back(std::move(*piece));
-        continue;
+      } else if (auto saved = Save(std::move(*piece)); !saved) {
+        return saved;
       }
-      pieces_.push_back(std::move(*piece));
-      if (pieces_.size() < kBatch) continue;
-      if (auto flushed = FlushSegments(); !flushed) return flushed;
     }
     TellStretches("segments", rows.stretches());
     return FlushSegments();
@@ -153,10 +152,14 @@ class Salvaging {
       if (!content) return tl::unexpected(content.error());
       if (!*content) continue;
       piece.bytes = std::move(**content);
-      pieces_.push_back(std::move(piece));
-      if (auto flushed = FlushSegments(); !flushed) return flushed;
+      if (auto saved = Save(std::move(piece)); !saved) return saved;
     }
-    return {};
+    return FlushSegments();
+  }
+
+  Result<void> Save(route::SegmentPiece piece) {
+    pieces_.push_back(std::move(piece));
+    return pieces_.size() < kBatch ? Result<void>() : FlushSegments();
   }
 
   Result<void> FlushRoutes() {
