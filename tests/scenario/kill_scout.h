@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -12,6 +15,7 @@
 #include "services/exchange/publish.h"
 #include "services/exchange/route_sender.h"
 #include "services/route/digest.h"
+#include "services/store/route_store.h"
 #include "tests/support/pieces.h"
 
 namespace trailcast::test {
@@ -107,6 +111,45 @@ class KillScout {
   std::mutex mutex_;  // guards receipted_
   std::vector<SegmentIndex> receipted_;
   std::jthread thread_;
+};
+
+// Several of them, and what servers told them.
+class KillScoutsTest : public testing::Test {
+ protected:
+  void StartScouts(std::uint32_t count, const std::string& tag) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      scouts_.push_back(std::make_unique<KillScout>(i, tag));
+    }
+  }
+  [[nodiscard]] std::size_t Receipts() const {
+    std::size_t receipts = 0;
+    for (const auto& scout : scouts_) receipts += scout->receipts();
+    return receipts;
+  }
+  // False if that takes too long.
+  template <typename Condition>
+  static bool Await(const Condition& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!condition() && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return condition();
+  }
+  // All that was receipted is in the store, byte for byte.
+  void ExpectReceiptedIsHeld(Result<std::unique_ptr<store::RouteStore>> store) {
+    ASSERT_TRUE(store) << store.error().message;
+    for (std::uint32_t i = 0; i < scouts_.size(); ++i) {
+      for (const SegmentIndex index : scouts_[i]->TakeReceipted()) {
+        const auto held = (*store)->ReadSegment(KeyNumber(i), index);
+        ASSERT_TRUE(held) << held.error().message;
+        ASSERT_EQ(*held, TaughtPiece(i, index.value()));
+        ++checked_;
+      }
+    }
+  }
+
+  std::vector<std::unique_ptr<KillScout>> scouts_;
+  std::size_t checked_ = 0;
 };
 
 }  // namespace trailcast::test

@@ -14,11 +14,7 @@
 namespace trailcast::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
-
 constexpr std::uint32_t kScouts = 20;
-constexpr std::chrono::seconds kPatience{60};
 
 // All rounds: TRAILCAST_KILL_ROUNDS=100.
 int Rounds() {
@@ -26,13 +22,9 @@ int Rounds() {
   return wanted == nullptr ? 5 : std::atoi(wanted);
 }
 
-class ServerKill : public testing::Test {
+class ServerKill : public KillScoutsTest {
  protected:
-  void SetUp() override {
-    for (std::uint32_t i = 0; i < kScouts; ++i) {
-      scouts_.push_back(std::make_unique<KillScout>(i, tag_));
-    }
-  }
+  void SetUp() override { StartScouts(kScouts, tag_); }
   void StartServer() {
     server_ = std::make_unique<Process>(
         std::vector<std::string>{std::string(TRAILCAST_BINARY_DIR) + "/trailcast-server",
@@ -41,38 +33,15 @@ class ServerKill : public testing::Test {
         (folder_ / "server.log").string());
     ASSERT_TRUE(server_->WaitForOutput("ready")) << server_->output();
   }
-  [[nodiscard]] std::size_t Receipts() const {
-    std::size_t receipts = 0;
-    for (const auto& scout : scouts_) receipts += scout->receipts();
-    return receipts;
-  }
-  // False if that takes too long.
-  template <typename Condition>
-  static bool Await(const Condition& condition) {
-    const auto deadline = Clock::now() + kPatience;
-    while (!condition() && Clock::now() < deadline) std::this_thread::sleep_for(milliseconds(1));
-    return condition();
-  }
-  // Nobody has the store open: all that was receipted is in it, byte for byte.
+  // Nobody has the store open.
   void ExpectReceiptedIsHeld() {
-    auto store = store::OpenSqliteStore(file_);
-    ASSERT_TRUE(store) << store.error().message;
-    for (std::uint32_t i = 0; i < kScouts; ++i) {
-      for (const SegmentIndex index : scouts_[i]->TakeReceipted()) {
-        const auto held = (*store)->ReadSegment(KeyNumber(i), index);
-        ASSERT_TRUE(held) << held.error().message;
-        ASSERT_EQ(*held, TaughtPiece(i, index.value()));
-        ++checked_;
-      }
-    }
+    KillScoutsTest::ExpectReceiptedIsHeld(store::OpenSqliteStore(file_));
   }
 
   TempDir folder_;
   const std::filesystem::path file_ = folder_ / "server.db";
   const std::string tag_ = fmt::format("kill-{}", getpid());
-  std::vector<std::unique_ptr<KillScout>> scouts_;
   std::unique_ptr<Process> server_;
-  std::size_t checked_ = 0;
 };
 
 TEST_F(ServerKill, LosesNothingThatItReceiptedAndCompletesEveryRoute) {

@@ -23,7 +23,6 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kScouts = 8;
-constexpr std::chrono::seconds kPatience{60};
 
 // All rounds: TRAILCAST_KILL_ROUNDS=100.
 int Rounds() {
@@ -73,7 +72,7 @@ class KillFollower {
   std::jthread thread_;
 };
 
-class SharedStore : public testing::Test {
+class SharedStore : public KillScoutsTest {
  protected:
   void StartServer(std::size_t which) {
     servers_[which] = std::make_unique<Process>(
@@ -84,11 +83,7 @@ class SharedStore : public testing::Test {
   void StartServers() {
     for (std::size_t which = 0; which < servers_.size(); ++which) StartServer(which);
   }
-  void StartScouts() {
-    for (std::uint32_t i = 0; i < kScouts; ++i) {
-      scouts_.push_back(std::make_unique<KillScout>(i, tag_));
-    }
-  }
+  void StartScouts() { KillScoutsTest::StartScouts(kScouts, tag_); }
   static std::string Name(std::size_t which) { return fmt::format("server-{}", which); }
   [[nodiscard]] std::vector<std::string> Words(const std::string& program,
                                                const std::vector<std::string>& more) const {
@@ -96,18 +91,6 @@ class SharedStore : public testing::Test {
                                    tag_, "--network-interface", "lo"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
-  }
-  [[nodiscard]] std::size_t Receipts() const {
-    std::size_t receipts = 0;
-    for (const auto& scout : scouts_) receipts += scout->receipts();
-    return receipts;
-  }
-  // False if that takes too long.
-  template <typename Condition>
-  static bool Await(const Condition& condition) {
-    const auto deadline = Clock::now() + kPatience;
-    while (!condition() && Clock::now() < deadline) std::this_thread::sleep_for(milliseconds(1));
-    return condition();
   }
   bool AwaitReceipts(std::size_t more) {
     const std::size_t enough = Receipts() + more;
@@ -118,18 +101,8 @@ class SharedStore : public testing::Test {
     for (const auto& server : servers_) logs += server->output();
     return logs;
   }
-  // All that was receipted is there, byte for byte.
   void ExpectReceiptedIsHeld() {
-    auto store = store::OpenPostgresStore(url_, {.read_only = true});
-    ASSERT_TRUE(store) << store.error().message;
-    for (std::uint32_t i = 0; i < kScouts; ++i) {
-      for (const SegmentIndex index : scouts_[i]->TakeReceipted()) {
-        const auto held = (*store)->ReadSegment(KeyNumber(i), index);
-        ASSERT_TRUE(held) << held.error().message;
-        ASSERT_EQ(*held, TaughtPiece(i, index.value()));
-        ++checked_;
-      }
-    }
+    KillScoutsTest::ExpectReceiptedIsHeld(store::OpenPostgresStore(url_, {.read_only = true}));
   }
   // Scouts end; every route is complete, and whole, with whoever has it.
   void ExpectAllEndsWell() {
@@ -163,8 +136,6 @@ class SharedStore : public testing::Test {
   const std::string url_ = postgres_.CreateDatabase();
   const std::string tag_ = fmt::format("shared-{}", getpid());
   std::array<std::unique_ptr<Process>, 2> servers_;
-  std::vector<std::unique_ptr<KillScout>> scouts_;
-  std::size_t checked_ = 0;
 };
 
 TEST_F(SharedStore, EitherServerKilledLosesNothingAndTheOtherGoesOn) {
