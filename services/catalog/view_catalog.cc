@@ -66,10 +66,9 @@ Result<void> ViewCatalog::LookAt(const route::RouteKey& key) {
     if (held.error().code == ErrorCode::kUnavailable) noted_.insert(key);
     return tl::unexpected(held.error());
   }
-  const std::set<SegmentIndex> indexed = index_.SegmentsOf(key);
   for (const SegmentIndex segment : *held) {
     const Place place{key, segment};
-    if (!indexed.contains(segment) && !unreadable_.contains(place)) segments_.push_back(place);
+    if (!index_.Holds(place) && !unreadable_.contains(place)) segments_.push_back(place);
   }
   return {};
 }
@@ -77,6 +76,7 @@ Result<void> ViewCatalog::LookAt(const route::RouteKey& key) {
 Result<void> ViewCatalog::IndexNext() {
   const Place place = std::move(segments_.front());
   segments_.pop_front();
+  if (index_.Holds(place)) return {};
   const auto segment = Read(place);
   if (!segment) {
     if (segment.error().code == ErrorCode::kUnavailable) {
@@ -110,8 +110,9 @@ std::vector<view::ViewIndex::Place> ViewCatalog::TakeDamaged() {
   return std::exchange(damaged_, {});
 }
 
-void ViewCatalog::Mend(const route::RouteKey& key, SegmentIndex segment) {
-  if (unreadable_.erase({key, segment}) > 0) Note(key);
+void ViewCatalog::Note(const route::RouteKey& key, SegmentIndex segment) {
+  unreadable_.erase({key, segment});
+  if (!index_.full()) segments_.push_back({key, segment});
 }
 
 void ViewCatalog::Forget(const route::RouteKey& key) {

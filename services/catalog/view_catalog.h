@@ -26,13 +26,13 @@ class ViewCatalog {
   // Nothing to do at present: all is indexed, or the index is full.
   [[nodiscard]] bool Filled() const;
 
-  // More of this route has been stored.
+  // More of this route has been stored, nobody knows which segments.
   void Note(const route::RouteKey& key);
+  // This segment has been stored, or repaired.
+  void Note(const route::RouteKey& key, SegmentIndex segment);
   // Segments that could not be read, for their damage, since the last call: in filling, or for an
   // answer.
   [[nodiscard]] std::vector<view::ViewIndex::Place> TakeDamaged();
-  // The segment can be read again.
-  void Mend(const route::RouteKey& key, SegmentIndex segment);
   // The route is there no more.
   void Forget(const route::RouteKey& key);
 

@@ -164,8 +164,8 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   return out;
 }
 
-std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeRepaired() {
-  return std::exchange(repaired_, {});
+std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeAppended() {
+  return std::exchange(appended_, {});
 }
 
 std::size_t RouteKeeper::backlog() const {

@@ -85,8 +85,8 @@ class RouteKeeper {
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);
   // Reading the segment found it damaged: it is asked for, of any holder.
   void NoteDamage(const route::RouteKey& key, SegmentIndex index, Time now);
-  // Segments repaired since the last call.
-  [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeRepaired();
+  // Segments stored since the last call, repaired ones among them.
+  [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeAppended();
   // Somebody waits for segments: Tick soon.
   [[nodiscard]] bool answering() const { return !answers_.empty(); }
 
@@ -156,8 +156,8 @@ class RouteKeeper {
   RouteKeeperOptions options_;
 
   std::map<route::RouteKey, KeptRoute> routes_;
-  std::vector<route::SegmentPiece> arrived_;  // since the last Tick
-  std::vector<std::pair<route::RouteKey, SegmentIndex>> repaired_;
+  std::vector<route::SegmentPiece> arrived_;                        // since the last Tick
+  std::vector<std::pair<route::RouteKey, SegmentIndex>> appended_;  // that nobody was told of yet
   std::vector<Message> replies_;  // to the catalog's clients; digests
   AnswerQueue answers_;
   std::vector<Note> notes_;

@@ -147,10 +147,10 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
 }
 
 void RouteKeeper::MarkAppended(const SegmentPiece& piece, Time now) {
+  appended_.emplace_back(piece.key, piece.index);
   KeptRoute& kept = routes_.at(piece.key);
   if (kept.IsDamaged(piece.index)) {
     ++counters_.repaired;
-    repaired_.emplace_back(piece.key, piece.index);
     AddNote(
         Note::Severity::kInfo,
         fmt::format("repaired/{}/{}", Describe(piece.key), piece.index.value()),

@@ -15,11 +15,11 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info);
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key);  // parameters 1 and 2
 
-// Columns of table `segment`, in the order of BindSegment, and those that ReadSegmentRow reads.
-inline constexpr const char* kSegmentColumns = "route, revision, number, digest, seal, bytes";
+// Columns of table `segment` that ReadSegmentRow reads.
 inline constexpr const char* kSegmentContent = "digest, seal, bytes";
 
-// Borrows the piece's bytes until the statement is done; without bytes it relies on another's.
+// Route, revision, number, digest, seal, bytes. Borrows the piece's bytes until the statement is
+// done; without bytes it relies on another's.
 void BindSegment(SQLite::Statement& statement, const route::SegmentPiece& piece);
 void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest);
 // The statement's current row, asked for under this key and index; without bytes if it relies on

@@ -39,34 +39,34 @@ int BindValues(SQLite::Statement& statement, const SqlCondition& condition) {
 }  // namespace
 
 std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
-  SQLite::Statement put(*db_,
-                        fmt::format("INSERT OR REPLACE INTO {0} ({1}, id) VALUES "
-                                    "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
-                                    "(SELECT id FROM {0} WHERE route = ?1 AND revision = ?2))",
-                                    table, kRouteColumns));
-  BindRoute(put, info);
-  put.exec();
+  auto put =
+      compiled_.Take(fmt::format("INSERT OR REPLACE INTO {0} ({1}, id) VALUES "
+                                 "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
+                                 "(SELECT id FROM {0} WHERE route = ?1 AND revision = ?2))",
+                                 table, kRouteColumns));
+  BindRoute(*put, info);
+  put->exec();
   return db_->getLastInsertRowid();
 }
 
 void SqliteRouteStore::ForgetPlaceAndTags(std::int64_t id) {
   for (const char* table : {"route_tag", "route_place"}) {
-    SQLite::Statement forget(*db_, fmt::format("DELETE FROM {} WHERE id = ?", table));
-    forget.bind(1, id);
-    forget.exec();
+    auto forget = compiled_.Take(fmt::format("DELETE FROM {} WHERE id = ?", table));
+    forget->bind(1, id);
+    forget->exec();
   }
 }
 
 void SqliteRouteStore::Bury(const RouteInfo& info) {
-  SQLite::Statement find(*db_, "SELECT id FROM route WHERE route = ? AND revision = ?");
-  BindKey(find, info.key);
-  if (find.executeStep()) ForgetPlaceAndTags(find.getColumn(0).getInt64());
-  find.reset();
+  auto find = compiled_.Take("SELECT id FROM route WHERE route = ? AND revision = ?");
+  BindKey(*find, info.key);
+  if (find->executeStep()) ForgetPlaceAndTags(find->getColumn(0).getInt64());
+  find->reset();
   for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND revision = ?",
                               "DELETE FROM route WHERE route = ? AND revision = ?"}) {
-    SQLite::Statement part(*db_, parting);
-    BindKey(part, info.key);
-    part.exec();
+    auto part = compiled_.Take(parting);
+    BindKey(*part, info.key);
+    part->exec();
   }
   PutRow("tombstone", info);
 }
@@ -75,19 +75,19 @@ void SqliteRouteStore::Put(const RouteInfo& info) {
   const std::int64_t id = PutRow("route", info);
   ForgetPlaceAndTags(id);
   for (const std::string& tag : info.tags) {
-    SQLite::Statement add(*db_, "INSERT INTO route_tag (tag, id) VALUES (?, ?)");
-    add.bind(1, tag);
-    add.bind(2, id);
-    add.exec();
+    auto add = compiled_.Take("INSERT INTO route_tag (tag, id) VALUES (?, ?)");
+    add->bind(1, tag);
+    add->bind(2, id);
+    add->exec();
   }
   if (!info.place) return;
   const auto frame = static_cast<int>(info.place->frame);
-  SQLite::Statement add(*db_, "INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4)");
-  add.bind(1, id);
-  add.bind(2, info.place->x);
-  add.bind(3, info.place->y);
-  add.bind(4, frame);
-  add.exec();
+  auto add = compiled_.Take("INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4)");
+  add->bind(1, id);
+  add->bind(2, info.place->x);
+  add->bind(3, info.place->y);
+  add->bind(4, frame);
+  add->exec();
 }
 
 // Of a tag that many routes have, the first page is found soonest in the order asked for; of one

@@ -66,10 +66,14 @@ Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> piec
       &SqliteRouteStore::Append);
 }
 
+bool SqliteRouteStore::IsBuried(const RouteKey& key) {
+  auto select = compiled_.Take("SELECT 1 FROM tombstone WHERE route = ? AND revision = ?");
+  BindKey(*select, key);
+  return select->executeStep();
+}
+
 Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
-  SQLite::Statement buried(*db_, "SELECT 1 FROM tombstone WHERE route = ? AND revision = ?");
-  BindKey(buried, piece.key);
-  if (buried.executeStep()) {
+  if (IsBuried(piece.key)) {
     return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
                 file_.path().string(), Describe(piece.key));
   }
@@ -87,29 +91,27 @@ Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   }
   const auto content = FindContent(piece.digest);
   if (!content) return tl::unexpected(content.error());
-  SQLite::Statement insert(
-      *db_,
-      fmt::format("INSERT INTO segment ({}) VALUES (?,?,?,?,?,?) ON CONFLICT DO UPDATE "
-                  "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes",
-                  kSegmentColumns));
+  auto insert = compiled_.Take(
+      "INSERT INTO segment (route, revision, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
+      "ON CONFLICT DO UPDATE "
+      "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes");
   const SegmentPiece relying{piece.key, piece.index, piece.digest, {}};
-  BindSegment(insert, *content ? relying : piece);
-  insert.exec();
+  BindSegment(*insert, *content ? relying : piece);
+  insert->exec();
   return {};
 }
 
 Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {
   const std::string which = Describe(key, index);
   return Guarded("reading " + which, [&]() -> Result<SegmentPiece> {
-    SQLite::Statement select(*db_, fmt::format("SELECT {} FROM segment WHERE route = ? AND "
-                                               "revision = ? AND number = ?",
-                                               kSegmentContent));
-    BindKey(select, key);
-    select.bind(3, index.value());
-    if (!select.executeStep()) {
+    auto select = compiled_.Take(
+        "SELECT digest, seal, bytes FROM segment WHERE route = ? AND revision = ? AND number = ?");
+    BindKey(*select, key);
+    select->bind(3, index.value());
+    if (!select->executeStep()) {
       return Fail(ErrorCode::kNotFound, "route store {} has no {}", file_.path().string(), which);
     }
-    Result<SegmentPiece> piece = ReadSegmentRow(select, key, index);
+    Result<SegmentPiece> piece = ReadSegmentRow(*select, key, index);
     if (!piece) return Wrap(piece.error(), "route store " + file_.path().string());
     if (piece->bytes.empty()) {
       auto content = FindContent(piece->digest);
@@ -142,11 +144,11 @@ Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey
 
 Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::Digest& digest) {
   return Guarded("looking up a segment's bytes", [&]() -> Result<std::optional<route::Bytes>> {
-    SQLite::Statement select(*db_,
-                             "SELECT bytes FROM segment WHERE digest = ? AND bytes IS NOT NULL");
-    BindDigest(select, 1, digest);
-    while (select.executeStep()) {
-      const SQLite::Column column = select.getColumn(0);
+    auto select =
+        compiled_.Take("SELECT bytes FROM segment WHERE digest = ? AND bytes IS NOT NULL");
+    BindDigest(*select, 1, digest);
+    while (select->executeStep()) {
+      const SQLite::Column column = select->getColumn(0);
       const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
       const std::span whole(bytes, static_cast<std::size_t>(column.getBytes()));
       if (route::Sha256(whole) == digest) return route::Bytes(whole.begin(), whole.end());
@@ -183,12 +185,11 @@ Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(
     const std::string& table, const std::string& where,
     const std::function<void(SQLite::Statement&)>& bind) {
   return Guarded("looking up routes", [&]() -> Result<std::vector<RouteInfo>> {
-    SQLite::Statement select(*db_,
-                             fmt::format("SELECT {} FROM {} {}", kRouteColumns, table, where));
-    bind(select);
+    auto select = compiled_.Take(fmt::format("SELECT {} FROM {} {}", kRouteColumns, table, where));
+    bind(*select);
     std::vector<RouteInfo> routes;
-    while (select.executeStep()) {
-      Result<RouteInfo> info = ReadRoute(select);
+    while (select->executeStep()) {
+      Result<RouteInfo> info = ReadRoute(*select);
       if (!info) return Wrap(info.error(), "route store " + file_.path().string());
       routes.push_back(std::move(*info));
     }
@@ -226,14 +227,14 @@ Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
   if (indices.empty()) return {};
   return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
     SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-    SQLite::Statement update(*db_,
-                             "UPDATE segment SET receipted = 1 WHERE route = ? AND revision = ? "
-                             "AND number = ? AND receipted = 0");
-    BindKey(update, key);
+    auto update = compiled_.Take(
+        "UPDATE segment SET receipted = 1 WHERE route = ? AND revision = ? AND number = ? AND "
+        "receipted = 0");
+    BindKey(*update, key);
     for (const SegmentIndex index : indices) {
-      update.bind(3, index.value());
-      update.exec();
-      update.reset();
+      update->bind(3, index.value());
+      update->exec();
+      update->reset();
     }
     transaction.commit();
     return {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/store/compiled_statements.h"
 #include "services/store/route_store.h"
 #include "services/store/sqlite_database.h"
 #include "services/store/store_file.h"
@@ -59,6 +60,7 @@ class SqliteRouteStore final : public RouteStore {
   // Puts the row into one of the two tables; returns its id.
   std::int64_t PutRow(const std::string& table, const route::RouteInfo& info);
   void ForgetPlaceAndTags(std::int64_t id);
+  [[nodiscard]] bool IsBuried(const route::RouteKey& key);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
@@ -73,6 +75,7 @@ class SqliteRouteStore final : public RouteStore {
 
   StoreFile file_;  // outlives db_: see ~StoreFile
   std::unique_ptr<SQLite::Database> db_;
+  CompiledStatements compiled_{*db_};
 };
 
 }  // namespace trailcast::store

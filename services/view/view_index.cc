@@ -13,7 +13,7 @@ constexpr std::uint32_t kMostSlots = kWords - 1;  // the last is kNoEntry's
 // In place of a slot's route.
 constexpr std::uint32_t kDead = 0xFFFFFFFFU;
 constexpr std::uint32_t kFree = 0xFFFFFFFEU;
-constexpr std::size_t kBytesARoute = 160;  // a key, its text, a node of a map
+constexpr std::size_t kBytesARoute = 192;  // a key, its text, a node of a map
 // Chunks of one word that are looked at: a word so common says next to nothing.
 constexpr int kMostChunks = 64;
 // Features of a view that vote, the first, which are the strongest: the time is theirs.
@@ -30,17 +30,18 @@ constexpr std::size_t kSweepFrom = 4096;
 ViewIndex::ViewIndex(const ViewIndexOptions& options)
     : options_{std::min(options.most_segments, kMostSlots)}, heads_(kTables * kWords), chunks_(1) {}
 
-std::uint32_t ViewIndex::NumberOf(const route::RouteKey& key) {
-  const auto [known, added] = numbers_.try_emplace(key, 0);
-  if (!added) return known->second;
+ViewIndex::Route& ViewIndex::RouteOf(const route::RouteKey& key) {
+  const auto [known, added] = routes_.try_emplace(key);
+  Route& route = known->second;
+  if (!added) return route;
   if (free_numbers_.empty()) {
     free_numbers_.push_back(static_cast<std::uint32_t>(keys_.size()));
     keys_.push_back(nullptr);
   }
-  known->second = free_numbers_.back();
+  route.number = free_numbers_.back();
   free_numbers_.pop_back();
-  keys_[known->second] = &known->first;
-  return known->second;
+  keys_[route.number] = &known->first;
+  return route;
 }
 
 std::optional<std::uint32_t> ViewIndex::TakeSlot() {
@@ -78,10 +79,15 @@ void ViewIndex::Insert(std::uint32_t word, std::uint32_t entry) {
 }
 
 bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
+  if (Holds({key, segment.index})) return true;
   const std::optional<std::uint32_t> slot = TakeSlot();
   if (!slot) return false;
+  Route& route = RouteOf(key);
+  auto& held = route.segments;
+  const std::uint32_t number = segment.index.value();
+  held.insert(std::upper_bound(held.begin(), held.end(), number), number);
   const std::size_t most = std::min(segment.features.size(), kMostFeatures);
-  slots_[*slot] = {NumberOf(key), segment.index.value(), static_cast<std::uint32_t>(most)};
+  slots_[*slot] = {route.number, number, static_cast<std::uint32_t>(most)};
   for (const route::Feature& feature : std::span(segment.features).first(most)) {
     if (!route::IsDescribed(feature.descriptor)) continue;
     const auto where = WhereIs(feature.descriptor);
@@ -93,15 +99,15 @@ bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
 }
 
 void ViewIndex::Remove(const route::RouteKey& key) {
-  const auto known = numbers_.find(key);
-  if (known == numbers_.end()) return;
+  const auto known = routes_.find(key);
+  if (known == routes_.end()) return;
   for (Slot& slot : slots_) {
-    if (slot.route != known->second) continue;
+    if (slot.route != known->second.number) continue;
     slot.route = kDead;
     ++dead_;
   }
-  free_numbers_.push_back(known->second);
-  numbers_.erase(known);
+  free_numbers_.push_back(known->second.number);
+  routes_.erase(known);
   if (dead_ > std::max(kSweepFrom, slots_.size() / 4)) Sweep();
 }
 
@@ -204,20 +210,17 @@ std::vector<ViewIndex::Place> ViewIndex::Candidates(std::span<const route::ViewF
   return places;
 }
 
-std::set<SegmentIndex> ViewIndex::SegmentsOf(const route::RouteKey& key) const {
-  std::set<SegmentIndex> segments;
-  const auto known = numbers_.find(key);
-  if (known == numbers_.end()) return segments;
-  for (const Slot& slot : slots_) {
-    if (slot.route == known->second) segments.insert(SegmentIndex(slot.segment));
-  }
-  return segments;
+bool ViewIndex::Holds(const Place& place) const {
+  const auto known = routes_.find(place.key);
+  if (known == routes_.end()) return false;
+  const auto& held = known->second.segments;
+  return std::binary_search(held.begin(), held.end(), place.segment.value());
 }
 
 std::size_t ViewIndex::bytes() const {
   return heads_.size() * sizeof(heads_[0]) + chunks_.size() * sizeof(Chunk) +
          slots_.capacity() * sizeof(Slot) + tallies_.capacity() * sizeof(Tally) +
-         numbers_.size() * kBytesARoute;
+         size() * sizeof(std::uint32_t) + routes_.size() * kBytesARoute;
 }
 
 }  // namespace trailcast::view

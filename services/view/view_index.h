@@ -6,7 +6,6 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -35,7 +34,7 @@ class ViewIndex {
 
   explicit ViewIndex(const ViewIndexOptions& options = {});
 
-  // False, and nothing is added, when the index is full. A segment is added once only.
+  // False, and nothing is added, when the index is full. A segment that is held stays as it is.
   [[nodiscard]] bool Add(const route::RouteKey& key, const route::Segment& segment);
   // All of the route's segments; none is fine.
   void Remove(const route::RouteKey& key);
@@ -44,8 +43,8 @@ class ViewIndex {
   [[nodiscard]] std::vector<Place> Candidates(std::span<const route::ViewFeature> view,
                                               std::size_t most);
 
-  [[nodiscard]] std::set<SegmentIndex> SegmentsOf(const route::RouteKey& key) const;
-  [[nodiscard]] std::size_t routes() const { return numbers_.size(); }
+  [[nodiscard]] bool Holds(const Place& place) const;
+  [[nodiscard]] std::size_t routes() const { return routes_.size(); }
   // Segments.
   [[nodiscard]] std::size_t size() const { return slots_.size() - free_slots_.size() - dead_; }
   [[nodiscard]] bool full() const { return size() >= options_.most_segments; }
@@ -71,7 +70,14 @@ class ViewIndex {
 
   // Nothing when all are taken.
   [[nodiscard]] std::optional<std::uint32_t> TakeSlot();
-  [[nodiscard]] std::uint32_t NumberOf(const route::RouteKey& key);
+  struct Route {
+    std::uint32_t number = 0;
+    std::vector<std::uint32_t> segments;  // in order
+  };
+  using Routes = std::map<route::RouteKey, Route>;
+
+  // With a number, if it is new.
+  [[nodiscard]] Route& RouteOf(const route::RouteKey& key);
   void Insert(std::uint32_t word, std::uint32_t entry);
   [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
   void Sweep();
@@ -87,8 +93,8 @@ class ViewIndex {
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
   std::size_t dead_ = 0;  // slots whose segment was removed, their entries not yet
-  std::map<route::RouteKey, std::uint32_t> numbers_;
-  std::vector<const route::RouteKey*> keys_;  // by number: of numbers_
+  Routes routes_;
+  std::vector<const route::RouteKey*> keys_;  // by number: of routes_
   std::vector<std::uint32_t> free_numbers_;
   std::vector<Tally> tallies_;         // by slot, while voting
   std::vector<std::uint32_t> alike_;   // slots

@@ -113,6 +113,18 @@ TEST_F(ViewCatalogTest, LearnsWhatIsTaughtMeanwhile) {
   EXPECT_EQ(AskFor(views, 20).places.size(), 1U);
 }
 
+TEST_F(ViewCatalogTest, LearnsSegmentsThatItIsToldOfOnceEach) {
+  Put(1, 0, 6);
+  ViewCatalog views(*store_, {.most_segments = 20});
+  for (const unsigned segment : {4U, 2U, 4U}) views.Note(KeyNumber(1), SegmentIndex(segment));
+  ASSERT_TRUE(views.Fill(3));
+  EXPECT_EQ(views.index().size(), 2U);
+  FillAll(views);
+  views.Note(KeyNumber(1), SegmentIndex(4));
+  FillAll(views);
+  EXPECT_EQ(views.index().size(), 6U);
+}
+
 TEST_F(ViewCatalogTest, ForgetsARoute) {
   Put(1, 0, 10);
   Put(2, 0, 10);

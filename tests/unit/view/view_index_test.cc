@@ -67,7 +67,7 @@ TEST(ViewIndex, ARemovedRouteIsNotFoundAndTheOthersAre) {
   index.Remove(KeyNumber(2));
   index.Remove(KeyNumber(9));
   EXPECT_EQ(index.size(), 20U);
-  EXPECT_THAT(index.SegmentsOf(KeyNumber(2)), IsEmpty());
+  EXPECT_FALSE(index.Holds(PlaceOf(2, 5)));
   for (const auto& place : index.Candidates(ViewOf(SegmentToSee(25, 5)), 20)) {
     EXPECT_NE(place.key, KeyNumber(2));
   }
@@ -82,8 +82,21 @@ TEST(ViewIndex, IsFullAtItsBoundAndHasRoomAgainAfterARemoval) {
   EXPECT_EQ(index.size(), 20U);
   index.Remove(KeyNumber(1));
   ASSERT_TRUE(index.Add(KeyNumber(3), SegmentToSee(30, 0)));
-  EXPECT_THAT(index.SegmentsOf(KeyNumber(3)), ElementsAre(SegmentIndex(0)));
+  EXPECT_TRUE(index.Holds(PlaceOf(3, 0)));
+  EXPECT_FALSE(index.Holds(PlaceOf(3, 1)));
   EXPECT_EQ(index.Candidates(ViewOf(SegmentToSee(30, 0)), 1), std::vector{PlaceOf(3, 0)});
+}
+
+TEST(ViewIndex, ASegmentThatIsHeldTakesNoMoreRoom) {
+  ViewIndex index({.most_segments = 2});
+  for (int times = 0; times < 3; ++times) {
+    ASSERT_TRUE(index.Add(KeyNumber(1), SegmentToSee(10, 7)));
+    ASSERT_TRUE(index.Add(KeyNumber(1), SegmentToSee(10, 2)));
+  }
+  EXPECT_EQ(index.size(), 2U);
+  EXPECT_TRUE(index.Holds(PlaceOf(1, 2)));
+  EXPECT_TRUE(index.Holds(PlaceOf(1, 7)));
+  EXPECT_FALSE(index.Holds(PlaceOf(1, 5)));
 }
 
 TEST(ViewIndex, RoutesThatComeAndGoTakeNoMoreMemory) {
