@@ -10,6 +10,7 @@
 
 #include "services/catalog/catalog.h"
 #include "services/store/route_store.h"
+#include "tests/bench/million_routes.h"
 #include "tests/support/temp_dir.h"
 
 // The catalog's answers over a million stored routes, beside the same questions put to SQLite by
@@ -21,33 +22,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t kRoutes = 1'000'000;
-constexpr std::uint32_t kBatch = 5000;
 constexpr std::uint32_t kPageSize = 100;
-constexpr double kSite_m = 10'000.0;
 
 [[noreturn]] void Die(const std::string& why) {
   std::cerr << why << '\n';
   std::abort();
-}
-
-// Ten revisions of a name, a thousand routes of a site's tag, begun anywhere on ten kilometres.
-route::RouteInfo RouteNumber(std::uint32_t n) {
-  std::mt19937 random(n);
-  std::uniform_real_distribution<double> metres(0.0, kSite_m);
-  route::RouteInfo info;
-  info.key = {RouteId(fmt::format("{:08x}{:024x}", random(), n)), RevisionNumber(n % 10 + 1)};
-  info.name = fmt::format("aisle-{}", n / 10);
-  info.scout = AgentId(fmt::format("scout-{}", n % 200));
-  info.camera = "webcam 320x240";
-  info.taught_unix_ms = 1'700'000'000'000 + 1000LL * n;
-  info.state = route::RouteState::kComplete;
-  info.segment_count = 30;
-  info.length_m = metres(random) / 100.0;
-  info.bytes = 180'000;
-  info.tags = {fmt::format("row-{}", n % 100), fmt::format("site-{}", n % 1000)};
-  info.place = route::Place{route::Place::Frame::kSite, metres(random), metres(random)};
-  return info;
 }
 
 // The store, and a copy of its file that SQLite alone has open.
@@ -55,13 +34,7 @@ class Million {
  public:
   Million() {
     Open();
-    std::vector<route::RouteInfo> batch;
-    for (std::uint32_t n = 0; n < kRoutes; ++n) {
-      batch.push_back(RouteNumber(n));
-      if (batch.size() < kBatch) continue;
-      if (auto put = store_->PutRoutes(batch); !put) Die(put.error().message);
-      batch.clear();
-    }
+    if (auto put = bench::PutMillionRoutes(*store_); !put) Die(put.error().message);
     store_.reset();
     std::filesystem::copy_file(file_, copy_);
     Open();
@@ -99,7 +72,7 @@ void Measure(benchmark::State& state, const Ask& ask) {
   std::vector<double> times_ms;
   std::mt19937 random(7);
   for ([[maybe_unused]] auto _ : state) {
-    const auto n = static_cast<std::uint32_t>(random() % kRoutes);
+    const auto n = static_cast<std::uint32_t>(random() % bench::kMillion);
     const auto begin = Clock::now();
     const std::size_t found = ask(n);
     times_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
@@ -159,7 +132,7 @@ void Opening(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) million.Open();
 }
 
-route::Surroundings Near(std::uint32_t n) { return {*RouteNumber(n).place, 20.0}; }
+route::Surroundings Near(std::uint32_t n) { return {*bench::RouteNumber(n).place, 20.0}; }
 
 void Register() {
   const auto add = [](const char* name, auto&&... arguments) {
@@ -167,17 +140,18 @@ void Register() {
   };
   add(
       "Answer/by_name", Answered,
-      +[](std::uint32_t n) { return route::RouteQuery{.name = RouteNumber(n).name}; });
+      +[](std::uint32_t n) { return route::RouteQuery{.name = bench::RouteNumber(n).name}; });
   add(
-      "Bare/by_name", Bare, "route WHERE name = ?",
-      +[](sqlite3_stmt* statement, std::uint32_t n) { BindText(statement, RouteNumber(n).name); });
+      "Bare/by_name", Bare, "route WHERE name = ?", +[](sqlite3_stmt* statement, std::uint32_t n) {
+        BindText(statement, bench::RouteNumber(n).name);
+      });
   add(
       "Answer/by_tag", Answered,
-      +[](std::uint32_t n) { return route::RouteQuery{.tags = {RouteNumber(n).tags[1]}}; });
+      +[](std::uint32_t n) { return route::RouteQuery{.tags = {bench::RouteNumber(n).tags[1]}}; });
   add(
       "Bare/by_tag", Bare, "route_tag CROSS JOIN route USING (id) WHERE tag = ?",
       +[](sqlite3_stmt* statement, std::uint32_t n) {
-        BindText(statement, RouteNumber(n).tags[1]);
+        BindText(statement, bench::RouteNumber(n).tags[1]);
       });
   add(
       "Answer/by_place", Answered,
@@ -188,14 +162,14 @@ void Register() {
       "20.0 "
       "AND north_low <= ?2 + 20.0 AND north_high >= ?2 - 20.0 AND frame = 1",
       +[](sqlite3_stmt* statement, std::uint32_t n) {
-        const route::Place place = *RouteNumber(n).place;
+        const route::Place place = *bench::RouteNumber(n).place;
         sqlite3_bind_double(statement, 1, place.x);
         sqlite3_bind_double(statement, 2, place.y);
       });
   // A hundredth of all routes: more than are sorted for a page.
   add(
       "Answer/by_common_tag", Answered,
-      +[](std::uint32_t n) { return route::RouteQuery{.tags = {RouteNumber(n).tags[0]}}; });
+      +[](std::uint32_t n) { return route::RouteQuery{.tags = {bench::RouteNumber(n).tags[0]}}; });
   add(
       "Answer/newest", Answered, +[](std::uint32_t) { return route::RouteQuery{}; });
   add("Opening", Opening);

@@ -2,6 +2,7 @@
 # Measures how routes are shared over networks staged on this machine, and the rivals beside it.
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
 #   tests/bench/network.sh followers|loss|wire|ingest|latency [RUNS]
+#   tests/bench/network.sh memory [MINUTES]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
@@ -209,6 +210,35 @@ ingest() {
   for rate in 1 10 50 100; do "$bin/network_bench" commits "$work" --group "$rate"; done
 }
 
+# A server with a million routes, taught 200 segments a second and asked for routes: one line for
+# each half minute.
+memory() {
+  local minutes=${1:-60} scouts load status
+  ip link set lo up
+  "$bin/network_bench" million "$work/server.db"
+  "$bin/trailcast-server" --store "$work/server.db" --dds-tag memory --network-interface lo \
+    --http-port 8080 >"$work/server.log" 2>&1 &
+  server=$!
+  until grep -q ready "$work/server.log"; do sleep 0.05; done
+  "$bin/network_bench" ingest --tag memory --duration $((60 * minutes)) >"$work/ingest.log" &
+  scouts=$!
+  load=(--dds-tag memory --network-interface lo routes)
+  printf 'seconds,resident_mb,segments\n'
+  SECONDS=0
+  while kill -0 "$scouts" 2>/dev/null; do
+    "$bin/trailcast" "${load[@]}" --tag row-7 >/dev/null 2>&1
+    "$bin/trailcast" "${load[@]}" --near-site 5000,5000 >/dev/null 2>&1
+    printf '%s,%s,%s\n' "$SECONDS" \
+      "$(awk '/VmRSS/ { printf "%.0f", $2 / 1000 }' "/proc/$server/status")" \
+      "$(curl -s localhost:8080/metrics | awk '/^trailcast_segments_stored_total / { print $2 }')"
+    sleep 25
+  done
+  status=0
+  wait "$scouts" || status=$?
+  cat "$work/ingest.log"
+  return "$status"
+}
+
 latency() {
   local run pong uri=${plain_uri/eth0\"/lo\" multicast=\"true\"}
   ip link set lo up
@@ -229,15 +259,15 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | loss | wire | ingest | latency) ;;
-    *) die 'say what to measure: followers, loss, wire, ingest or latency' ;;
+    followers | loss | wire | ingest | latency | memory) ;;
+    *) die 'say what to measure: followers, loss, wire, ingest, latency or memory' ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
   lab_enter "$@"
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
   runs=${2:-5}
-  "$1"
+  "$@"
 }
 
 main "$@"

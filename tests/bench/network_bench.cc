@@ -1,4 +1,4 @@
-// What tests/bench/network.sh measures with; see network_bench.h.
+// What network.sh measures with; see network_bench.h.
 #include "tests/bench/network_bench.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 #include "agent/cli/command_line.h"
 #include "services/store/route_store.h"
+#include "tests/bench/million_routes.h"
 #include "tests/support/taught_route.h"
 
 namespace trailcast::bench {
@@ -30,6 +31,12 @@ Result<void> MakeStore(const std::filesystem::path& file, std::uint32_t segments
   return {};
 }
 
+Result<void> MakeMillion(const std::filesystem::path& file) {
+  auto store = store::OpenSqliteStore(file);
+  if (!store) return tl::unexpected(store.error());
+  return PutMillionRoutes(**store);
+}
+
 }  // namespace trailcast::bench
 
 namespace {
@@ -49,6 +56,8 @@ int Run(int argc, char** argv) {
   store->add_option("file", file)->required();
   store->add_option("--segments", segments);
   store->add_option("--features", features);
+  CLI::App* million = app.add_subcommand("million", "Makes a store with a million routes");
+  million->add_option("file", file)->required();
   CLI::App* latency = app.add_subcommand("latency", "One segment's way over the loopback");
   latency->add_option("--samples", samples);
   CLI::App* load = app.add_subcommand("ingest", "Many scouts teach at once");
@@ -68,6 +77,7 @@ int Run(int argc, char** argv) {
 
   trailcast::Result<void> done;
   if (store->parsed()) done = bench::MakeStore(file, segments, features);
+  if (million->parsed()) done = bench::MakeMillion(file);
   if (latency->parsed()) done = bench::MeasureLatency(samples);
   if (load->parsed()) done = bench::MeasureIngest(ingest);
   if (commits->parsed()) done = bench::MeasureCommits(file, group);

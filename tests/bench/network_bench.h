@@ -9,11 +9,14 @@
 
 namespace trailcast::bench {
 
-// What tests/bench/network.sh measures with, each a subcommand of network_bench.
+// What network.sh measures with, each a subcommand of network_bench.
 
 // A store as a server has it, with one complete route, "hall", of segments that decode.
 [[nodiscard]] Result<void> MakeStore(const std::filesystem::path& file, std::uint32_t segments,
                                      int features);
+
+// A store with a million routes without segments.
+[[nodiscard]] Result<void> MakeMillion(const std::filesystem::path& file);
 
 // From Publish on one exchange to Take on another, 4 KiB on the loopback interface.
 [[nodiscard]] Result<void> MeasureLatency(int samples);
