@@ -7,6 +7,8 @@
 namespace trailcast::server {
 namespace {
 
+constexpr std::size_t kMostRoutes = 10'000;
+
 const char* ToString(exchange::AgentRole role) {
   switch (role) {
     case exchange::AgentRole::kServer:
@@ -22,6 +24,11 @@ const char* ToString(exchange::AgentRole role) {
 }
 
 }  // namespace
+
+Journal::Known& Journal::KnownOf(const route::RouteKey& key) {
+  if (routes_.size() >= kMostRoutes && !routes_.contains(key)) routes_.clear();
+  return routes_[key];
+}
 
 std::string Journal::NameOf(const route::RouteKey& key) const {
   const auto known = routes_.find(key);
@@ -47,7 +54,7 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
   if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) return On(*receipt);
   // What the server announces from its own store tells the journal the names.
   if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
-    Known& known = routes_[announcement->info.key];
+    Known& known = KnownOf(announcement->info.key);
     known.name = announcement->info.name;
     known.scout = announcement->info.scout.value();
   }
@@ -69,7 +76,7 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
 std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announcement) {
   const route::RouteInfo& info = announcement.info;
   const bool is_new = !routes_.contains(info.key);
-  Known& known = routes_[info.key];
+  Known& known = KnownOf(info.key);
   known.name = info.name;
   known.scout = info.scout.value();
   if (!is_new) return std::nullopt;
@@ -95,14 +102,17 @@ std::optional<std::string> Journal::On(const exchange::AgentGone& gone) {
 }
 
 std::optional<std::string> Journal::On(const exchange::Receipt& receipt) {
-  Known& known = routes_[receipt.key];
+  Known& known = KnownOf(receipt.key);
   const auto durable =
       receipt.durable_prefix + static_cast<std::uint32_t>(receipt.durable_beyond.size());
-  const bool grown = durable > known.durable.value_or(0);
-  known.durable = durable;
-  if (!grown) return std::nullopt;
+  // Two hundred scouts are receipted a segment each second: of a route that grows, one line each
+  // time that it has doubled.
+  const bool complete = receipt.durable_state == route::RouteState::kComplete;
+  const std::uint32_t worth_telling = complete ? known.told_durable + 1 : 2 * known.told_durable;
+  if (durable == 0 || durable < worth_telling) return std::nullopt;
+  known.told_durable = durable;
   return fmt::format("route {}: {} segments stored and receipted{}", NameOf(receipt.key), durable,
-                     receipt.durable_state == route::RouteState::kComplete ? ", complete" : "");
+                     complete ? ", complete" : "");
 }
 
 }  // namespace trailcast::server

@@ -21,7 +21,7 @@ class Journal {
   struct Known {
     std::string name;
     std::string scout;
-    std::optional<std::uint32_t> durable;  // segments receipted
+    std::uint32_t told_durable = 0;  // segments receipted, when that was last told
   };
   [[nodiscard]] std::string NameOf(const route::RouteKey& key) const;
 
@@ -29,6 +29,9 @@ class Journal {
   std::optional<std::string> On(const exchange::AgentStatus& status);
   std::optional<std::string> On(const exchange::AgentGone& gone);
   std::optional<std::string> On(const exchange::Receipt& receipt);
+
+  // Forgets all rather than hold too many: then it tells of some again.
+  [[nodiscard]] Known& KnownOf(const route::RouteKey& key);
 
   std::map<route::RouteKey, Known> routes_;
   std::map<AgentId, std::uint64_t> agents_;  // present, with their instances

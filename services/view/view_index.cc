@@ -28,7 +28,8 @@ constexpr std::size_t kSweepFrom = 4096;
 }  // namespace
 
 ViewIndex::ViewIndex(const ViewIndexOptions& options)
-    : options_{std::min(options.most_segments, kMostSlots)}, heads_(kTables * kWords), chunks_(1) {}
+    : options_{std::min(options.most_segments, kMostSlots), options.most_bytes},
+      heads_(kTables * kWords) {}
 
 ViewIndex::Route& ViewIndex::RouteOf(const route::RouteKey& key) {
   const auto [known, added] = routes_.try_emplace(key);
@@ -62,19 +63,21 @@ std::uint32_t ViewIndex::TakeChunk(std::uint32_t next) {
   fresh.entries.fill(kNoEntry);
   fresh.next = next;
   if (free_chunks_.empty()) {
-    chunks_.push_back(fresh);
-    return static_cast<std::uint32_t>(chunks_.size() - 1);
+    free_chunks_.push_back(chunk_count_++);
+    if (blocks_.size() * std::tuple_size_v<Block> < chunk_count_) {
+      blocks_.push_back(std::make_unique<Block>());
+    }
   }
   const std::uint32_t chunk = free_chunks_.back();
   free_chunks_.pop_back();
-  chunks_[chunk] = fresh;
+  ChunkAt(chunk) = fresh;
   return chunk;
 }
 
 void ViewIndex::Insert(std::uint32_t word, std::uint32_t entry) {
   std::uint32_t& head = heads_[word];
-  if (head == 0 || chunks_[head].entries.back() != kNoEntry) head = TakeChunk(head);
-  auto& entries = chunks_[head].entries;
+  if (head == 0 || ChunkAt(head).entries.back() != kNoEntry) head = TakeChunk(head);
+  auto& entries = ChunkAt(head).entries;
   *std::find(entries.begin(), entries.end(), kNoEntry) = entry;
 }
 
@@ -108,7 +111,7 @@ void ViewIndex::Remove(const route::RouteKey& key) {
   }
   free_numbers_.push_back(known->second.number);
   routes_.erase(known);
-  if (dead_ > std::max(kSweepFrom, slots_.size() / 4)) Sweep();
+  if (dead_ > std::max(kSweepFrom, slots_.size() / 4) || full()) Sweep();
 }
 
 // Takes the removed segments' entries out of the tables.
@@ -127,9 +130,9 @@ void ViewIndex::Sweep() {
 void ViewIndex::SweepWord(std::uint32_t word) {
   std::vector<std::uint32_t> alive;
   for (std::uint32_t chunk = std::exchange(heads_[word], 0); chunk != 0;
-       chunk = chunks_[chunk].next) {
+       chunk = ChunkAt(chunk).next) {
     free_chunks_.push_back(chunk);
-    for (const std::uint32_t entry : chunks_[chunk].entries) {
+    for (const std::uint32_t entry : ChunkAt(chunk).entries) {
       if (entry != kNoEntry && slots_[entry >> kCheckBits].route != kDead) alive.push_back(entry);
     }
   }
@@ -150,7 +153,7 @@ void ViewIndex::FindAlike(const route::Descriptor& descriptor) {
       if (head != 0) chains.push_back(head);
     }
     for (std::size_t i = 0; i < chains.size(); ++i) {
-      if (i + kAhead < chains.size()) __builtin_prefetch(&chunks_[chains[i + kAhead]]);
+      if (i + kAhead < chains.size()) __builtin_prefetch(&ChunkAt(chains[i + kAhead]));
       FindAlike(chains[i], where[table].check);
     }
   }
@@ -159,11 +162,11 @@ void ViewIndex::FindAlike(const route::Descriptor& descriptor) {
 void ViewIndex::FindAlike(std::uint32_t chunk, std::uint32_t check) {
   const auto& few = FewFlips();
   for (int looked_at = 0; chunk != 0 && looked_at < kMostChunks; ++looked_at) {
-    for (const std::uint32_t entry : chunks_[chunk].entries) {
+    for (const std::uint32_t entry : ChunkAt(chunk).entries) {
       if (entry == kNoEntry) break;
       if (few[(entry ^ check) & kCheckMask]) alike_.push_back(entry >> kCheckBits);
     }
-    chunk = chunks_[chunk].next;
+    chunk = ChunkAt(chunk).next;
   }
 }
 
@@ -218,7 +221,7 @@ bool ViewIndex::Holds(const Place& place) const {
 }
 
 std::size_t ViewIndex::bytes() const {
-  return heads_.size() * sizeof(heads_[0]) + chunks_.size() * sizeof(Chunk) +
+  return heads_.size() * sizeof(heads_[0]) + chunk_count_ * sizeof(Chunk) +
          slots_.capacity() * sizeof(Slot) + tallies_.capacity() * sizeof(Tally) +
          size() * sizeof(std::uint32_t) + routes_.size() * kBytesARoute;
 }

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,8 +15,9 @@
 namespace trailcast::view {
 
 struct ViewIndexOptions {
-  // Bounds the memory: README.md says how much a segment takes, at most 160 MB for so many.
   std::uint32_t most_segments = 200'000;
+  // Passed by the last segment's worth at most. README.md says how much a segment takes.
+  std::size_t most_bytes = 100'000'000;
 };
 
 // Which segments have features that look like those of a view: an inverted index from 20 bits of a
@@ -47,7 +48,10 @@ class ViewIndex {
   [[nodiscard]] std::size_t routes() const { return routes_.size(); }
   // Segments.
   [[nodiscard]] std::size_t size() const { return slots_.size() - free_slots_.size() - dead_; }
-  [[nodiscard]] bool full() const { return size() >= options_.most_segments; }
+  [[nodiscard]] bool full() const {
+    const std::size_t for_reuse = free_chunks_.size() * sizeof(Chunk);
+    return size() >= options_.most_segments || bytes() - for_reuse >= options_.most_bytes;
+  }
   // Of the tables and what is in them.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -58,6 +62,8 @@ class ViewIndex {
     std::array<std::uint32_t, 7> entries;
     std::uint32_t next;  // 0: none
   };
+  static constexpr std::uint32_t kBlockBits = 12;
+  using Block = std::array<Chunk, 1U << kBlockBits>;
   struct Slot {
     std::uint32_t route = 0;  // its number
     std::uint32_t segment = 0;
@@ -80,6 +86,9 @@ class ViewIndex {
   [[nodiscard]] Route& RouteOf(const route::RouteKey& key);
   void Insert(std::uint32_t word, std::uint32_t entry);
   [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
+  [[nodiscard]] Chunk& ChunkAt(std::uint32_t number) {
+    return (*blocks_[number >> kBlockBits])[number % std::tuple_size_v<Block>];
+  }
   void Sweep();
   void SweepWord(std::uint32_t word);
   void FindAlike(const route::Descriptor& descriptor);
@@ -88,7 +97,9 @@ class ViewIndex {
 
   ViewIndexOptions options_;
   std::vector<std::uint32_t> heads_;  // by word: its first chunk's number, 0: none
-  std::deque<Chunk> chunks_;          // number 0 is not used
+  // In blocks, so that they are not scattered among memory that comes and goes.
+  std::vector<std::unique_ptr<Block>> blocks_;
+  std::uint32_t chunk_count_ = 1;  // number 0 is not used
   std::vector<std::uint32_t> free_chunks_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;

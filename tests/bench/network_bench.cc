@@ -66,6 +66,7 @@ int Run(int argc, char** argv) {
   load->add_option("--participants", ingest.participants);
   load->add_option("--rate", ingest.segments_per_s);
   load->add_option("--duration", ingest.duration_s);
+  load->add_option("--route-segments", ingest.segments_a_route);
   CLI::App* commits = app.add_subcommand("commits", "Bare SQLite group commits");
   commits->add_option("folder", file)->required();
   commits->add_option("--group", group);

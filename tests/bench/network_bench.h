@@ -26,6 +26,7 @@ struct IngestOptions {
   std::uint32_t participants = 4;
   double segments_per_s = 1.0;  // each scout
   double duration_s = 20.0;
+  std::uint32_t segments_a_route = 300;  // then the scout teaches another
   std::string tag;
 };
 // Plays many scouts to a running server, and tells how long their receipts take.

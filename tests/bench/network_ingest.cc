@@ -23,13 +23,16 @@ constexpr std::size_t kBytes = 4096;
 constexpr std::chrono::seconds kSettle{2};     // endpoints find each other
 constexpr std::chrono::seconds kPatience{10};  // for the last receipts
 
-// One scout's end of the protocol, with its segments in memory.
+// One route's scout's end of the protocol, with its segments in memory.
 class PlayedScout {
  public:
-  PlayedScout(unsigned number, Clock::time_point first, double every_s)
-      : next_at_(first),
-        every_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(every_s))),
-        route_(Beginning(number)),
+  PlayedScout(unsigned route, Clock::time_point first, const IngestOptions& options)
+      : number_(route),
+        next_at_(first),
+        every_(std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(1.0 / options.segments_per_s))),
+        most_(options.segments_a_route),
+        route_(Beginning(route)),
         sender_(route_.info().scout, route_.info(),
                 [this](SegmentIndex index) -> Result<route::SegmentPiece> {
                   return pieces_.at(index.value());
@@ -46,18 +49,32 @@ class PlayedScout {
     }
   }
   std::vector<exchange::Message> Tick(Clock::time_point now, bool teaching) {
-    while (teaching && now >= next_at_) {
+    while (teaching && !complete() && now >= next_at_) {
       taught_at_[SegmentIndex(taught())] = next_at_;
-      pieces_.push_back(route_.Add(route::SampleSegment(taught(), kFeatures)));
+      pieces_.push_back(route_.Add(Next()));
       sender_.Add(pieces_.back(), route_.info());
       next_at_ += every_;
+      if (taught() < most_) continue;
+      route_.Complete();
+      sender_.Update(route_.info());
     }
     return sender_.Tick(now);
   }
   [[nodiscard]] std::uint32_t taught() const { return static_cast<std::uint32_t>(pieces_.size()); }
   [[nodiscard]] std::size_t backlog() const { return sender_.Unreceipted().size(); }
+  [[nodiscard]] Clock::time_point next_at() const { return next_at_; }
+  [[nodiscard]] bool complete() const {
+    return route_.info().state == route::RouteState::kComplete;
+  }
+  [[nodiscard]] bool done() const { return sender_.AllReceipted(); }
 
  private:
+  // No two routes have a segment alike.
+  [[nodiscard]] route::Segment Next() const {
+    auto segment = route::SampleSegment(number_ * most_ + taught(), kFeatures);
+    segment.index = SegmentIndex(taught());
+    return segment;
+  }
   static route::RouteInfo Beginning(unsigned number) {
     route::RouteInfo info;
     info.key = test::KeyNumber(number + 1);
@@ -66,8 +83,10 @@ class PlayedScout {
     return info;
   }
 
+  unsigned number_;
   Clock::time_point next_at_;
   Clock::duration every_;
+  std::uint32_t most_;
   route::RouteBuilder route_;
   std::vector<route::SegmentPiece> pieces_;
   std::map<SegmentIndex, Clock::time_point> taught_at_;  // when it was due, not when it was done
@@ -82,6 +101,22 @@ struct Share {
   Result<void> result;
 };
 
+using PlayedScouts = std::map<route::RouteKey, std::unique_ptr<PlayedScout>>;
+
+// Dismisses those whose routes are receipted to the end; how many segments they taught.
+std::uint64_t TakeDone(PlayedScouts& scouts) {
+  std::uint64_t taught = 0;
+  for (auto scout = scouts.begin(); scout != scouts.end();) {
+    if (scout->second->done()) {
+      taught += scout->second->taught();
+      scout = scouts.erase(scout);
+    } else {
+      ++scout;
+    }
+  }
+  return taught;
+}
+
 // The scouts of one participant, on one thread.
 void Play(const IngestOptions& options, std::uint32_t part, Share& share) {
   dds::DdsOptions dds;
@@ -94,13 +129,16 @@ void Play(const IngestOptions& options, std::uint32_t part, Share& share) {
     return;
   }
   const auto begin = Clock::now() + kSettle;
-  const double every_s = 1.0 / options.segments_per_s;
-  std::map<route::RouteKey, std::unique_ptr<PlayedScout>> scouts;
-  for (std::uint32_t i = part; i < options.scouts; i += options.participants) {
-    const auto offset = std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double>(every_s * i / options.scouts));
-    scouts.emplace(test::KeyNumber(i + 1),
-                   std::make_unique<PlayedScout>(i, begin + offset, every_s));
+  PlayedScouts scouts;
+  std::uint32_t next_route = part;
+  const auto begin_route = [&](Clock::time_point first) {
+    scouts.emplace(test::KeyNumber(next_route + 1),
+                   std::make_unique<PlayedScout>(next_route, first, options));
+    next_route += options.participants;
+  };
+  while (next_route < options.scouts) {
+    begin_route(begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                            next_route / options.segments_per_s / options.scouts)));
   }
   const auto end = begin + std::chrono::duration_cast<Clock::duration>(
                                std::chrono::duration<double>(options.duration_s));
@@ -125,11 +163,16 @@ void Play(const IngestOptions& options, std::uint32_t part, Share& share) {
       share.backlog_at_end = backlog();
     }
     std::vector<exchange::Message> due;
+    std::vector<Clock::time_point> successors;
     for (auto& [key, scout] : scouts) {
-      scout->NoteReceipts(share.took_ms);
+      const bool was_complete = scout->complete();
       auto some = scout->Tick(now, !ended);
       std::move(some.begin(), some.end(), std::back_inserter(due));
+      scout->NoteReceipts(share.took_ms);
+      if (scout->complete() && !was_complete) successors.push_back(scout->next_at());
     }
+    for (const Clock::time_point first : successors) begin_route(first);
+    share.taught += TakeDone(scouts);
     // What cannot be sent is asked for.
     (void)exchange::PublishAll(**opened, due);
   }

@@ -99,6 +99,21 @@ TEST(ViewIndex, ASegmentThatIsHeldTakesNoMoreRoom) {
   EXPECT_FALSE(index.Holds(PlaceOf(1, 5)));
 }
 
+TEST(ViewIndex, IsFullAtItsBytesAndHasRoomAgainAfterARemoval) {
+  ViewIndex empty;
+  ViewIndex index({.most_bytes = empty.bytes() + 50'000});
+  unsigned segments = 0;
+  for (; !index.full(); ++segments) {
+    ASSERT_LT(segments, 1000U);
+    ASSERT_TRUE(index.Add(KeyNumber(1 + segments % 2), SegmentToSee(segments, segments)));
+  }
+  EXPECT_FALSE(index.Add(KeyNumber(3), SegmentToSee(2000, 0)));
+  EXPECT_LT(index.bytes(), empty.bytes() + 60'000);
+  index.Remove(KeyNumber(1));
+  EXPECT_FALSE(index.full());
+  EXPECT_TRUE(index.Add(KeyNumber(3), SegmentToSee(2000, 0)));
+}
+
 TEST(ViewIndex, RoutesThatComeAndGoTakeNoMoreMemory) {
   ViewIndex index({.most_segments = 30});
   AddRoutes(index, 3);

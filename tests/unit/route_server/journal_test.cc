@@ -1,5 +1,6 @@
 #include "route_server/journal.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,13 +34,29 @@ TEST(JournalTest, TellsWhoTeachesWhatOnce) {
   EXPECT_EQ(journal.Received(Announcement()), std::nullopt);
 }
 
-TEST(JournalTest, TellsOfReceiptsOnlyWhenTheyGrow) {
+TEST(JournalTest, TellsOfReceiptsWhenTheyHaveDoubledAndAtTheEnd) {
   Journal journal;
   ASSERT_TRUE(journal.Received(Announcement()));
   EXPECT_EQ(journal.Sent(ReceiptOf(0)), std::nullopt);
   EXPECT_THAT(journal.Sent(ReceiptOf(2)), Optional(HasSubstr("'hall' revision 1: 2 segments")));
   EXPECT_EQ(journal.Sent(ReceiptOf(2)), std::nullopt);
-  EXPECT_THAT(journal.Sent(ReceiptOf(3)), Optional(HasSubstr("3 segments stored and receipted")));
+  EXPECT_EQ(journal.Sent(ReceiptOf(3)), std::nullopt);
+  EXPECT_THAT(journal.Sent(ReceiptOf(4)), Optional(HasSubstr("4 segments stored and receipted")));
+  Receipt last = ReceiptOf(5);
+  last.durable_state = route::RouteState::kComplete;
+  EXPECT_THAT(journal.Sent(last), Optional(HasSubstr("5 segments stored and receipted, complete")));
+  EXPECT_EQ(journal.Sent(last), std::nullopt);
+}
+
+TEST(JournalTest, ForgetsRoutesRatherThanGrow) {
+  Journal journal;
+  ASSERT_TRUE(journal.Received(Announcement()));
+  RouteAnnouncement other = Announcement();
+  for (unsigned i = 0; i < 20'000; ++i) {
+    other.info.key.route = RouteId(fmt::format("{:032x}", i));
+    EXPECT_TRUE(journal.Received(other));
+  }
+  EXPECT_TRUE(journal.Received(Announcement())) << "new again";
 }
 
 TEST(JournalTest, TellsWhenAgentsComeReturnAndGo) {
