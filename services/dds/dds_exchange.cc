@@ -105,7 +105,13 @@ Result<void> DdsExchange::Publish(const Message& message) {
 
 Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
   Writer& writer = writers_.at(topic);
-  auto written = WithWire(message, [&](const void* sample) { return writer.Write(sample); });
+  // Replies are an instance for each client, and clients that ask once come by the thousand: their
+  // instances would be kept for ever.
+  const bool last_word = topic == exchange::Topic::kCatalogReplies;
+  auto written = WithWire(message, [&](const void* sample) {
+    auto done = writer.Write(sample);
+    return done && last_word ? writer.Unregister(sample) : done;
+  });
   if (!written) return Wrap(written.error(), exchange::NameOf(topic));
   return {};
 }

@@ -77,6 +77,10 @@ Result<void> Writer::Dispose(const void* sample) {
   return Check(dds_dispose(handle(), sample), "disposing");
 }
 
+Result<void> Writer::Unregister(const void* sample) {
+  return Check(dds_unregister_instance(handle(), sample), "unregistering");
+}
+
 Result<void> Writer::WaitForAcks(std::chrono::milliseconds max_wait) {
   return Check(dds_wait_for_acks(handle(), ToDds(max_wait)), "waiting for acknowledgements");
 }

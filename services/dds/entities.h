@@ -87,6 +87,8 @@ class Writer : public Entity {
   [[nodiscard]] Result<void> Write(const void* sample);
   // The instance with this sample's key is gone: said to every reader.
   [[nodiscard]] Result<void> Dispose(const void* sample);
+  // Nothing more is said of that instance: what was written still arrives.
+  [[nodiscard]] Result<void> Unregister(const void* sample);
   // kUnavailable if some reader has not got everything by then.
   [[nodiscard]] Result<void> WaitForAcks(std::chrono::milliseconds max_wait);
 
