@@ -18,7 +18,7 @@ std::string Describe(const route::RouteKey& key) {
 KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::HeldSegment>& held,
                      WantList::Options want_options)
     : want(want_options), stored_(std::move(stored)), claim_(stored_) {
-  for (const store::HeldSegment& segment : held) held_.emplace(segment.index, segment.digest);
+  for (const store::HeldSegment& segment : held) held_.Put(segment.index, segment.digest);
   AdvancePrefix();
   if (!stored_ || deleted()) return;
   // A store that lost segments which its info counts gets them again.
@@ -52,15 +52,15 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
 }
 
 void KeptRoute::MarkHeld(SegmentIndex index, const route::Digest& digest, Time now) {
-  held_[index] = digest;
-  damaged_.erase(index);
+  held_.Put(index, digest);
+  damaged_.Remove(index);
   want.Arrived(index, now);
   AdvancePrefix();
 }
 
 void KeptRoute::MarkDamaged(SegmentIndex index, Time now) {
-  if (auto held = held_.extract(index)) {
-    damaged_.insert(std::move(held));
+  if (const auto digest = held_.Remove(index)) {
+    damaged_.Put(index, *digest);
     prefix_ = std::min(prefix_, index.value());
     want.Want(index, now);
   }
@@ -68,13 +68,13 @@ void KeptRoute::MarkDamaged(SegmentIndex index, Time now) {
 
 std::vector<SegmentIndex> KeptRoute::Damaged() const {
   std::vector<SegmentIndex> indices;
-  for (const auto& [index, digest] : damaged_) indices.push_back(index);
+  for (const auto& [index, digest] : damaged_.entries()) indices.push_back(index);
   return indices;
 }
 
 std::optional<route::Digest> KeptRoute::DigestOf(SegmentIndex index) const {
   for (const auto* segments : {&held_, &damaged_}) {
-    if (const auto found = segments->find(index); found != segments->end()) return found->second;
+    if (const auto* found = segments->Find(index)) return *found;
   }
   return std::nullopt;
 }
@@ -145,9 +145,10 @@ Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key
   } else if (!full_.empty()) {
     receipt.refusal = Refusal::kFull;
   }
-  for (auto at = held_.lower_bound(SegmentIndex(prefix_)); at != held_.end(); ++at) {
+  const auto& held = held_.entries();
+  for (auto at = held_.From(SegmentIndex(prefix_)); at != held.end(); ++at) {
     if (receipt.durable_beyond.size() == kMaxIndicesPerReceipt) break;
-    receipt.durable_beyond.push_back(at->first);
+    receipt.durable_beyond.push_back(at->index);
   }
   return receipt;
 }

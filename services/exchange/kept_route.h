@@ -2,12 +2,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "services/exchange/messages.h"
+#include "services/exchange/segment_digests.h"
 #include "services/exchange/want_list.h"
 #include "services/store/route_store.h"
 
@@ -95,8 +95,8 @@ class KeptRoute {
 
   std::optional<route::RouteInfo> stored_;
   std::optional<route::RouteInfo> claim_;
-  std::map<SegmentIndex, route::Digest> held_;
-  std::map<SegmentIndex, route::Digest> damaged_;
+  SegmentDigests held_;
+  SegmentDigests damaged_;
   std::uint32_t prefix_ = 0;  // all below are held
   std::string full_;          // why the store takes nothing; empty: it does
 };

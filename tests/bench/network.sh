@@ -226,8 +226,8 @@ memory() {
   printf 'seconds,resident_mb,segments\n'
   SECONDS=0
   while kill -0 "$scouts" 2>/dev/null; do
-    "$bin/trailcast" "${load[@]}" --tag row-7 --json >/dev/null
-    "$bin/trailcast" "${load[@]}" --near-site 5000,5000 --json >/dev/null
+    "$bin/trailcast" "${load[@]}" --tag row-7 --json >/dev/null 2>"$work/query.log"
+    "$bin/trailcast" "${load[@]}" --near-site 5000,5000 --json >/dev/null 2>"$work/query.log"
     printf '%s,%s,%s\n' "$SECONDS" \
       "$(awk '/VmRSS/ { printf "%.0f", $2 / 1000 }' "/proc/$server/status")" \
       "$(curl -s localhost:8080/metrics | awk '/^trailcast_segments_stored_total / { print $2 }')"

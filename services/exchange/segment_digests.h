@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "services/route/route.h"
+
+namespace trailcast::exchange {
+
+// The digests of some of a route's segments. One block of memory: a hundred thousand small nodes of
+// a map, taken one by one between messages that come and go, keep the gaps of those from being
+// used again. Segments come in about their order, which costs least.
+class SegmentDigests {
+ public:
+  struct Entry {
+    SegmentIndex index;
+    route::Digest digest;
+  };
+
+  [[nodiscard]] const route::Digest* Find(SegmentIndex index) const {
+    const auto at = From(index);
+    return at != entries_.end() && at->index == index ? &at->digest : nullptr;
+  }
+  [[nodiscard]] bool contains(SegmentIndex index) const { return Find(index) != nullptr; }
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
+  // All, rising.
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  // The first one that is not below it.
+  [[nodiscard]] std::vector<Entry>::const_iterator From(SegmentIndex index) const {
+    return std::lower_bound(
+        entries_.begin(), entries_.end(), index,
+        [](const Entry& entry, SegmentIndex wanted) { return entry.index < wanted; });
+  }
+
+  void Put(SegmentIndex index, const route::Digest& digest) {
+    const auto at = entries_.begin() + (From(index) - entries_.cbegin());
+    if (at != entries_.end() && at->index == index) {
+      at->digest = digest;
+    } else {
+      entries_.insert(at, {index, digest});
+    }
+  }
+  // What it was, if it was there.
+  std::optional<route::Digest> Remove(SegmentIndex index) {
+    const auto at = From(index);
+    if (at == entries_.end() || at->index != index) return std::nullopt;
+    const route::Digest digest = at->digest;
+    entries_.erase(at);
+    return digest;
+  }
+  void clear() { entries_.clear(); }
+
+ private:
+  std::vector<Entry> entries_;  // by index
+};
+
+}  // namespace trailcast::exchange
