@@ -213,7 +213,7 @@ ingest() {
 # A server with a million routes, taught 200 segments a second and asked for routes: one line for
 # each half minute.
 memory() {
-  local minutes=${1:-60} scouts load status
+  local minutes=${1:-60} scouts load query unanswered=0 status=0
   ip link set lo up
   "$bin/network_bench" million "$work/server.db"
   "$bin/trailcast-server" --store "$work/server.db" --dds-tag memory --network-interface lo \
@@ -226,16 +226,19 @@ memory() {
   printf 'seconds,resident_mb,segments\n'
   SECONDS=0
   while kill -0 "$scouts" 2>/dev/null; do
-    "$bin/trailcast" "${load[@]}" --tag row-7 --json >/dev/null 2>"$work/query.log"
-    "$bin/trailcast" "${load[@]}" --near-site 5000,5000 --json >/dev/null 2>"$work/query.log"
+    for query in '--tag row-7' '--near-site 5000,5000'; do
+      # shellcheck disable=SC2086
+      "$bin/trailcast" "${load[@]}" $query --json >/dev/null 2>"$work/query.log" ||
+        unanswered=$((unanswered + 1))
+    done
     printf '%s,%s,%s\n' "$SECONDS" \
       "$(awk '/VmRSS/ { printf "%.0f", $2 / 1000 }' "/proc/$server/status")" \
       "$(curl -s localhost:8080/metrics | awk '/^trailcast_segments_stored_total / { print $2 }')"
     sleep 25
   done
-  status=0
   wait "$scouts" || status=$?
   cat "$work/ingest.log"
+  printf '%s queries not answered within 5 s\n' "$unanswered"
   return "$status"
 }
 
