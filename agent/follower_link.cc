@@ -146,6 +146,7 @@ Result<void> FollowerLink::StartFetching() {
     if (!own) return tl::unexpected(own.error());
     stored_ = *own;
     if (stored_) fetcher_->Learn(*stored_, now);
+    Say(now);  // its first requests, at once
   } else if (route_->state == route::RouteState::kTeaching) {
     spdlog::warn("'{}' is unfinished in {}: following what is there", route_->name,
                  options_.store_file);
@@ -180,14 +181,18 @@ void FollowerLink::Trade() {
       finder_.Handle(message);
     }
   }
+  Say(now);
+  HearServer();
+  ShowStatus();
+  presence_->Tick(now);
+}
+
+void FollowerLink::Say(steady_clock::time_point now) {
   auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
   for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
   if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
-  HearServer();
-  ShowStatus();
-  presence_->Tick(now);
 }
 
 Result<void> FollowerLink::StoreArrived() {

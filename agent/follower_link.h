@@ -78,6 +78,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> StartFetching();
   [[nodiscard]] Result<void> Follow();
   void Trade();
+  void Say(Time now);  // what the fetcher or the finder, and whoever lends, have to say
   [[nodiscard]] Result<void> StoreArrived();
   [[nodiscard]] Result<void> StoreNews();
   [[nodiscard]] Result<void> TellHeld();
