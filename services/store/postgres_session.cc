@@ -32,10 +32,11 @@ void Configure(pqxx::connection& connection, PostgresSession::Access access) {
 }  // namespace
 
 Result<std::unique_ptr<PostgresSession>> PostgresSession::Open(const std::string& location,
-                                                               Access access) {
+                                                               Access access,
+                                                               std::chrono::milliseconds patience) {
   Result<PostgresUrl> url = ParsePostgresUrl(location);
   if (!url) return tl::unexpected(url.error());
-  std::unique_ptr<PostgresSession> session(new PostgresSession(std::move(*url), access));
+  std::unique_ptr<PostgresSession> session(new PostgresSession(std::move(*url), access, patience));
   const bool create = access == Access::kReadWrite;
   if (auto connected = session->Connect(create); !connected) {
     return tl::unexpected(connected.error());
@@ -49,15 +50,16 @@ Result<void> PostgresSession::Connect(bool create) {
   } catch (const std::exception& thrown) {
     return tl::unexpected(ToConnectError(thrown, name()));
   }
+  Result<void> ours;
   try {
+    const SilenceWatch::Guard guard(silence_, link_->connection.sock());
     Configure(link_->connection, access_);
-    Result<void> ours = PrepareSchema(link_->connection, name(), create);
-    if (!ours) link_.reset();
-    return ours;
+    ours = PrepareSchema(link_->connection, name(), create);
   } catch (const std::exception& thrown) {
-    link_.reset();
-    return tl::unexpected(ToError(thrown, name(), "opening it"));
+    ours = tl::unexpected(ToError(thrown, name(), "opening it"));
   }
+  if (!ours) link_.reset();
+  return ours;
 }
 
 Result<void> PostgresSession::Reconnect() {
@@ -100,6 +102,7 @@ Result<void> PostgresSession::AttemptWithin(const std::string& doing, const Work
 }
 
 void PostgresSession::RunOnce(Kind kind, const Work& work) {
+  const SilenceWatch::Guard guard(silence_, link_->connection.sock());
   std::unique_ptr<pqxx::transaction_base> transaction;
   if (kind == Kind::kRead) {
     transaction = std::make_unique<pqxx::nontransaction>(link_->connection);

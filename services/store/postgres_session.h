@@ -11,6 +11,7 @@
 
 #include "services/base/result.h"
 #include "services/store/postgres_url.h"
+#include "services/store/silence_watch.h"
 
 namespace trailcast::store {
 
@@ -28,8 +29,10 @@ class PostgresSession {
   // Connects, makes the store's tables where there are none, and checks that they are ours.
   // kInvalidArgument for what waiting does not mend (URL, password, database, right, version),
   // kUnavailable when there is no connection at present. Messages say what to do.
-  [[nodiscard]] static Result<std::unique_ptr<PostgresSession>> Open(const std::string& url,
-                                                                     Access access);
+  // `patience` bounds the wait for any one answer; a server that is alive says itself that a
+  // statement takes too long, sooner than after the usual one.
+  [[nodiscard]] static Result<std::unique_ptr<PostgresSession>> Open(
+      const std::string& url, Access access, std::chrono::milliseconds patience);
 
   // What `work` returns, a Result, given a transaction, which is committed if that is no error. It
   // may be run several times: again when the connection was lost and is there again, or when
@@ -52,7 +55,8 @@ class PostgresSession {
   [[nodiscard]] const std::string& name() const { return url_.shown; }  // for messages
 
  private:
-  PostgresSession(PostgresUrl url, Access access) : url_(std::move(url)), access_(access) {}
+  PostgresSession(PostgresUrl url, Access access, std::chrono::milliseconds patience)
+      : url_(std::move(url)), access_(access), silence_(patience) {}
 
   [[nodiscard]] Result<void> Attempt(Kind kind, const std::string& doing, const Work& work);
   [[nodiscard]] Result<void> AttemptWithin(const std::string& doing, const Work& work);
@@ -68,6 +72,7 @@ class PostgresSession {
 
   PostgresUrl url_;
   Access access_;
+  SilenceWatch silence_;
   std::unique_ptr<Link> link_;  // none: lost
   std::chrono::steady_clock::time_point reconnect_at_{};
   Error lost_;  // why there is no connection

@@ -68,9 +68,9 @@ Result<std::vector<std::string>> PostgresRouteStore::Verify() {
 
 Result<std::unique_ptr<RouteStore>> OpenPostgresStore(const std::string& url,
                                                       const PostgresOptions& options) {
-  auto session =
-      PostgresSession::Open(url, options.read_only ? PostgresSession::Access::kReadOnly
-                                                   : PostgresSession::Access::kReadWrite);
+  const auto access =
+      options.read_only ? PostgresSession::Access::kReadOnly : PostgresSession::Access::kReadWrite;
+  auto session = PostgresSession::Open(url, access, options.patience);
   if (!session) return tl::unexpected(session.error());
   return std::make_unique<PostgresRouteStore>(std::move(*session));
 }

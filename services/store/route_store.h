@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -139,6 +140,9 @@ struct SqliteOptions {
 
 struct PostgresOptions {
   bool read_only = false;  // nothing is written, the tables must be there
+  // A database that has not answered for so long is taken for lost. Above the 30 s after which a
+  // PostgreSQL that is alive ends a statement itself.
+  std::chrono::milliseconds patience{35'000};
 };
 
 // `url` as postgresql://user@host:port/database; its tables are made where there are none.

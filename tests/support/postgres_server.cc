@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
+#include <signal.h>
 
+#include <fstream>
 #include <pqxx/pqxx>
 
 namespace trailcast::test {
@@ -68,6 +70,12 @@ void PostgresServer::Stop(int signal) {
   process_->Signal(signal);
   if (!process_->Wait()) Give("it does not stop");
   process_.reset();
+}
+
+void PostgresServer::SignalAll(int signal) const {
+  process_->Signal(signal);
+  std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", process_->pid()));
+  for (pid_t child = 0; children >> child;) kill(child, signal);
 }
 
 void PostgresServer::Start() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <signal.h>
+
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -37,8 +39,12 @@ class PostgresServer {
   // SIGINT: disconnects all and writes everything; SIGKILL: a crash.
   void Stop(int signal);
   void Start();
+  // All of its processes stand still, and the connections to them stay; until thawed.
+  void Freeze() { SignalAll(SIGSTOP); }
+  void Thaw() { SignalAll(SIGCONT); }
 
  private:
+  void SignalAll(int signal) const;
   [[nodiscard]] std::vector<std::string> AsItsUser(std::vector<std::string> words) const;
   void Initialise();
 

@@ -50,6 +50,7 @@ class Process {
     waitpid(pid_, nullptr, 0);
   }
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
   void Signal(int signal) const {
     if (!status_) kill(pid_, signal);
   }

@@ -238,6 +238,28 @@ TEST_F(PostgresStore, WhatIsDoneExclusivelyIsDoneByOneAtATimeAndAllOrNothing) {
   EXPECT_EQ(Open()->FindAnswer("operator/1").value(), "changed");
 }
 
+TEST(PostgresStoreSilence, AServerThatHangsIsTakenForLostAndTakenUpAgain) {
+  PostgresServer server;
+  PostgresOptions options;
+  options.patience = std::chrono::milliseconds(500);
+  const auto store = OpenPostgresStore(server.CreateDatabase(), options).value();
+  ASSERT_TRUE(store->AppendSegments(Pieces({0})));
+  server.Freeze();
+  const auto began = std::chrono::steady_clock::now();
+  const auto refused = store->AppendSegments(Pieces({1}));
+  const auto took = std::chrono::steady_clock::now() - began;
+  server.Thaw();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable) << refused.error().message;
+  EXPECT_GE(took, options.patience);
+  EXPECT_LT(took, std::chrono::seconds(20));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!store->AppendSegments(Pieces({1})) && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(store->HeldSegments(kYard).value(), Indices({0, 1}));
+}
+
 TEST(PostgresStoreRestart, GoesOnWhenPostgresIsBackAndSaysWhileItIsNot) {
   PostgresServer server(PostgresServer::Sync::kOn);
   const std::string url = server.CreateDatabase();
