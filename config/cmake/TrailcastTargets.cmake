@@ -19,6 +19,10 @@ if(TRAILCAST_SANITIZE)
   add_compile_options(-fsanitize=${TRAILCAST_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TRAILCAST_SANITIZE})
+  # GCC's analysis does not see through the instrumentation.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized)
+  endif()
 endif()
 
 # Applied to each of our targets; generated code (idlc, protoc) is kept out of it.
