@@ -141,13 +141,13 @@ void Server::Serve() {
 
 // What was appended is on the disk, and what was announced as deleted is not.
 void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
+  for (const auto& [key, segment] : keeper_->TakeAppended()) views_.Note(key, segment);
   for (const exchange::Message& message : outgoing) {
     const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
     if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
       views_.Forget(announced->info.key);
     }
   }
-  for (const auto& [key, segment] : keeper_->TakeAppended()) views_.Note(key, segment);
   for (const auto& [key, segment] : views_.TakeDamaged()) {
     keeper_->NoteDamage(key, segment, steady_clock::now());
   }

@@ -52,7 +52,7 @@ Result<void> PostgresSession::Connect(bool create) {
   }
   Result<void> ours;
   try {
-    const SilenceWatch::Guard guard(silence_, link_->connection.sock());
+    const SilenceWatch::Guard guard(watch_, link_->connection.sock());
     Configure(link_->connection, access_);
     ours = PrepareSchema(link_->connection, name(), create);
   } catch (const std::exception& thrown) {
@@ -102,7 +102,7 @@ Result<void> PostgresSession::AttemptWithin(const std::string& doing, const Work
 }
 
 void PostgresSession::RunOnce(Kind kind, const Work& work) {
-  const SilenceWatch::Guard guard(silence_, link_->connection.sock());
+  const SilenceWatch::Guard guard(watch_, link_->connection.sock());
   std::unique_ptr<pqxx::transaction_base> transaction;
   if (kind == Kind::kRead) {
     transaction = std::make_unique<pqxx::nontransaction>(link_->connection);

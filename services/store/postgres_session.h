@@ -56,7 +56,7 @@ class PostgresSession {
 
  private:
   PostgresSession(PostgresUrl url, Access access, std::chrono::milliseconds patience)
-      : url_(std::move(url)), access_(access), silence_(patience) {}
+      : url_(std::move(url)), access_(access), watch_(patience) {}
 
   [[nodiscard]] Result<void> Attempt(Kind kind, const std::string& doing, const Work& work);
   [[nodiscard]] Result<void> AttemptWithin(const std::string& doing, const Work& work);
@@ -72,7 +72,7 @@ class PostgresSession {
 
   PostgresUrl url_;
   Access access_;
-  SilenceWatch silence_;
+  SilenceWatch watch_;
   std::unique_ptr<Link> link_;  // none: lost
   std::chrono::steady_clock::time_point reconnect_at_{};
   Error lost_;  // why there is no connection

@@ -64,7 +64,7 @@ std::uint32_t ViewIndex::TakeChunk(std::uint32_t next) {
   fresh.next = next;
   if (free_chunks_.empty()) {
     free_chunks_.push_back(chunk_count_++);
-    if (blocks_.size() * std::tuple_size_v<Block> < chunk_count_) {
+    if (blocks_.size() * kChunksABlock < chunk_count_) {
       blocks_.push_back(std::make_unique<Block>());
     }
   }

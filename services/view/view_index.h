@@ -62,8 +62,12 @@ class ViewIndex {
     std::array<std::uint32_t, 7> entries;
     std::uint32_t next;  // 0: none
   };
-  static constexpr std::uint32_t kBlockBits = 12;
-  using Block = std::array<Chunk, 1U << kBlockBits>;
+  static constexpr std::uint32_t kChunksABlock = 4096;
+  using Block = std::array<Chunk, kChunksABlock>;
+  struct Route {
+    std::uint32_t number = 0;
+    std::vector<std::uint32_t> segments;  // in order
+  };
   struct Slot {
     std::uint32_t route = 0;  // its number
     std::uint32_t segment = 0;
@@ -76,18 +80,12 @@ class ViewIndex {
 
   // Nothing when all are taken.
   [[nodiscard]] std::optional<std::uint32_t> TakeSlot();
-  struct Route {
-    std::uint32_t number = 0;
-    std::vector<std::uint32_t> segments;  // in order
-  };
-  using Routes = std::map<route::RouteKey, Route>;
-
   // With a number, if it is new.
   [[nodiscard]] Route& RouteOf(const route::RouteKey& key);
   void Insert(std::uint32_t word, std::uint32_t entry);
   [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
   [[nodiscard]] Chunk& ChunkAt(std::uint32_t number) {
-    return (*blocks_[number >> kBlockBits])[number % std::tuple_size_v<Block>];
+    return (*blocks_[number / kChunksABlock])[number % kChunksABlock];
   }
   void Sweep();
   void SweepWord(std::uint32_t word);
@@ -104,7 +102,7 @@ class ViewIndex {
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
   std::size_t dead_ = 0;  // slots whose segment was removed, their entries not yet
-  Routes routes_;
+  std::map<route::RouteKey, Route> routes_;
   std::vector<const route::RouteKey*> keys_;  // by number: of routes_
   std::vector<std::uint32_t> free_numbers_;
   std::vector<Tally> tallies_;         // by slot, while voting
