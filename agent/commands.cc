@@ -80,7 +80,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
-  follower.open_loop = !replay.device.is_simulated();
+  follower.open_loop = replay.device.is_recorded();
   return follower;
 }
 
@@ -156,7 +156,7 @@ void AddDeliverOptions(CLI::App& command, TeachCommand& deliver) {
 }
 
 Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
-  auto opened = OpenDevice(teach.device);
+  auto opened = OpenDevice(teach.device, options.common);
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
@@ -194,7 +194,7 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
 }
 
 Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay) {
-  auto opened = OpenDevice(replay.device);
+  auto opened = OpenDevice(replay.device, options.common);
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -9,7 +10,7 @@
 
 namespace trailcast::agent {
 
-// The robot behind an agent: simulated, recorded (or, later, real). Frames come at the device's own
+// The robot behind an agent: simulated, recorded or real. Frames come at the device's own
 // pace: Next() waits for the next one, in lockstep devices it makes it.
 class RobotDevice {
  public:
@@ -23,6 +24,11 @@ class RobotDevice {
 
   // What the base shall do until told otherwise. Recorded devices note it and do nothing.
   [[nodiscard]] virtual Result<void> Drive(const motion::VelocityCommand& command) = 0;
+
+  // Whom Next tells, from its own thread, that the robot had to be stopped and why, and with ""
+  // that it may drive again. Devices that never have to wait for their robot do not call it.
+  using Trouble = std::function<void(const std::string& what)>;
+  virtual void OnTrouble(Trouble /*tell*/) {}
 
   // For people: "webcam 320x240", "recorded 160x120".
   [[nodiscard]] virtual std::string camera() const = 0;

@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "agent/cli/command_line.h"
 #include "agent/recorded_device.h"
+#include "agent/ros2_device.h"
 #include "agent/simulated_device.h"
 
 namespace trailcast::agent {
@@ -13,14 +15,26 @@ namespace trailcast::agent {
 struct DeviceOptions {
   RecordedRun recorded;
   SimulatedRun simulated;
+  Ros2Run ros2;
+  double sensor_timeout_s = 0.3;
+  double sensor_patience_s = 10.0;
+  double still_at_end_s = 0.0;
   std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
+  [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty(); }
 };
 
-// Flags of `command`; one of --frames and --sim is required. The scout's differ in that it may be
-// told a path and a speed.
+// Flags of `command`; one of --frames, --sim and --ros2 is required. The scout's differ: a
+// simulated one is told a speed, a real one when its drive is over.
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// Those of them for a simulated robot. Returns the one that names the world.
+CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// Those of them that say which topics a ROS 2 robot has; they need the option `robot`.
+void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
+                         dds::Ros2Options& topics);
 
 struct OpenedDevice {
   std::unique_ptr<RobotDevice> device;
@@ -30,6 +44,8 @@ struct OpenedDevice {
   [[nodiscard]] Result<void> WriteTruth(const DeviceOptions& options) const;
 };
 
-[[nodiscard]] Result<OpenedDevice> OpenDevice(const DeviceOptions& options);
+// `network`: the robot's topics have its tag and interface, and a domain of their own.
+[[nodiscard]] Result<OpenedDevice> OpenDevice(const DeviceOptions& options,
+                                              const cli::CommonOptions& network);
 
 }  // namespace trailcast::agent

@@ -45,6 +45,7 @@ class Loop {
   [[nodiscard]] Result<bool> Step(const Observation& observation);
   [[nodiscard]] bool NothingToFollow() const;
   void Tell(const ReplayStep& step);
+  void TellTrouble(const std::string& what);
   bool End(std::string state, std::string reason);
 
   RobotDevice& device_;
@@ -110,6 +111,7 @@ Result<bool> Loop::WaitForFeed() {
 
 Result<void> Loop::Run() {
   const Standstill standstill(device_);
+  device_.OnTrouble([this](const std::string& what) { TellTrouble(what); });
   while (true) {
     if (options_.link.stop()) {
       End("STOPPED", "stopped by a signal");
@@ -162,6 +164,18 @@ void Loop::Tell(const ReplayStep& step) {
   } else if (last_->segment != step.segment) {
     spdlog::info("segment {}: {} features", step.segment.value(), step.features);
   }
+}
+
+// The robot stands, and may drive on when it is over; meanwhile there are no steps to report.
+void Loop::TellTrouble(const std::string& what) {
+  diagnosis_.Note("robot", what.empty() ? "drives again" : what);
+  ReplayStep step = last_.value_or(ReplayStep{});
+  step.command = {};
+  if (!what.empty()) {
+    step.state = ReplayState::kWaiting;
+    step.reason = what;
+  }
+  link_.Report(step);
 }
 
 bool Loop::End(std::string state, std::string reason) {

@@ -9,8 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "services/base/angles.h"
-
 namespace trailcast::agent {
 namespace {
 
@@ -88,10 +86,7 @@ Result<motion::Pose2> OdometryFile::At(SensorTime time) const {
   if (after == rows_.end()) return rows_.back().pose;
   const Row& before = *std::prev(after);
   const double share = (t_s - before.t_s) / (after->t_s - before.t_s);
-  const double turn_rad = WrapAngle(after->pose.heading_rad - before.pose.heading_rad);
-  return motion::Pose2{std::lerp(before.pose.x_m, after->pose.x_m, share),
-                       std::lerp(before.pose.y_m, after->pose.y_m, share),
-                       WrapAngle(before.pose.heading_rad + share * turn_rad)};
+  return motion::Interpolate(before.pose, after->pose, share);
 }
 
 }  // namespace trailcast::agent

@@ -29,6 +29,7 @@ struct SimulatedDevice::State {
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
   sim::Polyline path;
   double along_m = 0.0;  // the scout's place on it
+  bool stays_at_end = false;
   motion::VelocityCommand command;
   std::vector<TruePose> truth;
 
@@ -54,6 +55,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   auto robot = sim::SimulatedRobot::Create(place->world, options);
   if (!robot) return tl::unexpected(robot.error());
   auto state = std::make_unique<State>();
+  state->stays_at_end = run.stays_at_end;
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
   state->robot = std::move(*robot);
   state->path = std::move(place->path.points);
@@ -69,7 +71,7 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
   State& s = *state_;
   if (s.operator_ && !s.truth.empty()) {
     s.command = s.operator_->Command(s.Pose());
-    if (s.operator_->arrived()) return std::nullopt;
+    if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
   }
   sim::Observation seen = s.robot->Step(s.command);
   s.truth.push_back({seen.stamp, s.Pose()});

@@ -17,6 +17,7 @@ struct SimulatedRun {
   std::uint64_t seed = 1;         // draws the robot's errors and all noise
   double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
   bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
+  bool stays_at_end = false;      // the scout goes on looking where its drive ended
 };
 
 // A simulated robot in lockstep: the world's time passes only in Next. The scout is driven along

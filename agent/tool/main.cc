@@ -14,6 +14,7 @@ constexpr const char* kExamples =
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
+    "  trailcast robot --sim indoor --ros2 /robot1   # a virtual robot for an agent\n"
     "Each subcommand has its own --help.";
 
 int Run(int argc, char** argv) {
@@ -34,7 +35,8 @@ int Run(int argc, char** argv) {
                                       trailcast::tool::AddExportCommand(app, common),
                                       trailcast::tool::AddImportCommand(app, common),
                                       trailcast::tool::AddWhereCommand(app, common),
-                                      trailcast::tool::AddDoctorCommand(app, common)};
+                                      trailcast::tool::AddDoctorCommand(app, common),
+                                      trailcast::tool::AddRobotCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

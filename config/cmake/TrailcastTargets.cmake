@@ -52,9 +52,10 @@ endfunction()
 
 # trailcast_test(<name> LABEL unit|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
-# with TOGETHER they are one, since they share what is slow to start.
+# with TOGETHER they are one, since they share what is slow to start. ALONE: nothing runs beside
+# them, since they measure time.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER;ALONE" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
@@ -72,8 +73,9 @@ function(trailcast_test name)
     set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
     return()
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(
+    ${name} DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
 endfunction()
 
 # trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.

@@ -15,6 +15,21 @@ Result<void> Check(dds_return_t code, const char* doing) {
   return tl::unexpected(DdsError(code, doing));
 }
 
+std::string PolicyName(std::uint32_t id) {
+  switch (id) {
+    case DDS_RELIABILITY_QOS_POLICY_ID:
+      return "reliability";
+    case DDS_DURABILITY_QOS_POLICY_ID:
+      return "durability";
+    case DDS_DEADLINE_QOS_POLICY_ID:
+      return "deadline";
+    case DDS_LIVELINESS_QOS_POLICY_ID:
+      return "liveliness";
+    default:
+      return fmt::format("policy {}", id);
+  }
+}
+
 }  // namespace
 
 Error DdsError(dds_return_t code, const std::string& doing) {
@@ -85,6 +100,18 @@ Result<void> Writer::WaitForAcks(std::chrono::milliseconds max_wait) {
   return Check(dds_wait_for_acks(handle(), ToDds(max_wait)), "waiting for acknowledgements");
 }
 
+int Writer::matched() const {
+  dds_publication_matched_status_t status{};
+  dds_get_publication_matched_status(handle(), &status);
+  return static_cast<int>(status.current_count);
+}
+
+std::string Writer::refused_policy() const {
+  dds_offered_incompatible_qos_status_t status{};
+  dds_get_offered_incompatible_qos_status(handle(), &status);
+  return status.total_count == 0 ? std::string() : PolicyName(status.last_policy_id);
+}
+
 Result<Reader> Reader::Create(const Participant& participant, const Topic& topic, const Qos& qos) {
   const dds_entity_t handle =
       dds_create_reader(participant.handle(), topic.handle(), qos.get(), nullptr);
@@ -110,6 +137,18 @@ Result<void> Reader::Take(std::size_t max,
     taken += received;
   }
   return {};
+}
+
+int Reader::matched() const {
+  dds_subscription_matched_status_t status{};
+  dds_get_subscription_matched_status(handle(), &status);
+  return static_cast<int>(status.current_count);
+}
+
+std::string Reader::refused_policy() const {
+  dds_requested_incompatible_qos_status_t status{};
+  dds_get_requested_incompatible_qos_status(handle(), &status);
+  return status.total_count == 0 ? std::string() : PolicyName(status.last_policy_id);
 }
 
 Result<WaitSet> WaitSet::Create(const Participant& participant) {

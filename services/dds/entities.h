@@ -91,6 +91,10 @@ class Writer : public Entity {
   [[nodiscard]] Result<void> Unregister(const void* sample);
   // kUnavailable if some reader has not got everything by then.
   [[nodiscard]] Result<void> WaitForAcks(std::chrono::milliseconds max_wait);
+  // Readers that get what is written.
+  [[nodiscard]] int matched() const;
+  // The policy for which a reader was last refused; empty: none was.
+  [[nodiscard]] std::string refused_policy() const;
 
  private:
   using Entity::Entity;
@@ -104,6 +108,10 @@ class Reader : public Entity {
   // only. With valid_data false only the key fields are set. At most `max` samples.
   [[nodiscard]] Result<void> Take(
       std::size_t max, const std::function<void(const void*, const dds_sample_info_t&)>& use);
+  // Writers from which it gets samples.
+  [[nodiscard]] int matched() const;
+  // The policy for which a writer was last refused; empty: none was.
+  [[nodiscard]] std::string refused_policy() const;
 
  private:
   using Entity::Entity;

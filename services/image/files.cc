@@ -260,6 +260,11 @@ Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes, const std::strin
   return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_COLOR).map(FromBgr);
 }
 
+Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes, const std::string& name) {
+  return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_GRAYSCALE)
+      .map(FromMat<GrayImage>);
+}
+
 Result<void> WritePng(const RgbImage& picture, const fs::path& file) {
   cv::Mat bgr;
   if (!picture.empty()) cv::cvtColor(View(picture, CV_8UC3), bgr, cv::COLOR_RGB2BGR);

@@ -17,6 +17,8 @@ namespace trailcast::image {
 // Decodes an encoded picture held in memory; `name` stands for the file in errors.
 [[nodiscard]] Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes,
                                          const std::string& name);
+[[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
+                                           const std::string& name);
 [[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 

@@ -39,6 +39,12 @@ Pose2 Advance(const Pose2& pose, const OdometryIncrement& increment) {
                         increment.heading_change_rad});
 }
 
+Pose2 Interpolate(const Pose2& from, const Pose2& to, double share) {
+  const double turn_rad = WrapAngle(to.heading_rad - from.heading_rad);
+  return {std::lerp(from.x_m, to.x_m, share), std::lerp(from.y_m, to.y_m, share),
+          WrapAngle(from.heading_rad + share * turn_rad)};
+}
+
 VelocityCommand Limit(const VelocityCommand& command, const VelocityLimits& limits) {
   return {std::clamp(command.linear_mps, -limits.linear_mps, limits.linear_mps),
           std::clamp(command.angular_radps, -limits.angular_radps, limits.angular_radps)};

@@ -40,6 +40,8 @@ struct VelocityLimits {
 [[nodiscard]] OdometryIncrement IncrementBetween(const Pose2& before, const Pose2& after);
 // The pose after driving `increment` from `pose` along a circular arc.
 [[nodiscard]] Pose2 Advance(const Pose2& pose, const OdometryIncrement& increment);
+// The pose at a share, 0..1, of the straight way from one to the other, turning the shorter way.
+[[nodiscard]] Pose2 Interpolate(const Pose2& from, const Pose2& to, double share);
 // The command with each component cut to its limit, sign kept.
 [[nodiscard]] VelocityCommand Limit(const VelocityCommand& command, const VelocityLimits& limits);
 

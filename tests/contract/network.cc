@@ -1,9 +1,6 @@
 #include "tests/contract/network.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <stdexcept>
 
@@ -91,12 +88,6 @@ std::unique_ptr<Network> MakeNetwork(NetworkKind kind) {
 
 std::string NameOf(NetworkKind kind) {
   return kind == NetworkKind::kInProcess ? "InProcess" : "Dds";
-}
-
-std::string UniqueTag() {
-  static std::atomic<int> count = 0;
-  const auto ticks = Clock::now().time_since_epoch().count();
-  return fmt::format("test-{}-{}-{}", getpid(), ticks, ++count);
 }
 
 dds::DdsOptions LoopbackOptions(const std::string& tag) {

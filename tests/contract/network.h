@@ -7,6 +7,7 @@
 
 #include "services/dds/dds_exchange.h"
 #include "services/exchange/route_exchange.h"
+#include "tests/support/unique_tag.h"
 
 namespace trailcast::test {
 
@@ -23,8 +24,6 @@ enum class NetworkKind { kInProcess, kDds };
 [[nodiscard]] std::unique_ptr<Network> MakeNetwork(NetworkKind kind);
 [[nodiscard]] std::string NameOf(NetworkKind kind);
 
-// Different for every call in every process.
-[[nodiscard]] std::string UniqueTag();
 [[nodiscard]] dds::DdsOptions LoopbackOptions(const std::string& tag);
 
 // Reads and writes everything.

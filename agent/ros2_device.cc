@@ -1,0 +1,349 @@
+#include "agent/ros2_device.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "agent/pose_history.h"
+#include "agent/robot_watch.h"
+#include "services/image/files.h"
+#include "services/image/raw_picture.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kListen{20};
+// A robot in lockstep stands until it is answered: only one that is gone is silent for so long.
+constexpr std::chrono::hours kLockstepTimeout{24};
+// Odometry of a frame's own moment may arrive a little after the frame.
+constexpr milliseconds kOdometryLate{60};
+// Stamps further apart are of different clocks.
+constexpr std::chrono::seconds kSameClock{2};
+constexpr double kStill_m = 0.02;
+constexpr double kStill_rad = 0.02;
+
+struct Frame {
+  SensorTime stamp{};
+  steady_clock::time_point came_at;
+  dds::Ros2Sensed picture;
+};
+
+const std::vector<std::uint8_t>* BytesOf(const dds::Ros2Sensed& picture) {
+  if (const auto* raw = std::get_if<dds::Ros2Image>(&picture)) return &raw->data;
+  if (const auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&picture)) return &jpeg->data;
+  return nullptr;
+}
+
+Result<image::GrayImage> Gray(const dds::Ros2Sensed& picture, const std::string& topic) {
+  if (const auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&picture)) {
+    return image::DecodeGray(jpeg->data, topic);
+  }
+  const auto& raw = std::get<dds::Ros2Image>(picture);
+  auto gray = image::GrayFromRaw(
+      {raw.width_px, raw.height_px, raw.encoding, raw.big_endian, raw.step, raw.data});
+  if (!gray) return Wrap(gray.error(), topic);
+  return gray;
+}
+
+// Whether the robot, after it had moved, has stood for a while by its odometry.
+class StillWatch {
+ public:
+  explicit StillWatch(milliseconds limit) : limit_(limit) {}
+
+  [[nodiscard]] bool Over(SensorTime stamp, const motion::Pose2& pose) {
+    if (!place_ || Moved(*place_, pose)) {
+      moved_ = place_.has_value();
+      place_ = pose;
+      since_ = stamp;
+    }
+    return limit_ > milliseconds(0) && moved_ && stamp - since_ >= limit_;
+  }
+
+ private:
+  static bool Moved(const motion::Pose2& from, const motion::Pose2& to) {
+    const motion::Pose2 step = motion::Between(from, to);
+    return motion::Position(step).norm() > kStill_m || std::abs(step.heading_rad) > kStill_rad;
+  }
+
+  milliseconds limit_;
+  std::optional<motion::Pose2> place_;
+  SensorTime since_{};
+  bool moved_ = false;
+};
+
+}  // namespace
+
+struct Ros2Device::State {
+  State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver> link)
+      : run(device),
+        driver(std::move(link)),
+        watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
+                              : device.sensor_timeout,
+              has_odometry()),
+        still(device.still_at_end) {}
+
+  [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
+
+  // The hearing thread's.
+  void Hear();
+  void Keep(dds::Ros2Sensed sensed, steady_clock::time_point now);
+  void KeepFrame(Frame frame);
+  void StopIfInDoubt(steady_clock::time_point now);
+
+  // Any thread, with the lock.
+  Result<void> Tell(const motion::VelocityCommand& command);
+
+  // The driving thread's, with the lock.
+  [[nodiscard]] bool ready(steady_clock::time_point now) const;
+  [[nodiscard]] std::optional<Error> GiveUp(steady_clock::time_point now) const;
+  [[nodiscard]] std::string WhoIsMissing() const;
+  [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
+  [[nodiscard]] motion::Pose2 PoseAt(SensorTime stamp);
+  void ShareTrouble();
+
+  Ros2Run run;
+  std::unique_ptr<dds::Ros2Driver> driver;
+  Trouble tell = [](const std::string&) {};
+
+  std::mutex lock;  // of all below
+  std::condition_variable news;
+  bool ending = false;
+  RobotWatch watch;
+  PoseHistory poses;
+  std::optional<Frame> newest;
+  std::vector<std::uint8_t> last_bytes;  // of the frame before
+  std::optional<SensorTime> given;       // the last frame that Next returned
+  bool answered = true;                  // with a command
+  motion::VelocityCommand told;          // what the base does
+  bool drove = false;                    // it was told to move before
+  steady_clock::time_point told_at;
+  std::optional<RobotWatch::Trouble> trouble;
+  steady_clock::time_point waiting_since;  // for a frame
+  std::string shared_trouble;
+  bool told_clocks = false;
+  StillWatch still;
+  int width_px = 0;
+  int height_px = 0;
+
+  std::thread hearing;
+};
+
+void Ros2Device::State::Hear() {
+  while (true) {
+    auto sensed = driver->Take(kListen);
+    const std::lock_guard guard(lock);
+    if (ending) return;
+    const auto now = steady_clock::now();
+    for (dds::Ros2Sensed& one : sensed) Keep(std::move(one), now);
+    StopIfInDoubt(now);
+    news.notify_one();
+  }
+}
+
+void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point now) {
+  if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
+    poses.Add(odometry->stamp, odometry->pose);
+    watch.SawOdometry(now, odometry->stamp, odometry->pose);
+    return;
+  }
+  const auto stamp = std::holds_alternative<dds::Ros2Image>(sensed)
+                         ? std::get<dds::Ros2Image>(sensed).stamp
+                         : std::get<dds::Ros2CompressedImage>(sensed).stamp;
+  KeepFrame({stamp, now, std::move(sensed)});
+}
+
+void Ros2Device::State::KeepFrame(Frame frame) {
+  if (run.lockstep && given && frame.stamp == *given) {
+    // The robot did not get the answer, or does not yet have it.
+    if (answered) (void)driver->Publish({*given, told});
+    return;
+  }
+  const std::vector<std::uint8_t>& bytes = *BytesOf(frame.picture);
+  watch.SawFrame(frame.came_at, bytes != last_bytes);
+  last_bytes = bytes;
+  newest = std::move(frame);
+}
+
+// Also when the loop that drives does not come back: a command is good for sensor_timeout.
+void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
+  trouble = watch.Check(now);
+  if (!trouble && drove && driver->peers().bases == 0) {
+    trouble = {RobotWatch::Trouble::Part::kBase, "nobody listens to it"};
+  }
+  const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
+  if ((trouble || stale) && told != motion::VelocityCommand{}) (void)Tell({});
+}
+
+Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
+  told = command;
+  told_at = steady_clock::now();
+  drove = drove || command != motion::VelocityCommand{};
+  watch.Told(command);
+  return driver->Publish({given.value_or(SensorTime{}), command});
+}
+
+bool Ros2Device::State::ready(steady_clock::time_point now) const {
+  if (!newest || trouble) return false;
+  if (!has_odometry()) return true;
+  if (poses.empty()) return false;
+  return poses.newest() >= newest->stamp || now - newest->came_at > kOdometryLate;
+}
+
+Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
+  using Part = RobotWatch::Trouble::Part;
+  switch (what.part) {
+    case Part::kCamera:
+      return {ErrorCode::kUnavailable,
+              fmt::format("camera {}: {}", run.topics.ImageTopic(), what.what)};
+    case Part::kOdometry:
+      return {ErrorCode::kUnavailable,
+              fmt::format("odometry {}: {}", run.topics.OdometryTopic(), what.what)};
+    case Part::kBase:
+      break;
+  }
+  return {ErrorCode::kUnavailable,
+          fmt::format("base {}: {}", run.topics.CommandTopic(), what.what)};
+}
+
+std::string Ros2Device::State::WhoIsMissing() const {
+  const dds::Ros2Driver::Peers peers = driver->peers();
+  std::string text;
+  if (peers.cameras == 0) {
+    text = fmt::format("nobody publishes {}", run.topics.ImageTopic());
+  } else if (!newest) {
+    text = fmt::format("no picture came on {}", run.topics.ImageTopic());
+  } else if (peers.odometers == 0) {
+    text = fmt::format("nobody publishes {}", run.topics.OdometryTopic());
+  } else {
+    text = fmt::format("no odometry came on {}", run.topics.OdometryTopic());
+  }
+  if (!peers.mismatch.empty()) {
+    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
+  }
+  return fmt::format("{} (ROS domain {}); check the robot's drivers, its namespace and domain",
+                     text, run.topics.domain_id);
+}
+
+std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) const {
+  if (trouble && trouble->final) return Failure(*trouble);
+  if (now - waiting_since <= run.patience) return std::nullopt;
+  const auto waited_s = Seconds(run.patience);
+  if (trouble) {
+    Error error = Failure(*trouble);
+    error.message += fmt::format(", and not within {:.0f} s after", waited_s);
+    return error;
+  }
+  return Error{ErrorCode::kUnavailable,
+               fmt::format("the robot says nothing for {:.0f} s: {}", waited_s, WhoIsMissing())};
+}
+
+motion::Pose2 Ros2Device::State::PoseAt(SensorTime stamp) {
+  const auto apart = std::chrono::abs(poses.newest() - stamp);
+  if (apart <= kSameClock) return poses.At(stamp);
+  if (!std::exchange(told_clocks, true)) {
+    spdlog::warn(
+        "stamps of pictures and odometry are {:.1f} s apart, of different clocks: taking "
+        "the newest odometry for each picture",
+        Seconds(apart));
+  }
+  return poses.At(poses.newest());
+}
+
+// Tells who asked for it when trouble begins and ends.
+void Ros2Device::State::ShareTrouble() {
+  const std::string now = trouble ? Failure(*trouble).message : std::string();
+  if (now == shared_trouble) return;
+  if (now.empty()) {
+    spdlog::info("over: {}", shared_trouble);
+  } else {
+    spdlog::warn("the robot is stopped; {}", now);
+  }
+  shared_trouble = now;
+  tell(now);
+}
+
+Ros2Device::Ros2Device(std::unique_ptr<State> state) : state_(std::move(state)) {
+  state_->hearing = std::thread([s = state_.get()] { s->Hear(); });
+}
+
+Ros2Device::~Ros2Device() {
+  {
+    const std::lock_guard guard(state_->lock);
+    state_->ending = true;
+  }
+  state_->hearing.join();
+}
+
+Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
+  auto driver = dds::Ros2Driver::Open(run.topics);
+  if (!driver) return Wrap(driver.error(), "the robot's topics");
+  if (run.still_at_end > milliseconds(0) && run.topics.odometry.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "that a robot stands is known by its odometry, of which there is none");
+  }
+  return std::unique_ptr<Ros2Device>(
+      new Ros2Device(std::make_unique<State>(run, std::move(*driver))));
+}
+
+Result<std::optional<Observation>> Ros2Device::Next() {
+  State& s = *state_;
+  std::unique_lock guard(s.lock);
+  if (s.run.lockstep && !s.answered) {
+    s.answered = true;
+    if (auto told = s.Tell({}); !told) return tl::unexpected(told.error());
+  }
+  s.waiting_since = steady_clock::now();
+  while (!s.ready(steady_clock::now())) {
+    s.ShareTrouble();
+    if (auto error = s.GiveUp(steady_clock::now())) return tl::unexpected(*error);
+    s.news.wait_for(guard, kListen);
+  }
+  s.ShareTrouble();
+  const Frame frame = *std::exchange(s.newest, std::nullopt);
+  if (s.given && frame.stamp <= *s.given) {
+    return Fail(ErrorCode::kUnavailable,
+                "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
+                "anew?",
+                s.run.topics.ImageTopic(), Seconds(*s.given), Seconds(frame.stamp));
+  }
+  s.given = frame.stamp;
+  s.answered = false;
+  Observation observation;
+  observation.stamp = frame.stamp;
+  if (s.has_odometry()) {
+    observation.odometry = s.PoseAt(frame.stamp);
+    if (s.still.Over(frame.stamp, *observation.odometry)) return std::nullopt;
+  }
+  guard.unlock();
+  auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
+  if (!gray) return tl::unexpected(gray.error());
+  observation.image = std::move(*gray);
+  s.width_px = observation.image.width;
+  s.height_px = observation.image.height;
+  return observation;
+}
+
+Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
+  State& s = *state_;
+  const std::lock_guard guard(s.lock);
+  s.answered = true;
+  return s.Tell(s.trouble ? motion::VelocityCommand{} : command);
+}
+
+std::string Ros2Device::camera() const {
+  const State& s = *state_;
+  if (s.width_px == 0) return s.run.camera;
+  return fmt::format("{} {}x{}", s.run.camera, s.width_px, s.height_px);
+}
+
+void Ros2Device::OnTrouble(Trouble tell) { state_->tell = std::move(tell); }
+
+}  // namespace trailcast::agent

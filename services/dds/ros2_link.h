@@ -1,0 +1,124 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/base/time.h"
+#include "services/motion/motion.h"
+
+// The topics of a ROS 2 robot (idl/ros2.idl), with no ROS installed: the driver's end, and the
+// robot's own. Any ROS 2 middleware over DDS may be at the other end.
+namespace trailcast::dds {
+
+enum class Ros2CommandType : std::uint8_t { kTwist, kTwistStamped };
+
+struct Ros2Options {
+  std::uint32_t domain_id = 0;  // ROS_DOMAIN_ID
+  std::string discovery_tag;    // real ROS robots have none
+  std::string network_interface;
+  // ROS names; those without a '/' in front are below `robot`, as in "/robot1".
+  std::string robot;
+  std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
+  std::string odometry = "odom";    // empty: none
+  std::string command = "cmd_vel";
+  Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
+
+  // "/robot1/image_raw". The others in the same way.
+  [[nodiscard]] std::string ImageTopic() const;
+  [[nodiscard]] std::string OdometryTopic() const;
+  [[nodiscard]] std::string CommandTopic() const;
+  [[nodiscard]] bool image_is_compressed() const;
+  // kInvalidArgument for a topic name that ROS or DDS would refuse.
+  [[nodiscard]] Result<void> Validate() const;
+};
+
+// sensor_msgs/Image.
+struct Ros2Image {
+  SensorTime stamp{};
+  std::uint32_t width_px = 0;
+  std::uint32_t height_px = 0;
+  std::string encoding;  // as sensor_msgs/image_encodings names them
+  bool big_endian = false;
+  std::uint32_t step = 0;  // bytes in a row
+  std::vector<std::uint8_t> data;
+};
+
+// sensor_msgs/CompressedImage.
+struct Ros2CompressedImage {
+  SensorTime stamp{};
+  std::string format;
+  std::vector<std::uint8_t> data;
+};
+
+// nav_msgs/Odometry, as far as a robot on the ground needs it.
+struct Ros2Odometry {
+  SensorTime stamp{};
+  motion::Pose2 pose;  // in the odometry's own frame
+};
+
+// geometry_msgs/Twist or TwistStamped.
+struct Ros2Command {
+  SensorTime stamp{};  // of the frame that it answers; Twist has none
+  motion::VelocityCommand velocity;
+};
+
+using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry>;
+
+// Who drives the robot: senses and commands. One thread may Take while another calls the rest.
+class Ros2Driver {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Ros2Driver>> Open(const Ros2Options& options);
+  ~Ros2Driver();
+  Ros2Driver(const Ros2Driver&) = delete;
+  Ros2Driver& operator=(const Ros2Driver&) = delete;
+
+  // What came since, after waiting for something at most so long. Samples whose numbers are none
+  // (NaN, a quaternion of length 0) are left out.
+  [[nodiscard]] std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait);
+  [[nodiscard]] Result<void> Publish(const Ros2Command& command);
+
+  struct Peers {
+    int cameras = 0;    // who publishes the image topic
+    int odometers = 0;  // who publishes the odometry topic
+    int bases = 0;      // who listens to the command topic
+    // A peer of one of the topics is there, but its quality of service does not go with ours:
+    // which topic, and what policy. Empty: none.
+    std::string mismatch;
+  };
+  [[nodiscard]] Peers peers() const;
+
+ private:
+  struct State;
+  explicit Ros2Driver(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+// The robot's end, for a virtual one: publishes what it senses, hears what it shall do.
+// Single-threaded.
+class Ros2Robot {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Ros2Robot>> Open(const Ros2Options& options);
+  ~Ros2Robot();
+  Ros2Robot(const Ros2Robot&) = delete;
+  Ros2Robot& operator=(const Ros2Robot&) = delete;
+
+  [[nodiscard]] Result<void> Publish(const Ros2Image& image);
+  [[nodiscard]] Result<void> Publish(const Ros2Odometry& odometry);
+  // The latest command that came since, if any, after waiting for one at most so long.
+  [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
+  // Whether somebody is there to look at its pictures.
+  [[nodiscard]] bool watched() const;
+
+ private:
+  struct State;
+  explicit Ros2Robot(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::dds

@@ -1,0 +1,110 @@
+// Agents that drive virtual robots over ROS 2's topics.
+#include <charconv>
+#include <fstream>
+
+#include "tests/scenario/programs.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class RobotTest : public ProgramsTest {
+ protected:
+  // Robot and agent have a ROS domain of their own.
+  std::unique_ptr<Process> Robot(const std::string& name, const Words& words) {
+    std::ofstream(Path("path.csv")) << "x_m,y_m\n1,1.5\n4.5,1.5\n";
+    return Start("trailcast",
+                 With({"robot", "--sim", "indoor", "--path", Path("path.csv"), "--ros2", "/" + name,
+                       "--ros-domain", "3"},
+                      words),
+                 name);
+  }
+  static Words Drives(const std::string& name) {
+    return {"--ros2", "/" + name, "--ros-domain", "3"};
+  }
+
+  void Teach() {
+    const auto robot = Robot("scout", {"--scout", "--lockstep"});
+    const auto scout = RunAgent(
+        With(With({"teach", "--route", "hall", "--store", Path("routes.db")}, Drives("scout")),
+             {"--lockstep", "--end-when-still", "1"}));
+    ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
+  }
+  std::unique_ptr<Process> Follow(const Words& words) {
+    return Agent(
+        With(With({"replay", "--route", "hall", "--store", Path("routes.db")}, Drives("robot1")),
+             words),
+        "follower");
+  }
+  static double Number(const std::string& text, const std::string& key) {
+    const auto at = text.find(key + "=");
+    double value = -1.0;
+    if (at != std::string::npos) {
+      std::from_chars(text.data() + at + key.size() + 1, text.data() + text.size(), value);
+    }
+    return value;
+  }
+};
+
+TEST_F(RobotTest, InLockstepAFollowerWithAnotherCameraArrives) {
+  Teach();
+  const auto robot = Robot("robot1", {"--camera", "wide", "--seed", "7", "--lockstep"});
+  const auto follower = Follow({"--lockstep"});
+  EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
+  EXPECT_THAT(follower->output(), HasSubstr("state=ARRIVED"));
+  robot->Signal(SIGTERM);
+  EXPECT_EQ(End(*robot).status, 0);
+  EXPECT_GT(Number(robot->output(), "commands"), 200.0);
+}
+
+TEST_F(RobotTest, WhateverFailsTheRobotIsToldToStandWithinHalfASecond) {
+  Teach();
+  struct Fault {
+    const char* name;
+    const char* said;
+  };
+  for (const Fault& fault : {Fault{"camera-freezes", "camera /robot1/image_raw: the same picture"},
+                             Fault{"camera-stops", "camera /robot1/image_raw: no picture"},
+                             Fault{"odometry-stops", "odometry /robot1/odom: no odometry"},
+                             Fault{"base-stops", "base /robot1/cmd_vel: told to drive"}}) {
+    SCOPED_TRACE(fault.name);
+    const auto robot = Robot("robot1", {"--fail", fault.name + std::string("@2")});
+    ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
+    const auto follower = Follow({"--sensor-patience", "1"});
+    EXPECT_EQ(End(*follower).status, 1);
+    EXPECT_THAT(follower->output(), AllOf(HasSubstr("state=FAILED"), HasSubstr(fault.said)));
+    robot->Signal(SIGTERM);
+    ASSERT_EQ(End(*robot).status, 0) << robot->output();
+    const double stopped_s = Number(robot->output(), "told_to_stand_after_s");
+    EXPECT_GT(stopped_s, 0.0) << robot->output();
+    EXPECT_LE(stopped_s, 0.5);
+  }
+}
+
+TEST_F(RobotTest, AnAgentWithoutARobotSaysWhatIsMissing) {
+  Teach();
+  const auto follower = Follow({"--sensor-patience", "0.5"});
+  EXPECT_EQ(End(*follower).status, 1);
+  EXPECT_THAT(follower->output(), HasSubstr("nobody publishes /robot1/image_raw (ROS domain 3)"));
+}
+
+TEST_F(RobotTest, ARobotWithoutAnAgentEndsWithASignal) {
+  const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+  ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
+  robot->Signal(SIGINT);
+  EXPECT_EQ(End(*robot).status, 0) << robot->output();
+  EXPECT_TRUE(std::filesystem::exists(Path("truth.csv")));
+}
+
+TEST_F(RobotTest, FaultsAreNamedWhenOneIsNotUnderstood) {
+  for (const char* fault : {"camera-burns@3", "base-stops", "base-stops@", "base-stops@-1"}) {
+    const auto robot = Robot("robot1", {"--fail", fault});
+    EXPECT_EQ(End(*robot).status, 2) << fault;
+    EXPECT_THAT(robot->output(), HasSubstr("expected camera-freezes@S"));
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::test
