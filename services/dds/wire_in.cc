@@ -39,7 +39,7 @@ std::vector<SegmentIndex> Indices(const Sequence& sequence) {
   return indices;
 }
 
-Digest ToDigest(const trailcast_wire_Digest& wire) {
+Digest ToDigest(const trailcast_wire_Sha256& wire) {
   Digest digest{};
   std::copy(std::begin(wire), std::end(wire), digest.begin());
   return digest;
@@ -52,7 +52,7 @@ std::vector<std::string> Texts(const Sequence& sequence) {
   return texts;
 }
 
-std::optional<route::Place> From(const trailcast_wire_Place& wire) {
+std::optional<route::Place> From(const trailcast_wire_RoutePlace& wire) {
   if (wire.frame == 0) return std::nullopt;
   return route::Place{static_cast<route::Place::Frame>(wire.frame), wire.x, wire.y};
 }

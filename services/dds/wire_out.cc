@@ -48,7 +48,7 @@ trailcast_wire_RouteKey ToWire(const RouteKey& key) {
   return {.route = Lend(key.route.value()), .revision = key.revision.value()};
 }
 
-trailcast_wire_Place ToWire(const std::optional<route::Place>& place) {
+trailcast_wire_RoutePlace ToWire(const std::optional<route::Place>& place) {
   if (!place) return {};
   return {.frame = static_cast<std::uint8_t>(place->frame), .x = place->x, .y = place->y};
 }
