@@ -81,6 +81,8 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
+  // A recording drives on, whatever it is told.
+  follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   return follower;
 }
 
@@ -139,6 +141,11 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
                    "With --server: also wait for a route that no server knows yet");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
+  command
+      .add_option(
+          "--keep-distance", replay.keep_distance_m,
+          "With --server: metres along the path to keep from followers ahead; 0: keeps none")
+      ->check(CLI::Range(0.0, 1000.0));
   AddDeviceOptions(command, replay.device, false);
 }
 

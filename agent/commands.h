@@ -44,6 +44,7 @@ struct ReplayCommand {
   double wait_s = 30.0;
   bool wait_for_route = false;
   double speed_factor = 1.0;
+  double keep_distance_m = KeepDistanceOptions{}.distance_m;
 };
 
 // Flags of the program and of its commands, which fill the structs.

@@ -101,6 +101,7 @@ class Confidence {
            *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
   }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
+  [[nodiscard]] bool ever_sure() const { return sure_once_; }
 
  private:
   [[nodiscard]] int Wanted(const Sighting& seen) const;

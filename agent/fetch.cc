@@ -81,7 +81,7 @@ Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store:
   Fetching fetching(options);
   Result<bool> all = false;
   while (all && !*all) {
-    link.WaitForFeed(kWakeUp);
+    link.WaitForNews(kWakeUp);
     all = fetching.Take(link);
   }
   link.Finish();

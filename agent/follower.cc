@@ -8,6 +8,7 @@
 
 #include "agent/progress_watch.h"
 #include "agent/standstill.h"
+#include "agent/yielding.h"
 
 namespace trailcast::agent {
 namespace {
@@ -16,6 +17,8 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
+// How often a robot that stands behind another reads its sensors.
+constexpr milliseconds kStandingFrame{33};
 
 // CPU time of the whole process: OpenCV may use other threads.
 double CpuMs() {
@@ -32,7 +35,8 @@ class Loop {
         options_(options),
         link_(link),
         diagnosis_(std::move(diagnosis)),
-        watch_(options.stuck_after) {}
+        watch_(options.stuck_after),
+        yielding_(options.link.agent, options.keep_distance) {}
 
   // Ends when there is no more to do; the error is final.
   [[nodiscard]] Result<void> Run();
@@ -43,6 +47,7 @@ class Loop {
   [[nodiscard]] Result<void> TakeFeed();
   [[nodiscard]] Result<bool> WaitForFeed();
   [[nodiscard]] Result<bool> Step(const Observation& observation);
+  [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
   [[nodiscard]] bool NothingToFollow() const;
   void Tell(const ReplayStep& step);
   void TellTrouble(const std::string& what);
@@ -53,6 +58,7 @@ class Loop {
   FollowerLink& link_;
   Diagnosis diagnosis_;
   ProgressWatch watch_;
+  Yielding yielding_;
   std::optional<ReplaySession> session_;
   std::uint32_t segments_ = 0;  // given to the session
   bool complete_ = false;
@@ -103,7 +109,7 @@ Result<bool> Loop::WaitForFeed() {
                              "nobody who holds the rest answers",
                              Seconds(options_.link.wait), segments_));
     }
-    link_.WaitForFeed(kWakeUp);
+    link_.WaitForNews(kWakeUp);
     if (auto taken = TakeFeed(); !taken) return tl::unexpected(taken.error());
   }
   return true;
@@ -121,6 +127,7 @@ Result<void> Loop::Run() {
     auto ready = WaitForFeed();
     if (!ready) return tl::unexpected(ready.error());
     if (!*ready) return {};
+    if (last_ && last_->state == ReplayState::kYielding) link_.WaitForNews(kStandingFrame);
     auto observation = device_.Next();
     if (!observation) return tl::unexpected(observation.error());
     if (!*observation) {
@@ -134,11 +141,20 @@ Result<void> Loop::Run() {
   }
 }
 
+Result<ReplayStep> Loop::Decide(const Observation& observation) {
+  while (auto neighbours = link_.TryTakeNeighbours()) yielding_.Hear(std::move(*neighbours));
+  const auto now = steady_clock::now();
+  if (auto standing = yielding_.StandOn(observation.stamp, now)) return *standing;
+  auto step = session_->Observe(observation);
+  if (!step) return step;
+  return yielding_.Apply(*std::move(step), observation.stamp, now);
+}
+
 // False: the run is over.
 Result<bool> Loop::Step(const Observation& observation) {
   fed_ = false;
   const double before_ms = CpuMs();
-  auto step = session_->Observe(observation);
+  auto step = Decide(observation);
   const double cpu_ms = CpuMs() - before_ms;
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());

@@ -8,6 +8,7 @@
 #include "agent/device.h"
 #include "agent/diagnosis/diagnosis.h"
 #include "agent/follower_link.h"
+#include "agent/keep_distance.h"
 #include "agent/replay_log.h"
 #include "agent/summary.h"
 
@@ -19,6 +20,8 @@ struct FollowerOptions {
   DiagnosisOptions diagnosis;
   // The device is a recording: every frame is looked at, whatever the follower makes of it.
   bool open_loop = false;
+  // From followers ahead on the same revision of the route; without `exchange` nobody is heard.
+  KeepDistanceOptions keep_distance;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.
   std::chrono::seconds stuck_after{60};
 };

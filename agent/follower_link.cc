@@ -28,21 +28,6 @@ exchange::AgentStatus FollowerStatus(const AgentId& agent, const std::string& ro
   return status;
 }
 
-exchange::AgentMode ModeOf(ReplayState state) {
-  switch (state) {
-    case ReplayState::kWaiting:
-      return exchange::AgentMode::kWaiting;
-    case ReplayState::kFollowing:
-    case ReplayState::kBlind:
-      return exchange::AgentMode::kReplaying;
-    case ReplayState::kArrived:
-      return exchange::AgentMode::kArrived;
-    case ReplayState::kLost:
-      return exchange::AgentMode::kFault;
-  }
-  return exchange::AgentMode::kFault;
-}
-
 }  // namespace
 
 FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
@@ -51,9 +36,11 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
       store_(std::move(store)),
       exchange_(std::move(exchange)),
       finder_(options_.agent, options_.route, options_.revision),
-      spare_(options_.agent, [this](const route::RouteKey& key, SegmentIndex index) {
-        return store_->ReadSegment(key, index);
-      }) {
+      spare_(options_.agent,
+             [this](const route::RouteKey& key, SegmentIndex index) {
+               return store_->ReadSegment(key, index);
+             }),
+      neighbours_(options_.agent) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
 }
 
@@ -61,7 +48,10 @@ FollowerLink::~FollowerLink() { Finish(); }
 
 Result<void> FollowerLink::Start() {
   if (presence_) {
-    const auto handle = [this](const exchange::Message& message) { finder_.Handle(message); };
+    const auto handle = [this](const exchange::Message& message) {
+      finder_.Handle(message);
+      neighbours_.Handle(message, steady_clock::now());
+    };
     if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
   }
   thread_ = std::thread([this] { Run(); });
@@ -79,18 +69,6 @@ void FollowerLink::Finish() {
   ending_ = true;
   reported_.Ring();
   if (thread_.joinable()) thread_.join();
-}
-
-void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
-  if (!presence_) return;
-  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
-  ShowStatus();
-  exchange::AgentStatus status = presence_->status();
-  status.mode = mode;
-  status.detail = detail;
-  status.speed_mps = 0.0;
-  presence_->Set(std::move(status));
-  presence_->Publish();
 }
 
 void FollowerLink::Run() {
@@ -169,11 +147,11 @@ Result<void> FollowerLink::Follow() {
 }
 
 void FollowerLink::Trade() {
-  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
   auto messages = exchange_->Take(next_feed_ < held_ ? kWaitFeeding : kWait);
   const auto now = steady_clock::now();
   for (const exchange::Message& message : messages) {
     presence_->Handle(message);
+    neighbours_.Handle(message, now);
     spare_.Handle(message, now);
     if (fetcher_) {
       fetcher_->Handle(message, now);
@@ -183,6 +161,8 @@ void FollowerLink::Trade() {
   }
   Say(now);
   HearServer();
+  TellNeighbours(now);
+  TakeReports();
   ShowStatus();
   presence_->Tick(now);
 }
@@ -282,34 +262,6 @@ bool FollowerLink::TryPut(Feed item) {
   const bool put = feed_.TryPut(std::move(item));
   if (put) fed_.Ring();
   return put;
-}
-
-void FollowerLink::ShowStatus() {
-  exchange::AgentStatus status;
-  status.route = options_.route;
-  status.segments = route_ ? route_->segment_count : 0;
-  const bool started = next_feed_ > 0;
-  status.mode = started ? ModeOf(latest_.state) : exchange::AgentMode::kWaiting;
-  status.segment = latest_.segment.value();
-  status.progress = latest_.progress;
-  status.speed_mps = latest_.command.linear_mps;
-  status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
-  status.found_share = latest_.found_share;
-  status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
-  status.held = held_revisions_;
-  presence_->Set(std::move(status));
-}
-
-void FollowerLink::HearServer() {
-  const auto& server = presence_->server();
-  if (server == told_server_) return;
-  if (server) {
-    spdlog::info("server '{}' is there", server->value());
-  } else {
-    spdlog::warn("server '{}' is gone: going on with what is in {}", told_server_->value(),
-                 options_.store_file);
-  }
-  told_server_ = server;
 }
 
 }  // namespace trailcast::agent

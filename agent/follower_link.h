@@ -9,9 +9,11 @@
 #include <string>
 #include <thread>
 #include <variant>
+#include <vector>
 
 #include "agent/cli/presence.h"
 #include "agent/mailbox.h"
+#include "agent/neighbours.h"
 #include "agent/replay_session.h"
 #include "agent/route_finder.h"
 #include "services/exchange/route_fetcher.h"
@@ -57,8 +59,12 @@ class FollowerLink {
   // that came since. Any thread.
   [[nodiscard]] std::uint32_t held_before() const { return held_before_; }
   [[nodiscard]] std::uint32_t fetched() const { return fetched_; }
-  // While there is nothing to follow: waits until something was fed, or `at_most`.
-  void WaitForFeed(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
+  // Who else is on the route, whenever that has changed. Nothing before the route was fed.
+  [[nodiscard]] std::optional<std::vector<Neighbour>> TryTakeNeighbours() {
+    return told_neighbours_.TryGet();
+  }
+  // While the robot stands: waits until something was fed, others have moved, or `at_most`.
+  void WaitForNews(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
 
   // Ends the thread.
   void Finish();
@@ -86,8 +92,10 @@ class FollowerLink {
   [[nodiscard]] Result<void> FeedAll();
   [[nodiscard]] bool all_known() const;
   [[nodiscard]] bool TryPut(Feed item);
+  void TakeReports();
   void ShowStatus();
   void HearServer();
+  void TellNeighbours(Time now);
   [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
 
   FollowerLinkOptions options_;
@@ -99,6 +107,8 @@ class FollowerLink {
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
   exchange::SpareHolder spare_;
+  Neighbours neighbours_;
+  std::vector<Neighbour> told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;
   std::set<SegmentIndex> damaged_;  // in the own store: fetched anew
   std::uint32_t held_ = 0;          // segments in the own store without a gap
@@ -110,6 +120,7 @@ class FollowerLink {
   std::optional<AgentId> told_server_;
 
   Mailbox<Feed> feed_{16};
+  Mailbox<std::vector<Neighbour>> told_neighbours_{4};
   Mailbox<ReplayStep> reports_{64};
   ReplayStep latest_;
   Bell fed_;

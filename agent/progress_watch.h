@@ -17,7 +17,8 @@ class ProgressWatch {
   [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step) {
     const double place = step.segment.value() + step.fraction;
     const bool further = place > furthest_ + 1e-3;
-    if (further || step.state == ReplayState::kWaiting || !since_) {
+    const bool waits = step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding;
+    if (further || waits || !since_) {
       furthest_ = std::max(furthest_, place);
       since_ = stamp;
     }

@@ -44,6 +44,7 @@ struct ReplaySession::State {
   ReplayMethodOptions options;
   int scout_width_px = 0;
   std::vector<route::Segment> segments;
+  std::vector<double> begin_m;  // of each segment, along the route
   bool complete = false;
 
   FrameCheck check;
@@ -198,6 +199,10 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
   report.progress =
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
+  if (confidence.ever_sure() && follower->segment().has_odometry) {
+    report.along_m =
+        begin_m[report.segment.value()] + report.fraction * follower->segment().length_m;
+  }
   report.turn_rad = step.turn_rad;
   report.decision = step;
   const bool on_by_odometry = state == ReplayState::kBlind && trust == Trust::kBlind &&
@@ -228,6 +233,8 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
                 segment.index.value(), state_->segments.size());
   }
   if (state_->follower && state_->segments.size() < kMostLearnt) state_->follower->Learn(segment);
+  const auto& known = state_->segments;
+  state_->begin_m.push_back(known.empty() ? 0.0 : state_->begin_m.back() + known.back().length_m);
   state_->segments.push_back(std::move(segment));
   return {};
 }

@@ -21,9 +21,12 @@ struct ReplayStep {
   motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
   ReplayState state = ReplayState::kWaiting;
   Trust trust = Trust::kSeeking;
-  SegmentIndex segment;      // the one being followed
-  double fraction = 0.0;     // of that segment, 0..1
-  double progress = 0.0;     // of the route as far as it is known, 0..1, by segment count
+  SegmentIndex segment;   // the one being followed
+  double fraction = 0.0;  // of that segment, 0..1
+  double progress = 0.0;  // of the route as far as it is known, 0..1, by segment count
+  // Place on the route, in the scout's metres from its beginning; nothing before the robot has
+  // found the route, and on one that was taught without odometry.
+  std::optional<double> along_m;
   int features = 0;          // matched and tracked
   double turn_rad = 0.0;     // desired heading change theta_d, positive to the right
   double found_share = 0.0;  // of stored features found, mean over hand-overs so far

@@ -6,6 +6,8 @@ const char* ToString(ReplayState state) {
   switch (state) {
     case ReplayState::kWaiting:
       return "WAITING";
+    case ReplayState::kYielding:
+      return "YIELDING";
     case ReplayState::kFollowing:
       return "FOLLOWING";
     case ReplayState::kBlind:

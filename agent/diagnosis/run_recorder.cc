@@ -11,7 +11,9 @@ namespace trailcast::agent {
 namespace {
 
 Phase PhaseOf(const ReplayStep& step) {
-  if (step.state == ReplayState::kWaiting) return Phase::kWaiting;
+  if (step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding) {
+    return Phase::kWaiting;
+  }
   if (step.state == ReplayState::kArrived) return Phase::kArrived;
   switch (step.trust) {
     case Trust::kSure:

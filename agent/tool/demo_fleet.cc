@@ -65,7 +65,10 @@ std::vector<std::string> AgentWords(const std::string& program, const DemoRobot&
                                       robot.truth.string()};
   words.insert(words.end(), what.begin(), what.end());
   if (!robot.scout) {
-    for (const char* word : {"--wait-for-route", "--wait", kWait_s}) words.emplace_back(word);
+    // Each of them has the laboratory to itself: nobody is in anybody's way.
+    for (const char* word : {"--wait-for-route", "--wait", kWait_s, "--keep-distance", "0"}) {
+      words.emplace_back(word);
+    }
   }
   return words;
 }

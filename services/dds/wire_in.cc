@@ -184,6 +184,9 @@ Message From(const trailcast_wire_AgentStatus& wire) {
                      .backlog = wire.backlog,
                      .detail = Text(wire.detail)};
   for (const trailcast_wire_RouteKey& key : Elements(wire.held)) status.held.push_back(From(key));
+  if (!Text(wire.on.route).empty()) {
+    status.place = PlaceOnRoute{From(wire.on), wire.along_m};
+  }
   return status;
 }
 

@@ -217,6 +217,9 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   std::vector<trailcast_wire_RouteKey> held;
   for (const RouteKey& key : message.held) held.push_back(ToWire(key));
   Lend(held, sample.held);
+  const PlaceOnRoute place = message.place.value_or(PlaceOnRoute{});
+  sample.on = ToWire(place.key);
+  sample.along_m = place.along_m;
   return use(&sample);
 }
 

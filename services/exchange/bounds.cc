@@ -27,8 +27,9 @@ Result<void> CheckOrdered(const std::vector<std::string>& tags) {
   return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
 }
 
+constexpr double kMaxLength_m = 1e7;
+
 Result<void> CheckInfo(const RouteInfo& info) {
-  constexpr double kMaxLength_m = 1e7;
   if (auto ok = CheckKey(info.key); !ok) return ok;
   if (auto ok = CheckName("route name", info.name); !ok) return ok;
   if (auto ok = CheckName("scout", info.scout.value()); !ok) return ok;
@@ -182,6 +183,11 @@ Result<void> Check(const AgentStatus& message) {
   if (auto ok = CheckCount("revisions held", message.held.size(), kMaxHeldTold); !ok) return ok;
   for (const RouteKey& key : message.held) {
     if (auto ok = CheckKey(key); !ok) return ok;
+  }
+  if (message.place) {
+    if (auto ok = CheckKey(message.place->key); !ok) return ok;
+    if (auto ok = CheckAmount("metres along the route", message.place->along_m, kMaxLength_m); !ok)
+      return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -114,6 +115,13 @@ enum class AgentMode : std::uint8_t {
   kFault = 6,    // cannot go on; `detail` says why
 };
 
+// A robot's place on a route. Says nothing about one on another revision, let alone another route.
+struct PlaceOnRoute {
+  route::RouteKey key{};
+  double along_m = 0.0;  // from the route's beginning, in the scout's metres
+  bool operator==(const PlaceOnRoute&) const = default;
+};
+
 // trailcast/agents
 struct AgentStatus {
   AgentId agent{};
@@ -130,6 +138,7 @@ struct AgentStatus {
   std::uint32_t backlog = 0;            // scout: segments without a receipt
   std::string detail{};                 // one line for people
   std::vector<route::RouteKey> held{};  // revisions of which all is in its store, newest first
+  std::optional<PlaceOnRoute> place{};  // a follower's, once it has found itself on its route
   bool operator==(const AgentStatus&) const = default;
 };
 

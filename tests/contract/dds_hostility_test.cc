@@ -160,7 +160,7 @@ TEST_F(DdsHostilityTest, StatusesOutOfBoundsAreDroppedAndCounted) {
   using Sample = trailcast_wire_AgentStatus;
   Sample good{};
   good.agent = Raw("agent-1");
-  good.route = good.detail = Raw("");
+  good.route = good.detail = good.on.route = Raw("");
   const auto with = [&](const auto& spoil) {
     Sample sample = good;
     spoil(sample);
@@ -171,6 +171,7 @@ TEST_F(DdsHostilityTest, StatusesOutOfBoundsAreDroppedAndCounted) {
                                       with([](Sample& s) { s.progress = 1e300; }),
                                       with([](Sample& s) { s.speed_mps = 1e9; }),
                                       with([](Sample& s) { s.detail = Raw("two\nlines"); }),
+                                      with([](Sample& s) { s.on.route = Raw("no id"); }),
                                       with([](Sample& s) { s.agent = Raw("\xFF\xFE"); })};
   ExpectAllDropped(exchange::Topic::kAgents, spoilt, good);
 }

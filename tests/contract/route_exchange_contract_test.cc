@@ -157,8 +157,10 @@ TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
                            .found_share = 1.0,
                            .backlog = ~0U,
                            .detail = std::string(kMaxLineBytes, 'd'),
-                           .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7))};
+                           .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7)),
+                           .place = exchange::PlaceOnRoute{KeyNumber(7, ~0U), 1e7}};
   ExpectRoundTrip(status, Topic::kAgents);
+  ExpectRoundTrip(AgentStatus{.agent = AgentId("nowhere")}, Topic::kAgents);
 }
 
 TEST_P(RouteExchangeContract, CarriesAnEditOfExtremes) {

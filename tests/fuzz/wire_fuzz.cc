@@ -127,6 +127,8 @@ class Samples {
     wire.detail = Text();
     wire.held._length = Count();
     wire.held._buffer = Many<trailcast_wire_RouteKey>(keys_, wire.held._length);
+    Fill(wire.on);
+    wire.along_m = Real();
   }
 
  private:

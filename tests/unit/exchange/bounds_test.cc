@@ -93,5 +93,15 @@ TEST(CheckBounds, RefusesEnumeratorsThatDoNotExist) {
   ExpectRefused(status, "role");
 }
 
+TEST(CheckBounds, RefusesPlacesThatAreNowhereOnARoute) {
+  AgentStatus status{.agent = AgentId("a")};
+  status.place = PlaceOnRoute{KeyNumber(1), 12.5};
+  EXPECT_TRUE(CheckBounds(status));
+  status.place->along_m = -0.1;
+  ExpectRefused(status, "metres along the route");
+  status.place = PlaceOnRoute{{}, 12.5};
+  ExpectRefused(status, "route id");
+}
+
 }  // namespace
 }  // namespace trailcast::exchange
