@@ -31,6 +31,7 @@ struct TopicUse {
 [[nodiscard]] TopicUse ServerTopics();
 [[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the
                                           // catalog, edits routes
+[[nodiscard]] TopicUse ObserverTopics();  // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and
 // over DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread

@@ -27,6 +27,12 @@ TopicUse OperatorTopics() {
           .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kAgents}};
 }
 
+TopicUse ObserverTopics() {
+  TopicUse use = OperatorTopics();
+  std::erase(use.write, Topic::kRouteEdits);
+  return use;
+}
+
 std::optional<Topic> TopicOf(const Message& message) {
   // In the order of the variant; AgentGone, the last, is not a topic.
   static constexpr Topic kTopics[] = {

@@ -20,7 +20,8 @@ using Folders = std::set<std::string>;
 using testing::IsEmpty;
 
 // What each folder of services/ may include besides itself: base -> motion, route, image -> vision,
-// teach, replay, view, store -> exchange, archive, catalog -> dds, sim -> agent, route_server.
+// teach, replay, view, store -> exchange, archive, catalog, security -> dds, sim -> agent,
+// route_server.
 const std::map<std::string, Folders> kMayInclude{
     {"base", {}},
     {"motion", {"base"}},
@@ -34,7 +35,8 @@ const std::map<std::string, Folders> kMayInclude{
     {"exchange", {"base", "route", "store"}},
     {"archive", {"base", "route", "exchange"}},
     {"catalog", {"base", "route", "view", "store", "exchange"}},
-    {"dds", {"base", "motion", "image", "route", "exchange"}},
+    {"security", {"base", "route", "exchange"}},
+    {"dds", {"base", "motion", "image", "route", "exchange", "security"}},
     {"sim", {"base", "motion", "image"}},
 };
 
@@ -54,7 +56,7 @@ const std::vector<Library> kLibraries{
     {"pqxx/", {"services/store"}},
     {"embree3/", {"services/sim"}},
     {"assimp/", {"services/sim"}},
-    {"openssl/", {"services/route"}},
+    {"openssl/", {"services/route", "services/security"}},
     {"tl/", {"services/base"}},
     {"CLI/", {"agent", "route_server"}},
     {"httplib.h", {"route_server"}},

@@ -1,0 +1,66 @@
+#include "services/security/author.h"
+
+namespace trailcast::security {
+namespace {
+
+using exchange::AgentRole;
+
+// Who a message says it is from.
+struct AuthorIn {
+  AgentId operator()(const exchange::RouteAnnouncement& m) { return m.holder; }
+  AgentId operator()(const exchange::SegmentBatch& m) { return m.sender; }
+  AgentId operator()(const exchange::SegmentRequest& m) { return m.requester; }
+  AgentId operator()(const exchange::Receipt& m) { return m.server; }
+  AgentId operator()(const exchange::CatalogRequest& m) { return m.client; }
+  AgentId operator()(const exchange::CatalogReply& m) { return m.server; }
+  AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }
+  AgentId operator()(const exchange::RouteEditRequest& m) { return m.client; }
+  AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
+};
+
+// A scout may follow, too.
+bool MayCallItself(Role role, AgentRole said) {
+  switch (said) {
+    case AgentRole::kServer:
+      return role == Role::kServer;
+    case AgentRole::kScout:
+      return role == Role::kScout;
+    case AgentRole::kFollower:
+      return role == Role::kFollower || role == Role::kScout;
+    case AgentRole::kOperator:
+      return role == Role::kOperator;
+  }
+  return false;
+}
+
+Result<void> CheckTaught(const exchange::RouteAnnouncement& announcement) {
+  const route::RouteInfo& info = announcement.info;
+  if (info.scout != announcement.holder) {
+    return Fail(ErrorCode::kInvalidArgument, "announces a route that '{}' taught",
+                info.scout.value());
+  }
+  if (info.edition != 0 || info.standing != route::Standing::kStaged) {
+    return Fail(ErrorCode::kInvalidArgument, "announces labels, which only operators change");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> CheckAuthor(const exchange::Message& message, const Member& sender,
+                         const std::string& name_key) {
+  const std::string author = std::visit(AuthorIn(), message).value();
+  if (MemberIdOf(name_key, WithoutProcess(author)) != sender.id) {
+    return Fail(ErrorCode::kInvalidArgument, "speaks in the name of '{}'", author);
+  }
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    if (!MayCallItself(sender.role, status->role)) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' claims another role than its own", author);
+    }
+  }
+  const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message);
+  if (announcement != nullptr && sender.role == Role::kScout) return CheckTaught(*announcement);
+  return {};
+}
+
+}  // namespace trailcast::security

@@ -1,0 +1,108 @@
+#include "services/security/documents.h"
+
+#include <fmt/chrono.h>
+
+#include <vector>
+
+#include "services/exchange/topics.h"
+
+namespace trailcast::security {
+namespace {
+
+// Domains are chosen when programs are started; the fleet is one in all of them.
+constexpr const char* kDomains =
+    "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
+constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
+<dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_{}.xsd">
+)";
+
+std::string Topics(const std::vector<exchange::Topic>& topics) {
+  std::string text;
+  for (const exchange::Topic topic : topics) {
+    text += fmt::format("<topic>{}</topic>", exchange::NameOf(topic));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ToText(Time time) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
+// Metadata encrypted: a whole submessage at a time, so that not even the key of a sample is seen;
+// the data inside it need not be encrypted once more. RTPS messages as such are not: members who
+// are only just getting to know each other could not read them.
+std::string GovernanceXml() {
+  return fmt::format(kHead, "governance") + fmt::format(R"(<domain_access_rules>
+  <domain_rule>
+    {}
+    <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
+    <enable_join_access_control>true</enable_join_access_control>
+    <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
+    <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
+    <rtps_protection_kind>NONE</rtps_protection_kind>
+    <topic_access_rules>
+      <topic_rule>
+        <topic_expression>*</topic_expression>
+        <enable_discovery_protection>true</enable_discovery_protection>
+        <enable_liveliness_protection>true</enable_liveliness_protection>
+        <enable_read_access_control>true</enable_read_access_control>
+        <enable_write_access_control>true</enable_write_access_control>
+        <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
+        <data_protection_kind>NONE</data_protection_kind>
+      </topic_rule>
+    </topic_access_rules>
+  </domain_rule>
+</domain_access_rules>
+</dds>
+)",
+                                                        kDomains);
+}
+
+std::string PermissionsXml(const Member& member, const Validity& validity) {
+  const exchange::TopicUse rights = RightsOf(member.role);
+  return fmt::format(kHead, "permissions") +
+         fmt::format(R"(<permissions>
+  <grant name="{}">
+    <subject_name>{}</subject_name>
+    <validity>
+      <not_before>{}</not_before>
+      <not_after>{}</not_after>
+    </validity>
+    <allow_rule>
+      {}
+      <publish>
+        <topics>{}</topics>
+        <partitions><partition>{}</partition></partitions>
+      </publish>
+      <subscribe>
+        <topics>{}</topics>
+        <partitions><partition>*</partition></partitions>
+      </subscribe>
+    </allow_rule>
+    <default>DENY</default>
+  </grant>
+</permissions>
+</dds>
+)",
+                     NameOf(member.role), SubjectOf(member), ToText(validity.from),
+                     ToText(validity.until), kDomains, Topics(rights.write), PartitionOf(member),
+                     Topics(rights.read));
+}
+
+std::optional<std::string> ElementOf(const std::string& xml, const std::string& name) {
+  const std::string open = "<" + name + ">";
+  const std::string close = "</" + name + ">";
+  const std::size_t begin = xml.find(open);
+  if (begin == std::string::npos || xml.find(open, begin + 1) != std::string::npos) {
+    return std::nullopt;
+  }
+  const std::size_t from = begin + open.size();
+  const std::size_t end = xml.find(close, from);
+  if (end == std::string::npos) return std::nullopt;
+  return xml.substr(from, end - from);
+}
+
+}  // namespace trailcast::security

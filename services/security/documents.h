@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "services/security/member.h"
+
+namespace trailcast::security {
+
+using Time = std::chrono::system_clock::time_point;
+
+struct Validity {
+  Time from;
+  Time until;
+};
+
+// "2026-11-22T16:00:00Z"
+[[nodiscard]] std::string ToText(Time time);
+
+// The two documents of the DDS Security specification that the fleet's authority signs.
+
+// How all members protect what they say: nobody takes part who is not known, what is said is
+// encrypted, and every topic is open only to whom its permissions let in.
+[[nodiscard]] std::string GovernanceXml();
+
+// What one member may write, in its own partition, and read (RightsOf its role); nothing else.
+[[nodiscard]] std::string PermissionsXml(const Member& member, const Validity& validity);
+
+// The value of the only element of that name; nothing if there is none, or several.
+[[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);
+
+}  // namespace trailcast::security

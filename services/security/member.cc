@@ -1,0 +1,87 @@
+#include "services/security/member.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <new>
+
+namespace trailcast::security {
+namespace {
+
+constexpr std::size_t kIdDigits = 16;
+
+bool IsId(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  return text.size() == kIdDigits && std::all_of(text.begin(), text.end(), [&](char c) {
+           return kDigits.find(c) != kDigits.npos;
+         });
+}
+
+// "role" and "id" at the beginning of `text`, with `between` between them; `text` keeps the rest.
+std::optional<Member> TakeRoleAndId(std::string_view& text, char between) {
+  const std::size_t end = text.find(between);
+  if (end == std::string_view::npos) return std::nullopt;
+  const auto role = FindRole(text.substr(0, end));
+  const std::string_view id = text.substr(end + 1, kIdDigits);
+  if (!role || !IsId(id)) return std::nullopt;
+  text.remove_prefix(end + 1 + kIdDigits);
+  return Member{.role = *role, .id = std::string(id)};
+}
+
+}  // namespace
+
+std::string CommonNameOf(const Member& member) {
+  return fmt::format("{}.{}.{}", NameOf(member.role), member.id, member.generation);
+}
+
+std::optional<Member> ParseCommonName(std::string_view text) {
+  auto member = TakeRoleAndId(text, '.');
+  if (!member || !text.starts_with('.')) return std::nullopt;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + 1, end, member->generation);
+  if (error != std::errc() || rest != end) return std::nullopt;
+  return member;
+}
+
+std::string SubjectOf(const Member& member) { return "CN=" + CommonNameOf(member); }
+
+std::string PartitionOf(const Member& member) {
+  return fmt::format("{}/{}", NameOf(member.role), member.id);
+}
+
+std::optional<Member> ParsePartition(std::string_view text) {
+  auto member = TakeRoleAndId(text, '/');
+  return member && text.empty() ? member : std::nullopt;
+}
+
+std::string MemberIdOf(std::string_view name_key, std::string_view name) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  // Refuses only when it cannot allocate.
+  if (HMAC(EVP_sha256(), name_key.data(), static_cast<int>(name_key.size()),
+           reinterpret_cast<const unsigned char*>(name.data()), name.size(), digest.data(),
+           &length) == nullptr) {
+    throw std::bad_alloc();
+  }
+  std::string id;
+  for (std::size_t i = 0; i < kIdDigits / 2; ++i) id += fmt::format("{:02x}", digest[i]);
+  return id;
+}
+
+std::string ProcessName(const std::string& member, long process) {
+  return fmt::format("{}-p{}", member, process);
+}
+
+std::string WithoutProcess(const std::string& name) {
+  const std::size_t mark = name.rfind("-p");
+  if (mark == std::string::npos || mark + 2 == name.size()) return name;
+  const bool number = std::all_of(name.begin() + static_cast<std::ptrdiff_t>(mark) + 2, name.end(),
+                                  [](char c) { return c >= '0' && c <= '9'; });
+  return number ? name.substr(0, mark) : name;
+}
+
+}  // namespace trailcast::security

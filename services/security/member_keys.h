@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "services/base/result.h"
+#include "services/security/documents.h"
+#include "services/security/member.h"
+
+namespace trailcast::security {
+
+// A member's folder as `trailcast keys add` wrote it, looked through: what a program needs to join
+// the fleet as that member.
+struct MemberKeys {
+  std::filesystem::path folder{};  // absolute
+  std::string name{};
+  std::string name_key{};  // the fleet's: which id stands for which name
+  Member member{};
+  Time expires{};
+};
+
+// Errors say which file is wrong, and what to do: kNotFound for what is not there, kCorrupt for
+// what was not signed by the authority or does not belong together, kConflict for a folder that is
+// the authority's own or is open to everybody, kUnavailable for what is not valid at `now`.
+[[nodiscard]] Result<MemberKeys> LoadMemberKeys(const std::filesystem::path& folder, Time now);
+
+// Only the name; the folder may be wrong in other ways.
+[[nodiscard]] Result<std::string> NameInKeys(const std::filesystem::path& folder);
+
+// Changes when one of the folder's files does, as after a renewal or when others are revoked.
+[[nodiscard]] std::string KeysVersion(const std::filesystem::path& folder);
+
+}  // namespace trailcast::security

@@ -1,0 +1,96 @@
+#include "services/security/role.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "services/exchange/topics.h"
+
+namespace trailcast::security {
+namespace {
+
+using exchange::Topic;
+using exchange::TopicUse;
+
+constexpr std::array kRoles{Role::kScout, Role::kFollower, Role::kServer, Role::kOperator,
+                            Role::kObserver};
+
+void Add(std::vector<Topic>& topics, const std::vector<Topic>& more) {
+  for (const Topic topic : more) {
+    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+  }
+}
+
+TopicUse Together(TopicUse use, const TopicUse& more) {
+  Add(use.write, more.write);
+  Add(use.read, more.read);
+  return use;
+}
+
+// Everybody sees who is there; robots and servers say so themselves.
+TopicUse SeesAgents() { return {.write = {}, .read = {Topic::kAgents}}; }
+
+void AppendBeyond(const std::vector<Topic>& wanted, const std::vector<Topic>& granted,
+                  const char* doing, std::string& text) {
+  for (const Topic topic : wanted) {
+    if (std::find(granted.begin(), granted.end(), topic) != granted.end()) continue;
+    if (!text.empty()) text += ", ";
+    text += std::string(doing) + " " + exchange::NameOf(topic);
+  }
+}
+
+}  // namespace
+
+std::span<const Role> AllRoles() { return kRoles; }
+
+const char* NameOf(Role role) {
+  switch (role) {
+    case Role::kScout:
+      return "scout";
+    case Role::kFollower:
+      return "follower";
+    case Role::kServer:
+      return "server";
+    case Role::kOperator:
+      return "operator";
+    case Role::kObserver:
+      return "observer";
+  }
+  return "unknown role";
+}
+
+std::optional<Role> FindRole(std::string_view name) {
+  const auto found =
+      std::find_if(kRoles.begin(), kRoles.end(), [&](Role role) { return name == NameOf(role); });
+  return found == kRoles.end() ? std::nullopt : std::optional<Role>(*found);
+}
+
+TopicUse RightsOf(Role role) {
+  switch (role) {
+    case Role::kScout:
+      return Together(Together(exchange::ScoutTopics(), exchange::FollowerTopics()), SeesAgents());
+    case Role::kFollower:
+      return Together(exchange::FollowerTopics(), SeesAgents());
+    case Role::kServer:
+      return Together(exchange::ServerTopics(), SeesAgents());
+    case Role::kOperator: {
+      TopicUse use = Together(exchange::OperatorTopics(), exchange::FollowerTopics());
+      use = Together(std::move(use), exchange::ScoutTopics());
+      std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
+      return use;
+    }
+    case Role::kObserver:
+      return exchange::ObserverTopics();
+  }
+  return {};
+}
+
+std::string BeyondRights(Role role, const TopicUse& use) {
+  const TopicUse rights = RightsOf(role);
+  std::string beyond;
+  AppendBeyond(use.write, rights.write, "write", beyond);
+  AppendBeyond(use.read, rights.read, "read", beyond);
+  return beyond;
+}
+
+}  // namespace trailcast::security
