@@ -32,6 +32,9 @@ struct RouteAnnouncement {
 struct SegmentBatch {
   AgentId sender{};
   std::vector<route::SegmentPiece> pieces{};
+  // A follower's, and senders are known (with DDS Security): believed only as far as it can be
+  // proven. Not on the wire.
+  bool lent = false;
   bool operator==(const SegmentBatch&) const = default;
 };
 

@@ -45,7 +45,7 @@ void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
     if (info_ && info_->edition > info.edition) route::TakeLabels(grown, *info_);
     info_ = std::move(grown);
     WantMissing(fresh ? now + options_.fresh_grace : now);
-    Judge();
+    Judge(now);
   }
   heard_at_ = now;
 }
@@ -62,7 +62,11 @@ void RouteFetcher::Handle(const Message& message, Time now) {
 void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key != key_) continue;
-    piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);
+    if (batch.lent) {
+      Borrow(piece, now);
+    } else {
+      piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);
+    }
   }
 }
 
@@ -92,9 +96,32 @@ void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
   }
   heard_at_ = now;
   held_.emplace(piece.index, piece.digest);
+  borrowed_.erase(piece.index);
   want_.Arrived(piece.index, now);
   arrived_.push_back(piece);
-  Judge();
+  Judge(now);
+}
+
+void RouteFetcher::Borrow(const route::SegmentPiece& piece, Time now) {
+  const bool complete = info_ && info_->state == RouteState::kComplete;
+  const bool wanted = borrows_ && complete && piece.index.value() < info_->segment_count &&
+                      !held_.contains(piece.index) && !borrowed_.contains(piece.index);
+  if (!wanted || piece.bytes.empty()) return;
+  if (!integrity_.check_piece(piece)) {
+    ++counts_.bad_pieces;
+    return;
+  }
+  heard_at_ = now;
+  borrowed_.emplace(piece.index, piece);
+  want_.Arrived(piece.index, now);
+  Judge(now);
+}
+
+void RouteFetcher::ReturnBorrowed(Time now) {
+  counts_.bad_pieces += borrowed_.size();
+  for (const auto& [index, piece] : borrowed_) want_.Want(index, now);
+  borrowed_.clear();
+  borrows_ = false;
 }
 
 // A complete route's count is final, so what was wanted beyond it is forgotten.
@@ -105,13 +132,27 @@ void RouteFetcher::WantMissing(Time ask_at) {
   }
 }
 
-void RouteFetcher::Judge() {
+void RouteFetcher::Judge(Time now) {
   if (verdict_ || !info_ || info_->state != RouteState::kComplete || !want_.empty()) return;
   std::vector<route::Digest> digests;
-  for (const auto& [index, digest] : held_) {
-    if (index.value() < info_->segment_count) digests.push_back(digest);
+  for (std::uint32_t i = 0; i < info_->segment_count; ++i) {
+    const auto held = held_.find(SegmentIndex(i));
+    const auto borrowed = borrowed_.find(SegmentIndex(i));
+    if (held != held_.end()) {
+      digests.push_back(held->second);
+    } else if (borrowed != borrowed_.end()) {
+      digests.push_back(borrowed->second.digest);
+    }
   }
   const bool right = integrity_.manifest(digests) == info_->manifest_digest;
+  if (!right && !borrowed_.empty()) {
+    ReturnBorrowed(now);
+    return;
+  }
+  for (auto& [index, piece] : std::exchange(borrowed_, {})) {
+    held_.emplace(index, piece.digest);
+    arrived_.push_back(std::move(piece));
+  }
   verdict_ = right ? FetchState::kComplete : FetchState::kWrong;
 }
 

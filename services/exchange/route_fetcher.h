@@ -80,11 +80,13 @@ class RouteFetcher {
  private:
   void HandleBatch(const SegmentBatch& batch, Time now);
   void Accept(const route::SegmentPiece& piece, Time now);
+  void Borrow(const route::SegmentPiece& piece, Time now);
+  void ReturnBorrowed(Time now);
   void TakeFromOwn(const route::SegmentPiece& named, Time now);
   void Ask(const std::vector<SegmentIndex>& lacking, bool digests_only,
            std::vector<Message>& messages) const;
   void WantMissing(Time ask_at);
-  void Judge();
+  void Judge(Time now);
   [[nodiscard]] bool IsInquiryDue(Time now);
 
   AgentId self_;
@@ -96,6 +98,10 @@ class RouteFetcher {
   std::map<SegmentIndex, route::Digest> held_;
   WantList want_;
   std::vector<route::SegmentPiece> arrived_;
+  // Lent by a follower, which may be mistaken or lie: not given out before the manifest of the
+  // complete route proves them all.
+  std::map<SegmentIndex, route::SegmentPiece> borrowed_;
+  bool borrows_ = true;  // no more once they proved wrong: a liar would keep it busy for ever
   std::set<SegmentIndex> asked_digest_;  // of these: now the bytes are asked for
   std::optional<FetchState> verdict_;    // kComplete or kWrong, once all is held
   Time heard_at_;                        // of a holder of this route; at first: creation

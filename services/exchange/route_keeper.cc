@@ -77,7 +77,9 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
 
 void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const SegmentPiece& piece : batch.pieces) {
-    if (piece.bytes.empty()) {
+    if (batch.lent && !IsKnown(piece, now)) {
+      ++counters_.unproven;
+    } else if (piece.bytes.empty()) {
       TakeFromOthers(piece, now);
     } else if (const auto intact = integrity_.check_piece(piece); intact) {
       arrived_.push_back(piece);
@@ -88,6 +90,12 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
       if (KeptRoute* kept = Find(piece.key, now)) kept->want.AskAgain(piece.index, now);
     }
   }
+}
+
+// The segment was here once: what it must be is known.
+bool RouteKeeper::IsKnown(const SegmentPiece& piece, Time now) {
+  const KeptRoute* kept = Find(piece.key, now, Which::kStored);
+  return kept != nullptr && kept->DigestOf(piece.index) == piece.digest;
 }
 
 // A piece without bytes, which another revision may have.

@@ -48,6 +48,7 @@ struct KeeperCounters {
   std::uint64_t duplicates = 0;   // pieces held already
   std::uint64_t corrupt = 0;      // pieces that failed their digest: dropped, asked for again
   std::uint64_t conflicting = 0;  // pieces or announcements that contradict what is held: dropped
+  std::uint64_t unproven = 0;     // pieces lent that could be anything: dropped
   std::uint64_t store_failures = 0;
   std::uint64_t damaged = 0;   // segments found damaged in the store: asked for again
   std::uint64_t repaired = 0;  // of these, those that somebody had
@@ -102,6 +103,7 @@ class RouteKeeper {
   void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
   void HandleBatch(const SegmentBatch& batch, Time now);
   void HandleRequest(const SegmentRequest& request, Time now);
+  [[nodiscard]] bool IsKnown(const route::SegmentPiece& piece, Time now);
   void TakeFromOthers(const route::SegmentPiece& named, Time now);
   void TellDigests(const route::RouteKey& key, const KeptRoute& kept,
                    const std::vector<SegmentIndex>& indices);

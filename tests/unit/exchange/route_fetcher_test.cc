@@ -30,6 +30,11 @@ class RouteFetcherTest : public testing::Test {
   void Deliver(RouteFetcher& fetcher, const route::SegmentPiece& piece) {
     fetcher.Handle(SegmentBatch{AgentId("server-1"), {piece}}, now_);
   }
+  // As a follower does whose keys say that it is one.
+  void Lend(RouteFetcher& fetcher, const std::vector<route::SegmentPiece>& pieces) {
+    fetcher.Handle(SegmentBatch{.sender = AgentId("follower-2"), .pieces = pieces, .lent = true},
+                   now_);
+  }
   std::vector<SegmentIndex> AskedAfter(RouteFetcher& fetcher, milliseconds passed) {
     now_ += passed;
     std::vector<SegmentIndex> asked;
@@ -75,6 +80,39 @@ TEST_F(RouteFetcherTest, OfWhatAnotherRevisionHasItAsksForDigestsOnly) {
   EXPECT_FALSE(asked[0].digests_only);
   for (const std::uint32_t i : {0U, 2U}) Deliver(fetcher, pieces_[i]);
   EXPECT_TRUE(fetcher.Complete());
+}
+
+TEST_F(RouteFetcherTest, WhatIsLentIsGivenOutOnceTheManifestProvesIt) {
+  RouteFetcher fetcher = Fetcher();
+  Announce(fetcher, 3, RouteState::kComplete);
+  Lend(fetcher, {pieces_[0], pieces_[2]});
+  EXPECT_TRUE(fetcher.TakeArrived().empty());
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(1, 2));
+  Deliver(fetcher, pieces_[1]);
+  EXPECT_TRUE(fetcher.Complete());
+  EXPECT_EQ(fetcher.TakeArrived().size(), 3U);
+}
+
+TEST_F(RouteFetcherTest, WhatIsLentAndProvesWrongIsAskedForAgainAndNoMoreIsBorrowed) {
+  RouteFetcher fetcher = Fetcher();
+  Announce(fetcher, 2, RouteState::kComplete);
+  const route::SegmentPiece forged{key_, SegmentIndex(1), pieces_[7].digest, pieces_[7].bytes};
+  Lend(fetcher, {pieces_[0], forged});
+  EXPECT_FALSE(fetcher.Complete());
+  EXPECT_EQ(fetcher.Progress(now_).bad_pieces, 2U);
+  Lend(fetcher, {pieces_[0], forged});
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 2));
+  Deliver(fetcher, pieces_[0]);
+  Deliver(fetcher, pieces_[1]);
+  EXPECT_TRUE(fetcher.Complete());
+  EXPECT_EQ(fetcher.TakeArrived(), std::vector({pieces_[0], pieces_[1]}));
+}
+
+TEST_F(RouteFetcherTest, NothingIsBorrowedOfARouteThatIsBeingTaught) {
+  RouteFetcher fetcher = Fetcher();
+  Announce(fetcher, 2);
+  Lend(fetcher, {pieces_[0]});
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 2));
 }
 
 TEST_F(RouteFetcherTest, ADigestAloneIsNoSegment) {

@@ -402,6 +402,25 @@ TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
   EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
 }
 
+TEST_F(RouteKeeperTest, OfWhatIsLentOnlyWhatWasHereBeforeIsTaken) {
+  Announce(3, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  Tick();
+  store_.damaged = {{key_, SegmentIndex(1)}};
+  keeper_->NoteDamage(key_, SegmentIndex(1), now_);
+  const auto lend = [&](const route::SegmentPiece& piece) {
+    keeper_->Handle(SegmentBatch{.sender = AgentId("follower"), .pieces = {piece}, .lent = true},
+                    now_);
+    Tick();
+  };
+  lend(pieces_[2]);  // nobody who knows said what it must be
+  EXPECT_EQ(keeper_->counters().unproven, 1U);
+  EXPECT_FALSE(store_.ReadSegment(key_, SegmentIndex(2)));
+  lend(pieces_[1]);
+  EXPECT_EQ(keeper_->counters().unproven, 1U);
+  EXPECT_EQ(keeper_->counters().repaired, 1U);
+}
+
 TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
   Announce(2, RouteState::kComplete);
   Deliver({pieces_[0], pieces_[1]});
