@@ -8,6 +8,7 @@
 
 #include "agent/cli/toml.h"
 #include "services/base/ids.h"
+#include "services/security/member_keys.h"
 
 #ifndef TRAILCAST_VERSION
 #error "TRAILCAST_VERSION comes from CMake"
@@ -55,10 +56,9 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   app.config_formatter(std::make_shared<Toml>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.option_defaults()->always_capture_default();
-  app.add_option("--name", options.name,
-                 "Name in the fleet, unique: letters, digits, '_', '.', '-'")
-      ->check(NameValidator())
-      ->envname("TRAILCAST_NAME");
+  CLI::Option* name = app.add_option("--name", options.name,
+                                     "Name in the fleet, unique: letters, digits, '_', '.', '-'");
+  name->check(NameValidator())->envname("TRAILCAST_NAME");
   app.add_option("--domain", options.domain, "DDS domain; only processes of one domain meet")
       ->check(CLI::Range(0, 230))
       ->envname("TRAILCAST_DOMAIN");
@@ -68,6 +68,15 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   app.add_option("--network-interface", options.network_interface,
                  "Network interface for DDS, as 'lo' or 'wlan0'; empty: DDS chooses")
       ->envname("TRAILCAST_NETWORK_INTERFACE");
+  app.add_option("--security", options.security,
+                 "Folder with this member's keys, as 'trailcast keys add' wrote it: speaks, "
+                 "encrypted, with members of its fleet only; empty: open to everybody")
+      ->envname("TRAILCAST_SECURITY");
+  app.final_callback([&options, name] {
+    if (options.security.empty() || name->count() > 0) return;
+    // Keys that are wrong are told of by who needs them, when it joins.
+    if (const auto in_keys = security::NameInKeys(options.security)) options.name = *in_keys;
+  });
   app.add_option("--log-level", options.log_level, "What is told on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->envname("TRAILCAST_LOG_LEVEL");

@@ -21,13 +21,14 @@ struct CommonOptions {
   int domain = 0;    // DDS domain
   std::string dds_tag;
   std::string network_interface;
+  std::string security;  // folder with this member's keys; empty: DDS without security
   std::string log_level = "info";
   std::string log_format = "text";
 };
 
 // --version, --config, --name and the options of the network and the log, each with its
 // environment variable. A value on the command line wins over the file, the file over the
-// environment.
+// environment. With --security and no --name, the name is the one in the keys.
 void AddCommonOptions(CLI::App& app, CommonOptions& options);
 
 // Parses. Nothing: go on. Otherwise the process shall end with that exit status: help or version

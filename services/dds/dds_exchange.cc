@@ -1,96 +1,179 @@
 #include "services/dds/dds_exchange.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <thread>
 #include <utility>
 
+#include "services/dds/cyclone_log.h"
 #include "services/dds/domain_config.h"
 #include "services/dds/entities.h"
+#include "services/dds/peers.h"
 #include "services/dds/qos_table.h"
+#include "services/dds/stranger_watch.h"
 #include "services/dds/wire.h"
 #include "services/exchange/batches.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/topics.h"
+#include "services/security/author.h"
 
 namespace trailcast::dds {
 namespace {
 
 using exchange::Message;
+using Clock = std::chrono::steady_clock;
 
 // One Take returns at most so many samples of a topic, so that a flood does not starve the others.
 constexpr std::size_t kMaxSamplesPerTake = 1024;
 
+// Nothing is joined while keys cannot be used; then this is how often it is tried again, and
+// otherwise how often the keys' folder is looked at.
+constexpr auto kLookEvery = std::chrono::seconds(1);
+
+// What is open on the network, made anew when the keys change; deleted from the end.
+struct Joined {
+  Domain domain;
+  std::unique_ptr<CycloneLog> log;  // with keys
+  Participant participant;
+  std::optional<Peers> peers;  // with keys
+  WaitSet wait_set;
+  std::map<exchange::Topic, dds::Topic> topics{};
+  std::map<exchange::Topic, Writer> writers{};
+  std::map<exchange::Topic, Reader> readers{};
+  std::map<dds_instance_handle_t, security::Member> senders{};  // with keys: who writes what
+};
+
 class DdsExchange : public exchange::RouteExchange {
  public:
-  DdsExchange(Domain domain, Participant participant, WaitSet wait_set, const DdsOptions& options)
-      : options_(options),
-        domain_(std::move(domain)),
-        participant_(std::move(participant)),
-        wait_set_(std::move(wait_set)) {}
+  DdsExchange(const DdsOptions& options, exchange::TopicUse use)
+      : options_(options), use_(std::move(use)) {}
   ~DdsExchange() override { SayGoodBye(); }
   DdsExchange(const DdsExchange&) = delete;
   DdsExchange& operator=(const DdsExchange&) = delete;
 
-  Result<void> OpenTopics(const exchange::TopicUse& use);
+  Result<void> Join();
 
   Result<void> Publish(const Message& message) override;
   std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
 
  private:
-  Result<Topic*> Find(exchange::Topic topic);
+  Result<Joined> OpenDomain() const;
+  Result<void> OpenTopics(Joined& joined) const;
+  Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) const;
   Result<void> Write(exchange::Topic topic, const Message& message);
   void TakeFrom(exchange::Topic topic, std::vector<Message>& messages);
   void SayGoodBye();
 
+  // With keys.
+  void KeepWatch();
+  void TakeUpNewKeys();
+  void LookForStrangers(Clock::time_point now);
+  const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
+  [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
+                                 Message& message);
+
   DdsOptions options_;
-  Domain domain_;
-  Participant participant_;
-  std::map<exchange::Topic, Topic> topics_;
-  std::map<exchange::Topic, Writer> writers_;
-  std::map<exchange::Topic, Reader> readers_;
-  WaitSet wait_set_;
+  exchange::TopicUse use_;
+  std::optional<Joined> joined_;
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
+
+  std::string keys_version_;
+  Clock::time_point look_at_{};
+  StrangerWatch strangers_;
 };
 
-Result<Topic*> DdsExchange::Find(exchange::Topic topic) {
-  if (const auto found = topics_.find(topic); found != topics_.end()) return &found->second;
-  auto made = Topic::Create(participant_, TypeOf(topic), exchange::NameOf(topic));
-  if (!made) return tl::unexpected(made.error());
-  return &topics_.emplace(topic, *std::move(made)).first->second;
+Result<Joined> DdsExchange::OpenDomain() const {
+  // Read before any thread of ours exists; nobody writes to the environment.
+  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
+  const auto config = DomainConfig(options_, uri == nullptr ? "" : uri);
+  if (!config) return tl::unexpected(config.error());
+  auto domain = Domain::Create(*config);
+  if (!domain) return tl::unexpected(domain.error());
+  std::unique_ptr<CycloneLog> log;
+  if (options_.keys) log = std::make_unique<CycloneLog>(domain->id());
+  auto participant = Participant::Create(*domain, options_.keys ? "" : options_.self.value());
+  if (!participant) {
+    Error error = participant.error();
+    if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
+    return tl::unexpected(error);
+  }
+  std::optional<Peers> peers;
+  if (options_.keys) {
+    auto created = Peers::Create(*participant);
+    if (!created) return tl::unexpected(created.error());
+    peers = *std::move(created);
+  }
+  auto wait_set = WaitSet::Create(*participant);
+  if (!wait_set) return tl::unexpected(wait_set.error());
+  return Joined{.domain = *std::move(domain),
+                .log = std::move(log),
+                .participant = *std::move(participant),
+                .peers = std::move(peers),
+                .wait_set = *std::move(wait_set)};
 }
 
-Result<void> DdsExchange::OpenTopics(const exchange::TopicUse& use) {
-  for (const exchange::Topic topic : use.write) {
-    const auto found = Find(topic);
-    if (!found) return tl::unexpected(found.error());
-    auto writer =
-        Writer::Create(participant_, **found, MakeQos(QosOf(topic), options_.write_timeout));
-    if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
-    writers_.emplace(topic, *std::move(writer));
+Result<void> DdsExchange::Join() {
+  joined_.reset();
+  if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
+  auto joined = OpenDomain();
+  if (!joined) return tl::unexpected(joined.error());
+  if (auto opened = OpenTopics(*joined); !opened) return opened;
+  joined_ = *std::move(joined);
+  return {};
+}
+
+Result<dds::Topic*> DdsExchange::Find(Joined& joined, exchange::Topic topic) const {
+  if (const auto found = joined.topics.find(topic); found != joined.topics.end()) {
+    return &found->second;
   }
-  for (const exchange::Topic topic : use.read) {
-    const auto found = Find(topic);
+  auto made = dds::Topic::Create(joined.participant, TypeOf(topic), exchange::NameOf(topic));
+  if (!made) return tl::unexpected(made.error());
+  return &joined.topics.emplace(topic, *std::move(made)).first->second;
+}
+
+Result<void> DdsExchange::OpenTopics(Joined& joined) const {
+  const std::string own = options_.keys ? security::PartitionOf(options_.keys->member) : "";
+  for (const exchange::Topic topic : use_.write) {
+    const auto found = Find(joined, topic);
     if (!found) return tl::unexpected(found.error());
-    auto reader =
-        Reader::Create(participant_, **found, MakeQos(QosOf(topic), options_.write_timeout));
+    auto writer = Writer::Create(joined.participant, **found,
+                                 MakeQos(QosOf(topic), options_.write_timeout, own));
+    if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
+    joined.writers.emplace(topic, *std::move(writer));
+  }
+  const std::string everybody = options_.keys ? "*" : "";
+  for (const exchange::Topic topic : use_.read) {
+    const auto found = Find(joined, topic);
+    if (!found) return tl::unexpected(found.error());
+    auto reader = Reader::Create(joined.participant, **found,
+                                 MakeQos(QosOf(topic), options_.write_timeout, everybody));
     if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
-    if (auto ok = wait_set_.Attach(*reader); !ok) return Wrap(ok.error(), exchange::NameOf(topic));
-    readers_.emplace(topic, *std::move(reader));
+    if (auto ok = joined.wait_set.Attach(*reader); !ok) {
+      return Wrap(ok.error(), exchange::NameOf(topic));
+    }
+    joined.readers.emplace(topic, *std::move(reader));
   }
   return {};
 }
 
 Result<void> DdsExchange::Publish(const Message& message) {
   const std::optional<exchange::Topic> topic = exchange::TopicOf(message);
-  if (!topic || !writers_.contains(*topic)) {
+  const auto is_opened = [&] {
+    return topic && std::find(use_.write.begin(), use_.write.end(), *topic) != use_.write.end();
+  };
+  if (!is_opened()) {
     return Fail(ErrorCode::kInvalidArgument, "{} was not opened for writing",
                 topic ? exchange::NameOf(*topic) : "AgentGone is no topic and");
   }
   if (auto ok = exchange::CheckBounds(message); !ok) return ok;
+  if (!joined_) return Fail(ErrorCode::kUnavailable, "the keys cannot be used at present");
   if (const auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
     for (exchange::SegmentBatch& part : exchange::SplitBatch(*batch)) {
       if (auto ok = Write(*topic, std::move(part)); !ok) return ok;
@@ -104,7 +187,7 @@ Result<void> DdsExchange::Publish(const Message& message) {
 }
 
 Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
-  Writer& writer = writers_.at(topic);
+  Writer& writer = joined_->writers.at(topic);
   // Replies are an instance for each client, and clients that ask once come by the thousand: their
   // instances would be kept for ever.
   const bool last_word = topic == exchange::Topic::kCatalogReplies;
@@ -118,9 +201,14 @@ Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
 
 std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
   std::vector<Message> messages;
+  if (options_.keys) KeepWatch();
+  if (!joined_) {
+    std::this_thread::sleep_for(max_wait);
+    return messages;
+  }
   // A failed wait leaves nothing to take, and is tried again with the next call.
-  if (!wait_set_.Wait(max_wait)) return messages;
-  for (const auto& [topic, reader] : readers_) TakeFrom(topic, messages);
+  if (!joined_->wait_set.Wait(max_wait)) return messages;
+  for (const auto& [topic, reader] : joined_->readers) TakeFrom(topic, messages);
   return messages;
 }
 
@@ -131,19 +219,20 @@ void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages
   };
   std::vector<Received> received;
   const bool agents = topic == exchange::Topic::kAgents;
-  const auto keep = [&](dds_time_t sent_at, auto message) {
-    if (message) {
-      received.push_back({sent_at, *std::move(message)});
-    } else {
+  Reader& reader = joined_->readers.at(topic);
+  const auto keep = [&](const dds_sample_info_t& info, Result<Message> message) {
+    if (!message) {
       ++dropped_;
+    } else if (IsAuthentic(reader, info.publication_handle, *message)) {
+      received.push_back({info.source_timestamp, *std::move(message)});
     }
   };
-  const auto taken = readers_.at(topic).Take(
-      kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
-        if (info.valid_data) keep(info.source_timestamp, FromWire(topic, sample));
+  const auto taken =
+      reader.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+        if (info.valid_data) keep(info, FromWire(topic, sample));
         const bool last_of_instance = info.sample_rank == 0;
         if (agents && last_of_instance && info.instance_state != DDS_IST_ALIVE) {
-          keep(info.source_timestamp, GoneFromWire(sample));
+          keep(info, GoneFromWire(sample));
         }
       });
   if (!taken) ++dropped_;
@@ -156,18 +245,87 @@ void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages
 }
 
 void DdsExchange::SayGoodBye() {
-  if (const auto agents = writers_.find(exchange::Topic::kAgents); agents != writers_.end()) {
+  if (!joined_) return;
+  auto& writers = joined_->writers;
+  if (const auto agents = writers.find(exchange::Topic::kAgents); agents != writers.end()) {
     for (const auto& [instance, status] : said_) {
       // Best effort: without it the others notice when the lease is over.
       (void)WithWire(status, [&](const void* sample) { return agents->second.Dispose(sample); });
     }
   }
-  const auto deadline = std::chrono::steady_clock::now() + options_.close_timeout;
-  for (auto& [topic, writer] : writers_) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        deadline - std::chrono::steady_clock::now());
+  const auto deadline = Clock::now() + options_.close_timeout;
+  for (auto& [topic, writer] : writers) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     (void)writer.WaitForAcks(std::max(left, std::chrono::milliseconds(0)));
   }
+}
+
+void DdsExchange::KeepWatch() {
+  const auto now = Clock::now();
+  if (now < look_at_) return;
+  look_at_ = now + kLookEvery;
+  TakeUpNewKeys();
+  if (joined_) LookForStrangers(now);
+}
+
+void DdsExchange::TakeUpNewKeys() {
+  const std::string version = security::KeysVersion(options_.keys->folder);
+  if (version == keys_version_) return;
+  auto keys = security::LoadMemberKeys(options_.keys->folder, std::chrono::system_clock::now());
+  // While a folder is being copied its files do not belong together: the old keys go on.
+  if (!keys || keys->name != options_.keys->name) return;
+  options_.keys = *std::move(keys);
+  SayGoodBye();
+  const auto joined = Join();
+  if (!options_.tell_of_stranger) return;
+  options_.tell_of_stranger(joined
+                                ? "the keys' files changed: joined anew with them"
+                                : "cannot join with the changed keys: " + joined.error().message);
+}
+
+void DdsExchange::LookForStrangers(Clock::time_point now) {
+  // What cannot be read now is there the next time.
+  (void)joined_->peers->Look(
+      {.seen = [&](const auto& participant,
+                   const auto& about) { strangers_.See(participant, about, now); },
+       .proven = [&](const auto& participant) { strangers_.Prove(participant, ""); },
+       .gone = [&](const auto& participant) { strangers_.Lose(participant); }});
+  for (const std::string& line : joined_->log->Take()) {
+    if (!strangers_.HandleWarning(line, now)) std::fprintf(stderr, "%s\n", line.c_str());
+  }
+  for (const std::string& line : strangers_.Tick(now)) {
+    if (options_.tell_of_stranger) options_.tell_of_stranger(line);
+  }
+}
+
+const security::Member* DdsExchange::SenderOf(const Reader& reader, dds_instance_handle_t writer) {
+  constexpr std::size_t kMostRemembered = 10'000;
+  auto& senders = joined_->senders;
+  if (const auto found = senders.find(writer); found != senders.end()) return &found->second;
+  const auto partition = reader.PartitionOf(writer);
+  const auto member = partition ? security::ParsePartition(*partition) : std::nullopt;
+  if (!member) return nullptr;
+  if (senders.size() >= kMostRemembered) senders.clear();
+  return &senders.emplace(writer, *member).first->second;
+}
+
+bool DdsExchange::IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
+                              Message& message) {
+  if (!options_.keys) return true;
+  const security::Member* sender = SenderOf(reader, writer);
+  // That somebody is gone is also told when all that is left of it is that.
+  if (sender == nullptr) return std::holds_alternative<exchange::AgentGone>(message);
+  const auto own = security::CheckAuthor(message, *sender, options_.keys->name_key);
+  if (!own) {
+    strangers_.HandleMisuse(fmt::format("{} {}", security::NameOf(sender->role), sender->id),
+                            own.error().message, Clock::now());
+    return false;
+  }
+  if (auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
+    batch->lent = sender->role == security::Role::kFollower;
+  }
+  return true;
 }
 
 }  // namespace
@@ -178,19 +336,8 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(const DdsOption
     return Fail(ErrorCode::kInvalidArgument,
                 "the agent's name is not 1 to 64 of letters, digits, '_', '.', '-'");
   }
-  // Read once at start-up, before any thread of ours exists.
-  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-  const auto config = DomainConfig(options, uri == nullptr ? "" : uri);
-  if (!config) return tl::unexpected(config.error());
-  auto domain = Domain::Create(*config);
-  if (!domain) return tl::unexpected(domain.error());
-  auto participant = Participant::Create(*domain, options.self.value());
-  if (!participant) return tl::unexpected(participant.error());
-  auto wait_set = WaitSet::Create(*participant);
-  if (!wait_set) return tl::unexpected(wait_set.error());
-  auto exchange = std::make_unique<DdsExchange>(*std::move(domain), *std::move(participant),
-                                                *std::move(wait_set), options);
-  if (auto ok = exchange->OpenTopics(use); !ok) return tl::unexpected(ok.error());
+  auto exchange = std::make_unique<DdsExchange>(options, use);
+  if (auto joined = exchange->Join(); !joined) return tl::unexpected(joined.error());
   return exchange;
 }
 

@@ -2,12 +2,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
 #include "services/exchange/route_exchange.h"
+#include "services/security/member_keys.h"
 
 namespace trailcast::dds {
 
@@ -18,8 +21,17 @@ struct DdsOptions {
   std::string discovery_tag;
   // "" lets Cyclone choose; "lo" works where there is nothing else.
   std::string network_interface;
-  AgentId self;                  // shown by DDS tools as the participant's user data
-  std::string extra_config_xml;  // Cyclone's XML, has the last word (security, peers)
+  // Shown by DDS tools as the participant's user data; not with keys: it is not encrypted.
+  AgentId self;
+  std::string extra_config_xml;  // Cyclone's XML, has the last word (peers)
+
+  // With DDS Security, as the member whose keys these are; without: open to everybody. When the
+  // folder's files change (renewed keys, a new list of revoked ones), the exchange joins anew with
+  // them within seconds; what it published lately may then have to be published again.
+  std::optional<security::MemberKeys> keys;
+  // Told of each who was kept out, and why: once, and again after ten minutes; and of new keys.
+  // Called by Take.
+  std::function<void(const std::string& line)> tell_of_stranger{};
 
   // How long Publish waits for slow readers, and closing for the last messages to arrive.
   std::chrono::milliseconds write_timeout{100};

@@ -1,6 +1,7 @@
 #include "services/dds/domain_config.h"
 
 #include "services/base/ids.h"
+#include "services/security/folder_layout.h"
 
 namespace trailcast::dds {
 namespace {
@@ -26,6 +27,44 @@ constexpr const char* kDefaults =
 constexpr const char* kFrameSized =
     "<CycloneDDS><Domain><General><MaxMessageSize>1400B</MaxMessageSize></General></Domain>"
     "</CycloneDDS>";
+
+// The plug-ins come with Cyclone, which finds them by these names.
+constexpr const char* kSecurity =
+    "<CycloneDDS><Domain><Security>"
+    "<Authentication>"
+    "<Library path=\"dds_security_auth\" initFunction=\"init_authentication\" "
+    "finalizeFunction=\"finalize_authentication\"/>"
+    "<IdentityCA>file:{folder}/{authority}</IdentityCA>"
+    "<CRL>file:{folder}/{revoked}</CRL>"
+    "<IdentityCertificate>file:{folder}/{identity}</IdentityCertificate>"
+    "<PrivateKey>file:{folder}/{key}</PrivateKey>"
+    "</Authentication>"
+    "<Cryptographic><Library path=\"dds_security_crypto\" initFunction=\"init_crypto\" "
+    "finalizeFunction=\"finalize_crypto\"/></Cryptographic>"
+    "<AccessControl>"
+    "<Library path=\"dds_security_ac\" initFunction=\"init_access_control\" "
+    "finalizeFunction=\"finalize_access_control\"/>"
+    "<PermissionsCA>file:{folder}/{authority}</PermissionsCA>"
+    "<Governance>file:{folder}/{governance}</Governance>"
+    "<Permissions>file:{folder}/{permissions}</Permissions>"
+    "</AccessControl>"
+    "</Security></Domain></CycloneDDS>";
+
+Result<std::string> SecurityConfig(const security::MemberKeys& keys) {
+  const std::string folder = keys.folder.string();
+  if (folder.find_first_of("<>&$,") != std::string::npos) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the keys' folder {} has one of < > & $ , in its name, which DDS does not take: "
+                "give it another",
+                folder);
+  }
+  return fmt::format(
+      kSecurity, fmt::arg("folder", folder), fmt::arg("authority", security::kAuthorityFile),
+      fmt::arg("revoked", security::kRevokedFile), fmt::arg("identity", security::kIdentityFile),
+      fmt::arg("key", security::kIdentityKeyFile),
+      fmt::arg("governance", security::kGovernanceFile),
+      fmt::arg("permissions", security::kPermissionsFile));
+}
 
 }  // namespace
 
@@ -61,6 +100,11 @@ Result<std::string> DomainConfig(const DdsOptions& options, const std::string& c
   if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
   config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
                         general, discovery);
+  if (options.keys) {
+    const auto secured = SecurityConfig(*options.keys);
+    if (!secured) return secured;
+    config += "," + *secured;
+  }
   if (!options.extra_config_xml.empty()) config += "," + options.extra_config_xml;
   return config;
 }

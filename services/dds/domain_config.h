@@ -7,8 +7,8 @@
 namespace trailcast::dds {
 
 // Cyclone's configuration, later parts taking precedence: our defaults, the environment's
-// CYCLONEDDS_URI, the options, extra_config_xml. kInvalidArgument for text that cannot be put in
-// XML or a domain id out of range.
+// CYCLONEDDS_URI, the options (with keys: DDS Security with their files), extra_config_xml.
+// kInvalidArgument for text that cannot be put in XML or a domain id out of range.
 [[nodiscard]] Result<std::string> DomainConfig(const DdsOptions& options,
                                                const std::string& cyclonedds_uri);
 

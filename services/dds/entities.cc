@@ -63,7 +63,13 @@ Result<Domain> Domain::Create(const std::string& config_xml) {
 
 Result<Participant> Participant::Create(const Domain& domain, const std::string& name) {
   const Qos qos = MakeQos();
-  dds_qset_userdata(qos.get(), name.data(), name.size());
+  if (name.empty()) {
+    for (const char* property : {"__ProcessName", "__Pid", "__Hostname"}) {
+      dds_qset_prop(qos.get(), property, "");  // Cyclone tells what is not set
+    }
+  } else {
+    dds_qset_userdata(qos.get(), name.data(), name.size());
+  }
   const dds_entity_t handle = dds_create_participant(domain.id(), qos.get(), nullptr);
   if (handle < 0) return tl::unexpected(DdsError(handle, "creating a participant"));
   return Participant(handle);
@@ -117,6 +123,26 @@ Result<Reader> Reader::Create(const Participant& participant, const Topic& topic
       dds_create_reader(participant.handle(), topic.handle(), qos.get(), nullptr);
   if (handle < 0) return tl::unexpected(DdsError(handle, "creating a reader"));
   return Reader(handle);
+}
+
+Result<Reader> Reader::CreateBuiltin(const Participant& participant, dds_entity_t topic) {
+  const dds_entity_t handle = dds_create_reader(participant.handle(), topic, nullptr, nullptr);
+  if (handle < 0) return tl::unexpected(DdsError(handle, "reading what Cyclone discovers"));
+  return Reader(handle);
+}
+
+std::optional<std::string> Reader::PartitionOf(dds_instance_handle_t writer) const {
+  const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> found(
+      dds_get_matched_publication_data(handle(), writer), &dds_builtintopic_free_endpoint);
+  if (!found) return std::nullopt;
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  if (!dds_qget_partition(found->qos, &count, &names)) return std::nullopt;
+  std::optional<std::string> partition;
+  if (count == 1) partition = names[0];
+  for (std::uint32_t i = 0; i < count; ++i) dds_free(names[i]);
+  dds_free(static_cast<void*>(names));
+  return partition;
 }
 
 Result<void> Reader::Take(std::size_t max,

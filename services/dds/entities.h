@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "services/base/result.h"
@@ -62,7 +63,8 @@ class Domain : public Entity {
 
 class Participant : public Entity {
  public:
-  // `name` is shown by DDS tools, as the participant's user data.
+  // `name` is shown by DDS tools, as the participant's user data. Empty: nothing is told, not even
+  // host and process, which Cyclone would tell everybody.
   [[nodiscard]] static Result<Participant> Create(const Domain& domain, const std::string& name);
 
  private:
@@ -104,6 +106,9 @@ class Reader : public Entity {
  public:
   [[nodiscard]] static Result<Reader> Create(const Participant& participant, const Topic& topic,
                                              const Qos& qos);
+  // Of one of Cyclone's own topics, DDS_BUILTIN_TOPIC_...
+  [[nodiscard]] static Result<Reader> CreateBuiltin(const Participant& participant,
+                                                    dds_entity_t topic);
   // Gives each sample received since the last call to `use`, whose pointer is valid during the call
   // only. With valid_data false only the key fields are set. At most `max` samples.
   [[nodiscard]] Result<void> Take(
@@ -112,6 +117,9 @@ class Reader : public Entity {
   [[nodiscard]] int matched() const;
   // The policy for which a writer was last refused; empty: none was.
   [[nodiscard]] std::string refused_policy() const;
+  // The partition of a writer that a sample came from; nothing if that writer is gone, or writes in
+  // none or several.
+  [[nodiscard]] std::optional<std::string> PartitionOf(dds_instance_handle_t writer) const;
 
  private:
   using Entity::Entity;

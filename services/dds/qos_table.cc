@@ -41,7 +41,7 @@ static_assert(RowsAreInTopicOrder());
 
 const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)]; }
 
-Qos MakeQos(const TopicQos& row, milliseconds write_timeout) {
+Qos MakeQos(const TopicQos& row, milliseconds write_timeout, const std::string& partition) {
   const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
   Qos qos = MakeQos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, nanoseconds(write_timeout));
@@ -57,6 +57,7 @@ Qos MakeQos(const TopicQos& row, milliseconds write_timeout) {
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(row.liveliness));
   }
   dds_qset_writer_data_lifecycle(qos.get(), true);
+  if (!partition.empty()) dds_qset_partition1(qos.get(), partition.c_str());
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }

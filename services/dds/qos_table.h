@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "services/dds/entities.h"
 #include "services/exchange/route_exchange.h"
@@ -18,6 +19,8 @@ struct TopicQos {
 [[nodiscard]] const TopicQos& QosOf(exchange::Topic topic);
 
 // `write_timeout`: how long a keep-all writer waits for slow readers before it gives up.
-[[nodiscard]] Qos MakeQos(const TopicQos& row, std::chrono::milliseconds write_timeout);
+// `partition`: in which it writes or reads; empty: the default one.
+[[nodiscard]] Qos MakeQos(const TopicQos& row, std::chrono::milliseconds write_timeout,
+                          const std::string& partition = "");
 
 }  // namespace trailcast::dds

@@ -45,6 +45,18 @@ TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
   EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("interface"));
 }
 
+TEST(DomainConfig, WithKeysTheMembersFilesAreUsed) {
+  DdsOptions options;
+  options.keys = security::MemberKeys{.folder = "/keys/robot1"};
+  const std::string config = DomainConfig(options, "").value();
+  for (const char* file : {"authority.pem", "revoked.pem", "identity.pem", "identity.key",
+                           "governance.p7s", "permissions.p7s"}) {
+    EXPECT_THAT(config, HasSubstr(std::string("file:/keys/robot1/") + file));
+  }
+  options.keys->folder = "/keys/<robot1>";
+  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("folder"));
+}
+
 TEST(OpenDdsExchange, FailsWithAHintWhenTheInterfaceDoesNotExist) {
   DdsOptions options = test::LoopbackOptions(test::UniqueTag());
   options.network_interface = "nosuch0";
