@@ -20,6 +20,7 @@ struct Command {
 [[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddExportCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const cli::CommonOptions& common);
+[[nodiscard]] Command AddKeysCommand(CLI::App& parent);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);

@@ -55,6 +55,7 @@ cli::CommonOptions PrivateNetwork(const cli::CommonOptions& common) {
   network.dds_tag = fmt::format("demo-{:08x}{:08x}", random(), random());
   network.network_interface = "lo";
   network.name = "operator";
+  network.security.clear();
   return network;
 }
 
@@ -166,7 +167,7 @@ Result<int> RunDemo(const cli::CommonOptions& common, const DemoOptions& options
   const cli::CommonOptions network = PrivateNetwork(common);
   auto fleet = DemoFleet::Start(*programs, folder->path(), *robots, network);
   if (!fleet) return tl::unexpected(fleet.error());
-  const auto exchange = cli::OpenExchange(network, exchange::OperatorTopics());
+  const auto exchange = cli::OpenExchange(network, exchange::ObserverTopics());
   if (!exchange) return tl::unexpected(exchange.error());
   switch (Watch(*fleet, *robots, **exchange).Run(options.timeout_s)) {
     case Watched::kInterrupted:

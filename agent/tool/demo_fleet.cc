@@ -39,7 +39,9 @@ std::vector<std::string> NetworkWords(const cli::CommonOptions& network, const s
           "--log-level",
           network.log_level,
           "--network-interface",
-          network.network_interface};
+          network.network_interface,
+          "--security",
+          network.security};
 }
 
 std::vector<std::string> AgentWords(const std::string& program, const DemoRobot& robot,

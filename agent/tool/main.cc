@@ -13,6 +13,7 @@ constexpr const char* kExamples =
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
+    "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
     "  trailcast robot --sim indoor --ros2 /robot1   # a virtual robot for an agent\n"
     "Each subcommand has its own --help.";
@@ -35,6 +36,7 @@ int Run(int argc, char** argv) {
                                       trailcast::tool::AddExportCommand(app, common),
                                       trailcast::tool::AddImportCommand(app, common),
                                       trailcast::tool::AddWhereCommand(app, common),
+                                      trailcast::tool::AddKeysCommand(app),
                                       trailcast::tool::AddDoctorCommand(app, common),
                                       trailcast::tool::AddRobotCommand(app, common)};
   if (const auto ended = trailcast::cli::Parse(app, argc, argv)) return *ended;

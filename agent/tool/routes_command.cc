@@ -100,7 +100,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return cli::Complain(app, possible.error());
   }
-  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return cli::Complain(app, peer.error());
   const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(options.timeout_s));

@@ -9,13 +9,14 @@
 
 #include "agent/cli/open_exchange.h"
 #include "services/base/time.h"
+#include "services/security/member.h"
 
 namespace trailcast::tool {
 
 Result<OperatorPeer> JoinAsOperator(const cli::CommonOptions& common,
                                     const exchange::TopicUse& use) {
   cli::CommonOptions network = common;
-  network.name = fmt::format("{}-{}", common.name, getpid());
+  network.name = security::ProcessName(common.name, getpid());
   auto exchange = cli::OpenExchange(network, use);
   if (!exchange) return tl::unexpected(exchange.error());
   return OperatorPeer{AgentId(network.name), std::move(*exchange)};

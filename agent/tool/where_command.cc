@@ -38,7 +38,7 @@ Result<route::RouteQuery> QueryOf(const WhereOptions& options) {
 int Run(const CLI::App& app, const cli::CommonOptions& common, const WhereOptions& options) {
   const auto query = QueryOf(options);
   if (!query) return cli::Complain(app, query.error());
-  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return cli::Complain(app, peer.error());
   const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(options.timeout_s));
