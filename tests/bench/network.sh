@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures how routes are shared over networks staged on this machine, and the rivals beside it.
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
-#   tests/bench/network.sh followers|loss|wire|ingest|latency [RUNS]
+#   tests/bench/network.sh followers|loss|wire|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -10,6 +10,7 @@ bin=$(cd "$here/../../build/release/bin" && pwd)
 source "$here/network_lab.sh"
 
 fetch_timeout=120
+fleet=  # folder of the fleet's authority; empty: no security
 
 median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 
@@ -17,7 +18,8 @@ median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 start_server() {
   local log="$work/server.log"
   : >"$log"
-  on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug >"$log" 2>&1 &
+  on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug \
+    --security "${fleet:+$fleet/members/server}" >"$log" 2>&1 &
   server=$!
   until grep -q ready "$log"; do sleep 0.05; done
 }
@@ -25,7 +27,8 @@ start_server() {
 # fetch NUMBER: the robot's, into a store of its own.
 fetch() {
   on "$1" timeout "$fetch_timeout" "$bin/trailcast-agent" --name "robot$1" --network-interface eth0 \
-    --log-level debug --store "$work/robot$1.db" fetch --route hall >"$work/robot$1.log" 2>&1
+    --log-level debug --security "${fleet:+$fleet/members/robot$1}" \
+    --store "$work/robot$1.db" fetch --route hall >"$work/robot$1.log" 2>&1
 }
 
 # Seconds from the first request for a segment to the last segment.
@@ -255,6 +258,33 @@ latency() {
   done
 }
 
+# The same with keys and without: a fetch, a segment's way, how soon two programs meet.
+security() {
+  local rate with
+  lab_open
+  lab_host 1
+  lab_host 2
+  robots=(2)
+  make_route 500
+  "$bin/trailcast" keys init "$work/fleet" >/dev/null
+  "$bin/trailcast" keys add --authority "$work/fleet" --role server server >/dev/null
+  "$bin/trailcast" keys add --authority "$work/fleet" --role follower robot2 >/dev/null
+  for with in '' "$work/fleet"; do
+    fleet=$with
+    start_server 1 "$work/server.db"
+    for rate in 20mbit ''; do
+      [[ -z $rate ]] && on 1 tc qdisc del dev eth0 root || lab_rate 1 "$rate"
+      printf '%sfetch of 500, link %s: s, bytes %s\n' "${with:+secured, }" "${rate:-unlimited}" \
+        "$(medians fetch_all)"
+    done
+    kill "$server"
+    wait "$server" || true
+    for ((rate = 0; rate < runs; ++rate)); do
+      "$bin/network_bench" latency ${with:+--secured}
+    done
+  done
+}
+
 die() {
   printf 'network.sh: %s\n' "$*" >&2
   exit 1
@@ -262,8 +292,8 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | loss | wire | ingest | latency | memory) ;;
-    *) die 'say what to measure: followers, loss, wire, ingest, latency or memory' ;;
+    followers | loss | wire | ingest | latency | memory | security) ;;
+    *) die 'say what to measure: followers, loss, wire, ingest, latency, memory or security' ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
   lab_enter "$@"

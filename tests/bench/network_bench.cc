@@ -60,6 +60,8 @@ int Run(int argc, char** argv) {
   million->add_option("file", file)->required();
   CLI::App* latency = app.add_subcommand("latency", "One segment's way over the loopback");
   latency->add_option("--samples", samples);
+  bool secured = false;
+  latency->add_flag("--secured", secured, "With DDS Security");
   CLI::App* load = app.add_subcommand("ingest", "Many scouts teach at once");
   load->add_option("--tag", ingest.tag)->required();
   load->add_option("--scouts", ingest.scouts);
@@ -79,7 +81,7 @@ int Run(int argc, char** argv) {
   trailcast::Result<void> done;
   if (store->parsed()) done = bench::MakeStore(file, segments, features);
   if (million->parsed()) done = bench::MakeMillion(file);
-  if (latency->parsed()) done = bench::MeasureLatency(samples);
+  if (latency->parsed()) done = bench::MeasureLatency(samples, secured);
   if (load->parsed()) done = bench::MeasureIngest(ingest);
   if (commits->parsed()) done = bench::MeasureCommits(file, group);
   if (write->parsed()) done = bench::WriteTransientLocal(samples);

@@ -18,8 +18,9 @@ namespace trailcast::bench {
 // A store with a million routes without segments.
 [[nodiscard]] Result<void> MakeMillion(const std::filesystem::path& file);
 
-// From Publish on one exchange to Take on another, 4 KiB on the loopback interface.
-[[nodiscard]] Result<void> MeasureLatency(int samples);
+// From Publish on one exchange to Take on another, 4 KiB on the loopback interface; and how long
+// after both were opened the first sample came. `secured`: with keys of a fleet of its own.
+[[nodiscard]] Result<void> MeasureLatency(int samples, bool secured);
 
 struct IngestOptions {
   std::uint32_t scouts = 200;
