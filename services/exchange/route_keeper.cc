@@ -79,6 +79,11 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const SegmentPiece& piece : batch.pieces) {
     if (batch.lent && !IsKnown(piece, now)) {
       ++counters_.unproven;
+      AddNote(Note::Severity::kWarning, "unproven/" + batch.sender.value(),
+              fmt::format("{} lends segment {} of {}, and what that must be is not known here: not "
+                          "taken",
+                          batch.sender.value(), piece.index.value(), Describe(piece.key)),
+              now);
     } else if (piece.bytes.empty()) {
       TakeFromOthers(piece, now);
     } else if (const auto intact = integrity_.check_piece(piece); intact) {

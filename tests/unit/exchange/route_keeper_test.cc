@@ -413,8 +413,10 @@ TEST_F(RouteKeeperTest, OfWhatIsLentOnlyWhatWasHereBeforeIsTaken) {
                     now_);
     Tick();
   };
+  (void)keeper_->TakeNotes();
   lend(pieces_[2]);  // nobody who knows said what it must be
   EXPECT_EQ(keeper_->counters().unproven, 1U);
+  EXPECT_THAT(keeper_->TakeNotes().at(0).text, testing::HasSubstr("follower lends segment 2"));
   EXPECT_FALSE(store_.ReadSegment(key_, SegmentIndex(2)));
   lend(pieces_[1]);
   EXPECT_EQ(keeper_->counters().unproven, 1U);
