@@ -1,20 +1,13 @@
 #include "services/dds/dds_exchange.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <thread>
 #include <utility>
 
-#include "services/dds/cyclone_log.h"
-#include "services/dds/domain_config.h"
-#include "services/dds/entities.h"
-#include "services/dds/peers.h"
-#include "services/dds/qos_table.h"
+#include "services/dds/joined.h"
 #include "services/dds/stranger_watch.h"
 #include "services/dds/wire.h"
 #include "services/exchange/batches.h"
@@ -31,27 +24,15 @@ using Clock = std::chrono::steady_clock;
 // One Take returns at most so many samples of a topic, so that a flood does not starve the others.
 constexpr std::size_t kMaxSamplesPerTake = 1024;
 
-// Nothing is joined while keys cannot be used; then this is how often it is tried again, and
-// otherwise how often the keys' folder is looked at.
+// How often the keys' folder is looked at, and who is there.
 constexpr auto kLookEvery = std::chrono::seconds(1);
-
-// What is open on the network, made anew when the keys change; deleted from the end.
-struct Joined {
-  Domain domain;
-  std::unique_ptr<CycloneLog> log;  // with keys
-  Participant participant;
-  std::optional<Peers> peers;  // with keys
-  WaitSet wait_set;
-  std::map<exchange::Topic, dds::Topic> topics{};
-  std::map<exchange::Topic, Writer> writers{};
-  std::map<exchange::Topic, Reader> readers{};
-  std::map<dds_instance_handle_t, security::Member> senders{};  // with keys: who writes what
-};
 
 class DdsExchange : public exchange::RouteExchange {
  public:
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
-      : options_(options), use_(std::move(use)) {}
+      : options_(options), use_(std::move(use)) {
+    if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
+  }
   ~DdsExchange() override { SayGoodBye(); }
   DdsExchange(const DdsExchange&) = delete;
   DdsExchange& operator=(const DdsExchange&) = delete;
@@ -63,9 +44,6 @@ class DdsExchange : public exchange::RouteExchange {
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
 
  private:
-  Result<Joined> OpenDomain() const;
-  Result<void> OpenTopics(Joined& joined) const;
-  Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) const;
   Result<void> Write(exchange::Topic topic, const Message& message);
   void TakeFrom(exchange::Topic topic, std::vector<Message>& messages);
   void SayGoodBye();
@@ -73,6 +51,7 @@ class DdsExchange : public exchange::RouteExchange {
   // With keys.
   void KeepWatch();
   void TakeUpNewKeys();
+  void TellOnce(const std::string& line);
   void LookForStrangers(Clock::time_point now);
   const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
   [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
@@ -85,81 +64,16 @@ class DdsExchange : public exchange::RouteExchange {
   std::uint64_t dropped_ = 0;
 
   std::string keys_version_;
+  std::string told_;  // last of the keys
   Clock::time_point look_at_{};
   StrangerWatch strangers_;
 };
 
-Result<Joined> DdsExchange::OpenDomain() const {
-  // Read before any thread of ours exists; nobody writes to the environment.
-  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-  const auto config = DomainConfig(options_, uri == nullptr ? "" : uri);
-  if (!config) return tl::unexpected(config.error());
-  auto domain = Domain::Create(*config);
-  if (!domain) return tl::unexpected(domain.error());
-  std::unique_ptr<CycloneLog> log;
-  if (options_.keys) log = std::make_unique<CycloneLog>(domain->id());
-  auto participant = Participant::Create(*domain, options_.keys ? "" : options_.self.value());
-  if (!participant) {
-    Error error = participant.error();
-    if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
-    return tl::unexpected(error);
-  }
-  std::optional<Peers> peers;
-  if (options_.keys) {
-    auto created = Peers::Create(*participant);
-    if (!created) return tl::unexpected(created.error());
-    peers = *std::move(created);
-  }
-  auto wait_set = WaitSet::Create(*participant);
-  if (!wait_set) return tl::unexpected(wait_set.error());
-  return Joined{.domain = *std::move(domain),
-                .log = std::move(log),
-                .participant = *std::move(participant),
-                .peers = std::move(peers),
-                .wait_set = *std::move(wait_set)};
-}
-
 Result<void> DdsExchange::Join() {
   joined_.reset();
-  if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
-  auto joined = OpenDomain();
+  auto joined = Joined::Open(options_, use_);
   if (!joined) return tl::unexpected(joined.error());
-  if (auto opened = OpenTopics(*joined); !opened) return opened;
   joined_ = *std::move(joined);
-  return {};
-}
-
-Result<dds::Topic*> DdsExchange::Find(Joined& joined, exchange::Topic topic) const {
-  if (const auto found = joined.topics.find(topic); found != joined.topics.end()) {
-    return &found->second;
-  }
-  auto made = dds::Topic::Create(joined.participant, TypeOf(topic), exchange::NameOf(topic));
-  if (!made) return tl::unexpected(made.error());
-  return &joined.topics.emplace(topic, *std::move(made)).first->second;
-}
-
-Result<void> DdsExchange::OpenTopics(Joined& joined) const {
-  const std::string own = options_.keys ? security::PartitionOf(options_.keys->member) : "";
-  for (const exchange::Topic topic : use_.write) {
-    const auto found = Find(joined, topic);
-    if (!found) return tl::unexpected(found.error());
-    auto writer = Writer::Create(joined.participant, **found,
-                                 MakeQos(QosOf(topic), options_.write_timeout, own));
-    if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
-    joined.writers.emplace(topic, *std::move(writer));
-  }
-  const std::string everybody = options_.keys ? "*" : "";
-  for (const exchange::Topic topic : use_.read) {
-    const auto found = Find(joined, topic);
-    if (!found) return tl::unexpected(found.error());
-    auto reader = Reader::Create(joined.participant, **found,
-                                 MakeQos(QosOf(topic), options_.write_timeout, everybody));
-    if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
-    if (auto ok = joined.wait_set.Attach(*reader); !ok) {
-      return Wrap(ok.error(), exchange::NameOf(topic));
-    }
-    joined.readers.emplace(topic, *std::move(reader));
-  }
   return {};
 }
 
@@ -270,18 +184,33 @@ void DdsExchange::KeepWatch() {
 }
 
 void DdsExchange::TakeUpNewKeys() {
+  const auto now = std::chrono::system_clock::now();
   const std::string version = security::KeysVersion(options_.keys->folder);
-  if (version == keys_version_) return;
-  auto keys = security::LoadMemberKeys(options_.keys->folder, std::chrono::system_clock::now());
-  // While a folder is being copied its files do not belong together: the old keys go on.
-  if (!keys || keys->name != options_.keys->name) return;
-  options_.keys = *std::move(keys);
-  SayGoodBye();
-  const auto joined = Join();
-  if (!options_.tell_of_stranger) return;
-  options_.tell_of_stranger(joined
-                                ? "the keys' files changed: joined anew with them"
-                                : "cannot join with the changed keys: " + joined.error().message);
+  if (version != keys_version_) {
+    auto keys = security::LoadMemberKeys(options_.keys->folder, now);
+    // While a folder is being copied its files do not belong together: the old keys go on.
+    if (keys && keys->name == options_.keys->name) {
+      options_.keys = *std::move(keys);
+      keys_version_ = version;
+      told_.clear();
+      SayGoodBye();
+      joined_.reset();
+    }
+  }
+  if (joined_ && now < options_.keys->expires) return;
+  if (joined_) {
+    TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
+             ": nobody believes this program any more until they are renewed");
+  } else if (const auto joined = Join()) {
+    TellOnce("the keys' files changed: joined anew with them");
+  } else {
+    TellOnce("cannot join with the changed keys: " + joined.error().message);
+  }
+}
+
+void DdsExchange::TellOnce(const std::string& line) {
+  if (line != told_ && options_.tell_of_stranger) options_.tell_of_stranger(line);
+  told_ = line;
 }
 
 void DdsExchange::LookForStrangers(Clock::time_point now) {
