@@ -4,7 +4,9 @@
 #include "services/security/files.h"
 #include "services/security/member_keys.h"
 #include "services/security/signing.h"
+#include "services/store/sqlite_store.h"
 #include "tests/scenario/secured_fleet.h"
+#include "tests/support/pieces.h"
 
 namespace trailcast::test {
 namespace {
@@ -28,6 +30,7 @@ class StrangersTest : public SecuredFleetTest {
     options.network_interface = "lo";
     options.self = AgentId("stranger");
     options.close_timeout = std::chrono::milliseconds(0);
+    options.tell_of_stranger = [this](const std::string& line) { told_ += line + "\n"; };
     if (!keys.empty()) options.keys = Lenient(keys);
     return dds::OpenDdsExchange(options, use);
   }
@@ -36,9 +39,10 @@ class StrangersTest : public SecuredFleetTest {
     security::MemberKeys keys;
     keys.folder = folder;
     keys.name_key = security::ReadSmallFile(authority_.folder() / "name.key").value();
-    const auto certificate = security::ReadSmallFile(keys.folder / "identity.pem").value();
-    keys.member =
-        security::ParseCommonName(security::ReadCertificate(certificate)->common_name).value();
+    const auto facts =
+        security::ReadCertificate(security::ReadSmallFile(keys.folder / "identity.pem").value());
+    keys.member = security::ParseCommonName(facts->common_name).value();
+    keys.expires = facts->validity.until;
     return keys;
   }
   // Messages that reach somebody who asks for so long, whether or not they can be understood; that
@@ -65,11 +69,27 @@ class StrangersTest : public SecuredFleetTest {
     EXPECT_EQ(CountOf(server.output(), "kept out"), 1U) << server.output();
     EXPECT_THAT(server.output(), HasSubstr(why));
   }
+  // What robot1 taught.
+  route::RouteInfo Taught() {
+    const auto store = store::OpenSqliteStore(Path("scout.db"));
+    return (*store)->QueryRoutes({})->routes.at(0);
+  }
+  // Says it again and again: the first ones come before both ends have met.
+  static void PublishUntil(exchange::RouteExchange& stranger, const exchange::Message& message,
+                           Process& server, const std::string& told) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (server.output().find(told) == std::string::npos) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << server.output();
+      (void)stranger.Publish(message);
+      (void)stranger.Take(std::chrono::milliseconds(200));
+    }
+  }
   void ExpectFleetAtWork() {
     const Ended fetched = RunAs(follower_keys_, "trailcast-agent", FetchWords("after.db"));
     EXPECT_EQ(fetched.status, 0) << fetched.output;
   }
 
+  std::string told_;                                // to the stranger, by its own exchange
   static constexpr std::chrono::seconds kStay{13};  // the watch takes ten to be sure
 };
 
@@ -138,6 +158,7 @@ TEST_F(StrangersTest, KeysThatExpireMeanwhileAreGoodForNothingMore) {
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
   EXPECT_EQ(HeardBy(**stranger, std::chrono::seconds(3), "brief"), 0U);
+  EXPECT_THAT(told_, HasSubstr("the keys expired on"));
   ExpectFleetAtWork();
 }
 
@@ -195,6 +216,31 @@ TEST_F(StrangersTest, AMemberThatSpeaksForAnotherIsNotBelieved) {
   ASSERT_TRUE(stranger) << stranger.error().message;
   EXPECT_GT(HeardBy(**stranger, std::chrono::seconds(5)), 0U);  // announcements, as it may
   ExpectKeptOutOnce(*server, "speaks in the name of 'stranger'");
+  ExpectFleetAtWork();
+}
+
+TEST_F(StrangersTest, AScoutThatDeletesARouteIsNotBelieved) {
+  const auto server = SecuredServer();
+  ASSERT_EQ(Teach(scout_keys_).status, 0);
+  const auto stranger = Join(scout_keys_, exchange::ScoutTopics());
+  ASSERT_TRUE(stranger) << stranger.error().message;
+  exchange::RouteAnnouncement deleted{.holder = AgentId("robot1"), .info = Taught()};
+  deleted.info.standing = route::Standing::kDeleted;
+  deleted.info.edition = 99;
+  PublishUntil(**stranger, deleted, *server, "kept out");
+  ExpectKeptOutOnce(*server, "announces labels");
+  ExpectFleetAtWork();
+}
+
+TEST_F(StrangersTest, AFollowerThatMakesUpSegmentsIsNotBelieved) {
+  const auto server = SecuredServer();
+  ASSERT_EQ(Teach(scout_keys_).status, 0);
+  const auto stranger = Join(follower_keys_, exchange::FollowerTopics());
+  ASSERT_TRUE(stranger) << stranger.error().message;
+  const exchange::SegmentBatch made_up{.sender = AgentId("robot2"),
+                                       .pieces = {PieceOf(Taught().key, 100)}};
+  PublishUntil(**stranger, made_up, *server, "robot2 lends segment 100");
+  EXPECT_THAT(server->output(), HasSubstr("not taken"));
   ExpectFleetAtWork();
 }
 
