@@ -1,3 +1,4 @@
+#include "agent/cli/heartbeat.h"
 #include "agent/cli/stop_signal.h"
 #include "agent/commands.h"
 
@@ -49,9 +50,12 @@ int Run(int argc, char** argv) {
   agent::AddReplayOptions(*replay_app, replay);
   agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
-  for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app})
+  CLI::App* health_app = cli::AddHealthCommand(app);
+  for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app, health_app}) {
     ShareHelp(app, *command);
+  }
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  if (health_app->parsed()) return cli::RunHealth(app, options.common);
   if (options.common.name.empty()) {
     options.common.name = replay_app->parsed() || fetch_app->parsed() ? "follower" : "scout";
   }

@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include "agent/cli/command_line.h"
+#include "agent/cli/heartbeat.h"
 #include "agent/cli/open_exchange.h"
 #include "agent/cli/stop_signal.h"
 #include "route_server/check.h"
@@ -20,6 +21,7 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-server --config server.toml
   trailcast-server check --store routes.db            # while no server has it open
   trailcast-server check --repair --store routes.db
+  trailcast-server health --heartbeat beat            # of one that runs with that option
   trailcast-server --name server-2 --store postgresql://trailcast@db.site/trailcast
 
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
@@ -133,7 +135,9 @@ int Run(int argc, char** argv) {
   check->fallthrough();
   check->add_flag("--repair", repair,
                   "Make a store of what is whole, and keep the damaged file beside it");
+  const CLI::App* health = cli::AddHealthCommand(app);
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  if (health->parsed()) return cli::RunHealth(app, common);
   if (check->parsed()) return CheckStore(app, store.location, repair);
   return Serve(app, common, store, http);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "agent/cli/heartbeat.h"
 #include "services/dds/dds_exchange.h"
 #include "services/security/member_keys.h"
 
@@ -58,7 +59,8 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   }
   auto opened = dds::OpenDdsExchange(dds, use);
   if (!opened) return Wrap(opened.error(), "joining the network");
-  return opened;
+  if (options.heartbeat.empty()) return opened;
+  return WithHeartbeat(*std::move(opened), options.heartbeat);
 }
 
 }  // namespace trailcast::cli
