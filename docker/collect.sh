@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Gathers what each image of the Dockerfile holds: the programs, stripped, the shared libraries they
+# load, and of the Debian packages that these are from, the licence and, for scanners of
+# vulnerabilities, name and version (/var/lib/dpkg/status.d).
+#   docker/collect.sh FOLDER_OF_PROGRAMS DESTINATION [server|agent|robot|tools...]
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+programs=$1 destination=$2
+
+# Paths as the loader finds them; the C library itself is every Debian's.
+libraries_of() {
+  ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | sort -u |
+    grep -vxF "$(dpkg -L libc6 | grep '\.so')"
+}
+
+# packages_of FILE...: those they are from. /lib is /usr/lib, and dpkg may know either.
+packages_of() {
+  local files
+  mapfile -t files < <(readlink -f "$@" | sed 's|^/usr||')
+  { dpkg-query -S "${files[@]}" "${files[@]/#//usr}" 2>/dev/null || true; } |
+    sed 's|: /.*||' | sort -u
+}
+
+# collect IMAGE FILE...: programs, libraries of ours, scripts.
+collect() {
+  local image=$destination/$1 file package name libraries
+  shift
+  install -d "$image/usr/local/bin" "$image/usr/local/lib" "$image/var/lib/dpkg/status.d"
+  local binaries=()
+  for file in "$@"; do
+    install "$file" "$image/usr/local/bin"
+    [[ $file == *.sh ]] && continue
+    strip "$image/usr/local/bin/${file##*/}"
+    binaries+=("$file")
+  done
+  # Cyclone loads its security plugins by name, when a fleet uses them.
+  local plugins=(/usr/lib/*/libddsc0debian/libdds_security_*.so)
+  mapfile -t libraries < <(libraries_of "${binaries[@]}" "${plugins[@]}")
+  libraries+=("${plugins[@]}")
+  cp --dereference "${libraries[@]}" "$image/usr/local/lib"
+  for package in $(packages_of "${libraries[@]}"); do
+    name=${package%%:*}
+    dpkg-query -s "$package" >"$image/var/lib/dpkg/status.d/$name"
+    install -D -m 644 -t "$image/usr/share/doc/$name" "/usr/share/doc/$name/copyright"
+  done
+}
+
+images=("${@:3}")
+((${#images[@]})) || images=(server agent robot tools)
+for image in "${images[@]}"; do
+  case $image in
+    server | agent) collect "$image" "$programs/trailcast-$image" ;;
+    robot) collect robot "$programs"/trailcast{,-agent} "$here/robot.sh" ;;
+    tools) collect tools "$programs"/{trailcast{,-agent,-server},libtrailcast_codecs.so} ;;
+    *)
+      printf "collect.sh: there is no image '%s': server, agent, robot or tools\n" "$image" >&2
+      exit 2
+      ;;
+  esac
+done
