@@ -22,6 +22,11 @@ constexpr const char* kDefaults =
     "<MaxSampleSize>2MB</MaxSampleSize>"
     "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>4MB</WhcHigh></Watermarks>"
     "</Internal></Domain></CycloneDDS>";
+// On an interface that was chosen; on others Cyclone decides for itself. The environment may forbid
+// it.
+constexpr const char* kMulticast =
+    "<CycloneDDS><Domain><General><AllowMulticast>true</AllowMulticast></General></Domain>"
+    "</CycloneDDS>";
 // The loopback interface has frames of 64 kB and loses nothing: there larger packets take a quarter
 // of the time.
 constexpr const char* kFrameSized =
@@ -91,12 +96,13 @@ Result<std::string> DomainConfig(const DdsOptions& options, const std::string& c
     }
     // Forced: the loopback interface does multicast although it does not say so.
     general = fmt::format(
-        "<General><AllowMulticast>true</AllowMulticast><Interfaces>"
+        "<General><Interfaces>"
         "<NetworkInterface name=\"{}\" multicast=\"true\"/></Interfaces></General>",
         options.network_interface);
   }
   std::string config = kDefaults;
   if (options.network_interface != "lo") config += std::string(",") + kFrameSized;
+  if (!options.network_interface.empty()) config += std::string(",") + kMulticast;
   if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
   config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
                         general, discovery);

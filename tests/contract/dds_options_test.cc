@@ -33,6 +33,14 @@ TEST(DomainConfig, PacketsFitAFrameOfTheNetwork) {
   EXPECT_THAT(DomainConfig(options, "").value(), testing::Not(HasSubstr("MaxMessageSize")));
 }
 
+TEST(DomainConfig, LetsTheEnvironmentForbidMulticastOnTheChosenInterface) {
+  DdsOptions options;
+  options.network_interface = "eth0";
+  const std::string config = DomainConfig(options, "<environment/>").value();
+  EXPECT_LT(config.find("<AllowMulticast>true<"), config.find("<environment/>"));
+  EXPECT_EQ(config.find("AllowMulticast", config.find("<environment/>")), std::string::npos);
+}
+
 TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
   DdsOptions options;
   options.domain_id = 231;

@@ -81,6 +81,13 @@ class NetworkLab {
   void Cut(int number) { Run({"ip", "link", "set", Port(number), "nomaster"}); }
   void Join(int number) { Run({"ip", "link", "set", Port(number), "master", "air"}); }
 
+  // From now on the air carries no multicast between the hosts there are.
+  void ForbidMulticast() {
+    for (const auto& [number, pid] : hosts_) {
+      Run({"ip", "link", "set", Port(number), "type", "bridge_slave", "mcast_flood", "off"});
+    }
+  }
+
   // How fast the host sends: "20mbit".
   void Limit(int number, const std::string& rate) {
     Run(At(number, {"tc", "qdisc", "replace", "dev", "eth0", "root", "tbf", "rate", rate, "burst",
