@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "agent/cli/stop_signal.h"
+
 namespace trailcast::agent {
 namespace {
 
@@ -67,6 +69,7 @@ Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
   run.sensor_timeout = Milliseconds(options.sensor_timeout_s);
   run.patience = Milliseconds(options.sensor_patience_s);
   run.still_at_end = Milliseconds(options.still_at_end_s);
+  run.stop = [] { return cli::StopSignal::requested(); };
   auto device = Ros2Device::Open(run);
   if (!device) return tl::unexpected(device.error());
   spdlog::info("robot {}: pictures from {}, {}, commands to {}, ROS domain {}", run.topics.robot,

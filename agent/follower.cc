@@ -130,6 +130,7 @@ Result<void> Loop::Run() {
     if (last_ && last_->state == ReplayState::kYielding) link_.WaitForNews(kStandingFrame);
     auto observation = device_.Next();
     if (!observation) return tl::unexpected(observation.error());
+    if (!*observation && options_.link.stop()) continue;
     if (!*observation) {
       End(last_ ? ToString(last_->state) : "WAITING",
           last_ && !last_->reason.empty() ? last_->reason : "the recording ends");

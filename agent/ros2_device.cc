@@ -303,6 +303,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
   s.waiting_since = steady_clock::now();
   while (!s.ready(steady_clock::now())) {
     s.ShareTrouble();
+    if (s.run.stop()) return std::nullopt;
     if (auto error = s.GiveUp(steady_clock::now())) return tl::unexpected(*error);
     s.news.wait_for(guard, kListen);
   }

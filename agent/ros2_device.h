@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct Ros2Run {
   // The drive is over when the robot, after having moved, has stood for so long; 0: it never is.
   // By odometry and its stamps.
   std::chrono::milliseconds still_at_end{0};
+  // Asked while waiting for the robot: the drive is over.
+  std::function<bool()> stop = [] { return false; };
 };
 
 // A ROS 2 robot over DDS, without ROS. A thread of its own hears the robot, and tells it to stand

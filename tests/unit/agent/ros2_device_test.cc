@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <future>
 #include <thread>
 
@@ -151,6 +152,21 @@ TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
   EXPECT_THAT(seen.error().message,
               AllOf(HasSubstr("camera /robot1/image_raw: no picture for 0.3 s"),
                     HasSubstr("not within 2 s")));
+}
+
+TEST_F(Ros2DeviceTest, WaitsForASilentRobotOnlyUntilItIsToldToEnd) {
+  std::atomic<bool> stop = false;
+  run_.patience = std::chrono::seconds(60);
+  run_.stop = [&] { return stop.load(); };
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_EQ(next.wait_for(milliseconds(100)), std::future_status::timeout);
+  stop = true;
+  ASSERT_EQ(next.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  const auto end = next.get();
+  ASSERT_TRUE(end) << end.error().message;
+  EXPECT_FALSE(*end);
 }
 
 TEST_F(Ros2DeviceTest, SaysWhoIsMissingWhenThereIsNoRobot) {
