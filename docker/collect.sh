@@ -21,10 +21,11 @@ packages_of() {
     sed 's|: /.*||' | sort -u
 }
 
-# collect IMAGE FILE...: programs, libraries of ours, scripts.
+# collect IMAGE BELOW FILE...: programs, libraries of ours, scripts; without the libraries of the
+# image BELOW, if it is made from one of these.
 collect() {
-  local image=$destination/$1 file package name libraries
-  shift
+  local image=$destination/$1 below=$destination/${2:-none} file package name found libraries=()
+  shift 2
   install -d "$image/usr/local/bin" "$image/usr/local/lib" "$image/var/lib/dpkg/status.d"
   local binaries=()
   for file in "$@"; do
@@ -35,8 +36,11 @@ collect() {
   done
   # Cyclone loads its security plugins by name, when a fleet uses them.
   local plugins=(/usr/lib/*/libddsc0debian/libdds_security_*.so)
-  mapfile -t libraries < <(libraries_of "${binaries[@]}" "${plugins[@]}")
-  libraries+=("${plugins[@]}")
+  mapfile -t found < <(libraries_of "${binaries[@]}" "${plugins[@]}")
+  for file in "${found[@]}" "${plugins[@]}"; do
+    [[ -e $below/usr/local/lib/${file##*/} ]] || libraries+=("$file")
+  done
+  ((${#libraries[@]})) || return 0
   cp --dereference "${libraries[@]}" "$image/usr/local/lib"
   for package in $(packages_of "${libraries[@]}"); do
     name=${package%%:*}
@@ -49,9 +53,9 @@ images=("${@:3}")
 ((${#images[@]})) || images=(server agent robot tools)
 for image in "${images[@]}"; do
   case $image in
-    server | agent) collect "$image" "$programs/trailcast-$image" ;;
-    robot) collect robot "$programs"/trailcast{,-agent} "$here/robot.sh" ;;
-    tools) collect tools "$programs"/{trailcast{,-agent,-server},libtrailcast_codecs.so} ;;
+    server | agent) collect "$image" '' "$programs/trailcast-$image" ;;
+    robot) collect robot agent "$programs/trailcast" "$here/robot.sh" ;;
+    tools) collect tools '' "$programs"/{trailcast{,-agent,-server},libtrailcast_codecs.so} ;;
     *)
       printf "collect.sh: there is no image '%s': server, agent, robot or tools\n" "$image" >&2
       exit 2

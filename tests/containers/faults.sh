@@ -1,0 +1,33 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh and the scenarios
+# What may happen to the network of a container, staged from outside.
+
+in_network_of() {
+  local name=$1
+  shift
+  nsenter --target "$(pid_of "$name")" --net -- "$@"
+}
+
+# Of the frames that NAME receives from others, a SHARE (0.05) is lost, IP fragments one by one.
+lose() {
+  in_network_of "$1" iptables -t raw -A PREROUTING -i eth0 -p udp \
+    -m statistic --mode random --probability "$2" -j DROP
+}
+
+# How fast NAME sends, as '10mbit'.
+limit() { in_network_of "$1" tc qdisc replace dev eth0 root tbf rate "$2" burst 32kb latency 200ms; }
+
+# The bridge's port that NAME's interface is plugged into.
+port_of() {
+  local index
+  index=$(in_network_of "$1" cat /sys/class/net/eth0/iflink)
+  ip -o link | sed -n "s/^$index: \([^@:]*\).*/\1/p"
+}
+# Out of range: its frames are lost both ways, and its interface does not notice.
+cut_off() { ip link set "$(port_of "$1")" nomaster; }
+bring_back() { ip link set "$(port_of "$1")" master "$(podman network inspect fleet | sed -n 's/.*"network_interface": "\(.*\)".*/\1/p')"; }
+
+# ONE and OTHER hear nothing of each other any more.
+part() {
+  in_network_of "$1" iptables -A INPUT -s "$(address_of "$2")" -j DROP
+  in_network_of "$2" iptables -A INPUT -s "$(address_of "$1")" -j DROP
+}

@@ -1,0 +1,26 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
+# A scout teaches, five followers with other cameras follow while it does, and all arrive. The
+# catalog is asked from every robot's container.
+scenario_follow() {
+  local cameras=(firewire wide hd webcam fisheye) followers=() robot i
+  start_server
+  start_scout
+  for i in "${!cameras[@]}"; do
+    followers+=("follower-$((i + 1))")
+    start_follower "${followers[i]}" "${cameras[i]}"
+  done
+  await 60 'the route in the catalog' says server "'hall'"
+  for robot in scout "${followers[@]}"; do
+    await 30 "an answer from the catalog in $robot" catalog_lists_route "$robot"
+    podman healthcheck run "$robot" >/dev/null || fail "$robot is not well"
+  done
+  podman healthcheck run server >/dev/null || fail 'the server is not well'
+  note "the catalog answered in all of scout, ${followers[*]}"
+  expect_taught
+  expect_arrived "${followers[@]}"
+  note_convergence "${followers[@]}"
+  note "the server's network: $(traffic_of server)"
+  expect_sound_store
+}
+
+catalog_lists_route() { podman exec "$1" trailcast routes --name hall --timeout 3 >/dev/null 2>&1; }

@@ -1,0 +1,55 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
+# The server is killed twice while a scout teaches and followers follow, and a follower once: the
+# server comes back with all that it receipted, the follower goes on or says why it cannot.
+scenario_killed() {
+  start_server
+  start_scout
+  start_follower follower-1 wide
+  start_follower follower-2 firewire
+  await 120 'the second segment' says scout "segment 1 of 'hall'"
+  kill_server
+  await 120 'a follower on its way' is_beyond follower-1 15
+  kill_server
+  await 120 'a follower in the middle' is_beyond follower-2 40
+  kill_agent follower-2
+  expect_taught
+  expect_arrived follower-1
+  await_end 240 follower-2
+  expect_went_on_or_said_why follower-2
+  expect_sound_store
+}
+
+kill_server() {
+  local before
+  before=$(grep -c ' ready' "${log_of[server]}")
+  podman kill --signal KILL server >/dev/null
+  await 10 'the death of the server' ended server
+  podman start server >/dev/null
+  await 30 'the server to come back' has_said server ' ready' $((before + 1))
+  note 'server killed, and back'
+}
+has_said() { (($(grep -c -- "$2" "${log_of[$1]}") >= $3)); }
+
+# The agent in the container NAME; its robot, and the container, live on.
+kill_agent() {
+  signal_to KILL "$1" trailcast-agent
+  await 30 "$1 to start again" says "$1" 'the agent was killed'
+  note "$1's agent killed, and started again"
+}
+
+expect_went_on_or_said_why() {
+  local status reason
+  status=$(status_of "$1")
+  reason=$(value_of "$1" reason)
+  case $status in
+    0)
+      expect_arrived "$1"
+      note "$1 went on from where it stood"
+      ;;
+    3)
+      [[ -n $reason ]] || fail "$1 did not arrive and does not say why"
+      note "$1 did not go on: $reason"
+      ;;
+    *) fail "$1 ended with status $status" ;;
+  esac
+}

@@ -1,0 +1,25 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
+# Two followers on one route keep their distance: when the first stops, the second stops behind it,
+# and both go on after.
+scenario_queue() {
+  local apart
+  start_server_with_route
+  start_robot follower-1 webcam replay
+  await 120 'the first follower on its way' is_beyond follower-1 50
+  signal_to STOP follower-1 trailcast
+  start_robot follower-2 wide replay
+  await 120 'the second to wait' says follower-2 'waits for follower-1'
+  apart=$(metres_between follower-2 follower-1)
+  note "follower-2 waits $apart m behind follower-1"
+  awk -v apart="$apart" 'BEGIN { exit !(apart > 1.0 && apart < 2.0) }' ||
+    fail "the followers are $apart m apart, expected about 1.5 m"
+  ended follower-2 && fail 'follower-2 did not wait'
+  signal_to CONT follower-1 trailcast
+  expect_arrived follower-1 follower-2
+  expect_sound_store
+}
+
+metres_between() {
+  awk -v behind="$(progress_of "$1")" -v ahead="$(progress_of "$2")" -v route="$taught_m" \
+    'BEGIN { printf "%.1f", (ahead - behind) / 100 * route }'
+}
