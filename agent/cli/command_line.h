@@ -21,7 +21,7 @@ struct CommonOptions {
   int domain = 0;    // DDS domain
   std::string dds_tag;
   std::string network_interface;
-  std::string security;  // folder with this member's keys; empty: DDS without security
+  std::string security;   // folder with this member's keys; empty: DDS without security
   std::string heartbeat;  // file; empty: none
   std::string log_level = "info";
   std::string log_format = "text";
