@@ -94,6 +94,14 @@ class NetworkLab {
                     "32kb", "latency", "200ms"}));
   }
 
+  // Of the packets that the host receives, so large a share is lost; needs iptables.
+  void Lose(int number, double share) {
+    Run(At(number, {"iptables", "-t", "raw", "-F", "PREROUTING"}));
+    if (share <= 0.0) return;
+    Run(At(number, {"iptables", "-t", "raw", "-A", "PREROUTING", "-p", "udp", "-m", "statistic",
+                    "--mode", "random", "--probability", std::to_string(share), "-j", "DROP"}));
+  }
+
   // Bytes that the host has sent.
   [[nodiscard]] std::uint64_t Sent(int number) const {
     std::ifstream file("/proc/" + std::to_string(hosts_.at(number)) + "/net/dev");

@@ -1,0 +1,56 @@
+// Teach, follow, retire for hours while things go wrong: ./run soak [MINUTES].
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "agent/cli/command_line.h"
+#include "agent/cli/stop_signal.h"
+#include "tests/soak/soak.h"
+#include "tests/support/network_lab.h"
+#include "tests/support/temp_dir.h"
+
+namespace {
+
+namespace cli = trailcast::cli;
+namespace soak = trailcast::soak;
+
+constexpr const char* kFooter =
+    R"(A scout teaches a route, two followers follow it meanwhile, an operator retires and deletes the
+routes before, again and again, each program at a host of its own of a network staged on this
+machine. Programs are killed and paused, hosts cut off, packets lost, the server's disk is filled, in
+an order drawn by the seed. At the end: is everything that was receipted there, byte for byte; did the
+server grow; how long did the fleet need to find itself again.
+
+Needs root, for the network, and iptables. Exit status: 0 all is well, 1 something failed.)";
+
+int Run(int argc, char** argv) {
+  CLI::App app("Runs a small fleet for hours while things go wrong", "soak");
+  app.footer(kFooter);
+  app.option_defaults()->always_capture_default();
+  soak::SoakOptions options;
+  int minutes = 120;
+  std::string folder;
+  app.add_option("MINUTES", minutes, "How long")->check(CLI::Range(1, 100'000));
+  app.add_option("--seed", options.seed, "Draws the faults, and the robots' errors");
+  app.add_option("--folder", folder, "Keeps logs and stores here; default: a temporary one");
+  app.add_option("--csv", options.csv, "Writes the server's memory, threads and descriptors here");
+  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  if (const std::string obstacle = trailcast::test::NetworkLab::Obstacle(); !obstacle.empty()) {
+    return cli::Complain(app, {trailcast::ErrorCode::kUnavailable, obstacle});
+  }
+  options.length = std::chrono::minutes(minutes);
+  const trailcast::test::TempDir temporary;
+  options.folder = folder.empty() ? temporary.path() : std::filesystem::absolute(folder);
+  const cli::StopSignal stop;
+  soak::Soak run(options);
+  const soak::Report report = run.Run([] { return cli::StopSignal::requested(); });
+  fmt::print("{}", report.Text());
+  return report.failures.empty() ? cli::kExitOk : cli::kExitFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cli::RunMain("soak", [&] { return Run(argc, argv); });
+}

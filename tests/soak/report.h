@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/soak/cycle.h"
+#include "tests/soak/faults.h"
+#include "tests/soak/vitals.h"
+
+namespace trailcast::soak {
+
+// What was observed, added up.
+struct Report {
+  std::uint64_t seed = 0;
+  std::chrono::duration<double> took{};
+  int cycles = 0;
+  std::size_t segments = 0;
+  int arrived = 0;
+  std::vector<std::string> explained;
+  std::vector<Faults::Recovery> recoveries;
+  std::size_t receipted = 0;
+  std::size_t checked = 0;
+  int store_checks = 0;
+  std::vector<Vitals> server;  // at the ends of the cycles that one server process saw, warmed up
+  std::vector<std::string> failures;
+
+  void Add(const Cycle::Outcome& outcome);
+  [[nodiscard]] std::string Text() const;
+};
+
+}  // namespace trailcast::soak
