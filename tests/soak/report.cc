@@ -24,11 +24,11 @@ std::string FaultLines(const std::vector<Faults::Recovery>& recoveries) {
 std::string VitalsLine(const std::vector<Vitals>& samples) {
   const auto growth = GrowthOf(samples);
   if (!growth) {
-    return fmt::format("  server: {} cycles are too few to judge its memory\n", samples.size());
+    return fmt::format("  server: {} seconds are too few to judge its memory\n", samples.size());
   }
   constexpr double kKbPerMb = 1000.0;
   return fmt::format(
-      "  server, one process over {} cycles after warm-up: {:.1f} -> {:.1f} MB ({:+.1f} %), "
+      "  server, one process over {} seconds after its warm-up: {:.1f} -> {:.1f} MB ({:+.1f} %), "
       "threads {} -> {}, descriptors {} -> {}\n",
       samples.size(), static_cast<double>(growth->first.memory_kb) / kKbPerMb,
       static_cast<double>(growth->last.memory_kb) / kKbPerMb, 100.0 * growth->memory_share(),

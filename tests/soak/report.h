@@ -24,7 +24,7 @@ struct Report {
   std::size_t receipted = 0;
   std::size_t checked = 0;
   int store_checks = 0;
-  std::vector<Vitals> server;  // at the ends of the cycles that one server process saw, warmed up
+  std::vector<Vitals> server;  // each second of one server process, once it is warm
   std::vector<std::string> failures;
 
   void Add(const Cycle::Outcome& outcome);

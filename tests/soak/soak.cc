@@ -65,7 +65,6 @@ void Soak::RunCycle(int number) {
   }
   CalmDown();
   cycle_ = nullptr;
-  SampleServer();
   report_.Add(cycle.outcome());
   TellCycle(cycle.outcome());
   std::filesystem::remove_all(errand.folder);
@@ -80,6 +79,7 @@ void Soak::Hear(Clock::time_point now) {
     }
     if (cycle_ != nullptr) cycle_->Handle(message, now);
   }
+  if (now >= sample_at_) SampleServer(now);
 }
 
 // Until nothing is wrong any more, and everybody was heard since.
@@ -109,14 +109,16 @@ void Soak::CheckStore() {
   }
 }
 
-void Soak::SampleServer() {
+void Soak::SampleServer(Clock::time_point now) {
+  constexpr std::chrono::seconds kEvery{1};
+  sample_at_ = now + kEvery;
   if (!fleet_.server().running()) return;
   const auto vitals = VitalsOf(fleet_.server().pid());
   if (!vitals) return;
   if (faults_.spares_server()) sampled_.push_back(*vitals);
   if (options_.csv.empty()) return;
   std::ofstream(options_.csv, std::ios::app) << fmt::format(
-      "{:.0f},{},{},{},{}\n", std::chrono::duration<double>(Clock::now() - began_).count(),
+      "{:.0f},{},{},{},{}\n", std::chrono::duration<double>(now - began_).count(),
       vitals->memory_kb, vitals->threads, vitals->descriptors, faults_.spares_server() ? 1 : 0);
 }
 

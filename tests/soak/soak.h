@@ -22,7 +22,7 @@ struct SoakOptions {
   std::chrono::minutes length{120};
   std::uint64_t seed = 1;
   std::filesystem::path folder;  // logs and stores
-  std::filesystem::path csv;     // the server's vitals, a line a cycle; empty: not written
+  std::filesystem::path csv;     // the server's vitals, a line a second; empty: not written
 };
 
 // Teach, follow, retire, again and again, while things go wrong. In the first half of the time the
@@ -39,7 +39,7 @@ class Soak {
   void Hear(Clock::time_point now);
   void CalmDown();
   void CheckStore();
-  void SampleServer();
+  void SampleServer(Clock::time_point now);
   void TellCycle(const Cycle::Outcome& outcome);
   void End();
 
@@ -51,7 +51,8 @@ class Soak {
   Ledger ledger_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::vector<Retired> live_;
-  std::vector<Vitals> sampled_;  // of the server that is not killed any more
+  Clock::time_point sample_at_{};
+  std::vector<Vitals> sampled_;  // each second, of the server that is not killed any more
   Report report_;
   Clock::time_point began_ = Clock::now();
   Cycle* cycle_ = nullptr;  // the one that runs

@@ -24,17 +24,17 @@ int EntriesOf(const std::filesystem::path& folder) {
   return entries;
 }
 
-Vitals Summary(std::span<const Vitals> samples) {
-  std::vector<std::uint64_t> memory_kb;
-  Vitals summary;
-  for (const Vitals& sample : samples) {
-    memory_kb.push_back(sample.memory_kb);
-    summary.threads = std::max(summary.threads, sample.threads);
-    summary.descriptors = std::max(summary.descriptors, sample.descriptors);
-  }
-  std::sort(memory_kb.begin(), memory_kb.end());
-  summary.memory_kb = memory_kb[memory_kb.size() / 2];
-  return summary;
+template <typename Number>
+Number Median(std::span<const Vitals> samples, Number Vitals::*field) {
+  std::vector<Number> values;
+  for (const Vitals& sample : samples) values.push_back(sample.*field);
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+Vitals Medians(std::span<const Vitals> samples) {
+  return {Median(samples, &Vitals::memory_kb), Median(samples, &Vitals::threads),
+          Median(samples, &Vitals::descriptors)};
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ double Growth::memory_share() const {
 std::optional<Growth> GrowthOf(std::span<const Vitals> samples) {
   if (samples.size() < kFewest) return std::nullopt;
   const std::size_t quarter = samples.size() / 4;
-  return Growth{Summary(samples.first(quarter)), Summary(samples.last(quarter))};
+  return Growth{Medians(samples.first(quarter)), Medians(samples.last(quarter))};
 }
 
 bool IsFlat(const Growth& growth) {

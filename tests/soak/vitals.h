@@ -18,7 +18,7 @@ struct Vitals {
 // Nothing when the process is gone.
 [[nodiscard]] std::optional<Vitals> VitalsOf(pid_t pid);
 
-// From the first to the last quarter of the samples, medians of memory and largest counts.
+// From the first to the last quarter of the samples: medians.
 struct Growth {
   Vitals first;
   Vitals last;
