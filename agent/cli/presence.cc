@@ -42,8 +42,10 @@ Result<void> Presence::Claim(const Handler& handle, const std::function<bool()>&
 
 void Presence::Handle(const exchange::Message& message) {
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
+    others_.erase(gone->agent);
     if (server_ == gone->agent) server_.reset();
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    others_.insert(status->agent);
     if (status->role != exchange::AgentRole::kServer) return;
     const bool ended = status->mode == exchange::AgentMode::kStopped;
     if (!ended) {
@@ -69,7 +71,7 @@ void Presence::Tick(Clock::time_point now) {
 void Presence::Publish() {
   // A status that cannot be handed over is followed by the next one.
   if (exchange_.Publish(status_)) published_mode_ = status_.mode;
-  next_ = Clock::now() + interval_;
+  next_ = Clock::now() + std::max(interval_, kForEachAgent * static_cast<int>(others_.size()));
 }
 
 exchange::TopicUse WithAgents(exchange::TopicUse use) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "agent/cli/name_claim.h"
@@ -16,8 +17,12 @@ class Presence {
  public:
   using Clock = std::chrono::steady_clock;
   using Handler = std::function<void(const exchange::Message&)>;
+  // What all agents together may say: every one of them hears, and confirms, every status.
+  static constexpr std::chrono::milliseconds kForEachAgent{10};
+
   // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
-  // status is published every `interval`, and when the mode changes.
+  // status is published every `interval` (less often in a swarm, so that each of its agents has
+  // kForEachAgent), and when the mode changes.
   Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
            std::chrono::milliseconds interval = std::chrono::milliseconds(200));
 
@@ -25,7 +30,7 @@ class Presence {
   // running process has the name. Ends early, without error, when `stop` says so.
   [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
 
-  // Notes whether a server speaks.
+  // Notes whether a server speaks, and how many agents there are.
   void Handle(const exchange::Message& message);
 
   // The status to be published from now on; agent, role and instance stay.
@@ -47,6 +52,7 @@ class Presence {
   std::optional<exchange::AgentMode> published_mode_;
   Clock::time_point next_{};
   std::optional<AgentId> server_;
+  std::set<AgentId> others_;  // heard, and not gone since
 };
 
 // Topics of a role, and the statuses of all agents: a process must see whether its name is taken.

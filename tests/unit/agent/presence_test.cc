@@ -113,5 +113,30 @@ TEST_F(PresenceTest, PublishesAChangeOfModeAtOnceAndTheRestAtIntervals) {
   EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
 }
 
+TEST_F(PresenceTest, PublishesLessOftenTheMoreAgentsThereAre) {
+  constexpr int kAgents = 100;
+  constexpr auto kSlower = kAgents * Presence::kForEachAgent;
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting), std::chrono::milliseconds(200));
+  const auto publishes_after = [&](std::chrono::milliseconds passed) {
+    presence.Publish();
+    const auto published = Presence::Clock::now();
+    (void)peer->Take(std::chrono::milliseconds(0));
+    presence.Tick(published + passed);
+    return !peer->Take(std::chrono::milliseconds(0)).empty();
+  };
+  EXPECT_TRUE(publishes_after(std::chrono::milliseconds(200)));
+  for (int i = 0; i < kAgents; ++i) {
+    presence.Handle(Status(fmt::format("agent-{}", i), 3, AgentMode::kWaiting));
+  }
+  EXPECT_FALSE(publishes_after(kSlower / 2));
+  EXPECT_TRUE(publishes_after(kSlower));
+  for (int i = 0; i < kAgents; ++i) {
+    presence.Handle(exchange::AgentGone{AgentId(fmt::format("agent-{}", i)), 3});
+  }
+  EXPECT_TRUE(publishes_after(std::chrono::milliseconds(200)));
+}
+
 }  // namespace
 }  // namespace trailcast::cli
