@@ -3,6 +3,7 @@
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
 #   tests/bench/network.sh followers|loss|wire|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
+#   tests/bench/network.sh swarm [AGENTS]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
@@ -245,6 +246,59 @@ memory() {
   return "$status"
 }
 
+# Datagrams that all hosts together have sent, and received.
+datagrams() {
+  local host
+  for host in "${!host_pid[@]}"; do
+    on "$host" awk '/eth0:/ { print $11, $3 }' /proc/net/dev
+  done | awk '{ sent += $1; received += $2 } END { print sent, received }'
+}
+
+# The latest of the moments at which the agents said WORD, in seconds since BEGAN.
+latest() {
+  grep -h "^$1 " "$work"/light*.log | sort -k2 -n | awk -v began="$2" 'END { printf "%.1f", $2 - began }'
+}
+
+# Many light agents join one server at once, each at a host of its own: how long until all know all
+# and have the route, and what that costs. Fails when it takes more than the bounds below. Cyclone is
+# configured by config/dds/many-agents.xml, unless CYCLONEDDS_URI says otherwise.
+swarm() {
+  local agents=${1:-100} agent began before after process said
+  local longest_s=60 most_mb=60
+  export CYCLONEDDS_URI=${CYCLONEDDS_URI-file://$here/../../config/dds/many-agents.xml}
+  lab_open
+  for ((agent = 1; agent <= agents + 1; ++agent)); do lab_host "$agent"; done
+  lab_introduce
+  make_route 20
+  start_server 1 "$work/server.db"
+  process=$(<"/proc/$server/task/$server/children")
+  process=${process% }
+  read -r -a before < <(datagrams)
+  began=$(cut -d' ' -f1 /proc/uptime)
+  for ((agent = 2; agent <= agents + 1; ++agent)); do
+    : >"$work/light$agent.log"
+    on "$agent" "$bin/network_bench" light-agent --name "light$agent" --route hall \
+      --agents "$agents" >"$work/light$agent.log" 2>&1 &
+  done
+  said=0
+  while ((said < 2 * agents)) && awk -v began="$began" -v most=$longest_s \
+    '{ exit !($1 - began < most) }' /proc/uptime; do
+    said=$(awk '/^(heard-all|fetched) / { ++n } END { print n + 0 }' "$work"/light*.log)
+    sleep 0.2
+  done
+  read -r -a after < <(datagrams)
+  awk -v agents="$agents" -v heard="$(latest heard-all "$began")" -v fetched="$(latest fetched "$began")" \
+    -v sent=$((after[0] - before[0])) -v received=$((after[1] - before[1])) \
+    -v mb="$(awk '/VmHWM/ { print $2 / 1000 }' "/proc/$process/status")" -v most="$most_mb" \
+    -v cpu="$(awk '{ print ($14 + $15) / 100 }' "/proc/$process/stat")" -v complete=$((said == 2 * agents)) '
+    BEGIN {
+      printf "| agents | all know all, s | all have the route, s | datagrams sent | received | server, MB | its processor time, s |\n"
+      printf "| %d | %s | %s | %d | %d | %.1f | %.2f |\n", agents, heard, fetched, sent, received, mb, cpu
+      if (!complete) print "not all of them within the bound"
+      if (mb > most) printf "the server has more than %d MB\n", most
+      exit !complete || mb > most }'
+}
+
 latency() {
   local run pong uri=${plain_uri/eth0\"/lo\" multicast=\"true\"}
   ip link set lo up
@@ -292,8 +346,10 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | loss | wire | ingest | latency | memory | security) ;;
-    *) die 'say what to measure: followers, loss, wire, ingest, latency, memory or security' ;;
+    followers | loss | wire | ingest | latency | memory | security | swarm) ;;
+    *)
+      die 'say what to measure: followers, loss, wire, ingest, latency, memory, security or swarm'
+      ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
   lab_enter "$@"

@@ -69,6 +69,12 @@ int Run(int argc, char** argv) {
   load->add_option("--rate", ingest.segments_per_s);
   load->add_option("--duration", ingest.duration_s);
   load->add_option("--route-segments", ingest.segments_a_route);
+  bench::LightAgentOptions light;
+  CLI::App* agent = app.add_subcommand("light-agent", "An agent without a robot, until a signal");
+  agent->add_option("--name", light.name)->required();
+  agent->add_option("--route", light.route)->required();
+  agent->add_option("--network-interface", light.network_interface);
+  agent->add_option("--agents", light.agents);
   CLI::App* commits = app.add_subcommand("commits", "Bare SQLite group commits");
   commits->add_option("folder", file)->required();
   commits->add_option("--group", group);
@@ -83,6 +89,7 @@ int Run(int argc, char** argv) {
   if (million->parsed()) done = bench::MakeMillion(file);
   if (latency->parsed()) done = bench::MeasureLatency(samples, secured);
   if (load->parsed()) done = bench::MeasureIngest(ingest);
+  if (agent->parsed()) done = bench::RunLightAgent(light);
   if (commits->parsed()) done = bench::MeasureCommits(file, group);
   if (write->parsed()) done = bench::WriteTransientLocal(samples);
   if (read->parsed()) done = bench::ReadTransientLocal(samples);

@@ -33,6 +33,17 @@ struct IngestOptions {
 // Plays many scouts to a running server, and tells how long their receipts take.
 [[nodiscard]] Result<void> MeasureIngest(const IngestOptions& options);
 
+struct LightAgentOptions {
+  std::string name;
+  std::string route;
+  std::string network_interface = "eth0";
+  std::size_t agents = 100;  // of them, with this one
+};
+// Joins, finds the route in the catalog, fetches it, and stays until a signal. Says on stdout when,
+// in seconds since the machine started: joined, heard-all (a status of every other agent and the
+// server), answered, fetched.
+[[nodiscard]] Result<void> RunLightAgent(const LightAgentOptions& options);
+
 // Group commits of pieces by SQLite's own interface, nothing of ours around it.
 [[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);
 

@@ -24,11 +24,25 @@ lab_host() {
   until [[ $(readlink "/proc/$pid/ns/net") != $(readlink /proc/self/ns/net) ]] &&
     [[ $(cat "/proc/$pid/comm") == sleep ]]; do sleep 0.01; done
   host_pid[$number]=$pid
-  ip link add "port$number" type veth peer name eth0 netns "$pid"
+  ip link add "port$number" type veth peer name eth0 address "$(lab_mac "$number")" netns "$pid"
   ip link set "port$number" master air up
   on "$number" ip link set lo up
   on "$number" ip address add "10.77.0.$number/24" dev eth0
   on "$number" ip link set eth0 up
+}
+
+lab_mac() { printf '02:00:0a:4d:00:%02x' "$1"; }
+
+# lab_introduce: every host knows where every other one is. Without it each asks, and the kernel's
+# one table of neighbours, which all hosts share, is full with 1024 of them: 32 hosts.
+lab_introduce() {
+  local host other
+  for host in "${!host_pid[@]}"; do
+    for other in "${!host_pid[@]}"; do
+      [[ $other == "$host" ]] ||
+        printf 'neigh replace 10.77.0.%s lladdr %s dev eth0 nud permanent\n' "$other" "$(lab_mac "$other")"
+    done | on "$host" ip -batch -
+  done
 }
 
 # on NUMBER COMMAND...: runs it there.
