@@ -81,6 +81,11 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
+  follower.link.from_start = replay.from_start;
+  // A robot of its own: one that is simulated here begins at the start whenever its agent does.
+  if (!follower.open_loop && !replay.device.is_simulated()) {
+    follower.link.place_file = options.store_file + "." + options.common.name + ".place";
+  }
   // A recording drives on, whatever it is told.
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   return follower;
@@ -141,6 +146,10 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
                    "With --server: also wait for a route that no server knows yet");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
+  command.add_flag(
+      "--from-start", replay.from_start,
+      "Begin at the route's start: do not look whether the robot is where its last run "
+      "has left it");
   command
       .add_option(
           "--keep-distance", replay.keep_distance_m,

@@ -44,6 +44,7 @@ struct ReplayCommand {
   double wait_s = 30.0;
   bool wait_for_route = false;
   double speed_factor = 1.0;
+  bool from_start = false;
   double keep_distance_m = KeepDistanceOptions{}.distance_m;
 };
 

@@ -93,9 +93,9 @@ Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
 }
 
 std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
-  const char* what = covered_     ? "something covers the view: "
-                     : sure_once_ ? ""
-                                  : "the route's start is not found: ";
+  const std::string what = covered_     ? "something covers the view: "
+                           : sure_once_ ? ""
+                                        : options_.not_found + ": ";
   const std::string since = by_distance && !covered_ ? fmt::format("{:.1f} m", unsure_m_)
                                                      : fmt::format("{} frames", unsure_frames_);
   return fmt::format("{}{} of segment {}'s {} features in view for {}; {} are needed to be sure",

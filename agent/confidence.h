@@ -46,6 +46,7 @@ struct Verdict {
 };
 
 struct ConfidenceOptions {
+  std::string not_found = "the route's start is not found";  // why a robot stands at first
   // With fewer features than this there is nothing to steer by.
   int min_features = 4;
   // So many of the features that should be in the picture have to agree with what was taught for
@@ -101,6 +102,7 @@ class Confidence {
            *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
   }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
+  [[nodiscard]] const ConfidenceOptions& options() const { return options_; }
   [[nodiscard]] bool ever_sure() const { return sure_once_; }
 
  private:

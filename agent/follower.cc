@@ -62,7 +62,9 @@ class Loop {
   std::optional<ReplaySession> session_;
   std::uint32_t segments_ = 0;  // given to the session
   bool complete_ = false;
-  bool fed_ = false;  // since the last frame
+  std::optional<LeftAt> left_;
+  std::optional<double> went_on_at_m_;  // where it then found itself
+  bool fed_ = false;                    // since the last frame
   std::optional<ReplayStep> last_;
   std::string state_ = "WAITING";
   std::string reason_;
@@ -76,6 +78,9 @@ Result<void> Loop::TakeFeed() {
       session_.emplace(options_.session, *route);
       diagnosis_.Begin({*route, options_.link.agent.value(), device_.camera(),
                         ToString(options_.session.method)});
+    } else if (const auto* left = std::get_if<LeftAt>(&*item)) {
+      session_->GoOnFrom(*left);
+      left_ = *left;
     } else if (auto* segment = std::get_if<route::Segment>(&*item)) {
       if (auto added = session_->AddSegment(std::move(*segment)); !added) return added;
       ++segments_;
@@ -92,6 +97,7 @@ Result<void> Loop::TakeFeed() {
 
 bool Loop::NothingToFollow() const {
   if (segments_ == 0) return true;
+  if (left_ && !complete_ && session_->known_m() <= left_->along_m) return true;
   const bool waiting = last_ && last_->state == ReplayState::kWaiting;
   return waiting && !fed_ && !complete_;
 }
@@ -175,6 +181,11 @@ Result<bool> Loop::Step(const Observation& observation) {
 }
 
 void Loop::Tell(const ReplayStep& step) {
+  if (left_ && !went_on_at_m_ && step.along_m) {
+    went_on_at_m_ = step.along_m;
+    spdlog::info("goes on {:.1f} m along the route, left at {:.1f} m", *went_on_at_m_,
+                 left_->along_m);
+  }
   if (!last_ || last_->state != step.state) {
     spdlog::info("{} in segment {}{}{}", ToString(step.state), step.segment.value(),
                  step.reason.empty() ? "" : ": ", step.reason);
@@ -223,6 +234,7 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   summary.Add("route", options_.link.route);
   summary.Add("segments", std::to_string(segments_));
   summary.Add("segment", std::to_string(last.segment.value()));
+  if (went_on_at_m_) summary.Add("went_on_at_m", fmt::format("{:.2f}", *went_on_at_m_));
   summary.Add("progress", fmt::format("{:.4f}", last.progress));
   summary.Add("found_share", fmt::format("{:.4f}", last.found_share));
   summary.Add("hand_overs", std::to_string(last.hand_overs));

@@ -40,6 +40,7 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
              [this](const route::RouteKey& key, SegmentIndex index) {
                return store_->ReadSegment(key, index);
              }),
+      place_note_(options_.place_file),
       neighbours_(options_.agent) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
 }
@@ -130,11 +131,16 @@ Result<void> FollowerLink::StartFetching() {
                  options_.store_file);
   }
   while (!over() && !TryPut(*route_)) reported_.Wait(kWait);
+  if (const auto left = ReadPlace()) {
+    while (!over() && !TryPut(*left)) reported_.Wait(kWait);
+  }
   return CountHeld();
 }
 
 Result<void> FollowerLink::Follow() {
   while (!over()) {
+    TakeReports();
+    NotePlace();
     if (exchange_) {
       Trade();
       if (auto stored = StoreArrived(); !stored) return stored;
@@ -162,7 +168,6 @@ void FollowerLink::Trade() {
   Say(now);
   HearServer();
   TellNeighbours(now);
-  TakeReports();
   ShowStatus();
   presence_->Tick(now);
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "agent/cli/presence.h"
 #include "agent/mailbox.h"
 #include "agent/neighbours.h"
+#include "agent/place_note.h"
 #include "agent/replay_session.h"
 #include "agent/route_finder.h"
 #include "services/exchange/route_fetcher.h"
@@ -26,17 +28,21 @@ struct FollowerLinkOptions {
   AgentId agent;
   std::string route;  // name
   RevisionChoice revision{};
-  std::string store_file;       // for messages
-  bool wait_for_route = false;  // a route that nobody knows yet may still be taught
+  std::string store_file;            // for messages
+  bool wait_for_route = false;       // a route that nobody knows yet may still be taught
+  std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
+  bool from_start = false;           // whatever was noted
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
   std::function<bool()> stop = [] { return false; };  // any thread
 };
 
-// What the link gives the control loop, in this order: the route, its segments, that it is complete
-// (or that no more can be had); or why there will be nothing more.
+// What the link gives the control loop, in this order: the route, where the robot was left on it
+// (if it was), its segments, that it is complete (or that no more can be had); or why there will be
+// nothing more.
 struct RouteComplete {};
-using Feed = std::variant<std::monostate, route::RouteInfo, route::Segment, RouteComplete, Error>;
+using Feed =
+    std::variant<std::monostate, route::RouteInfo, LeftAt, route::Segment, RouteComplete, Error>;
 
 // The follower's other half: a thread that owns store and exchange, finds the route, fetches into
 // the own store what is missing, and feeds the control loop from there.
@@ -68,7 +74,7 @@ class FollowerLink {
 
   // Ends the thread.
   void Finish();
-  // The last status peers see. After Finish.
+  // The last status peers see, and what the next run is told. After Finish.
   void Close(exchange::AgentMode mode, const std::string& detail);
   // As far as it is known. After Finish.
   [[nodiscard]] const std::optional<route::RouteInfo>& route() const { return route_; }
@@ -92,6 +98,9 @@ class FollowerLink {
   [[nodiscard]] Result<void> FeedAll();
   [[nodiscard]] bool all_known() const;
   [[nodiscard]] bool TryPut(Feed item);
+  [[nodiscard]] std::optional<LeftAt> ReadPlace() const;
+  void NotePlace();
+  void EndNote(exchange::AgentMode mode);
   void TakeReports();
   void ShowStatus();
   void HearServer();
@@ -107,6 +116,9 @@ class FollowerLink {
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
   exchange::SpareHolder spare_;
+  PlaceNote place_note_;
+  std::optional<NotedPlace> place_;  // the last that the robot was sure of
+  std::optional<Time> noted_;        // when
   Neighbours neighbours_;
   std::vector<Neighbour> told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;

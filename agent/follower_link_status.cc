@@ -29,8 +29,9 @@ exchange::AgentMode ModeOf(ReplayState state) {
 }  // namespace
 
 void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
-  if (!presence_) return;
   TakeReports();
+  EndNote(mode);
+  if (!presence_) return;
   ShowStatus();
   exchange::AgentStatus status = presence_->status();
   status.mode = mode;
@@ -67,10 +68,6 @@ void FollowerLink::HearServer() {
                  options_.store_file);
   }
   told_server_ = server;
-}
-
-void FollowerLink::TakeReports() {
-  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
 }
 
 void FollowerLink::TellNeighbours(Time now) {

@@ -72,7 +72,6 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
   const route::Segment& segment = follower.segment();
   last_was_wide_ = false;
   if (segment.features.empty()) return {};
-  const auto stored = static_cast<double>(segment.features.size());
   vision::FindResult found =
       finder_.FindNear(frame, segment.features, follower.Expect(), follower.magnification(),
                        Around(follower.expected_within_px_at_320(), scout_width_px_));
@@ -81,10 +80,22 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
     last_was_wide_ = IsBetter(elsewhere, found);
     if (last_was_wide_) found = std::move(elsewhere);
   }
-  if (any_camera_ && ShareInPicture(found) >= kShareToLearn) Learn(found, follower);
-  share_sum_ += static_cast<double>(found.features.size()) / stored;
-  ++count_;
+  TakeUp(found, follower);
   return std::move(found.features);
+}
+
+vision::FindResult HandOver::SeeFrom(const image::GrayImage& frame, const route::Segment& segment,
+                                     double s, double magnification) const {
+  return finder_.FindNear(frame, segment.features,
+                          vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
+                          magnification, Around(kStart_px, scout_width_px_));
+}
+
+void HandOver::TakeUp(const vision::FindResult& seen, replay::Follower& follower) {
+  if (any_camera_ && ShareInPicture(seen) >= kShareToLearn) Learn(seen, follower);
+  share_sum_ += static_cast<double>(seen.features.size()) /
+                static_cast<double>(follower.segment().features.size());
+  ++count_;
 }
 
 std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame,

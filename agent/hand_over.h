@@ -33,6 +33,13 @@ class HandOver {
   [[nodiscard]] std::vector<route::TrackedFeature> ToSegment(const image::GrayImage& frame,
                                                              replay::Follower& follower);
 
+  // A segment's features as a robot sees them that stands at its fraction `s`.
+  [[nodiscard]] vision::FindResult SeeFrom(const image::GrayImage& frame,
+                                           const route::Segment& segment, double s,
+                                           double magnification) const;
+  // What was seen so counts as the hand-over to the segment that `follower` has just begun.
+  void TakeUp(const vision::FindResult& seen, replay::Follower& follower);
+
   // The same features once more, when tracking has lost many.
   [[nodiscard]] std::vector<route::TrackedFeature> Again(const image::GrayImage& frame,
                                                          const replay::Follower& follower) const;

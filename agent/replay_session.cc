@@ -51,6 +51,7 @@ struct ReplaySession::State {
   vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
   std::optional<HandOver> hand_over;
+  std::optional<PlaceFinder> place_finder;     // until it has found the place
   std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
   std::optional<motion::Pose2> last_odometry;
   ReplayState state = ReplayState::kWaiting;
@@ -62,7 +63,10 @@ struct ReplaySession::State {
 
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
+  void MakeFollower(const image::GrayImage& frame, const route::Segment& first);
   void Begin(std::size_t index, const image::GrayImage& frame);
+  [[nodiscard]] bool BeginNext(const image::GrayImage& frame);
+  [[nodiscard]] bool BeginWhereLeft(const image::GrayImage& frame);
   void EndSegment(const image::GrayImage& frame);
   void Follow(const std::vector<route::TrackedFeature>& found);
   void LookAgain(const image::GrayImage& frame);
@@ -86,20 +90,60 @@ std::optional<motion::OdometryIncrement> ReplaySession::State::OdometryStep(
   return step;
 }
 
+void ReplaySession::State::MakeFollower(const image::GrayImage& frame,
+                                        const route::Segment& first) {
+  follower = agent::MakeFollower(options, last_odometry.has_value() && first.has_odometry,
+                                 scout_width_px, static_cast<double>(frame.width) / scout_width_px);
+  const std::size_t known = std::min(segments.size(), kMostLearnt);
+  for (std::size_t i = 0; i < known; ++i) follower->Learn(segments[i]);
+}
+
 // Hand-over: the segment's stored features are found in this frame and followed from here.
 void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& frame) {
   const route::Segment& segment = segments[index];
-  if (!follower) {
-    follower = MakeFollower(options, last_odometry.has_value() && segment.has_odometry,
-                            scout_width_px, static_cast<double>(frame.width) / scout_width_px);
-    const std::size_t known = std::min(segments.size(), kMostLearnt);
-    for (std::size_t i = 0; i < known; ++i) follower->Learn(segments[i]);
-  }
+  if (!follower) MakeFollower(frame, segment);
   follower->Begin(segment);
   Follow(hand_over->ToSegment(frame, *follower));
   searches.push_back(
       SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over->last_was_wide()));
   frames_since_find = 0;
+}
+
+// False: it has not found the place, yet or at all.
+bool ReplaySession::State::BeginWhereLeft(const image::GrayImage& frame) {
+  if (const auto found = place_finder->Look(frame, segments, *hand_over)) {
+    const route::Segment& segment = segments[found->segment.value()];
+    MakeFollower(frame, segment);
+    follower->BeginAt(segment, found->fraction);
+    hand_over->TakeUp(found->seen, *follower);
+    Follow(found->seen.features);
+    searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), false));
+    place_finder.reset();
+    return true;
+  }
+  state = ReplayState::kBlind;
+  const double left_m = place_finder->left().along_m;
+  reason = fmt::format("looks whether it is where it was left, {:.1f} m along the route", left_m);
+  if (!place_finder->given_up()) return false;
+  state = ReplayState::kLost;
+  trust = Trust::kLost;
+  reason = fmt::format(
+      "not where it was left, {:.1f} m along the route, nor at the route's start: {} in view at "
+      "best. Put it back to either, or begin at the start all the same with --from-start",
+      left_m, place_finder->MostSeen());
+  return false;
+}
+
+// Of a robot that stands, for want of a segment to follow. False: there is none yet.
+bool ReplaySession::State::BeginNext(const image::GrayImage& frame) {
+  if (place_finder) return BeginWhereLeft(frame);
+  const std::size_t next = follower ? follower->segment().index.value() + 1 : 0;
+  if (next < segments.size()) {
+    Begin(next, frame);
+    return true;
+  }
+  if (complete && follower) state = ReplayState::kArrived;
+  return false;
 }
 
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
@@ -241,6 +285,18 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
 
 void ReplaySession::MarkComplete() { state_->complete = true; }
 
+void ReplaySession::GoOnFrom(const LeftAt& left) {
+  state_->place_finder.emplace(left);
+  ConfidenceOptions confidence = state_->confidence.options();
+  confidence.not_found = "the place where it was left is not found";
+  state_->confidence = Confidence(confidence);
+}
+
+double ReplaySession::known_m() const {
+  const State& s = *state_;
+  return s.segments.empty() ? 0.0 : s.begin_m.back() + s.segments.back().length_m;
+}
+
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
   if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
@@ -250,14 +306,9 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
   s.searches.clear();
   if (s.state == ReplayState::kArrived) return s.Report({});
-  if (s.state == ReplayState::kWaiting) {
-    const std::size_t next = s.follower ? s.follower->segment().index.value() + 1 : 0;
-    if (next >= s.segments.size()) {
-      if (s.complete && s.follower) s.state = ReplayState::kArrived;
-      return s.Report({});
-    }
+  if (!s.follower || s.state == ReplayState::kWaiting) {
     if (!s.hand_over) s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
-    s.Begin(next, frame);
+    if (!s.BeginNext(frame)) return s.Report({});
     const replay::FollowStep first = s.follower->Step({s.tracker.Current(), odometry});
     s.JudgeSight(first, odometry, frame);
     return s.Report(first);

@@ -6,6 +6,7 @@
 
 #include "agent/confidence.h"
 #include "agent/observation.h"
+#include "agent/place_finder.h"
 #include "agent/replay_method.h"
 #include "agent/replay_state.h"
 #include "agent/sight.h"
@@ -51,6 +52,11 @@ class ReplaySession {
   [[nodiscard]] Result<void> AddSegment(route::Segment segment);
   // The last segment added is the route's last.
   void MarkComplete();
+  // Before the first frame: the robot may be where an earlier run has left it. It stands until it
+  // has found itself there, or at the route's start, and is kLost if it is at neither.
+  void GoOnFrom(const LeftAt& left);
+  // Metres of the route that are known.
+  [[nodiscard]] double known_m() const;
 
   // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);

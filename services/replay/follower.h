@@ -68,6 +68,8 @@ class Follower {
   // The first segment, the next one after Step said `ended`, or, for a robot that found itself
   // again, any.
   virtual void Begin(const route::Segment& segment) = 0;
+  // Any segment, by a robot that is found to be that fraction along it.
+  virtual void BeginAt(const route::Segment& segment, double fraction) = 0;
   // Where the segment's features should be in the picture now (FollowInput's coordinates).
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
   // Where they will be at the segment's end for a robot that gets there as it was taught.

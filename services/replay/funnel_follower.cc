@@ -81,6 +81,14 @@ void FunnelFollower::Begin(const route::Segment& segment) {
   begun_ = true;
 }
 
+void FunnelFollower::BeginAt(const route::Segment& segment, double fraction) {
+  begun_ = false;
+  Begin(segment);
+  driven_.distance_m = fraction * segment.length_m;
+  driven_.heading_change_rad = route::HeadingAt(segment.heading, driven_.distance_m);
+  fraction_ = fraction;
+}
+
 std::vector<route::TrackedFeature> FunnelFollower::ExpectAt(double fraction) const {
   std::vector<route::TrackedFeature> places;
   for (std::size_t i = 0; i < segment_.features.size(); ++i) {

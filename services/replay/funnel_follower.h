@@ -52,6 +52,7 @@ class FunnelFollower final : public Follower {
 
   void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
   void Begin(const route::Segment& segment) override;
+  void BeginAt(const route::Segment& segment, double fraction) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return ExpectAt(fraction_);
   }

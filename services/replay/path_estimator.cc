@@ -41,10 +41,10 @@ void PathEstimator::Begin(const route::Segment& segment) {
   depths_ = flow_.Depths(segment_);
 }
 
-void PathEstimator::Restart(const route::Segment& segment) {
+void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   state_[kLeft] = state_[kHeading] = 0.0;
   BeUnsure();
-  state_[kAlong] = segment_.length_m;
+  state_[kAlong] = segment_.length_m + along_m;
   Begin(segment);
   last_heading_ = {};
 }

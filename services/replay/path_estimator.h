@@ -60,8 +60,8 @@ class PathEstimator {
   // The next segment begins where the last one ends; its features are seen from here on, also while
   // its start is still ahead (`along_m` is negative until then).
   void Begin(const route::Segment& segment);
-  // Begins a segment at its start, wherever the robot was thought to be before.
-  void Restart(const route::Segment& segment);
+  // Begins a segment so far along it, wherever the robot was thought to be before.
+  void Restart(const route::Segment& segment, double along_m);
 
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);

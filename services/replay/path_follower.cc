@@ -17,11 +17,13 @@ PathFollower::PathFollower(int scout_width_px, double magnification,
 
 void PathFollower::Begin(const route::Segment& segment) {
   const bool next = begun_ && segment.index.value() == segment_.index.value() + 1;
-  if (next) {
-    estimator_.Begin(segment);
-  } else {
-    estimator_.Restart(segment);
-  }
+  if (!next) return BeginAt(segment, 0.0);
+  estimator_.Begin(segment);
+  segment_ = segment;
+}
+
+void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
+  estimator_.Restart(segment, fraction * segment.length_m);
   segment_ = segment;
   begun_ = true;
 }

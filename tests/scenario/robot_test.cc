@@ -1,8 +1,7 @@
 // Agents that drive virtual robots over ROS 2's topics.
 #include <charconv>
-#include <fstream>
 
-#include "tests/scenario/programs.h"
+#include "tests/scenario/robots.h"
 
 namespace trailcast::test {
 namespace {
@@ -10,33 +9,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class RobotTest : public ProgramsTest {
+class RobotTest : public RobotsTest {
  protected:
-  // Robot and agent have a ROS domain of their own.
-  std::unique_ptr<Process> Robot(const std::string& name, const Words& words) {
-    std::ofstream(Path("path.csv")) << "x_m,y_m\n1,1.5\n4.5,1.5\n";
-    return Start("trailcast",
-                 With({"robot", "--sim", "indoor", "--path", Path("path.csv"), "--ros2", "/" + name,
-                       "--ros-domain", "3"},
-                      words),
-                 name);
-  }
-  static Words Drives(const std::string& name) {
-    return {"--ros2", "/" + name, "--ros-domain", "3"};
-  }
-
-  void Teach() {
-    const auto robot = Robot("scout", {"--scout", "--lockstep"});
-    const auto scout = RunAgent(
-        With(With({"teach", "--route", "hall", "--store", Path("routes.db")}, Drives("scout")),
-             {"--lockstep", "--end-when-still", "1"}));
-    ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
-  }
   std::unique_ptr<Process> Follow(const Words& words) {
-    return Agent(
-        With(With({"replay", "--route", "hall", "--store", Path("routes.db")}, Drives("robot1")),
-             words),
-        "follower");
+    return RobotsTest::Follow("robot1", "routes.db", words);
   }
   static double Number(const std::string& text, const std::string& key) {
     const auto at = text.find(key + "=");
