@@ -86,7 +86,7 @@ Result<void> Peers::Look(const Handlers& handlers) {
   const auto is_self = [&](const dds_guid_t& guid) {
     return std::equal(std::begin(guid.v), std::end(guid.v), std::begin(self_.v));
   };
-  const auto looked =
+  auto looked =
       participants_.Take(kMostAtOnce, [&](const void* sample, const dds_sample_info_t& info) {
         const auto& peer = *static_cast<const dds_builtintopic_participant_t*>(sample);
         if (is_self(peer.key)) return;
@@ -98,13 +98,12 @@ Result<void> Peers::Look(const Handlers& handlers) {
       });
   if (!looked) return looked;
   for (Reader* reader : {&publications_, &subscriptions_}) {
-    const auto taken =
-        reader->Take(kMostAtOnce, [&](const void* sample, const dds_sample_info_t& info) {
-          const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
-          if (info.valid_data && !is_self(endpoint.participant_key)) {
-            handlers.proven(ParticipantText(endpoint.participant_key));
-          }
-        });
+    auto taken = reader->Take(kMostAtOnce, [&](const void* sample, const dds_sample_info_t& info) {
+      const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+      if (info.valid_data && !is_self(endpoint.participant_key)) {
+        handlers.proven(ParticipantText(endpoint.participant_key));
+      }
+    });
     if (!taken) return taken;
   }
   return {};

@@ -3,6 +3,7 @@
 #include <openssl/bn.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 
@@ -225,7 +226,9 @@ Result<std::vector<std::string>> ReadRevocationList(const std::string& list,
   if (!is_signed) return Fail(ErrorCode::kCorrupt, "was not signed by the fleet's authority");
   std::vector<std::string> serials;
   const STACK_OF(X509_REVOKED)* revoked = X509_CRL_get_REVOKED(parsed.get());
-  for (int i = 0; i < sk_X509_REVOKED_num(revoked); ++i) {
+  const int count = std::max(0, sk_X509_REVOKED_num(revoked));  // -1: there is no list
+  serials.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
     serials.push_back(
         Hexadecimal(X509_REVOKED_get0_serialNumber(sk_X509_REVOKED_value(revoked, i))));
   }
