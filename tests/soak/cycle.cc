@@ -11,8 +11,9 @@
 namespace trailcast::soak {
 namespace {
 
-// Whatever goes wrong, by then each part of a cycle is over.
-constexpr std::chrono::seconds kPatience{240};
+// Whatever goes wrong, by then each part of a cycle is over, also where robots that start over
+// share their cores with other work.
+constexpr std::chrono::seconds kPatience{600};
 constexpr std::size_t kLive = 2;  // of cycles before: one retired, one to be deleted
 constexpr int kNotArrived = 3;
 
