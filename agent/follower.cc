@@ -199,10 +199,7 @@ void Loop::TellTrouble(const std::string& what) {
   diagnosis_.Note("robot", what.empty() ? "drives again" : what);
   ReplayStep step = last_.value_or(ReplayStep{});
   step.command = {};
-  if (!what.empty()) {
-    step.state = ReplayState::kWaiting;
-    step.reason = what;
-  }
+  step.robot_trouble = what;
   link_.Report(step);
 }
 

@@ -53,6 +53,10 @@ void FollowerLink::ShowStatus() {
   status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
   status.found_share = latest_.found_share;
   status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
+  if (!latest_.robot_trouble.empty()) {
+    status.mode = exchange::AgentMode::kFault;
+    status.detail = latest_.robot_trouble;
+  }
   status.held = held_revisions_;
   if (route_ && latest_.along_m) status.place = {route_->key, *latest_.along_m};
   presence_->Set(std::move(status));

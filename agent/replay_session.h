@@ -36,6 +36,8 @@ struct ReplayStep {
   replay::FollowStep decision;  // what the method saw and asked for
   Sight sight;
   std::string reason;  // kLost, kBlind, kWaiting: one line for people
+  // What of the robot has failed, for which it stands until that is over; empty: nothing.
+  std::string robot_trouble;
 };
 
 // Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's

@@ -161,9 +161,9 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
 }
 
 void Ros2Device::State::KeepFrame(Frame frame) {
-  if (run.lockstep && given && frame.stamp == *given) {
-    // The robot did not get the answer, or does not yet have it.
-    if (answered) (void)driver->Publish({*given, told});
+  if (given && frame.stamp == *given) {
+    // In lockstep: the robot did not get the answer, or does not yet have it.
+    if (run.lockstep && answered) (void)driver->Publish({*given, told});
     return;
   }
   const std::vector<std::uint8_t>& bytes = *BytesOf(frame.picture);
@@ -309,7 +309,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
   }
   s.ShareTrouble();
   const Frame frame = *std::exchange(s.newest, std::nullopt);
-  if (s.given && frame.stamp <= *s.given) {
+  if (s.given && frame.stamp < *s.given) {
     return Fail(ErrorCode::kUnavailable,
                 "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
                 "anew?",

@@ -110,7 +110,7 @@ enum class AgentRole : std::uint8_t { kServer = 0, kScout = 1, kFollower = 2, kO
 // What the agent does at present, for people and for tools.
 enum class AgentMode : std::uint8_t {
   kStarting = 0,
-  kWaiting = 1,  // for a server, a route, a segment, its own robot; `detail` says which
+  kWaiting = 1,  // for a server, a route or a segment; `detail` says which
   kTeaching = 2,
   kReplaying = 3,
   kArrived = 4,  // the scout: taught and everything receipted

@@ -76,10 +76,10 @@ TEST_F(BadInputTest, AnUnknownFlag) {
   EXPECT_THAT(run.output, HasSubstr("--stoore"));
 }
 
-TEST_F(BadInputTest, NeitherFramesNorASimulatedWorld) {
+TEST_F(BadInputTest, NeitherFramesNorASimulatedWorldNorARobot) {
   const auto run = RunAgent({"teach", "--route", "hall", "--store", Path("a.db")});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.output, HasSubstr("--frames or --sim"));
+  EXPECT_THAT(run.output, HasSubstr("--frames, --sim or --ros2"));
 }
 
 TEST_F(BadInputTest, ANameThatIsNone) {

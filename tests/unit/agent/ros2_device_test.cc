@@ -101,6 +101,19 @@ TEST_F(Ros2DeviceTest, GivesWhatTheRobotSees) {
   EXPECT_EQ(device_->camera(), "camera 160x120");
 }
 
+TEST_F(Ros2DeviceTest, GivesEachFrameOnceHoweverOftenItIsSaid) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  for (int i = 0; i < 5; ++i) {
+    Say();
+    EXPECT_EQ(next.wait_for(milliseconds(10)), std::future_status::timeout);
+  }
+  GoOn();
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say();
+  EXPECT_EQ(next.get().value()->stamp, stamp_);
+}
+
 TEST_F(Ros2DeviceTest, AnswersWithTheFramesStamp) {
   Open();
   ASSERT_TRUE(SayUntilSeen());
