@@ -104,7 +104,7 @@ void ExpectItArrives(Robot& robot, agent::ReplaySession session) {
 }
 
 TEST(RestartTest, GoesOnFromWhereItStandsTimeAndAgain) {
-  for (const char* camera : {"webcam", "wide"}) {
+  for (const char* camera : {"webcam", "wide", "firewire"}) {
     SCOPED_TRACE(camera);
     Robot robot(camera, 21);
     agent::LeftAt left = Killed(robot, Session(), 1.3);
