@@ -136,7 +136,7 @@ class Samples {
     wire.route = input_.ConsumeBool() ? Keep(std::string(32, 'a')) : Text();
     wire.revision = Number();
   }
-  void Fill(trailcast_wire_Place& wire) {
+  void Fill(trailcast_wire_RoutePlace& wire) {
     wire.frame = Octet();
     wire.x = Real();
     wire.y = Real();
@@ -172,7 +172,7 @@ class Samples {
     Fill(wire.key);
     Fill(wire.info);
   }
-  void Fill(trailcast_wire_Digest& digest) {
+  void Fill(trailcast_wire_Sha256& digest) {
     std::fill(std::begin(digest), std::end(digest), Octet());
   }
   template <typename Sequence>
