@@ -28,10 +28,12 @@ class TwoFollowersTest : public testing::Test {
     EXPECT_TRUE(swarm_.Teach(scout, options, false));
     swarm_.StartServer();
   }
-  std::future<Result<ReplayOutcome>> Start(const std::string& name, DrivenDevice& device) {
+  std::future<Result<ReplayOutcome>> Start(
+      const std::string& name, DrivenDevice& device,
+      std::chrono::seconds stuck_after = std::chrono::seconds(6)) {
     FollowerOptions options = swarm_.FollowerNamed(name);
     options.keep_distance.distance_m = kDistance_m;
-    options.stuck_after = std::chrono::seconds(6);
+    options.stuck_after = stuck_after;
     options.link.stop = [this] { return over_.load(); };
     return std::async(std::launch::async,
                       [this, options, &device] { return swarm_.Replay(device, options, true); });
@@ -106,13 +108,16 @@ TEST_F(TwoFollowersTest, ANeighbourThatIsWaitedForLongIsNoReasonToGiveUp) {
   EXPECT_EQ(second.get()->state, "STOPPED");
 }
 
-// Which of them depends on who is told of the other first.
-TEST_F(TwoFollowersTest, OfTwoThatStartTogetherOneGoesFirst) {
-  auto first = Start("first", first_);
-  auto second = Start("second", second_);
-  EXPECT_TRUE(See([](const AgentStatus& status) {
-    return status.mode == AgentMode::kWaiting && status.detail.find("waits for") == 0;
-  }));
+// Side by side, neither can get away before it has heard of the other.
+TEST_F(TwoFollowersTest, OfTwoAtOnePlaceTheFirstByNameGoesFirst) {
+  constexpr double kSideBySide_m = 0.1;
+  constexpr std::chrono::seconds kNever{3600};
+  first_.wall_m = second_.wall_m = kSideBySide_m;
+  auto second = Start("second", second_, kNever);
+  ASSERT_TRUE(SeeAt("second", 0.0));
+  auto first = Start("first", first_, kNever);
+  EXPECT_TRUE(SeeWaiting("second", "waits for first")) << last_.detail;
+  first_.wall_m = second_.wall_m = 1e9;
   EXPECT_EQ(first.get()->state, "ARRIVED");
   EXPECT_EQ(second.get()->state, "ARRIVED");
 }
