@@ -26,7 +26,7 @@ expect_taught() {
   await_end 240 scout
   [[ $(status_of scout) == 0 && $(value_of scout unreceipted) == 0 ]] ||
     fail "the scout ended with status $(status_of scout), $(value_of scout unreceipted) segments not receipted"
-  taught_segments=$(value_of scout segments) taught_m=$(value_of scout metres)
+  taught_segments=$(value_of scout segments)
 }
 
 # expect_sound_store: the server has the whole route, ends as it should, and its store is sound: all

@@ -4,8 +4,8 @@
 scenario_compose() {
   local name told
   local robots=(trailcast_scout_1 trailcast_follower_1 trailcast_follower_2)
-  told=$(podman-compose --project-name trailcast --file "$root/docker/compose.yaml" \
-    up --detach --scale follower=2 2>&1) || fail "$told"
+  told=$(FOLLOWERS=2 podman-compose --project-name trailcast \
+    --file "$root/docker/compose.yaml" up --detach 2>&1) || fail "$told"
   for name in trailcast_server_1 "${robots[@]}"; do
     podman container exists "$name" || fail "$name is not there: $told"
     log_of[$name]=$(podman inspect --format '{{.HostConfig.LogConfig.Path}}' "$name")
