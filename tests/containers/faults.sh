@@ -19,7 +19,7 @@ limit() { in_network_of "$1" tc qdisc replace dev eth0 root tbf rate "$2" burst 
 # The bridge's port that NAME's interface is plugged into.
 port_of() {
   local index
-  index=$(in_network_of "$1" cat /sys/class/net/eth0/iflink)
+  index=$(in_network_of "$1" ip -o link show eth0 | sed -n 's/.*eth0@if\([0-9]*\):.*/\1/p')
   ip -o link | sed -n "s/^$index: \([^@:]*\).*/\1/p"
 }
 # Out of range: its frames are lost both ways, and its interface does not notice.

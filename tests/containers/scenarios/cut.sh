@@ -13,13 +13,14 @@ scenario_cut() {
   back=$SECONDS
   expect_taught
   note "all of it was receipted $((SECONDS - back)) s after the scout was back"
-  for robot in 1 2 3 4; do start_follower "follower-$robot" wide; done
-  for robot in 1 2 3 4; do
-    await 120 "follower-$robot to have the route" says "follower-$robot" 'segments of .* are here'
+  for robot in follower-1 follower-2; do
+    start_follower "$robot" wide
+    await 120 "$robot to have the route" says "$robot" 'segments of .* are here'
+    part server "$robot"
+    note "the server is cut off from $robot, which drives"
   done
-  part server follower-1
-  part server follower-2
-  note 'the server is cut off from follower-1 and follower-2'
+  start_follower follower-3 wide
+  start_follower follower-4 wide
   expect_arrived follower-1 follower-2 follower-3 follower-4
   says follower-1 "server 'server' is gone" || note 'follower-1 arrived before it missed the server'
   expect_sound_store

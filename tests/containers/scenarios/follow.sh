@@ -4,16 +4,19 @@
 scenario_follow() {
   local cameras=(firewire wide hd webcam fisheye) followers=() robot i
   start_server
-  start_scout
   for i in "${!cameras[@]}"; do
     followers+=("follower-$((i + 1))")
     start_follower "${followers[i]}" "${cameras[i]}"
   done
+  start_scout
   await 60 'the route in the catalog' says server "'hall'"
+  # While its robot stands, teaching does not go on, and no follower is done before it was asked.
+  signal_to STOP scout trailcast
   for robot in scout "${followers[@]}"; do
     await 30 "an answer from the catalog in $robot" catalog_lists_route "$robot"
     podman healthcheck run "$robot" >/dev/null || fail "$robot is not well"
   done
+  signal_to CONT scout trailcast
   podman healthcheck run server >/dev/null || fail 'the server is not well'
   note "the catalog answered in all of scout, ${followers[*]}"
   expect_taught

@@ -5,17 +5,18 @@ scenario_killed() {
   start_server
   start_scout
   start_follower follower-1 wide
-  start_follower follower-2 firewire
+  start_follower follower-2 hd
   await 120 'the second segment' says scout "segment 1 of 'hall'"
   kill_server
   await 120 'a follower on its way' is_beyond follower-1 15
   kill_server
-  await 120 'a follower in the middle' is_beyond follower-2 40
-  kill_agent follower-2
+  start_follower follower-3 firewire
+  await 120 'a follower in the middle' is_beyond follower-3 40
+  kill_agent follower-3
   expect_taught
-  expect_arrived follower-1
-  await_end 240 follower-2
-  expect_went_on_or_said_why follower-2
+  expect_arrived follower-1 follower-2
+  await_end 240 follower-3
+  expect_went_on_or_said_why follower-3
   expect_sound_store
 }
 
