@@ -36,9 +36,7 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
   return keys;
 }
 
-bool IsAgent(const exchange::TopicUse& use) {
-  return std::find(use.write.begin(), use.write.end(), exchange::Topic::kAgents) != use.write.end();
-}
+bool IsAgent(const exchange::TopicUse& use) { return use.Writes(exchange::Topic::kAgents); }
 
 }  // namespace
 

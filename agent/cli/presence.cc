@@ -46,6 +46,7 @@ void Presence::Handle(const exchange::Message& message) {
     if (server_ == gone->agent) server_.reset();
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     others_.insert(status->agent);
+    AnswerClaim(*status);
     if (status->role != exchange::AgentRole::kServer) return;
     const bool ended = status->mode == exchange::AgentMode::kStopped;
     if (!ended) {
@@ -54,6 +55,13 @@ void Presence::Handle(const exchange::Message& message) {
       server_.reset();
     }
   }
+}
+
+void Presence::AnswerClaim(const exchange::AgentStatus& status) {
+  using exchange::AgentMode;
+  const bool claims = status.agent == status_.agent && status.instance != status_.instance &&
+                      status.mode == AgentMode::kStarting;
+  if (claims && status_.mode != AgentMode::kStarting) Publish();
 }
 
 void Presence::Set(exchange::AgentStatus status) {
@@ -75,13 +83,9 @@ void Presence::Publish() {
 }
 
 exchange::TopicUse WithAgents(exchange::TopicUse use) {
-  const auto add = [](std::vector<exchange::Topic>& topics) {
-    if (std::find(topics.begin(), topics.end(), exchange::Topic::kAgents) == topics.end()) {
-      topics.push_back(exchange::Topic::kAgents);
-    }
-  };
-  add(use.read);
-  add(use.write);
+  constexpr exchange::Topic kAgents = exchange::Topic::kAgents;
+  if (!use.Writes(kAgents)) use.write.push_back(kAgents);
+  if (!use.Hears(kAgents)) use.overhear.push_back(kAgents);
   return use;
 }
 

@@ -17,7 +17,7 @@ class Presence {
  public:
   using Clock = std::chrono::steady_clock;
   using Handler = std::function<void(const exchange::Message&)>;
-  // What all agents together may say: every one of them hears, and confirms, every status.
+  // What all agents together may say: every one of them hears every status.
   static constexpr std::chrono::milliseconds kForEachAgent{10};
 
   // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
@@ -30,7 +30,7 @@ class Presence {
   // running process has the name. Ends early, without error, when `stop` says so.
   [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
 
-  // Notes whether a server speaks, and how many agents there are.
+  // Notes whether a server speaks, and how many agents there are; answers who claims the name.
   void Handle(const exchange::Message& message);
 
   // The status to be published from now on; agent, role and instance stay.
@@ -45,6 +45,9 @@ class Presence {
   [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
 
  private:
+  // Who claims this one's name did not hear what it said before: tells whose the name is.
+  void AnswerClaim(const exchange::AgentStatus& status);
+
   exchange::RouteExchange& exchange_;
   exchange::AgentStatus status_;
   NameClaim claim_;
@@ -55,7 +58,8 @@ class Presence {
   std::set<AgentId> others_;  // heard, and not gone since
 };
 
-// Topics of a role, and the statuses of all agents: a process must see whether its name is taken.
+// Topics of a role, and the statuses of all agents, overheard where the role does not read them: a
+// process must see whether its name is taken.
 [[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
 
 }  // namespace trailcast::cli

@@ -79,10 +79,7 @@ Result<void> DdsExchange::Join() {
 
 Result<void> DdsExchange::Publish(const Message& message) {
   const std::optional<exchange::Topic> topic = exchange::TopicOf(message);
-  const auto is_opened = [&] {
-    return topic && std::find(use_.write.begin(), use_.write.end(), *topic) != use_.write.end();
-  };
-  if (!is_opened()) {
+  if (!topic || !use_.Writes(*topic)) {
     return Fail(ErrorCode::kInvalidArgument, "{} was not opened for writing",
                 topic ? exchange::NameOf(*topic) : "AgentGone is no topic and");
   }
@@ -101,13 +98,14 @@ Result<void> DdsExchange::Publish(const Message& message) {
 }
 
 Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
-  Writer& writer = joined_->writers.at(topic);
+  const auto writer = joined_->WriterOf(topic, options_);
+  if (!writer) return tl::unexpected(writer.error());
   // Replies are an instance for each client, and clients that ask once come by the thousand: their
   // instances would be kept for ever.
   const bool last_word = topic == exchange::Topic::kCatalogReplies;
   auto written = WithWire(message, [&](const void* sample) {
-    auto done = writer.Write(sample);
-    return done && last_word ? writer.Unregister(sample) : done;
+    auto done = (*writer)->Write(sample);
+    return done && last_word ? (*writer)->Unregister(sample) : done;
   });
   if (!written) return Wrap(written.error(), exchange::NameOf(topic));
   return {};

@@ -52,27 +52,32 @@ Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) {
   return &joined.topics.emplace(topic, *std::move(made)).first->second;
 }
 
+Result<void> Read(Joined& joined, exchange::Topic topic, const Qos& qos) {
+  const auto found = Find(joined, topic);
+  if (!found) return tl::unexpected(found.error());
+  auto reader = Reader::Create(joined.participant, **found, qos);
+  if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
+  if (auto ok = joined.wait_set.Attach(*reader); !ok) {
+    return Wrap(ok.error(), exchange::NameOf(topic));
+  }
+  joined.readers.emplace(topic, *std::move(reader));
+  return {};
+}
+
 Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchange::TopicUse& use) {
-  const std::string own = options.keys ? security::PartitionOf(options.keys->member) : "";
   for (const exchange::Topic topic : use.write) {
-    const auto found = Find(joined, topic);
-    if (!found) return tl::unexpected(found.error());
-    auto writer = Writer::Create(joined.participant, **found,
-                                 MakeQos(QosOf(topic), options.write_timeout, own));
-    if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
-    joined.writers.emplace(topic, *std::move(writer));
+    if (auto writer = joined.WriterOf(topic, options); !writer) {
+      return tl::unexpected(writer.error());
+    }
   }
   const std::string everybody = options.keys ? "*" : "";
   for (const exchange::Topic topic : use.read) {
-    const auto found = Find(joined, topic);
-    if (!found) return tl::unexpected(found.error());
-    auto reader = Reader::Create(joined.participant, **found,
-                                 MakeQos(QosOf(topic), options.write_timeout, everybody));
-    if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
-    if (auto ok = joined.wait_set.Attach(*reader); !ok) {
-      return Wrap(ok.error(), exchange::NameOf(topic));
-    }
-    joined.readers.emplace(topic, *std::move(reader));
+    const Qos qos = MakeQos(QosOf(topic), options.write_timeout, everybody);
+    if (auto read = Read(joined, topic, qos); !read) return read;
+  }
+  for (const exchange::Topic topic : use.overhear) {
+    const Qos qos = MakeOverhearingQos(QosOf(topic), everybody);
+    if (auto read = Read(joined, topic, qos); !read) return read;
   }
   return {};
 }
@@ -86,6 +91,17 @@ Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse&
     return tl::unexpected(opened.error());
   }
   return joined;
+}
+
+Result<Writer*> Joined::WriterOf(exchange::Topic topic, const DdsOptions& options) {
+  if (const auto found = writers.find(topic); found != writers.end()) return &found->second;
+  const auto found = Find(*this, topic);
+  if (!found) return tl::unexpected(found.error());
+  const std::string own = options.keys ? security::PartitionOf(options.keys->member) : "";
+  auto writer =
+      Writer::Create(participant, **found, MakeQos(QosOf(topic), options.write_timeout, own));
+  if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
+  return &writers.emplace(topic, *std::move(writer)).first->second;
 }
 
 }  // namespace trailcast::dds

@@ -27,6 +27,9 @@ struct Joined {
   // With keys: writers in the member's own partition, readers in all.
   [[nodiscard]] static Result<Joined> Open(const DdsOptions& options,
                                            const exchange::TopicUse& use);
+
+  // Opened now if it was not.
+  [[nodiscard]] Result<Writer*> WriterOf(exchange::Topic topic, const DdsOptions& options);
 };
 
 }  // namespace trailcast::dds

@@ -62,4 +62,11 @@ Qos MakeQos(const TopicQos& row, milliseconds write_timeout, const std::string& 
   return qos;
 }
 
+Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition) {
+  Qos qos = MakeQos(row, milliseconds{0}, partition);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
 }  // namespace trailcast::dds

@@ -8,7 +8,8 @@
 
 namespace trailcast::dds {
 
-// The QoS of each topic, for its writers and its readers alike. All are reliable.
+// The QoS of each topic, for its writers and its readers alike. All are reliable, but for those who
+// overhear it.
 struct TopicQos {
   exchange::Topic topic;
   bool transient_local;  // late joiners get the latest sample per key
@@ -22,5 +23,7 @@ struct TopicQos {
 // `partition`: in which it writes or reads; empty: the default one.
 [[nodiscard]] Qos MakeQos(const TopicQos& row, std::chrono::milliseconds write_timeout,
                           const std::string& partition = "");
+// For a reader that overhears: best-effort, and nothing of what was written before it.
+[[nodiscard]] Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition = "");
 
 }  // namespace trailcast::dds

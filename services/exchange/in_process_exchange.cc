@@ -16,10 +16,6 @@
 namespace trailcast::exchange {
 namespace {
 
-bool Contains(const std::vector<Topic>& topics, Topic topic) {
-  return std::find(topics.begin(), topics.end(), topic) != topics.end();
-}
-
 // What an exchange has received and not yet taken: a queue for each topic, as DDS has readers.
 class Inbox {
  public:
@@ -72,7 +68,7 @@ struct InProcessBus::State {
     for (const Member* other : members) {
       for (const auto& [instance, message] : other->latest) {
         const Topic topic = *TopicOf(message);
-        if (Contains(member.use.read, topic)) member.inbox.Push(topic, instance, message);
+        if (member.use.Reads(topic)) member.inbox.Push(topic, instance, message);
       }
     }
     members.push_back(&member);
@@ -95,7 +91,7 @@ struct InProcessBus::State {
   void Send(const Member& sender, Topic topic, const std::string& instance,
             const Message& message) {
     for (Member* member : members) {
-      if (member != &sender && Contains(member->use.read, topic)) {
+      if (member != &sender && member->use.Hears(topic)) {
         member->inbox.Push(topic, instance, message);
       }
     }
@@ -116,7 +112,7 @@ class InProcessExchange : public RouteExchange {
 
   Result<void> Publish(const Message& message) override {
     const std::optional<Topic> topic = TopicOf(message);
-    if (!topic || !Contains(self_.use.write, *topic)) {
+    if (!topic || !self_.use.Writes(*topic)) {
       return Fail(ErrorCode::kInvalidArgument, "{} was not opened for writing",
                   topic ? NameOf(*topic) : "AgentGone is no topic and");
     }

@@ -24,6 +24,16 @@ enum class Topic : std::uint8_t {
 struct TopicUse {
   std::vector<Topic> write;
   std::vector<Topic> read;
+  // Read best-effort, from the join on: for what many say again and again to many, where the
+  // confirmations of all readers would cost far more than what is lost.
+  std::vector<Topic> overhear = {};
+  // Written, but by few who could: the writer comes to be with the first message, which nobody may
+  // hear yet. For what is said again when it is asked for again.
+  std::vector<Topic> write_rarely = {};
+
+  [[nodiscard]] bool Writes(Topic topic) const;
+  [[nodiscard]] bool Reads(Topic topic) const;
+  [[nodiscard]] bool Hears(Topic topic) const;  // reads or overhears
 };
 
 [[nodiscard]] TopicUse ScoutTopics();

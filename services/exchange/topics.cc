@@ -1,8 +1,23 @@
 #include "services/exchange/topics.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace trailcast::exchange {
+
+namespace {
+
+bool Contains(const std::vector<Topic>& topics, Topic topic) {
+  return std::find(topics.begin(), topics.end(), topic) != topics.end();
+}
+
+}  // namespace
+
+bool TopicUse::Writes(Topic topic) const {
+  return Contains(write, topic) || Contains(write_rarely, topic);
+}
+bool TopicUse::Reads(Topic topic) const { return Contains(read, topic); }
+bool TopicUse::Hears(Topic topic) const { return Reads(topic) || Contains(overhear, topic); }
 
 TopicUse ScoutTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kAgents},
@@ -10,9 +25,11 @@ TopicUse ScoutTopics() {
 }
 
 TopicUse FollowerTopics() {
-  return {
-      .write = {Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
-      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogReplies}};
+  return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kCatalogReplies},
+          // What it may lend (SpareHolder) is asked for more than once.
+          .overhear = {Topic::kSegmentRequests},
+          .write_rarely = {Topic::kSegments}};
 }
 
 TopicUse ServerTopics() {

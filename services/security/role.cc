@@ -21,9 +21,12 @@ void Add(std::vector<Topic>& topics, const std::vector<Topic>& more) {
   }
 }
 
+// Rights, for which it does not matter how often something is written or how well it is read.
 TopicUse Together(TopicUse use, const TopicUse& more) {
   Add(use.write, more.write);
+  Add(use.write, more.write_rarely);
   Add(use.read, more.read);
+  Add(use.read, more.overhear);
   return use;
 }
 
@@ -68,11 +71,11 @@ std::optional<Role> FindRole(std::string_view name) {
 TopicUse RightsOf(Role role) {
   switch (role) {
     case Role::kScout:
-      return Together(Together(exchange::ScoutTopics(), exchange::FollowerTopics()), SeesAgents());
+      return Together(Together(SeesAgents(), exchange::ScoutTopics()), exchange::FollowerTopics());
     case Role::kFollower:
-      return Together(exchange::FollowerTopics(), SeesAgents());
+      return Together(SeesAgents(), exchange::FollowerTopics());
     case Role::kServer:
-      return Together(exchange::ServerTopics(), SeesAgents());
+      return Together(SeesAgents(), exchange::ServerTopics());
     case Role::kOperator: {
       TopicUse use = Together(exchange::OperatorTopics(), exchange::FollowerTopics());
       use = Together(std::move(use), exchange::ScoutTopics());
@@ -89,7 +92,9 @@ std::string BeyondRights(Role role, const TopicUse& use) {
   const TopicUse rights = RightsOf(role);
   std::string beyond;
   AppendBeyond(use.write, rights.write, "write", beyond);
+  AppendBeyond(use.write_rarely, rights.write, "write", beyond);
   AppendBeyond(use.read, rights.read, "read", beyond);
+  AppendBeyond(use.overhear, rights.read, "read", beyond);
   return beyond;
 }
 

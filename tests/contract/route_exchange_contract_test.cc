@@ -267,6 +267,35 @@ TEST_P(RouteExchangeContract, KeepsTheOrderOfRequestsOfSeveralAgents) {
   EXPECT_TRUE(std::is_sorted(got.begin(), got.end())) << testing::PrintToString(got);
 }
 
+TEST_P(RouteExchangeContract, TellsWhoOverhearsWhatIsSaidFromThenOn) {
+  const auto agent = Open({.write = {Topic::kAgents}, .read = {}});
+  ASSERT_TRUE(agent->Publish(Status("before", 1)));
+  const auto other = Open({.write = {}, .read = {}, .overhear = {Topic::kAgents}});
+  const Message after = Status("after", 1);
+  EXPECT_EQ(Carry(after, *agent, *other, Topic::kAgents), std::vector<Message>{after});
+}
+
+TEST_P(RouteExchangeContract, TellsWhoOverhearsThatAnAgentIsGone) {
+  const auto other = Open({.write = {}, .read = {}, .overhear = {Topic::kAgents}});
+  auto agent = Open({.write = {Topic::kAgents}, .read = {}});
+  Carry(Status("scout", 1), *agent, *other, Topic::kAgents);
+  agent.reset();
+  bool gone = false;
+  EXPECT_TRUE(TakeUntil(
+      *other,
+      [&](const Message& message) {
+        gone |= message == Message(AgentGone{AgentId("scout"), 1});
+      },
+      [&] { return gone; }));
+}
+
+TEST_P(RouteExchangeContract, CarriesWhatIsRarelyWrittenOnceItIsSaidAgain) {
+  const auto lender = Open({.write = {}, .read = {}, .write_rarely = {Topic::kSegments}});
+  const auto reader = Open({.write = {}, .read = {Topic::kSegments}});
+  const Message lent = SegmentBatch{AgentId("f"), {test::PieceOf(KeyNumber(1), 0, 100)}};
+  EXPECT_EQ(Carry(lent, *lender, *reader, Topic::kSegments), std::vector<Message>{lent});
+}
+
 TEST_P(RouteExchangeContract, RefusesATopicNotOpenedForWriting) {
   const auto follower = Open(FollowerTopics());
   const auto result = follower->Publish(Receipt{AgentId("f"), KeyNumber(1), 1});

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "services/route/labels.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -137,7 +139,12 @@ TEST_F(ScoutTest, RefusesANameThatIsTakenBeforeTheFirstFrame) {
   status.agent = AgentId("scout");
   status.instance = 1;
   status.mode = exchange::AgentMode::kTeaching;
-  ASSERT_TRUE(end->Publish(status));
+  const std::jthread running([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      EXPECT_TRUE(end->Publish(status));
+      (void)end->Take(milliseconds(50));
+    }
+  });
   const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), true);
   ASSERT_FALSE(summary);
   EXPECT_THAT(summary.error().message, HasSubstr("already used"));
