@@ -9,6 +9,7 @@ programs=$1 destination=$2
 
 # Paths as the loader finds them; the C library itself is every Debian's.
 libraries_of() {
+  if ldd "$@" | grep 'not found' >&2; then return 1; fi
   ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | sort -u |
     grep -vxF "$(dpkg -L libc6 | grep '\.so')"
 }
@@ -24,7 +25,7 @@ packages_of() {
 # collect IMAGE BELOW FILE...: programs, libraries of ours, scripts; without the libraries of the
 # image BELOW, if it is made from one of these.
 collect() {
-  local image=$destination/$1 below=$destination/${2:-none} file package name found libraries=()
+  local image=$destination/$1 below=$destination/${2:-none} file package name loaded found libraries=()
   shift 2
   install -d "$image/usr/local/bin" "$image/usr/local/lib" "$image/var/lib/dpkg/status.d"
   local binaries=()
@@ -36,7 +37,8 @@ collect() {
   done
   # Cyclone loads its security plugins by name, when a fleet uses them.
   local plugins=(/usr/lib/*/libddsc0debian/libdds_security_*.so)
-  mapfile -t found < <(libraries_of "${binaries[@]}" "${plugins[@]}")
+  loaded=$(libraries_of "${binaries[@]}" "${plugins[@]}")
+  mapfile -t found <<<"$loaded"
   for file in "${found[@]}" "${plugins[@]}"; do
     [[ -e $below/usr/local/lib/${file##*/} ]] || libraries+=("$file")
   done

@@ -6,6 +6,7 @@
 #   ROBOT_WORLD   a built-in world (indoor)     ROBOT_PATH   CSV x_m,y_m (the world's own)
 #   ROBOT_CAMERA  a built-in camera             ROBOT_FAULT  as 'trailcast robot --fail'; in real
 #   ROBOT_TRUTH   file for its true poses                    time then, otherwise in lockstep
+#   ROBOT_PATIENCE_S  seconds that its agent waits for a robot that fell silent (60)
 set -euo pipefail
 
 command=${1:-}
@@ -20,14 +21,16 @@ esac
 export TRAILCAST_NAME=${TRAILCAST_NAME:-$HOSTNAME}
 draw=$(cksum <<<"$TRAILCAST_NAME")
 draw=${draw%% *}
-# Robots have a ROS domain each: their pictures concern nobody else.
+# Robots have a ROS domain each, and it does not leave the container: their pictures concern nobody
+# else.
 export ROS_DOMAIN_ID=${ROS_DOMAIN_ID:-$((1 + draw % 200))}
 cameras=(webcam firewire wide hd)
 topics=/robot_${TRAILCAST_NAME//[^A-Za-z0-9]/_}
 
 robot=(--sim "${ROBOT_WORLD:-indoor}" --seed "$draw" --ros2 "$topics"
-  --camera "${ROBOT_CAMERA:-${cameras[draw % ${#cameras[@]}]}}")
-agent=(--ros2 "$topics" --sensor-patience 60)
+  --ros-interface lo --camera "${ROBOT_CAMERA:-${cameras[draw % ${#cameras[@]}]}}")
+agent=(--ros2 "$topics" --ros-interface lo
+  --sensor-patience "${ROBOT_PATIENCE_S:-60}")
 [[ -z ${ROBOT_PATH:-} ]] || robot+=(--path "$ROBOT_PATH")
 [[ -z ${ROBOT_TRUTH:-} ]] || robot+=(--sim-truth "$ROBOT_TRUTH")
 if [[ -n ${ROBOT_FAULT:-} ]]; then

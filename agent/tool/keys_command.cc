@@ -90,6 +90,13 @@ Result<void> Add(const KeysOptions& options) {
   return {};
 }
 
+void TellRevoked(const Authority& authority) {
+  fmt::print(
+      "Copy {} into the keys' folder of every other member, servers first: each keeps it out from "
+      "then on\n",
+      authority.RevocationFile().string());
+}
+
 Result<void> Renew(const KeysOptions& options) {
   const auto authority = Authority::Open(options.authority);
   if (!authority) return tl::unexpected(authority.error());
@@ -97,6 +104,10 @@ Result<void> Renew(const KeysOptions& options) {
   const auto given = authority->Renew(options.name, role, Now(), options.days);
   if (!given) return tl::unexpected(given.error());
   TellGiven(*given);
+  if (role) {
+    fmt::print("The keys of its role before are revoked. ");
+    TellRevoked(*authority);
+  }
   return {};
 }
 
@@ -104,10 +115,8 @@ Result<void> Revoke(const KeysOptions& options) {
   const auto authority = Authority::Open(options.authority);
   if (!authority) return tl::unexpected(authority.error());
   if (auto revoked = authority->Revoke(options.name, Now()); !revoked) return revoked;
-  fmt::print(
-      "{} is revoked. Copy {} into the keys' folder of every other member, servers first: each "
-      "keeps it out from then on\n",
-      options.name, authority->RevocationFile().string());
+  fmt::print("{} is revoked. ", options.name);
+  TellRevoked(*authority);
   return {};
 }
 

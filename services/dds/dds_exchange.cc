@@ -27,6 +27,9 @@ constexpr std::size_t kMaxSamplesPerTake = 1024;
 // How often the keys' folder is looked at, and who is there.
 constexpr auto kLookEvery = std::chrono::seconds(1);
 
+// So long a folder may be in the middle of being copied.
+constexpr auto kCopying = std::chrono::seconds(10);
+
 class DdsExchange : public exchange::RouteExchange {
  public:
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
@@ -46,11 +49,13 @@ class DdsExchange : public exchange::RouteExchange {
  private:
   Result<void> Write(exchange::Topic topic, const Message& message);
   void TakeFrom(exchange::Topic topic, std::vector<Message>& messages);
+  void NoteWhoIsHeard(const Message& message);
   void SayGoodBye();
 
   // With keys.
   void KeepWatch();
   void TakeUpNewKeys();
+  void ForgetWhoWasHeard();
   void TellOnce(const std::string& line);
   void LookForStrangers(Clock::time_point now);
   const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
@@ -63,7 +68,11 @@ class DdsExchange : public exchange::RouteExchange {
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
 
+  std::map<std::string, exchange::AgentGone> heard_;  // with keys: by instance, and not gone since
+  std::vector<Message> gone_;                         // to be told with the next Take
   std::string keys_version_;
+  std::string unusable_version_;  // of files that changed, and cannot be used
+  Clock::time_point unusable_since_{};
   std::string told_;  // last of the keys
   Clock::time_point look_at_{};
   StrangerWatch strangers_;
@@ -112,8 +121,8 @@ Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
 }
 
 std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
-  std::vector<Message> messages;
   if (options_.keys) KeepWatch();
+  std::vector<Message> messages = std::exchange(gone_, {});
   if (!joined_) {
     std::this_thread::sleep_for(max_wait);
     return messages;
@@ -153,7 +162,19 @@ void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages
     std::stable_sort(received.begin(), received.end(),
                      [](const Received& a, const Received& b) { return a.sent_at < b.sent_at; });
   }
-  for (Received& one : received) messages.push_back(std::move(one.message));
+  for (Received& one : received) {
+    if (options_.keys && agents) NoteWhoIsHeard(one.message);
+    messages.push_back(std::move(one.message));
+  }
+}
+
+void DdsExchange::NoteWhoIsHeard(const Message& message) {
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    heard_.insert_or_assign(exchange::InstanceOf(message),
+                            exchange::AgentGone{status->agent, status->instance});
+  } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
+    std::erase_if(heard_, [&](const auto& each) { return each.second == *gone; });
+  }
 }
 
 void DdsExchange::SayGoodBye() {
@@ -193,6 +214,13 @@ void DdsExchange::TakeUpNewKeys() {
       told_.clear();
       SayGoodBye();
       joined_.reset();
+      ForgetWhoWasHeard();
+    } else if (version != unusable_version_) {
+      unusable_version_ = version;
+      unusable_since_ = Clock::now();
+    } else if (Clock::now() >= unusable_since_ + kCopying) {
+      TellOnce("the keys' files changed and cannot be used, going on with the old ones: " +
+               (keys ? fmt::format("they are those of '{}'", keys->name) : keys.error().message));
     }
   }
   if (joined_ && now < options_.keys->expires) return;
@@ -206,6 +234,12 @@ void DdsExchange::TakeUpNewKeys() {
   }
 }
 
+// Who ends while this exchange joins anew would never be told gone: all are, until heard again.
+void DdsExchange::ForgetWhoWasHeard() {
+  for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
+  heard_.clear();
+}
+
 void DdsExchange::TellOnce(const std::string& line) {
   if (line != told_ && options_.tell_of_stranger) options_.tell_of_stranger(line);
   told_ = line;
@@ -215,7 +249,7 @@ void DdsExchange::LookForStrangers(Clock::time_point now) {
   // What cannot be read now is there the next time.
   (void)joined_->peers->Look(
       {.seen = [&](const auto& participant,
-                   const auto& about) { strangers_.See(participant, about, now); },
+                   const auto& said) { strangers_.See(participant, said, now); },
        .proven = [&](const auto& participant) { strangers_.Prove(participant, ""); },
        .gone = [&](const auto& participant) { strangers_.Lose(participant); }});
   for (const std::string& line : joined_->log->Take()) {
@@ -233,7 +267,7 @@ const security::Member* DdsExchange::SenderOf(const Reader& reader, dds_instance
   const auto partition = reader.PartitionOf(writer);
   const auto member = partition ? security::ParsePartition(*partition) : std::nullopt;
   if (!member) return nullptr;
-  if (senders.size() >= kMostRemembered) senders.clear();
+  if (senders.size() >= kMostRemembered) senders.erase(senders.begin());
   return &senders.emplace(writer, *member).first->second;
 }
 
@@ -241,8 +275,8 @@ bool DdsExchange::IsAuthentic(const Reader& reader, dds_instance_handle_t writer
                               Message& message) {
   if (!options_.keys) return true;
   const security::Member* sender = SenderOf(reader, writer);
-  // That somebody is gone is also told when all that is left of it is that.
-  if (sender == nullptr) return std::holds_alternative<exchange::AgentGone>(message);
+  // Nobody knows who wrote it any more: anybody could have.
+  if (sender == nullptr) return false;
   const auto own = security::CheckAuthor(message, *sender, options_.keys->name_key);
   if (!own) {
     strangers_.HandleMisuse(fmt::format("{} {}", security::NameOf(sender->role), sender->id),

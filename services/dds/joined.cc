@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "services/dds/domain_config.h"
+#include "services/dds/host_name.h"
 #include "services/dds/qos_table.h"
 #include "services/dds/wire.h"
 #include "services/exchange/topics.h"
@@ -18,6 +19,7 @@ Result<Joined> OpenDomain(const DdsOptions& options) {
   const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
   const auto config = DomainConfig(options, uri == nullptr ? "" : uri);
   if (!config) return tl::unexpected(config.error());
+  if (options.keys) HideHostName();
   auto domain = Domain::Create(*config);
   if (!domain) return tl::unexpected(domain.error());
   std::unique_ptr<CycloneLog> log;

@@ -43,7 +43,7 @@ std::string OwnAddress(const std::string& addresses) {
 }
 
 // "participant 1:2:3, calling itself 'robot-9', at 10.0.0.7:41830, host lab, process 812"
-std::string About(const dds_builtintopic_participant_t& participant) {
+Peers::SaidOfItself Said(const dds_builtintopic_participant_t& participant) {
   std::string about = "participant " + ParticipantText(participant.key);
   const std::string name = SaidName(participant.qos);
   if (!name.empty()) about += ", calling itself '" + name + "'";
@@ -53,7 +53,7 @@ std::string About(const dds_builtintopic_participant_t& participant) {
   const std::string process = Property(participant.qos, "__Pid");
   if (!host.empty()) about += ", host " + host;
   if (!process.empty()) about += ", process " + process;
-  return about;
+  return {std::move(about), !(name + host + process).empty()};
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Result<void> Peers::Look(const Handlers& handlers) {
         if (info.instance_state != DDS_IST_ALIVE) {
           handlers.gone(ParticipantText(peer.key));
         } else if (info.valid_data) {
-          handlers.seen(ParticipantText(peer.key), About(peer));
+          handlers.seen(ParticipantText(peer.key), Said(peer));
         }
       });
   if (!looked) return looked;

@@ -12,9 +12,13 @@ class Peers {
  public:
   [[nodiscard]] static Result<Peers> Create(const Participant& participant);
 
+  struct SaidOfItself {
+    std::string about;   // for a line of the log: addresses, and names if there are any
+    bool names = false;  // in the clear, which members of a fleet do not
+  };
   struct Handlers {
-    // `participant`: the first three words of its GUID; `about`: what it says of itself, unproven.
-    std::function<void(const std::string& participant, const std::string& about)> seen;
+    // `participant`: the first three words of its GUID; `said`: what it says of itself, unproven.
+    std::function<void(const std::string& participant, const SaidOfItself& said)> seen;
     // Something it writes or reads is known, which only members can say.
     std::function<void(const std::string& participant)> proven;
     std::function<void(const std::string& participant)> gone;

@@ -12,6 +12,9 @@ namespace {
 // Strangers can make up names without end.
 constexpr std::size_t kMostRemembered = 1000;
 
+// A refusal may be heard so long before its participant is seen.
+constexpr std::chrono::seconds kAhead{2};
+
 // What stands between two marks in a line; nothing if they are not there.
 std::optional<std::string> Between(std::string_view line, std::string_view from,
                                    std::string_view to) {
@@ -21,6 +24,8 @@ std::optional<std::string> Between(std::string_view line, std::string_view from,
   const std::size_t end = std::min(line.find(to, start), line.size());
   return std::string(line.substr(start, end - start));
 }
+
+constexpr const char* kOtherRules = "security_attributes mismatch";
 
 // OpenSSL's words and Cyclone's, and what they mean for a fleet.
 constexpr std::pair<const char*, const char*> kReasons[] = {
@@ -33,7 +38,7 @@ constexpr std::pair<const char*, const char*> kReasons[] = {
     {"Subject name is invalid", "its permissions are not for its certificate"},
     {"Permissions validity period expired", "its permissions have expired"},
     {"denied by default rule", "its role does not allow it"},
-    {"security_attributes mismatch", "it does not follow the fleet's governance"},
+    {kOtherRules, "it does not follow the fleet's governance"},
 };
 
 std::string Meaning(std::string_view line) {
@@ -71,11 +76,13 @@ constexpr Kept kKept[] = {
 
 }  // namespace
 
-void StrangerWatch::See(const std::string& participant, const std::string& about, Time now) {
-  if (participants_.size() >= kMostRemembered) participants_.clear();
-  auto [at, is_new] =
-      participants_.try_emplace(participant, Participant{.about = about, .seen_at = now});
-  if (at->second.about.empty()) at->second.about = about;
+void StrangerWatch::See(const std::string& participant, const Peers::SaidOfItself& said, Time now) {
+  if (participants_.size() >= kMostRemembered) {
+    std::erase_if(participants_, [](const auto& each) { return !each.second.proven; });
+  }
+  auto [at, is_new] = participants_.try_emplace(
+      participant, Participant{.about = said.about, .seen_at = now, .names_itself = said.names});
+  if (at->second.about.empty()) at->second.about = said.about;
 }
 
 void StrangerWatch::Prove(const std::string& participant, const std::string& about) {
@@ -91,7 +98,7 @@ bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
   if (auto subject = Between(line, "; subject: /", "(code")) {
     if (subject->starts_with("CN=")) subject->erase(0, 3);  // as those of ours are
     if (refused_.size() >= kMostRemembered) refused_.clear();
-    refused_[*subject].last_at = now;
+    refused_.try_emplace(*subject, Refused{.first_at = now}).first->second.last_at = now;
     Tell(*subject, Meaning(line), now);
     return true;
   }
@@ -103,9 +110,12 @@ bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
     }
     // "...: trailcast/routes denied by default rule(code: 1)"
     const auto topic = Between(line, ": trailcast/", " ");
-    Tell(Describe(*participant),
-         fmt::format("{}{}: {}", kept.doing, topic ? "trailcast/" + *topic : "", Meaning(line)),
-         now);
+    // One that goes by other rules is kept from everything, which is told once.
+    const std::string from =
+        line.find(kOtherRules) != std::string_view::npos
+            ? ""
+            : fmt::format("{}{}: ", kept.doing, topic ? "trailcast/" + *topic : "");
+    Tell(Describe(*participant), from + Meaning(line), now);
     return true;
   }
   // Said of everybody who is not known yet, members that are only just arriving among them.
@@ -127,14 +137,29 @@ void StrangerWatch::Tell(const std::string& who, const std::string& why, Time no
   lines_.push_back(fmt::format("kept out: {}: {}", who, why));
 }
 
-// Who was refused by its certificate is one of those that did not prove themselves meanwhile.
+// Who was refused by its certificate is one of those that did not prove themselves: the one that
+// came nearest to the first refusal.
 bool StrangerWatch::IsExplained(const Participant& participant) {
   for (auto& [subject, refused] : refused_) {
-    if (refused.matched || refused.last_at < participant.seen_at) continue;
+    if (refused.matched || refused.last_at + kAhead < participant.seen_at) continue;
+    if (OwnerOf(refused) != &participant) continue;
     refused.matched = true;
     return true;
   }
   return false;
+}
+
+const StrangerWatch::Participant* StrangerWatch::OwnerOf(const Refused& refused) const {
+  const Participant* owner = nullptr;
+  const auto apart = [&](const Participant& one) {
+    return std::chrono::abs(refused.first_at - one.seen_at);
+  };
+  for (const auto& [name, one] : participants_) {
+    // Who has a certificate hardly names itself in the clear.
+    if (one.proven || one.told || one.names_itself) continue;
+    if (owner == nullptr || apart(one) < apart(*owner)) owner = &one;
+  }
+  return owner;
 }
 
 std::string StrangerWatch::Describe(const std::string& participant) const {
@@ -146,8 +171,9 @@ std::string StrangerWatch::Describe(const std::string& participant) const {
 std::vector<std::string> StrangerWatch::Tick(Time now) {
   for (auto& [name, participant] : participants_) {
     if (participant.proven || participant.told || now < participant.seen_at + kPatience) continue;
+    const bool explained = IsExplained(participant);
     participant.told = true;
-    if (IsExplained(participant)) continue;
+    if (explained) continue;
     Tell(Describe(name), "has not proven that it is a member: no keys, or of another authority",
          now);
   }

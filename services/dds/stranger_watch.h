@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "services/dds/peers.h"
+
 namespace trailcast::dds {
 
 // Tells of each who tries to take part and may not, once, with who and why. Puts together what
@@ -19,8 +21,8 @@ class StrangerWatch {
   static constexpr std::chrono::seconds kPatience{10};
   static constexpr std::chrono::minutes kAgain{10};
 
-  // A participant is there, a stranger until it is proven; `about` says what is known of it.
-  void See(const std::string& participant, const std::string& about, Time now);
+  // A participant is there, a stranger until it is proven.
+  void See(const std::string& participant, const Peers::SaidOfItself& said, Time now);
   // It is a member: it can be understood. `about` says which, if that is known.
   void Prove(const std::string& participant, const std::string& about);
   void Lose(const std::string& participant);
@@ -37,16 +39,19 @@ class StrangerWatch {
   struct Participant {
     std::string about;
     Time seen_at;
+    bool names_itself = false;
     bool proven = false;
     bool told = false;
   };
   struct Refused {
+    Time first_at{};
     Time last_at{};
     bool matched = false;  // with a participant that was not proven
   };
 
   void Tell(const std::string& who, const std::string& why, Time now);
   [[nodiscard]] bool IsExplained(const Participant& participant);
+  [[nodiscard]] const Participant* OwnerOf(const Refused& refused) const;
   [[nodiscard]] std::string Describe(const std::string& participant) const;
 
   std::map<std::string, Participant> participants_;

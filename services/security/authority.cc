@@ -51,10 +51,17 @@ Result<void> WriteFiles(const fs::path& folder, const std::vector<File>& files) 
 fs::path Authority::RevocationFile() const { return folder_ / kRevokedFile; }
 
 Result<Authority> Authority::Create(const fs::path& folder, Time now, int days) {
-  if (fs::exists(folder / kAuthorityKeyFile) || fs::exists(folder / kAuthorityFile)) {
+  std::error_code error;
+  if (fs::exists(folder / kAuthorityKeyFile, error) || fs::exists(folder / kAuthorityFile, error)) {
     return Fail(ErrorCode::kConflict,
                 "{} has an authority already, and a second one would not know its members; choose "
                 "another folder",
+                folder.string());
+  }
+  if (fs::exists(folder, error) && !fs::is_empty(folder, error)) {
+    return Fail(ErrorCode::kConflict,
+                "{} is not empty: an authority has a folder of its own, closed to others; give a "
+                "new one",
                 folder.string());
   }
   const Validity validity{now - kClockMargin, After(now, days)};

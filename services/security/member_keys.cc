@@ -1,6 +1,7 @@
 #include "services/security/member_keys.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -48,10 +49,12 @@ Result<void> CheckFolder(const fs::path& folder) {
       return Fail(ErrorCode::kNotFound, "{} is missing: {}", (folder / file).string(), kCopyAgain);
     }
   }
-  const fs::path key = folder / kIdentityKeyFile;
-  if ((fs::status(key, error).permissions() & fs::perms::others_all) != fs::perms::none) {
-    return Fail(ErrorCode::kConflict, "{} is open to everybody on this machine: chmod 600 {}",
-                key.string(), key.string());
+  for (const char* name : {kIdentityKeyFile, kMemberFile}) {
+    const fs::path secret = folder / name;
+    if ((fs::status(secret, error).permissions() & fs::perms::others_all) != fs::perms::none) {
+      return Fail(ErrorCode::kConflict, "{} is open to everybody on this machine: chmod 600 {}",
+                  secret.string(), secret.string());
+    }
   }
   return {};
 }
@@ -178,9 +181,12 @@ Result<MemberKeys> LoadMemberKeys(const fs::path& folder, Time now) {
 std::string KeysVersion(const fs::path& folder) {
   std::string version;
   for (const char* file : kFiles) {
-    std::error_code error;
-    const auto changed = fs::last_write_time(folder / file, error);
-    version += error ? "-" : fmt::format("{}/", changed.time_since_epoch().count());
+    // A file that is written anew (files.cc) is another one; times alone stand still for some ms.
+    struct stat about {};
+    const bool is_there = stat((folder / file).c_str(), &about) == 0;
+    version += is_there ? fmt::format("{}.{}.{}.{}/", about.st_ino, about.st_size,
+                                      about.st_mtim.tv_sec, about.st_mtim.tv_nsec)
+                        : "-";
   }
   return version;
 }

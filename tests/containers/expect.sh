@@ -8,7 +8,7 @@ expect_arrived() {
     await_end 240 "$name"
     [[ $(status_of "$name") == 0 && $(value_of "$name" state) == ARRIVED ]] ||
       fail "$name did not arrive: $(value_of "$name" reason)"
-    off=$(off_at_end "$name")
+    off=$(off_at_end "$name") || fail "$name left no true poses"
     note "$name arrived, $off m off"
     awk -v off="$off" 'BEGIN { exit !(off < 0.5) }' || fail "$name is $off m from the path's end"
   done
@@ -33,8 +33,9 @@ expect_taught() {
 # that was receipted, each segment and the route as a whole with the scout's digests.
 expect_sound_store() {
   local route checked
-  route=$(podman run --rm --network fleet --read-only --entrypoint trailcast trailcast-robot routes \
-    --name hall --json 2>&1) || fail "the catalog does not answer: $route"
+  use_keys_of operator
+  route=$(podman run --rm --network fleet --read-only "${keys_options[@]}" --entrypoint trailcast \
+    trailcast-robot routes --name hall --json 2>&1) || fail "the catalog does not answer: $route"
   [[ $route == *'"segments": '$taught_segments,* && $route == *'"state": "active"'* ]] ||
     fail "expected $taught_segments segments, active: $route"
   podman stop --time 20 server >/dev/null

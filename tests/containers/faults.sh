@@ -16,6 +16,7 @@ lose() {
 # How fast NAME sends, as '10mbit'.
 limit() { in_network_of "$1" tc qdisc replace dev eth0 root tbf rate "$2" burst 32kb latency 200ms; }
 
+bridge() { podman network inspect fleet | sed -n 's/.*"network_interface": "\(.*\)".*/\1/p'; }
 # The bridge's port that NAME's interface is plugged into.
 port_of() {
   local index
@@ -24,7 +25,7 @@ port_of() {
 }
 # Out of range: its frames are lost both ways, and its interface does not notice.
 cut_off() { ip link set "$(port_of "$1")" nomaster; }
-bring_back() { ip link set "$(port_of "$1")" master "$(podman network inspect fleet | sed -n 's/.*"network_interface": "\(.*\)".*/\1/p')"; }
+bring_back() { ip link set "$(port_of "$1")" master "$(bridge)"; }
 
 # ONE and OTHER hear nothing of each other any more.
 part() {

@@ -7,7 +7,7 @@ fail() {
   local name
   for name in $(podman ps --all --format '{{.Names}}' | sort); do
     printf -- '--- %s (%s)\n' "$name" "$(podman inspect --format '{{.State.Status}} {{.State.ExitCode}}' "$name")"
-    tail -n 15 "${log_of[$name]}"
+    tail -n 15 "${log_of[$name]:-/dev/null}"
   done >&2
   printf 'FAILED: %s: %s\n' "${scenario:-containers}" "$*" >&2
   exit 1
@@ -34,17 +34,27 @@ files_of() { echo "$LAB_WORK/storage/volumes/$1/_data"; }
 # value_of NAME KEY: out of the summary that its agent ended with.
 value_of() { sed -n "s/.* $2=//p" "${log_of[$1]}" | tail -n 1; }
 
+# use_keys_of NAME: Podman's options for a container with the keys of that member of the fleet's
+# authority, if there are any (scenarios/strangers.sh).
+keys_options=()
+use_keys_of() {
+  local keys=$LAB_WORK/authority/members/$1
+  keys_options=()
+  [[ ! -d $keys ]] || keys_options=(--env TRAILCAST_SECURITY=/keys --volume "$keys:/keys:ro")
+}
+
 # contain NAME IMAGE [OPTION...] -- [ARGUMENT...]: as a fleet's images are meant to run.
 contain() {
   local name=$1 image=$2 options=() told
   shift 2
+  use_keys_of "$name"
   while [[ $1 != -- ]]; do
     options+=("$1")
     shift
   done
   shift
   told=$(podman run --detach --quiet --name "$name" --hostname "$name" --network fleet --read-only \
-    --tmpfs /tmp --volume "$name:/data" "${options[@]}" "trailcast-$image" "$@" 2>&1) ||
+    --tmpfs /tmp --volume "$name:/data" "${keys_options[@]}" "${options[@]}" "trailcast-$image" "$@" 2>&1) ||
     fail "cannot start $name: $told"
   log_of[$name]=$(podman inspect --format '{{.HostConfig.LogConfig.Path}}' "$name")
 }
@@ -71,13 +81,13 @@ start_server_with_route() {
 }
 
 # start_robot NAME CAMERA teach|replay [OPTION...]: on the route, over the path; robot_options are
-# more of Podman's.
+# more of Podman's. Its agent bears with a robot that a scenario holds still.
 robot_options=()
 start_robot() {
   local name=$1 camera=$2 command=$3
   shift 3
   contain "$name" robot --env ROBOT_CAMERA="$camera" --env ROBOT_PATH=/path.csv \
-    --env ROBOT_TRUTH=/data/truth.csv --volume "$path:/path.csv:ro" "${robot_options[@]}" -- \
+    --env ROBOT_TRUTH=/data/truth.csv --env ROBOT_PATIENCE_S=600 --volume "$path:/path.csv:ro" "${robot_options[@]}" -- \
     "$command" --route hall "$@"
 }
 start_scout() { start_robot scout webcam teach --delivery-timeout 120; }
@@ -108,5 +118,6 @@ note() { printf '  %s\n' "$*"; }
 clear_fleet() {
   podman rm --all --force --time 0 >/dev/null
   podman volume rm --all --force >/dev/null
+  rm -rf "$LAB_WORK"/{authority,strangers,other}
   log_of=()
 }

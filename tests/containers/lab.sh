@@ -9,9 +9,19 @@ lab_obstacle() {
     echo 'needs root, to run containers with networks of their own'
   elif ! unshare --pid --mount --net --fork true 2>/dev/null; then
     echo 'the kernel gives no process, mount and network namespaces here'
-  elif ! grep -qw overlay /proc/filesystems; then
-    echo 'the kernel has no overlay file system'
+  elif ! lab_can_overlay; then
+    echo "no overlay file system can be mounted in ${TMPDIR:-/var/tmp}"
   fi
+}
+lab_can_overlay() {
+  local folder mounted=0
+  folder=$(mktemp -d "${TMPDIR:-/var/tmp}/trailcast-overlay.XXXXXX")
+  mkdir "$folder"/{lower,upper,work,merged}
+  unshare --mount mount -t overlay overlay \
+    -o "lowerdir=$folder/lower,upperdir=$folder/upper,workdir=$folder/work" "$folder/merged" \
+    2>/dev/null || mounted=1
+  rm -rf "$folder"
+  return "$mounted"
 }
 
 # lab_enter ARGUMENT...: returns in the innermost of three shells, each this script with the same
@@ -35,19 +45,22 @@ lab_enter() {
 
 lab_outside() {
   local status=0
+  lab_inside=''
   export LAB_WORK
   LAB_WORK=$(mktemp -d "${TMPDIR:-/var/tmp}/trailcast-containers.XXXXXX")
   trap lab_clean EXIT
   trap 'exit 130' INT TERM HUP
   lab_configure
-  LAB_STAGE=images unshare --pid --mount --mount-proc --kill-child -- "$0" "$@" &
+  LAB_STAGE=images setpriv --pdeathsig KILL unshare --pid --mount --mount-proc --kill-child -- "$0" "$@" &
   lab_inside=$!
   wait "$lab_inside" || status=$?
   exit "$status"
 }
 lab_clean() {
-  kill -KILL "$lab_inside" 2>/dev/null || true  # unshare heeds nothing else
-  wait "$lab_inside" 2>/dev/null || true
+  if [[ -n $lab_inside ]]; then
+    kill -KILL "$lab_inside" 2>/dev/null || true  # unshare heeds nothing else
+    wait "$lab_inside" 2>/dev/null || true
+  fi
   rm -rf "$LAB_WORK"
   # Control groups of containers that were killed with everything else; empty, if they are ours.
   find /sys/fs/cgroup -depth -type d -path '*/libpod_parent*' -exec rmdir {} + 2>/dev/null || true

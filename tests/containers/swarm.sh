@@ -5,7 +5,7 @@
 #   tests/containers/swarm.sh                  the quick ones: follow killed broken
 #   tests/containers/swarm.sh --all            all of them
 #   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken queue
-#                                              crowd compose
+#                                              strangers crowd compose
 # With --from-source in front, the images are built from the repository alone, as a user would.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
@@ -20,7 +20,7 @@ source "$here/expect.sh"
 # shellcheck source=tests/containers/faults.sh
 source "$here/faults.sh"
 
-all=(follow late lossy cut killed broken queue crowd compose)
+all=(follow late lossy cut killed broken queue strangers crowd compose)
 quick=(follow killed broken)
 
 die() {

@@ -1,5 +1,7 @@
 // A fleet with DDS Security at work: what its members may and what not, keys that are renewed and
 // revoked, and what is seen on the wire.
+#include <sys/utsname.h>
+
 #include <functional>
 
 #include "services/store/sqlite_store.h"
@@ -82,7 +84,9 @@ TEST_F(SecurityTest, TheKeysCommandDoesAllOfThat) {
   EXPECT_EQ(keys({"init"}).status, 1);
   EXPECT_THAT(keys({"add", "--role", "scout", "robot1"}).output, HasSubstr("members/robot1"));
   EXPECT_EQ(keys({"add", "--role", "king", "robot2"}).status, 2);
-  EXPECT_EQ(keys({"renew", "--role", "follower", "robot1"}).status, 0);
+  const Ended renewed = keys({"renew", "--role", "follower", "robot1"});
+  EXPECT_EQ(renewed.status, 0);
+  EXPECT_THAT(renewed.output, HasSubstr("mine/revoked.pem")) << "its role before was another";
   EXPECT_THAT(keys({"revoke", "robot1"}).output, HasSubstr("mine/revoked.pem"));
   EXPECT_THAT(keys({"list"}).output, AllOf(HasSubstr("robot1  follower"), HasSubstr("revoked")));
   EXPECT_THAT(keys({"list", "--json"}).output, HasSubstr("\"generation\": 2"));
@@ -98,6 +102,12 @@ class SnifferTest : public SecurityTest {
     Sniffer sniffer("lo");
     something();
     return sniffer.Stop();
+  }
+  // Cyclone's "host/version/system", in what it announces of itself.
+  static std::string HostInAnnouncement() {
+    utsname machine{};
+    uname(&machine);
+    return machine.nodename + std::string("/0.");
   }
   const std::string route_ = "sniff" + std::to_string(getpid()) + "route";
   const std::string scout_ = "sniff" + std::to_string(getpid()) + "scout";
@@ -115,6 +125,7 @@ TEST_F(SnifferTest, SeesNamesWithoutSecurity) {
   });
   EXPECT_NE(heard.find(route_), std::string::npos);
   EXPECT_NE(heard.find(scout_), std::string::npos);
+  EXPECT_NE(heard.find(HostInAnnouncement()), std::string::npos);
 }
 
 TEST_F(SnifferTest, SeesNeitherNamesNorPayloadWithSecurity) {
@@ -126,6 +137,7 @@ TEST_F(SnifferTest, SeesNeitherNamesNorPayloadWithSecurity) {
   EXPECT_GT(heard.size(), 100'000U);  // what was taught did pass
   EXPECT_EQ(heard.find(route_), std::string::npos);
   EXPECT_EQ(heard.find(scout_), std::string::npos);
+  EXPECT_EQ(heard.find(HostInAnnouncement()), std::string::npos);
   // The segments' bytes, which the scout's store has.
   const auto store = store::OpenSqliteStore(Path("scout.db"));
   ASSERT_TRUE(store);

@@ -1,12 +1,11 @@
 // Strangers at a fleet with DDS Security: each gets nothing, the fleet does not notice, and the
 // server's log tells once who was kept out and why.
-#include "services/dds/dds_exchange.h"
 #include "services/security/files.h"
-#include "services/security/member_keys.h"
 #include "services/security/signing.h"
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/secured_fleet.h"
 #include "tests/support/pieces.h"
+#include "tests/support/stranger.h"
 
 namespace trailcast::test {
 namespace {
@@ -22,46 +21,15 @@ std::size_t CountOf(const std::string& text, const std::string& word) {
 
 class StrangersTest : public SecuredFleetTest {
  protected:
-  // As a stranger's program would do it, which skips the checks of ours.
   Result<std::unique_ptr<exchange::RouteExchange>> Join(const std::string& keys,
                                                         const exchange::TopicUse& use) {
-    dds::DdsOptions options;
-    options.discovery_tag = tag_;
-    options.network_interface = "lo";
-    options.self = AgentId("stranger");
-    options.close_timeout = std::chrono::milliseconds(0);
-    options.tell_of_stranger = [this](const std::string& line) { told_ += line + "\n"; };
-    if (!keys.empty()) options.keys = Lenient(keys);
-    return dds::OpenDdsExchange(options, use);
-  }
-  // The keys as they say they are; strangers may know the fleet's name key, too.
-  security::MemberKeys Lenient(const std::string& folder) {
-    security::MemberKeys keys;
-    keys.folder = folder;
-    keys.name_key = security::ReadSmallFile(authority_.folder() / "name.key").value();
-    const auto facts =
-        security::ReadCertificate(security::ReadSmallFile(keys.folder / "identity.pem").value());
-    keys.member = security::ParseCommonName(facts->common_name).value();
-    keys.expires = facts->validity.until;
-    return keys;
-  }
-  // Messages that reach somebody who asks for so long, whether or not they can be understood; that
-  // others are gone is no message of theirs.
-  static std::size_t HeardBy(exchange::RouteExchange& stranger, std::chrono::seconds patience,
-                             const std::string& name = "stranger") {
-    using Clock = std::chrono::steady_clock;
-    std::size_t heard = 0;
-    auto ask_at = Clock::now();
-    for (const auto deadline = ask_at + patience; Clock::now() < deadline;) {
-      if (Clock::now() >= ask_at) {
-        (void)stranger.Publish(exchange::CatalogRequest{.client = AgentId(name), .request = 1});
-        ask_at = Clock::now() + std::chrono::milliseconds(200);
-      }
-      for (const exchange::Message& message : stranger.Take(std::chrono::milliseconds(200))) {
-        if (!std::holds_alternative<exchange::AgentGone>(message)) ++heard;
-      }
-    }
-    return heard + stranger.dropped();
+    dds::DdsOptions network;
+    network.discovery_tag = tag_;
+    network.network_interface = "lo";
+    network.tell_of_stranger = [this](const std::string& line) { told_ += line + "\n"; };
+    // Strangers may know the fleet's name key, too.
+    if (!keys.empty()) network.keys = Stranger::AtTheirWord(keys, authority_.folder() / "name.key");
+    return Stranger::Join(network, use);
   }
   // It is told of, once, within the watch's patience and some seconds.
   static void ExpectKeptOutOnce(Process& server, const std::string& why) {
@@ -98,7 +66,7 @@ TEST_F(StrangersTest, APlaintextParticipantHearsNothing) {
   ASSERT_EQ(Teach(scout_keys_).status, 0);
   const auto stranger = Join("", exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_EQ(HeardBy(**stranger, kStay), 0U);
+  EXPECT_EQ(Stranger::HeardBy(**stranger, kStay), 0U);
   ExpectKeptOutOnce(*server, "calling itself 'stranger'");
   ExpectFleetAtWork();
 }
@@ -110,7 +78,7 @@ TEST_F(StrangersTest, KeysOfAnotherAuthorityOpenNothing) {
   const std::string keys = other.Add("desk", Role::kOperator, Now(), 30)->string();
   const auto stranger = Join(keys, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_EQ(HeardBy(**stranger, kStay), 0U);
+  EXPECT_EQ(Stranger::HeardBy(**stranger, kStay), 0U);
   ExpectKeptOutOnce(*server, "of another authority");
   ExpectFleetAtWork();
 }
@@ -153,11 +121,11 @@ TEST_F(StrangersTest, KeysThatExpireMeanwhileAreGoodForNothingMore) {
   const std::string keys = authority_.Add("brief", Role::kOperator, nearly_a_day_ago, 1)->string();
   const auto stranger = Join(keys, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_GT(HeardBy(**stranger, kLeft, "brief"), 0U) << "was no member before";
+  EXPECT_GT(Stranger::HeardBy(**stranger, kLeft, "brief"), 0U) << "was no member before";
   // What was under way.
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
-  EXPECT_EQ(HeardBy(**stranger, std::chrono::seconds(3), "brief"), 0U);
+  EXPECT_EQ(Stranger::HeardBy(**stranger, std::chrono::seconds(3), "brief"), 0U);
   EXPECT_THAT(told_, HasSubstr("the keys expired on"));
   ExpectFleetAtWork();
 }
@@ -184,7 +152,7 @@ TEST_F(StrangersTest, AMemberInTheWrongRoleIsStoppedByTheOthersDds) {
   ASSERT_TRUE(security::WriteFile(fs::path(observer_keys_) / "governance.p7s", signed_lax, 0644));
   const auto stranger = Join(observer_keys_, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_EQ(HeardBy(**stranger, std::chrono::seconds(5)), 0U);
+  EXPECT_EQ(Stranger::HeardBy(**stranger, std::chrono::seconds(5)), 0U);
   EXPECT_TRUE(server->WaitForOutput("kept out")) << server->output();
   EXPECT_THAT(server->output(), HasSubstr("does not follow the fleet's governance"));
   ExpectFleetAtWork();
@@ -204,7 +172,7 @@ TEST_F(StrangersTest, AnOldPermissionsFileWithLargerRightsFitsNoKeys) {
   // The whole old folder, which does not know that it was revoked:
   const auto stranger = Join(Path("was_operator"), exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_EQ(HeardBy(**stranger, kStay), 0U);
+  EXPECT_EQ(Stranger::HeardBy(**stranger, kStay), 0U);
   ExpectKeptOutOnce(*server, "kept out");
   ExpectFleetAtWork();
 }
@@ -214,7 +182,8 @@ TEST_F(StrangersTest, AMemberThatSpeaksForAnotherIsNotBelieved) {
   ASSERT_EQ(Teach(scout_keys_).status, 0);
   const auto stranger = Join(operator_keys_, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
-  EXPECT_GT(HeardBy(**stranger, std::chrono::seconds(5)), 0U);  // announcements, as it may
+  EXPECT_GT(Stranger::HeardBy(**stranger, std::chrono::seconds(5)),
+            0U);  // announcements, as it may
   ExpectKeptOutOnce(*server, "speaks in the name of 'stranger'");
   ExpectFleetAtWork();
 }

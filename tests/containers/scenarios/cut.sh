@@ -9,6 +9,7 @@ scenario_cut() {
   cut_off scout
   note "the scout is out of range for $lost s, teaching"
   sleep "$lost"
+  ended scout && fail 'the scout was done although it was out of range'
   bring_back scout
   back=$SECONDS
   expect_taught

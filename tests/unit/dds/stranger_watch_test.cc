@@ -11,6 +11,8 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
+using testing::UnorderedElementsAre;
 
 class StrangerWatchTest : public testing::Test {
  protected:
@@ -18,8 +20,8 @@ class StrangerWatchTest : public testing::Test {
     now_ += passed;
     return watch_.Tick(now_);
   }
-  void See(const std::string& participant, const std::string& about) {
-    watch_.See(participant, about, now_);
+  void See(const std::string& participant, const std::string& about, bool names_itself = false) {
+    watch_.See(participant, {about, names_itself}, now_);
   }
   void Warn(const std::string& line) { EXPECT_TRUE(watch_.HandleWarning(line, now_)) << line; }
 
@@ -38,6 +40,26 @@ TEST_F(StrangerWatchTest, OneThatDoesNotProveItselfIsToldOnce) {
   EXPECT_THAT(After(seconds(1)), ElementsAre(AllOf(HasSubstr("kept out"), HasSubstr("'robot-9'"),
                                                    HasSubstr("not proven"))));
   EXPECT_THAT(After(seconds(60)), IsEmpty());
+}
+
+TEST_F(StrangerWatchTest, OfTwoStrangersTheOneThatNamesItselfIsNotTheOneWithTheCertificate) {
+  See("1:2:3", "participant 1:2:3, host lab", true);
+  See("4:5:6", "participant 4:5:6");
+  Warn(expired_);
+  EXPECT_THAT(After(seconds(10)),
+              ElementsAre(HasSubstr("scout.4f2a9c0d11223344.3"),
+                          AllOf(HasSubstr("host lab"), HasSubstr("not proven"))));
+}
+
+TEST_F(StrangerWatchTest, ARefusalBelongsToWhoCameThen) {
+  const std::string revoked =
+      "Certificate not valid: error: certificate revoked; subject: /CN=scout.00000000.3(code: 200)";
+  See("1:2:3", "participant 1:2:3");
+  Warn(expired_);
+  now_ += seconds(5);
+  See("4:5:6", "participant 4:5:6");
+  Warn(revoked);
+  EXPECT_THAT(After(seconds(60)), SizeIs(2)) << "and no third or fourth";
 }
 
 TEST_F(StrangerWatchTest, MembersAndWhoHasGoneAreNotTold) {
@@ -67,6 +89,22 @@ TEST_F(StrangerWatchTest, AnotherStrangerBesideARefusedOneIsToldToo) {
   Warn(expired_);
   EXPECT_THAT(After(seconds(0)), ElementsAre(HasSubstr("expired")));
   EXPECT_THAT(After(seconds(10)), ElementsAre(HasSubstr("second")));
+}
+
+TEST_F(StrangerWatchTest, ARefusalThatIsHeardBeforeItsParticipantIsSeenIsNoSecondStranger) {
+  Warn(expired_);
+  EXPECT_THAT(After(seconds(1)), ElementsAre(HasSubstr("expired")));
+  See("1:2:3", "participant 1:2:3");
+  EXPECT_THAT(After(seconds(60)), IsEmpty());
+}
+
+TEST_F(StrangerWatchTest, WhoIsNotRefusedDoesNotHideBehindWhoIs) {
+  See("1:2:3", "participant 1:2:3");
+  now_ += seconds(3);
+  See("4:5:6", "participant 4:5:6");
+  Warn(expired_);
+  EXPECT_THAT(After(seconds(60)),
+              UnorderedElementsAre(HasSubstr("expired"), HasSubstr("participant 1:2:3")));
 }
 
 TEST_F(StrangerWatchTest, AForeignCertificateIsToldByItsWholeSubject) {
