@@ -15,9 +15,6 @@
 namespace trailcast::agent {
 namespace {
 
-using std::chrono::duration_cast;
-using std::chrono::milliseconds;
-
 // Longest time that can be asked for: a week.
 constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
@@ -36,10 +33,6 @@ void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
       ->check(CLI::Range(0.0, kLongest_s));
 }
 
-milliseconds Milliseconds(double seconds) {
-  return duration_cast<milliseconds>(FromSeconds(seconds));
-}
-
 Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
                                                       const exchange::TopicUse& use) {
   if (!options.server) return nullptr;
@@ -50,7 +43,7 @@ ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& 
   ScoutLinkOptions link;
   link.agent = AgentId(options.common.name);
   link.store_file = options.store_file;
-  link.delivery_timeout = Milliseconds(teach.delivery_timeout_s);
+  link.delivery_timeout = ToMilliseconds(teach.delivery_timeout_s);
   link.stop = [] { return cli::StopSignal::requested(); };
   return link;
 }
@@ -75,7 +68,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.revision.number = replay.revision;
   follower.link.store_file = options.store_file;
   follower.link.wait_for_route = replay.wait_for_route;
-  follower.link.wait = Milliseconds(replay.wait_s);
+  follower.link.wait = ToMilliseconds(replay.wait_s);
   follower.link.stop = [] { return cli::StopSignal::requested(); };
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
@@ -204,7 +197,7 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
   link.route = fetch.route;
   link.revision = {.number = fetch.revision, .newest = true};
   link.store_file = options.store_file;
-  link.wait = Milliseconds(fetch.wait_s);
+  link.wait = ToMilliseconds(fetch.wait_s);
   link.stop = [] { return cli::StopSignal::requested(); };
   return Ended(Fetch(link, std::move(*store), std::move(*exchange)), options);
 }

@@ -57,18 +57,13 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
   return ros2;
 }
 
-std::chrono::milliseconds Milliseconds(double seconds) {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(FromSeconds(seconds));
-}
-
 Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
                                               const cli::CommonOptions& network) {
   Ros2Run run = options.ros2;
-  run.topics.discovery_tag = network.dds_tag;
-  run.topics.network_interface = network.network_interface;
-  run.sensor_timeout = Milliseconds(options.sensor_timeout_s);
-  run.patience = Milliseconds(options.sensor_patience_s);
-  run.still_at_end = Milliseconds(options.still_at_end_s);
+  JoinNetwork(run.topics, network);
+  run.sensor_timeout = ToMilliseconds(options.sensor_timeout_s);
+  run.patience = ToMilliseconds(options.sensor_patience_s);
+  run.still_at_end = ToMilliseconds(options.still_at_end_s);
   run.stop = [] { return cli::StopSignal::requested(); };
   auto device = Ros2Device::Open(run);
   if (!device) return tl::unexpected(device.error());
@@ -112,14 +107,25 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
   return world;
 }
 
+void JoinNetwork(dds::Ros2Options& topics, const cli::CommonOptions& network) {
+  if (topics.network_interface.empty()) topics.network_interface = network.network_interface;
+}
+
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
                          dds::Ros2Options& topics) {
   const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
     return command.add_option(flag, value, text)->needs(robot)->group(group);
   };
-  add("--ros-domain", topics.domain_id, "The robot's ROS_DOMAIN_ID")
+  // Whoever works with ROS has it in the environment, which must not ask for a robot.
+  command.add_option("--ros-domain", topics.domain_id, "The robot's ROS_DOMAIN_ID")
+      ->group(group)
       ->check(CLI::Range(0, 230))
       ->envname("ROS_DOMAIN_ID");
+  add("--ros-interface", topics.network_interface,
+      "Network interface of the robot's own topics, as 'lo' where its nodes run on this computer; "
+      "default: --network-interface");
+  add("--ros-dds-tag", topics.discovery_tag,
+      "DDS domain tag of the robot's own topics; real robots have none");
   add("--image-topic", topics.image,
       "sensor_msgs/Image, or CompressedImage if it ends with '/compressed'; below the namespace "
       "unless it begins with '/'");

@@ -36,6 +36,9 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
                          dds::Ros2Options& topics);
 
+// The robot's topics, if they name no interface, are on the network's.
+void JoinNetwork(dds::Ros2Options& topics, const cli::CommonOptions& network);
+
 struct OpenedDevice {
   std::unique_ptr<RobotDevice> device;
   const SimulatedDevice* simulated = nullptr;  // the same, where it is one
@@ -44,7 +47,6 @@ struct OpenedDevice {
   [[nodiscard]] Result<void> WriteTruth(const DeviceOptions& options) const;
 };
 
-// `network`: the robot's topics have its tag and interface, and a domain of their own.
 [[nodiscard]] Result<OpenedDevice> OpenDevice(const DeviceOptions& options,
                                               const cli::CommonOptions& network);
 

@@ -63,7 +63,7 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
     if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
     // It is back at the start only if it is nowhere about the other place.
     const bool likest = !likest_ || (!at_start && Likeness(found) > Likeness(*likest_));
-    if (IsThere(found.seen) && likest) likest_ = std::move(found);
+    if (IsThere(found.seen) && Likeness(found) > 0.0 && likest) likest_ = std::move(found);
   }
   if (!at_start) {
     ++turn_;

@@ -18,9 +18,9 @@ struct LeftAt {
   double magnification = 1.0;  // this robot's pixels per scout's, as that run knew it
 };
 
-// Tells whether a robot that stands is where it was left, give or take a metre, or else back at the
-// route's start, by the features that were taught there. One place a frame, by turns, and of those
-// that are in view the likest.
+// Tells whether a robot that stands is where it was left, or up to a metre and a half further, or
+// else back at the route's start, by the features that were taught there. One place a frame, by
+// turns, and of those that are in view the likest.
 class PlaceFinder {
  public:
   struct Found {

@@ -9,10 +9,11 @@ constexpr std::chrono::seconds kKept{2};
 
 }  // namespace
 
-void PoseHistory::Add(SensorTime stamp, const motion::Pose2& pose) {
-  if (!samples_.empty() && stamp <= samples_.back().stamp) return;
+bool PoseHistory::Add(SensorTime stamp, const motion::Pose2& pose) {
+  if (!samples_.empty() && stamp <= samples_.back().stamp) return false;
   samples_.push_back({stamp, pose});
   while (stamp - samples_.front().stamp > kKept) samples_.pop_front();
+  return true;
 }
 
 motion::Pose2 PoseHistory::At(SensorTime stamp) const {

@@ -11,8 +11,8 @@ namespace trailcast::agent {
 // The last seconds of odometry, for the pose at the moment a frame was taken.
 class PoseHistory {
  public:
-  // A sample that is not newer than the last one is left out.
-  void Add(SensorTime stamp, const motion::Pose2& pose);
+  // False for a sample that is not newer than the last one: it is left out.
+  bool Add(SensorTime stamp, const motion::Pose2& pose);
 
   [[nodiscard]] bool empty() const { return samples_.empty(); }
   // The pose then, interpolated; before the oldest or after the newest sample, that one's.

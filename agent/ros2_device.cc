@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
@@ -27,6 +28,8 @@ constexpr std::chrono::hours kLockstepTimeout{24};
 constexpr milliseconds kOdometryLate{60};
 // Stamps further apart are of different clocks.
 constexpr std::chrono::seconds kSameClock{2};
+// That the robot shall stand is said so long: a base may miss what is said once.
+constexpr std::chrono::seconds kSayAgain{1};
 constexpr double kStill_m = 0.02;
 constexpr double kStill_rad = 0.02;
 
@@ -97,16 +100,21 @@ struct Ros2Device::State {
   void Keep(dds::Ros2Sensed sensed, steady_clock::time_point now);
   void KeepFrame(Frame frame);
   void StopIfInDoubt(steady_clock::time_point now);
+  [[nodiscard]] std::string NobodyListens() const;
 
   // Any thread, with the lock.
   Result<void> Tell(const motion::VelocityCommand& command);
+  [[nodiscard]] SensorTime CommandStamp() const;
 
   // The driving thread's, with the lock.
   [[nodiscard]] bool ready(steady_clock::time_point now) const;
   [[nodiscard]] std::optional<Error> GiveUp(steady_clock::time_point now) const;
   [[nodiscard]] std::string WhoIsMissing() const;
   [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
+  [[nodiscard]] bool OfOneClock(SensorTime stamp) const;
   [[nodiscard]] motion::Pose2 PoseAt(SensorTime stamp);
+  Result<std::optional<Frame>> Await(std::unique_lock<std::mutex>& guard);
+  void Leave(const Error& damage);
   void ShareTrouble();
 
   Ros2Run run;
@@ -118,13 +126,19 @@ struct Ros2Device::State {
   bool ending = false;
   RobotWatch watch;
   PoseHistory poses;
+  bool odometry_stands = false;  // it comes, with stamps that do not advance
   std::optional<Frame> newest;
-  std::vector<std::uint8_t> last_bytes;  // of the frame before
-  std::optional<SensorTime> given;       // the last frame that Next returned
-  bool answered = true;                  // with a command
-  motion::VelocityCommand told;          // what the base does
-  bool drove = false;                    // it was told to move before
+  steady_clock::time_point unserved_since;  // since when there has been a newest frame
+  std::vector<std::uint8_t> last_bytes;     // of the frame before
+  std::optional<SensorTime> given;          // the last frame that Next took
+  steady_clock::time_point given_came_at;
+  bool answered = true;  // with a command
+  int unreadable = 0;    // pictures that were left out
+  std::string why_unreadable;
+  motion::VelocityCommand told;  // what the base does
+  bool drove = false;            // it was told to move before
   steady_clock::time_point told_at;
+  steady_clock::time_point stop_said_until;
   std::optional<RobotWatch::Trouble> trouble;
   steady_clock::time_point waiting_since;  // for a frame
   std::string shared_trouble;
@@ -150,7 +164,8 @@ void Ros2Device::State::Hear() {
 
 void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point now) {
   if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
-    poses.Add(odometry->stamp, odometry->pose);
+    odometry_stands = !poses.Add(odometry->stamp, odometry->pose);
+    if (odometry_stands) return;
     watch.SawOdometry(now, odometry->stamp, odometry->pose);
     return;
   }
@@ -169,6 +184,7 @@ void Ros2Device::State::KeepFrame(Frame frame) {
   const std::vector<std::uint8_t>& bytes = *BytesOf(frame.picture);
   watch.SawFrame(frame.came_at, bytes != last_bytes);
   last_bytes = bytes;
+  if (!newest) unserved_since = frame.came_at;
   newest = std::move(frame);
 }
 
@@ -176,10 +192,23 @@ void Ros2Device::State::KeepFrame(Frame frame) {
 void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   trouble = watch.Check(now);
   if (!trouble && drove && driver->peers().bases == 0) {
-    trouble = {RobotWatch::Trouble::Part::kBase, "nobody listens to it"};
+    trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens()};
   }
   const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
-  if ((trouble || stale) && told != motion::VelocityCommand{}) (void)Tell({});
+  if (!trouble && !stale) return;
+  if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
+  // What cannot be handed over is said again, too.
+  if (now <= stop_said_until) (void)Tell({});
+}
+
+std::string Ros2Device::State::NobodyListens() const {
+  const bool plain = run.topics.command_type == dds::Ros2CommandType::kTwist;
+  std::string text = fmt::format("nobody listens to it as {}", plain ? "Twist" : "TwistStamped");
+  const std::string mismatch = driver->peers().mismatch;
+  if (!mismatch.empty()) {
+    text += fmt::format("; quality of service does not match: {}", mismatch);
+  }
+  return text + "; check --cmd-vel-topic and --cmd-vel-type";
 }
 
 Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
@@ -187,14 +216,26 @@ Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
   told_at = steady_clock::now();
   drove = drove || command != motion::VelocityCommand{};
   watch.Told(command);
-  return driver->Publish({given.value_or(SensorTime{}), command});
+  return driver->Publish({CommandStamp(), command});
+}
+
+// A base in real time brakes at what is old by its own clock, which is its odometry's; a robot in
+// lockstep waits for the answer to its frame.
+SensorTime Ros2Device::State::CommandStamp() const {
+  if (!run.lockstep && !poses.empty()) return poses.newest();
+  return given.value_or(SensorTime{});
+}
+
+bool Ros2Device::State::OfOneClock(SensorTime stamp) const {
+  return std::chrono::abs(poses.newest() - stamp) <= kSameClock;
 }
 
 bool Ros2Device::State::ready(steady_clock::time_point now) const {
   if (!newest || trouble) return false;
   if (!has_odometry()) return true;
   if (poses.empty()) return false;
-  return poses.newest() >= newest->stamp || now - newest->came_at > kOdometryLate;
+  return !OfOneClock(newest->stamp) || poses.newest() >= newest->stamp ||
+         now - unserved_since > kOdometryLate;
 }
 
 Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
@@ -205,7 +246,8 @@ Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
               fmt::format("camera {}: {}", run.topics.ImageTopic(), what.what)};
     case Part::kOdometry:
       return {ErrorCode::kUnavailable,
-              fmt::format("odometry {}: {}", run.topics.OdometryTopic(), what.what)};
+              fmt::format("odometry {}: {}{}", run.topics.OdometryTopic(), what.what,
+                          odometry_stands ? ": it comes, but its stamps do not advance" : "")};
     case Part::kBase:
       break;
   }
@@ -234,25 +276,31 @@ std::string Ros2Device::State::WhoIsMissing() const {
 
 std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) const {
   if (trouble && trouble->final) return Failure(*trouble);
-  if (now - waiting_since <= run.patience) return std::nullopt;
-  const auto waited_s = Seconds(run.patience);
+  // Without trouble it is the next frame that is waited for, which takes its time.
+  const auto patience =
+      trouble ? run.patience : std::max(run.patience, run.sensor_timeout + kOdometryLate);
+  if (now - waiting_since <= patience) return std::nullopt;
+  const auto waited_s = Seconds(patience);
   if (trouble) {
     Error error = Failure(*trouble);
-    error.message += fmt::format(", and not within {:.0f} s after", waited_s);
+    error.message += fmt::format(", and not within {:g} s after", waited_s);
     return error;
   }
+  if (!why_unreadable.empty()) {
+    return Error{ErrorCode::kUnavailable,
+                 fmt::format("no picture could be read for {:g} s: {}", waited_s, why_unreadable)};
+  }
   return Error{ErrorCode::kUnavailable,
-               fmt::format("the robot says nothing for {:.0f} s: {}", waited_s, WhoIsMissing())};
+               fmt::format("the robot says nothing for {:g} s: {}", waited_s, WhoIsMissing())};
 }
 
 motion::Pose2 Ros2Device::State::PoseAt(SensorTime stamp) {
-  const auto apart = std::chrono::abs(poses.newest() - stamp);
-  if (apart <= kSameClock) return poses.At(stamp);
+  if (OfOneClock(stamp)) return poses.At(stamp);
   if (!std::exchange(told_clocks, true)) {
     spdlog::warn(
         "stamps of pictures and odometry are {:.1f} s apart, of different clocks: taking "
         "the newest odometry for each picture",
-        Seconds(apart));
+        Seconds(std::chrono::abs(poses.newest() - stamp)));
   }
   return poses.At(poses.newest());
 }
@@ -283,60 +331,88 @@ Ros2Device::~Ros2Device() {
 }
 
 Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
-  auto driver = dds::Ros2Driver::Open(run.topics);
-  if (!driver) return Wrap(driver.error(), "the robot's topics");
   if (run.still_at_end > milliseconds(0) && run.topics.odometry.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "that a robot stands is known by its odometry, of which there is none");
   }
+  if (run.topics.image_is_compressed()) {
+    if (auto can = image::CanDecode(); !can) return Wrap(can.error(), run.topics.ImageTopic());
+  }
+  auto driver = dds::Ros2Driver::Open(run.topics);
+  if (!driver) return Wrap(driver.error(), "the robot's topics");
   return std::unique_ptr<Ros2Device>(
       new Ros2Device(std::make_unique<State>(run, std::move(*driver))));
+}
+
+// The next frame, with odometry if there is any; nothing when it is over.
+Result<std::optional<Frame>> Ros2Device::State::Await(std::unique_lock<std::mutex>& guard) {
+  if (run.lockstep && !answered) {
+    answered = true;
+    if (auto said = Tell({}); !said) return tl::unexpected(said.error());
+  }
+  while (!ready(steady_clock::now())) {
+    ShareTrouble();
+    if (run.stop()) return std::nullopt;
+    if (auto error = GiveUp(steady_clock::now())) return tl::unexpected(*error);
+    news.wait_for(guard, kListen);
+  }
+  ShareTrouble();
+  Frame frame = *std::exchange(newest, std::nullopt);
+  if (given && frame.stamp < *given) {
+    return Fail(ErrorCode::kUnavailable,
+                "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
+                "anew?",
+                run.topics.ImageTopic(), Seconds(*given), Seconds(frame.stamp));
+  }
+  given = frame.stamp;
+  given_came_at = frame.came_at;
+  answered = false;
+  return frame;
+}
+
+// A damaged picture is one less.
+void Ros2Device::State::Leave(const Error& damage) {
+  why_unreadable = damage.message;
+  if (++unreadable == 1) spdlog::warn("a picture is left out: {}", damage.message);
 }
 
 Result<std::optional<Observation>> Ros2Device::Next() {
   State& s = *state_;
   std::unique_lock guard(s.lock);
-  if (s.run.lockstep && !s.answered) {
-    s.answered = true;
-    if (auto told = s.Tell({}); !told) return tl::unexpected(told.error());
-  }
   s.waiting_since = steady_clock::now();
-  while (!s.ready(steady_clock::now())) {
-    s.ShareTrouble();
-    if (s.run.stop()) return std::nullopt;
-    if (auto error = s.GiveUp(steady_clock::now())) return tl::unexpected(*error);
-    s.news.wait_for(guard, kListen);
+  s.why_unreadable.clear();
+  while (true) {
+    const auto awaited = s.Await(guard);
+    if (!awaited) return tl::unexpected(awaited.error());
+    if (!*awaited) return std::nullopt;
+    const Frame& frame = **awaited;
+    Observation observation;
+    observation.stamp = frame.stamp;
+    if (s.has_odometry()) {
+      observation.odometry = s.PoseAt(frame.stamp);
+      if (s.still.Over(frame.stamp, *observation.odometry)) return std::nullopt;
+    }
+    guard.unlock();
+    auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
+    guard.lock();
+    if (gray) {
+      observation.image = std::move(*gray);
+      s.width_px = observation.image.width;
+      s.height_px = observation.image.height;
+      return observation;
+    }
+    if (gray.error().code != ErrorCode::kCorrupt) return tl::unexpected(gray.error());
+    s.Leave(gray.error());
   }
-  s.ShareTrouble();
-  const Frame frame = *std::exchange(s.newest, std::nullopt);
-  if (s.given && frame.stamp < *s.given) {
-    return Fail(ErrorCode::kUnavailable,
-                "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
-                "anew?",
-                s.run.topics.ImageTopic(), Seconds(*s.given), Seconds(frame.stamp));
-  }
-  s.given = frame.stamp;
-  s.answered = false;
-  Observation observation;
-  observation.stamp = frame.stamp;
-  if (s.has_odometry()) {
-    observation.odometry = s.PoseAt(frame.stamp);
-    if (s.still.Over(frame.stamp, *observation.odometry)) return std::nullopt;
-  }
-  guard.unlock();
-  auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
-  if (!gray) return tl::unexpected(gray.error());
-  observation.image = std::move(*gray);
-  s.width_px = observation.image.width;
-  s.height_px = observation.image.height;
-  return observation;
 }
 
 Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
   State& s = *state_;
   const std::lock_guard guard(s.lock);
   s.answered = true;
-  return s.Tell(s.trouble ? motion::VelocityCommand{} : command);
+  // What an old picture led to is no more to be done.
+  const bool old = !s.run.lockstep && steady_clock::now() - s.given_came_at > s.run.sensor_timeout;
+  return s.Tell(s.trouble || old ? motion::VelocityCommand{} : command);
 }
 
 std::string Ros2Device::camera() const {

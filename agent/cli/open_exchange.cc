@@ -57,7 +57,8 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   }
   auto opened = dds::OpenDdsExchange(dds, use);
   if (!opened) return Wrap(opened.error(), "joining the network");
-  if (options.heartbeat.empty()) return opened;
+  // A command is no sign of life of the agent beside it.
+  if (options.heartbeat.empty() || !IsAgent(use)) return opened;
   return WithHeartbeat(*std::move(opened), options.heartbeat);
 }
 

@@ -10,6 +10,7 @@
 #include "agent/tool/command.h"
 #include "agent/tool/route_export.h"
 #include "agent/tool/route_summary.h"
+#include "services/base/time.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
 
@@ -70,8 +71,7 @@ Result<Exported> FromServer(const cli::CommonOptions& common, const ExportOption
   auto peer = JoinAsOperator(common, exchange::FollowerTopics());
   if (!peer) return tl::unexpected(peer.error());
   TransferWatch watch;
-  watch.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options.timeout_s));
+  watch.timeout = ToMilliseconds(options.timeout_s);
   const auto reply = AskForRoutes(*peer->exchange, peer->self, {.name = options.route},
                                   exchange::kMaxRoutesPerReply, watch.timeout);
   if (!reply) return tl::unexpected(reply.error());
@@ -108,7 +108,7 @@ Command AddExportCommand(CLI::App& parent, const cli::CommonOptions& common) {
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("route", options->route, "Its name")->required()->check(cli::NameValidator());
-  app->add_option("--revision", options->revision, "This one; else the newest that is complete")
+  app->add_option("--revision", options->revision, "This one; else the active one")
       ->check(CLI::PositiveNumber);
   app->add_option("--out", options->out, "The file; else ROUTE.trailcast here");
   app->add_flag("--force", options->force, "Replace the file if it is there already");

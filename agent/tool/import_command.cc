@@ -10,6 +10,7 @@
 #include "agent/tool/command.h"
 #include "agent/tool/route_import.h"
 #include "agent/tool/route_summary.h"
+#include "services/base/time.h"
 
 namespace trailcast::tool {
 namespace {
@@ -89,8 +90,7 @@ Result<bool> ToServer(const CLI::App& app, const cli::CommonOptions& common,
   auto peer = JoinAsOperator(common, ImporterTopics());
   if (!peer) return tl::unexpected(peer.error());
   TransferWatch watch;
-  watch.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options.timeout_s));
+  watch.timeout = ToMilliseconds(options.timeout_s);
   return ImportAll(app, options, [&](const RouteFile& file) {
     TransferProgress progress(fmt::format("delivering '{}'", file.info().name), file.info().bytes);
     watch.progress = [&progress](std::uint64_t done) { progress.Show(done); };

@@ -41,8 +41,7 @@ Result<void> Run(const cli::CommonOptions& common, const RobotOptions& options) 
   auto device = agent::SimulatedDevice::Open(run);
   if (!device) return tl::unexpected(device.error());
   agent::VirtualRobotOptions robot = options.robot;
-  robot.topics.discovery_tag = common.dds_tag;
-  robot.topics.network_interface = common.network_interface;
+  agent::JoinNetwork(robot.topics, common);
   robot.stop = [] { return cli::StopSignal::requested(); };
   const auto summary = agent::RunVirtualRobot(**device, robot);
   if (!summary) return tl::unexpected(summary.error());

@@ -7,6 +7,7 @@
 
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/transfer.h"
+#include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/route/labels.h"
 
@@ -34,8 +35,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RouteEdit& 
   }
   const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
   if (!peer) return cli::Complain(app, peer.error());
-  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(timeout_s));
+  const auto timeout = ToMilliseconds(timeout_s);
   const auto reply = AskToEdit(*peer->exchange, peer->self, edit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   Tell(reply->page.routes);

@@ -9,6 +9,7 @@
 #include "agent/tool/command.h"
 #include "agent/tool/route_edits.h"
 #include "agent/tool/transfer.h"
+#include "services/base/time.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::tool {
@@ -102,8 +103,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptio
   }
   const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return cli::Complain(app, peer.error());
-  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options.timeout_s));
+  const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply = AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;

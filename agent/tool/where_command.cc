@@ -7,6 +7,7 @@
 #include "agent/tool/command.h"
 #include "agent/tool/transfer.h"
 #include "agent/tool/where_report.h"
+#include "services/base/time.h"
 #include "services/image/files.h"
 #include "services/vision/view_features.h"
 
@@ -40,8 +41,7 @@ int Run(const CLI::App& app, const cli::CommonOptions& common, const WhereOption
   if (!query) return cli::Complain(app, query.error());
   const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return cli::Complain(app, peer.error());
-  const auto timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options.timeout_s));
+  const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply = AskCatalog(*peer->exchange, peer->self, *query, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   std::fputs((options.json ? WhereJson(*reply) : WhereText(*reply)).c_str(), stdout);

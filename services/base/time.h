@@ -17,4 +17,8 @@ using SensorTime = std::chrono::nanoseconds;
       std::chrono::duration<double>(seconds));
 }
 
+[[nodiscard]] inline std::chrono::milliseconds ToMilliseconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(FromSeconds(seconds));
+}
+
 }  // namespace trailcast

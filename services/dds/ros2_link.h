@@ -19,9 +19,9 @@ namespace trailcast::dds {
 enum class Ros2CommandType : std::uint8_t { kTwist, kTwistStamped };
 
 struct Ros2Options {
-  std::uint32_t domain_id = 0;  // ROS_DOMAIN_ID
-  std::string discovery_tag;    // real ROS robots have none
-  std::string network_interface;
+  std::uint32_t domain_id = 0;    // ROS_DOMAIN_ID
+  std::string discovery_tag;      // real ROS robots have none
+  std::string network_interface;  // empty: DDS chooses
   // ROS names; those without a '/' in front are below `robot`, as in "/robot1".
   std::string robot;
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage

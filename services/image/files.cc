@@ -19,8 +19,9 @@ Result<const Codecs*> Load() {
   if (symbol == nullptr) {
     const char* const why = dlerror();  // NOLINT(concurrency-mt-unsafe): the thread's own in glibc
     return Fail(ErrorCode::kUnavailable,
-                "this installation reads and writes no pictures or videos, as robots that only "
-                "drive need none: {}; it lies beside the programs that './run build' makes, and in "
+                "this installation reads and writes no compressed pictures or videos, which robots "
+                "with uncompressed ones do not need: {}; it lies beside the programs that './run "
+                "build' makes, and in "
                 "the image 'tools'",
                 why == nullptr ? library.string() : why);
   }
@@ -34,6 +35,11 @@ const Result<const Codecs*>& Loaded() {
 }
 
 }  // namespace
+
+Result<void> CanDecode() {
+  if (!Loaded()) return tl::unexpected(Loaded().error());
+  return {};
+}
 
 Result<GrayImage> ReadGray(const fs::path& file) {
   return Loaded().and_then([&](const Codecs* codecs) { return codecs->ReadGray(file); });

@@ -14,6 +14,8 @@ namespace trailcast::image {
 // Reads any still picture OpenCV knows (PNG, JPEG, ...). Errors name the file and what is wrong.
 [[nodiscard]] Result<GrayImage> ReadGray(const std::filesystem::path& file);
 [[nodiscard]] Result<RgbImage> ReadRgb(const std::filesystem::path& file);
+// Whether this installation has what decodes pictures; the error says what is missing.
+[[nodiscard]] Result<void> CanDecode();
 // Decodes an encoded picture held in memory; `name` stands for the file in errors.
 [[nodiscard]] Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes,
                                          const std::string& name);

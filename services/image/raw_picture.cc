@@ -57,7 +57,7 @@ Result<void> CheckSize(const RawPicture& picture, std::size_t pixel_bytes) {
   const std::size_t row = picture.width_px * pixel_bytes;
   const std::size_t needed = std::size_t{picture.height_px - 1} * picture.step + row;
   if (picture.step < row || picture.bytes.size() < needed) {
-    return Fail(ErrorCode::kInvalidArgument,
+    return Fail(ErrorCode::kCorrupt,
                 "a picture of {}x{} pixels in {} with {} bytes, {} to a row: expected at least {}, "
                 "{} to a row",
                 picture.width_px, picture.height_px, picture.encoding, picture.bytes.size(),

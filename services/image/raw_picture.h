@@ -21,7 +21,7 @@ struct RawPicture {
 };
 
 // kInvalidArgument for an encoding that is not understood (the message lists those that are), a
-// picture of no size, rows that overlap or fewer bytes than the rows need.
+// picture of no size; kCorrupt for rows that overlap or fewer bytes than the rows need.
 [[nodiscard]] Result<GrayImage> GrayFromRaw(const RawPicture& picture);
 
 }  // namespace trailcast::image

@@ -13,6 +13,21 @@ source "$here/network_lab.sh"
 fetch_timeout=120
 fleet=  # folder of the fleet's authority; empty: no security
 
+# await SECONDS WHAT COMMAND...: until the command succeeds.
+await() {
+  local until=$((SECONDS + $1)) what=$2
+  shift 2
+  until "$@"; do
+    if ((SECONDS >= until)); then
+      tail -n 5 "$work"/*.log >&2 || true
+      die "waited in vain for $what"
+    fi
+    sleep 0.05
+  done
+}
+# NAME's log says WORD.
+says() { grep -q "$2" "$work/$1.log"; }
+
 median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 
 # start_server NUMBER STORE: the route server, running.
@@ -22,7 +37,7 @@ start_server() {
   on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug \
     --security "${fleet:+$fleet/members/server}" >"$log" 2>&1 &
   server=$!
-  until grep -q ready "$log"; do sleep 0.05; done
+  await 30 'the server' says server ready
 }
 
 # fetch NUMBER: the robot's, into a store of its own.
@@ -91,7 +106,7 @@ CONF
   disown
   on 1 nginx -c "$work/nginx.conf" 2>/dev/null &
   disown
-  until on 2 curl --silent --head --output /dev/null http://10.77.0.1:8080/route; do sleep 0.1; done
+  await 30 'the rivals' on 2 curl --silent --head --output /dev/null http://10.77.0.1:8080/route
 }
 
 make_route() {
@@ -142,7 +157,7 @@ plain_time() {
   export CYCLONEDDS_URI=$plain_uri
   on 1 "$bin/network_bench" write-transient-local --samples "$1" >"$work/writer.log" &
   writer=$!
-  until grep -q written "$work/writer.log"; do sleep 0.05; done
+  await 30 'the writer' says writer written
   on 2 timeout "$fetch_timeout" "$bin/network_bench" read-transient-local --samples "$1" |
     sed 's/.*=//'
   kill "$writer"
@@ -206,7 +221,7 @@ ingest() {
     "$bin/trailcast-server" --store "$work/server.db" --dds-tag ingest --network-interface lo \
       >"$work/server.log" 2>&1 &
     server=$!
-    until grep -q ready "$work/server.log"; do sleep 0.05; done
+    await 30 'the server' says server ready
     "$bin/network_bench" ingest --tag ingest --rate "$rate"
     kill "$server"
     wait "$server" || true
@@ -223,7 +238,7 @@ memory() {
   "$bin/trailcast-server" --store "$work/server.db" --dds-tag memory --network-interface lo \
     --http-port 8080 >"$work/server.log" 2>&1 &
   server=$!
-  until grep -q ready "$work/server.log"; do sleep 0.05; done
+  await 30 'the server' says server ready
   "$bin/network_bench" ingest --tag memory --duration $((60 * minutes)) >"$work/ingest.log" &
   scouts=$!
   load=(--dds-tag memory --network-interface lo routes)

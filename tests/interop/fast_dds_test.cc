@@ -131,7 +131,7 @@ TEST_F(FastDds, FetchesEverySegmentAndFindsItWhole) {
 TEST_F(FastDds, PublishesARouteThatIsStoredAndListedAndFollowed) {
   const auto copied = RunPeer({"copy", "hall", "hall-copied"});
   ASSERT_EQ(copied.status, 0) << copied.output << server_->output();
-  EXPECT_THAT(server_->output(), HasSubstr("scout 'fast-dds' is there"));
+  EXPECT_TRUE(server_->WaitForOutput("scout 'fast-dds' is there")) << server_->output();
   const auto listed = RunPeer({"list"});
   EXPECT_EQ(Lines(listed.output), OurList());
   EXPECT_THAT(OurList(), SizeIs(2));

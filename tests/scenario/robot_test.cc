@@ -74,6 +74,15 @@ TEST_F(RobotTest, ARobotWithoutAnAgentEndsWithASignal) {
   EXPECT_TRUE(std::filesystem::exists(Path("truth.csv")));
 }
 
+TEST_F(RobotTest, ARosDomainInTheEnvironmentAsksForNoRobot) {
+  std::ofstream(Path("path.csv")) << "x_m,y_m\n" << kPath;
+  Process agent({"/usr/bin/env", "ROS_DOMAIN_ID=3",
+                 std::string(TRAILCAST_BINARY_DIR) + "/trailcast-agent", "teach", "--sim", "indoor",
+                 "--path", Path("path.csv"), "--route", "hall", "--store", Path("routes.db")},
+                Path("env.log"));
+  EXPECT_EQ(End(agent).status, 0) << agent.output();
+}
+
 TEST_F(RobotTest, FaultsAreNamedWhenOneIsNotUnderstood) {
   for (const char* fault : {"camera-burns@3", "base-stops", "base-stops@", "base-stops@-1"}) {
     const auto robot = Robot("robot1", {"--fail", fault});

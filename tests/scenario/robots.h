@@ -21,12 +21,12 @@ class RobotsTest : public ProgramsTest {
     std::ofstream(file) << "x_m,y_m\n" << path;
     return Start("trailcast",
                  With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
-                       "--ros-domain", "3"},
+                       "--ros-domain", "3", "--ros-dds-tag", tag_},
                       words),
                  name);
   }
-  static Words Drives(const std::string& robot) {
-    return {"--ros2", "/" + robot, "--ros-domain", "3"};
+  [[nodiscard]] Words Drives(const std::string& robot) const {
+    return {"--ros2", "/" + robot, "--ros-domain", "3", "--ros-dds-tag", tag_};
   }
   // Route 'hall', into this store.
   void Teach(const std::string& store = "routes.db") {

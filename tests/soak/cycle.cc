@@ -148,7 +148,12 @@ void Cycle::Operate(const std::vector<std::string>& words, Stage next, Clock::ti
     tool_ = std::make_unique<test::Process>(all, errand_.folder / "tool.log");
     ++tool_runs_;
   }
-  if (!tool_->Ended()) return;
+  if (!tool_->Ended()) {
+    if (now < deadline_) return;
+    Fail(fmt::format("'trailcast routes {}' hangs: {}", words.front(), tool_->output()));
+    tool_.reset();  // which ends it
+    return Go(next, now);
+  }
   const std::string output = tool_->output();
   const bool succeeded = tool_->Wait() == 0;
   // The answer to an earlier run may have been lost, not so its effect.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <future>
+#include <vector>
 
 #include "tests/unit/agent/driven_device.h"
 #include "tests/unit/agent/swarm.h"
@@ -28,15 +29,17 @@ class TwoFollowersTest : public testing::Test {
     EXPECT_TRUE(swarm_.Teach(scout, options, false));
     swarm_.StartServer();
   }
-  std::future<Result<ReplayOutcome>> Start(
-      const std::string& name, DrivenDevice& device,
-      std::chrono::seconds stuck_after = std::chrono::seconds(6)) {
+  using Run = std::shared_future<Result<ReplayOutcome>>;
+
+  Run Start(const std::string& name, DrivenDevice& device,
+            std::chrono::seconds stuck_after = std::chrono::seconds(6)) {
     FollowerOptions options = swarm_.FollowerNamed(name);
     options.keep_distance.distance_m = kDistance_m;
     options.stuck_after = stuck_after;
     options.link.stop = [this] { return over_.load(); };
-    return std::async(std::launch::async,
-                      [this, options, &device] { return swarm_.Replay(device, options, true); });
+    Run run = std::async(std::launch::async,
+                         [this, options, &device] { return swarm_.Replay(device, options, true); });
+    return runs_.emplace_back(run);
   }
   // What an operator sees of the agents: waits until one is as wanted.
   bool See(const std::function<bool(const AgentStatus&)>& wanted) {
@@ -62,6 +65,7 @@ class TwoFollowersTest : public testing::Test {
              status.detail.find(saying) != std::string::npos;
     });
   }
+  // The runs outlive a test that failed half-way, and end here.
   ~TwoFollowersTest() override { over_ = true; }
 
   test::Swarm swarm_;
@@ -70,6 +74,7 @@ class TwoFollowersTest : public testing::Test {
   std::atomic<bool> over_{false};
   DrivenDevice first_;
   DrivenDevice second_;
+  std::vector<Run> runs_;
 };
 
 TEST_F(TwoFollowersTest, TheSecondStopsBehindTheFirstAndBothGoOnAfter) {
@@ -83,10 +88,10 @@ TEST_F(TwoFollowersTest, TheSecondStopsBehindTheFirstAndBothGoOnAfter) {
   EXPECT_GE(second_.along_m, kStopped_m - kDistance_m - 0.3);
   EXPECT_EQ(last_.speed_mps, 0.0);
   first_.wall_m = 1e9;
-  const auto first_ended = first.get();
+  const auto& first_ended = first.get();
   ASSERT_TRUE(first_ended) << first_ended.error().message;
   EXPECT_EQ(first_ended->state, "ARRIVED") << first_ended->reason;
-  const auto second_ended = second.get();
+  const auto& second_ended = second.get();
   ASSERT_TRUE(second_ended) << second_ended.error().message;
   EXPECT_EQ(second_ended->state, "ARRIVED") << second_ended->reason;
 }
@@ -99,7 +104,7 @@ TEST_F(TwoFollowersTest, ANeighbourThatIsWaitedForLongIsNoReasonToGiveUp) {
   auto second = Start("second", second_);
   ASSERT_TRUE(SeeWaiting("second", "waits for first")) << last_.detail;
   // The first gives up: stuck. Its robot stands in the way as before.
-  const auto first_ended = first.get();
+  const auto& first_ended = first.get();
   ASSERT_TRUE(first_ended) << first_ended.error().message;
   EXPECT_EQ(first_ended->state, "STUCK");
   ASSERT_TRUE(SeeWaiting("second", "not heard for")) << last_.detail;
