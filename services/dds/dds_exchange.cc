@@ -30,6 +30,12 @@ constexpr auto kLookEvery = std::chrono::seconds(1);
 // So long a folder may be in the middle of being copied.
 constexpr auto kCopying = std::chrono::seconds(10);
 
+exchange::SegmentBatch::Trust TrustIn(security::Role role) {
+  using Trust = exchange::SegmentBatch::Trust;
+  if (role == security::Role::kFollower) return Trust::kProof;
+  return role == security::Role::kScout ? Trust::kOwnRoutes : Trust::kAll;
+}
+
 class DdsExchange : public exchange::RouteExchange {
  public:
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
@@ -284,7 +290,7 @@ bool DdsExchange::IsAuthentic(const Reader& reader, dds_instance_handle_t writer
     return false;
   }
   if (auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
-    batch->lent = sender->role == security::Role::kFollower;
+    batch->trust = TrustIn(sender->role);
   }
   return true;
 }

@@ -125,6 +125,11 @@ bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
   return is_new;
 }
 
+std::optional<AgentId> KeptRoute::scout() const {
+  const std::optional<route::RouteInfo>& info = stored_ ? stored_ : claim_;
+  return info ? std::optional(info->scout) : std::nullopt;
+}
+
 void KeptRoute::ForgetClaim() {
   claim_ = stored_;
   want.Clear();

@@ -55,6 +55,8 @@ class KeptRoute {
                             const std::vector<store::HeldSegment>& held, Time now, Time ask_at);
   // The claim does not fit the segments: forget it, and never announce it.
   void ForgetClaim();
+  // Who taught it, as far as that is known.
+  [[nodiscard]] std::optional<AgentId> scout() const;
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }
   [[nodiscard]] bool complete() const {
     return stored_ && stored_->state == route::RouteState::kComplete;

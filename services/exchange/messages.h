@@ -32,9 +32,14 @@ struct RouteAnnouncement {
 struct SegmentBatch {
   AgentId sender{};
   std::vector<route::SegmentPiece> pieces{};
-  // A follower's, and senders are known (with DDS Security): believed only as far as it can be
-  // proven. Not on the wire.
-  bool lent = false;
+  // What the sender is believed, where senders are known (with DDS Security): anything, what it
+  // taught itself (a scout), or only what can be proven (a follower). Not on the wire.
+  enum class Trust : std::uint8_t { kAll, kOwnRoutes, kProof };
+  Trust trust = Trust::kAll;
+  // Of a route that `scout` taught, as far as that is known: to be proven.
+  [[nodiscard]] bool IsLent(const std::optional<AgentId>& scout) const {
+    return trust == Trust::kProof || (trust == Trust::kOwnRoutes && scout && *scout != sender);
+  }
   bool operator==(const SegmentBatch&) const = default;
 };
 

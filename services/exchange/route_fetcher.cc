@@ -62,7 +62,7 @@ void RouteFetcher::Handle(const Message& message, Time now) {
 void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key != key_) continue;
-    if (batch.lent) {
+    if (batch.IsLent(info_ ? std::optional(info_->scout) : std::nullopt)) {
       Borrow(piece, now);
     } else {
       piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);

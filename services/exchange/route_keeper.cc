@@ -77,7 +77,7 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
 
 void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const SegmentPiece& piece : batch.pieces) {
-    if (batch.lent && !IsKnown(piece, now)) {
+    if (IsLent(batch, piece.key, now) && !IsKnown(piece, now)) {
       ++counters_.unproven;
       AddNote(Note::Severity::kWarning, "unproven/" + batch.sender.value(),
               fmt::format("{} lends segment {} of {}, and what that must be is not known here: not "
@@ -95,6 +95,12 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
       if (KeptRoute* kept = Find(piece.key, now)) kept->want.AskAgain(piece.index, now);
     }
   }
+}
+
+bool RouteKeeper::IsLent(const SegmentBatch& batch, const route::RouteKey& key, Time now) {
+  if (batch.trust == SegmentBatch::Trust::kAll) return false;
+  const KeptRoute* kept = Find(key, now, Which::kStored);
+  return batch.IsLent(kept == nullptr ? std::nullopt : kept->scout());
 }
 
 // The segment was here once: what it must be is known.

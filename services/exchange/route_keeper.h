@@ -103,6 +103,7 @@ class RouteKeeper {
   void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
   void HandleBatch(const SegmentBatch& batch, Time now);
   void HandleRequest(const SegmentRequest& request, Time now);
+  [[nodiscard]] bool IsLent(const SegmentBatch& batch, const route::RouteKey& key, Time now);
   [[nodiscard]] bool IsKnown(const route::SegmentPiece& piece, Time now);
   void TakeFromOthers(const route::SegmentPiece& named, Time now);
   void TellDigests(const route::RouteKey& key, const KeptRoute& kept,

@@ -32,7 +32,9 @@ class RouteFetcherTest : public testing::Test {
   }
   // As a follower does whose keys say that it is one.
   void Lend(RouteFetcher& fetcher, const std::vector<route::SegmentPiece>& pieces) {
-    fetcher.Handle(SegmentBatch{.sender = AgentId("follower-2"), .pieces = pieces, .lent = true},
+    fetcher.Handle(SegmentBatch{.sender = AgentId("follower-2"),
+                                .pieces = pieces,
+                                .trust = SegmentBatch::Trust::kProof},
                    now_);
   }
   std::vector<SegmentIndex> AskedAfter(RouteFetcher& fetcher, milliseconds passed) {

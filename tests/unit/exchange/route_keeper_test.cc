@@ -409,8 +409,10 @@ TEST_F(RouteKeeperTest, OfWhatIsLentOnlyWhatWasHereBeforeIsTaken) {
   store_.damaged = {{key_, SegmentIndex(1)}};
   keeper_->NoteDamage(key_, SegmentIndex(1), now_);
   const auto lend = [&](const route::SegmentPiece& piece) {
-    keeper_->Handle(SegmentBatch{.sender = AgentId("follower"), .pieces = {piece}, .lent = true},
-                    now_);
+    keeper_->Handle(
+        SegmentBatch{
+            .sender = AgentId("follower"), .pieces = {piece}, .trust = SegmentBatch::Trust::kProof},
+        now_);
     Tick();
   };
   (void)keeper_->TakeNotes();
@@ -421,6 +423,23 @@ TEST_F(RouteKeeperTest, OfWhatIsLentOnlyWhatWasHereBeforeIsTaken) {
   lend(pieces_[1]);
   EXPECT_EQ(keeper_->counters().unproven, 1U);
   EXPECT_EQ(keeper_->counters().repaired, 1U);
+}
+
+TEST_F(RouteKeeperTest, AScoutIsBelievedWhatItTaughtItself) {
+  const auto deliver = [&](const std::string& scout, const route::SegmentPiece& piece) {
+    keeper_->Handle(
+        SegmentBatch{
+            .sender = AgentId(scout), .pieces = {piece}, .trust = SegmentBatch::Trust::kOwnRoutes},
+        now_);
+    Tick();
+  };
+  deliver("scout-1", pieces_[0]);  // before it is known whose the route is
+  Announce(3, RouteState::kTeaching);
+  deliver("scout-2", pieces_[1]);
+  EXPECT_EQ(keeper_->counters().unproven, 1U);
+  deliver("scout-1", pieces_[1]);
+  EXPECT_EQ(keeper_->counters().unproven, 1U);
+  EXPECT_TRUE(store_.ReadSegment(key_, SegmentIndex(1)));
 }
 
 TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
