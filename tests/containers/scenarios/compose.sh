@@ -1,19 +1,41 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
-# docker/compose.yaml as it is: a scout teaches the laboratory, followers keep their distance, all
-# arrive.
+# docker/compose.yaml and docker/compose.secure.yaml as they are: a scout teaches the laboratory,
+# followers keep their distance, all arrive.
 scenario_compose() {
-  local name told
-  local robots=(trailcast_scout_1 trailcast_follower_1 trailcast_follower_2)
-  told=$(FOLLOWERS=2 podman-compose --project-name trailcast \
-    --file "$root/docker/compose.yaml" up --detach 2>&1) || fail "$told"
-  for name in trailcast_server_1 "${robots[@]}"; do
-    podman container exists "$name" || fail "$name is not there: $told"
-    log_of[$name]=$(podman inspect --format '{{.HostConfig.LogConfig.Path}}' "$name")
+  export FOLLOWERS=2 KEYS=$LAB_WORK/authority/members
+  expect_compose compose.yaml scout follower_1 follower_2
+  clear_fleet
+  make_fleet_keys
+  expect_compose compose.secure.yaml scout follower-1 follower-2
+}
+
+make_fleet_keys() {
+  local tool=$root/build/release/bin/trailcast member
+  "$tool" keys init "$LAB_WORK/authority" >/dev/null
+  for member in server:server scout:scout follower-1:follower follower-2:follower; do
+    "$tool" keys --authority "$LAB_WORK/authority" add --role "${member#*:}" "${member%:*}" >/dev/null
   done
-  for name in "${robots[@]}"; do
+  chown -R 10001:10001 "$KEYS"
+}
+
+# expect_compose FILE ROBOT...
+expect_compose() {
+  local file=$1 name told names=()
+  shift
+  told=$(podman-compose --project-name trailcast --file "$root/docker/$file" up --detach 2>&1) ||
+    fail "$told"
+  for name in "$@"; do
+    [[ $name == *_[0-9] ]] || name+=_1
+    names+=("trailcast_$name")
+  done
+  for name in trailcast_server_1 "${names[@]}"; do
+    podman container exists "$name" || fail "$name is not there: $told"
+    log_of["$name"]=$(podman inspect --format '{{.HostConfig.LogConfig.Path}}' "$name")
+  done
+  for name in "${names[@]}"; do
     await_end 300 "$name"
     [[ $(status_of "$name") == 0 ]] || fail "$name ended with status $(status_of "$name")"
-    note "$name: $(value_of "$name" segments) segments, $(value_of "$name" state)"
+    note "$file: $name: $(value_of "$name" segments) segments, $(value_of "$name" state)"
   done
   podman healthcheck run trailcast_server_1 >/dev/null || fail 'the server is not well'
 }
