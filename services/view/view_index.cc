@@ -23,7 +23,9 @@ constexpr std::size_t kMostFeatures = 64;
 // Added to a segment's number of features where votes are weighed against it.
 constexpr std::uint32_t kUsualFeatures = 10;
 constexpr int kMostVotes = 0xFFFF;
-constexpr std::size_t kSweepFrom = 4096;
+// Removed segments whose entries stay until so many of them are worth a walk over the tables. Few:
+// a small fleet's server shall not grow by what it no longer has.
+constexpr std::size_t kSweepFrom = 64;
 
 }  // namespace
 

@@ -114,6 +114,22 @@ TEST(ViewIndex, IsFullAtItsBytesAndHasRoomAgainAfterARemoval) {
   EXPECT_TRUE(index.Add(KeyNumber(3), SegmentToSee(2000, 0)));
 }
 
+TEST(ViewIndex, AFewRoutesThatComeAndGoTakeNoMoreMemory) {
+  ViewIndex index;
+  const auto come_and_go = [&](unsigned from, unsigned until) {
+    for (unsigned route = from; route < until; ++route) {
+      for (unsigned segment = 0; segment < 4; ++segment) {
+        ASSERT_TRUE(index.Add(KeyNumber(route), SegmentToSee(10 * route + segment, segment)));
+      }
+      if (route > 1) index.Remove(KeyNumber(route - 1));
+    }
+  };
+  come_and_go(1, 30);
+  const std::size_t bytes = index.bytes();
+  come_and_go(30, 300);
+  EXPECT_LE(index.bytes(), bytes + bytes / 50);
+}
+
 TEST(ViewIndex, RoutesThatComeAndGoTakeNoMoreMemory) {
   ViewIndex index({.most_segments = 30});
   AddRoutes(index, 3);
