@@ -20,7 +20,7 @@ make_fleet_keys() {
 
 # expect_compose FILE ROBOT...
 expect_compose() {
-  local file=$1 name told names=()
+  local file=$1 name told state names=()
   shift
   told=$(podman-compose --project-name trailcast --file "$root/docker/$file" up --detach 2>&1) ||
     fail "$told"
@@ -34,8 +34,9 @@ expect_compose() {
   done
   for name in "${names[@]}"; do
     await_end 300 "$name"
+    state=$(value_of "$name" state)
     [[ $(status_of "$name") == 0 ]] || fail "$name ended with status $(status_of "$name")"
-    note "$file: $name: $(value_of "$name" segments) segments, $(value_of "$name" state)"
+    note "$file: $name: $(value_of "$name" segments) segments${state:+, $state}"
   done
   podman healthcheck run trailcast_server_1 >/dev/null || fail 'the server is not well'
 }
