@@ -18,12 +18,6 @@ namespace trailcast::test {
 // Reads along whatever passes an interface, as somebody at the same switch would. For root only.
 class Sniffer {
  public:
-  static bool Possible() {
-    const int socket = Open();
-    if (socket >= 0) close(socket);
-    return socket >= 0;
-  }
-
   explicit Sniffer(const std::string& interface) : socket_(Open()) {
     sockaddr_ll address{};
     address.sll_family = AF_PACKET;
