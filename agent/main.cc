@@ -50,7 +50,7 @@ int Run(int argc, char** argv) {
   agent::AddReplayOptions(*replay_app, replay);
   agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
-  CLI::App* health_app = cli::AddHealthCommand(app);
+  CLI::App* health_app = cli::AddHeartbeat(app, options.common);
   for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app, health_app}) {
     ShareHelp(app, *command);
   }

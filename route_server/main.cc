@@ -146,7 +146,7 @@ int Run(int argc, char** argv) {
   check->fallthrough();
   check->add_flag("--repair", repair,
                   "Make a store of what is whole, and keep the damaged file beside it");
-  const CLI::App* health = cli::AddHealthCommand(app);
+  const CLI::App* health = cli::AddHeartbeat(app, common);
   if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
   if (health->parsed()) return cli::RunHealth(app, common);
   if (check->parsed()) return CheckStore(app, store.location, repair);

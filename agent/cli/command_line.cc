@@ -77,10 +77,6 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
     // Keys that are wrong are told of by who needs them, when it joins.
     if (const auto in_keys = security::NameInKeys(options.security)) options.name = *in_keys;
   });
-  app.add_option("--heartbeat", options.heartbeat,
-                 "Renew this file every second while the process is well and on the network; its "
-                 "command 'health' looks at it")
-      ->envname("TRAILCAST_HEARTBEAT");
   app.add_option("--log-level", options.log_level, "What is told on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->envname("TRAILCAST_LOG_LEVEL");

@@ -22,7 +22,7 @@ struct CommonOptions {
   std::string dds_tag;
   std::string network_interface;
   std::string security;   // folder with this member's keys; empty: DDS without security
-  std::string heartbeat;  // file; empty: none
+  std::string heartbeat;  // file; empty: none, as with programs that do not offer one
   std::string log_level = "info";
   std::string log_format = "text";
 };

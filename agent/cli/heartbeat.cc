@@ -106,7 +106,11 @@ Result<std::string> ReadHeartbeat(const fs::path& file, std::chrono::millisecond
   return words;
 }
 
-CLI::App* AddHealthCommand(CLI::App& app) {
+CLI::App* AddHeartbeat(CLI::App& app, CommonOptions& options) {
+  app.add_option("--heartbeat", options.heartbeat,
+                 "Renew this file every second while the process is well and on the network; the "
+                 "command 'health' looks at it")
+      ->envname("TRAILCAST_HEARTBEAT");
   CLI::App* health = app.add_subcommand(
       "health", "Tell whether the process with this --heartbeat runs and is well");
   health->fallthrough();

@@ -28,8 +28,8 @@ inline constexpr std::chrono::seconds kHeartbeatStaleAfter{5};
     const std::filesystem::path& file,
     std::chrono::milliseconds stale_after = kHeartbeatStaleAfter);
 
-// The command 'health', which needs no --store though `app` does.
-CLI::App* AddHealthCommand(CLI::App& app);
+// The option --heartbeat and the command 'health', which needs no --store though `app` does.
+CLI::App* AddHeartbeat(CLI::App& app, CommonOptions& options);
 // Tells what the heartbeat of `options` says; the process's exit status.
 int RunHealth(const CLI::App& app, const CommonOptions& options);
 

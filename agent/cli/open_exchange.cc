@@ -57,8 +57,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   }
   auto opened = dds::OpenDdsExchange(dds, use);
   if (!opened) return Wrap(opened.error(), "joining the network");
-  // A command is no sign of life of the agent beside it.
-  if (options.heartbeat.empty() || !IsAgent(use)) return opened;
+  if (options.heartbeat.empty()) return opened;
   return WithHeartbeat(*std::move(opened), options.heartbeat);
 }
 
