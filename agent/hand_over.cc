@@ -4,6 +4,9 @@
 #include <array>
 #include <utility>
 
+#include "services/route/track.h"
+#include "services/vision/view_fit.h"
+
 namespace trailcast::agent {
 namespace {
 
@@ -37,6 +40,18 @@ bool IsBetter(const vision::FindResult& a, const vision::FindResult& b) {
 
 double ShareInPicture(const vision::FindResult& found) {
   return static_cast<double>(found.features.size()) / std::max(1, found.in_picture);
+}
+
+// How much larger than at the segment's beginning, where their patterns are from, most features are
+// at its fraction `s`.
+double Growth(const route::Segment& segment, double s) {
+  std::vector<vision::ViewPair> pairs;
+  pairs.reserve(segment.features.size());
+  for (const route::Feature& feature : segment.features) {
+    const route::TrackKnot there = route::TaughtPlace(feature, s);
+    pairs.push_back({feature.first().u_px, feature.first().v_px, there.u_px, there.v_px});
+  }
+  return vision::FitView(pairs).fit.scale;
 }
 
 }  // namespace
@@ -86,9 +101,12 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
 
 vision::FindResult HandOver::SeeFrom(const image::GrayImage& frame, const route::Segment& segment,
                                      double s, double magnification) const {
-  return finder_.FindNear(frame, segment.features,
-                          vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
-                          magnification, Around(kStart_px, scout_width_px_));
+  const double growth = Growth(segment, s);
+  vision::FindResult seen = finder_.FindNear(
+      frame, segment.features, vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
+      magnification * growth, Around(kStart_px, scout_width_px_));
+  seen.magnification /= growth;
+  return seen;
 }
 
 void HandOver::TakeUp(const vision::FindResult& seen, replay::Follower& follower) {
