@@ -58,8 +58,10 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
   const bool at_start = turn_ == kAround_m.size();
   const auto place = PlaceAt(segments, at_start ? 0.0 : left_.along_m + kAround_m.at(turn_));
   if (place) {
-    Found found{place->segment->index, place->fraction,
-                hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification)};
+    const bool grown = rounds_ > 0;  // where nothing was found as it was taught
+    Found found{
+        place->segment->index, place->fraction,
+        hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown)};
     if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
     // It is back at the start only if it is nowhere about the other place.
     const bool likest = !likest_ || (!at_start && Likeness(found) > Likeness(*likest_));
