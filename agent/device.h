@@ -28,7 +28,7 @@ class RobotDevice {
   // Whom Next tells, from its own thread, that the robot had to be stopped and why, and with ""
   // that it may drive again. Devices that never have to wait for their robot do not call it.
   using Trouble = std::function<void(const std::string& what)>;
-  virtual void OnTrouble(Trouble /*tell*/) {}
+  virtual void OnTrouble(const Trouble& /*tell*/) {}
 
   // For people: "webcam 320x240", "recorded 160x120".
   [[nodiscard]] virtual std::string camera() const = 0;

@@ -421,6 +421,6 @@ std::string Ros2Device::camera() const {
   return fmt::format("{} {}x{}", s.run.camera, s.width_px, s.height_px);
 }
 
-void Ros2Device::OnTrouble(Trouble tell) { state_->tell = std::move(tell); }
+void Ros2Device::OnTrouble(const Trouble& tell) { state_->tell = tell; }
 
 }  // namespace trailcast::agent

@@ -41,7 +41,7 @@ class Ros2Device final : public RobotDevice {
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override { return std::nullopt; }
-  void OnTrouble(Trouble tell) override;
+  void OnTrouble(const Trouble& tell) override;
 
  private:
   struct State;

@@ -87,7 +87,7 @@ trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
 // does not move.
 void KeepHeapWhole() {
   constexpr int kHalfAMegabyte = 512 * 1024;
-  mallopt(M_MMAP_THRESHOLD, kHalfAMegabyte);
+  mallopt(M_MMAP_THRESHOLD, kHalfAMegabyte);  // NOLINT(concurrency-mt-unsafe): the only thread yet
 }
 
 int Serve(const CLI::App& app, const cli::CommonOptions& common, const StoreOptions& options,

@@ -43,6 +43,7 @@ constexpr std::array kEncodings{
 
 std::string Known() {
   std::vector<std::string_view> names;
+  names.reserve(kEncodings.size());
   for (const Encoding& encoding : kEncodings) names.push_back(encoding.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }

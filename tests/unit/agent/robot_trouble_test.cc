@@ -30,7 +30,7 @@ class SilentDevice : public test::DrivenDevice {
     if (was_silent) tell_("");
     return DrivenDevice::Next();
   }
-  void OnTrouble(Trouble tell) override { tell_ = std::move(tell); }
+  void OnTrouble(const Trouble& tell) override { tell_ = tell; }
 
  private:
   Trouble tell_;
