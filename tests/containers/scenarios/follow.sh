@@ -14,16 +14,27 @@ scenario_follow() {
   signal_to STOP scout trailcast
   for robot in scout "${followers[@]}"; do
     await 30 "an answer from the catalog in $robot" catalog_lists_route "$robot"
-    podman healthcheck run "$robot" >/dev/null || fail "$robot is not well"
+    is_well "$robot" || fail "$robot is not well"
   done
   signal_to CONT scout trailcast
-  podman healthcheck run server >/dev/null || fail 'the server is not well'
+  is_well server || fail 'the server is not well'
   note "the catalog answered in all of scout, ${followers[*]}"
   expect_taught
   expect_arrived "${followers[@]}"
   note_convergence "${followers[@]}"
   note "the server's network: $(traffic_of server)"
+  expect_hanging_to_be_noticed
   expect_sound_store
 }
 
+expect_hanging_to_be_noticed() {
+  podman kill --signal STOP server >/dev/null
+  await 20 'the check of health to fail' is_ill server
+  podman kill --signal CONT server >/dev/null
+  await 20 'the server to be well again' is_well server
+  note 'a server that hangs is not well, until it goes on'
+}
+
 catalog_lists_route() { podman exec "$1" trailcast routes --name hall --timeout 3 >/dev/null 2>&1; }
+is_well() { podman healthcheck run "$1" >/dev/null 2>&1; }
+is_ill() { ! is_well "$1"; }
