@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -12,6 +11,7 @@
 
 #include "agent/pose_history.h"
 #include "agent/robot_watch.h"
+#include "agent/still_watch.h"
 #include "services/image/files.h"
 #include "services/image/raw_picture.h"
 
@@ -30,8 +30,6 @@ constexpr milliseconds kOdometryLate{60};
 constexpr std::chrono::seconds kSameClock{2};
 // That the robot shall stand is said so long: a base may miss what is said once.
 constexpr std::chrono::seconds kSayAgain{1};
-constexpr double kStill_m = 0.02;
-constexpr double kStill_rad = 0.02;
 
 struct Frame {
   SensorTime stamp{};
@@ -55,32 +53,6 @@ Result<image::GrayImage> Gray(const dds::Ros2Sensed& picture, const std::string&
   if (!gray) return Wrap(gray.error(), topic);
   return gray;
 }
-
-// Whether the robot, after it had moved, has stood for a while by its odometry.
-class StillWatch {
- public:
-  explicit StillWatch(milliseconds limit) : limit_(limit) {}
-
-  [[nodiscard]] bool Over(SensorTime stamp, const motion::Pose2& pose) {
-    if (!place_ || Moved(*place_, pose)) {
-      moved_ = place_.has_value();
-      place_ = pose;
-      since_ = stamp;
-    }
-    return limit_ > milliseconds(0) && moved_ && stamp - since_ >= limit_;
-  }
-
- private:
-  static bool Moved(const motion::Pose2& from, const motion::Pose2& to) {
-    const motion::Pose2 step = motion::Between(from, to);
-    return motion::Position(step).norm() > kStill_m || std::abs(step.heading_rad) > kStill_rad;
-  }
-
-  milliseconds limit_;
-  std::optional<motion::Pose2> place_;
-  SensorTime since_{};
-  bool moved_ = false;
-};
 
 }  // namespace
 
