@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "services/security/openssl_ptr.h"
+#include "services/security/pem.h"
 
 namespace trailcast::security {
 namespace {
@@ -19,24 +20,6 @@ using ExtensionPtr = std::unique_ptr<X509_EXTENSION, Freer<X509_EXTENSION_free>>
 using RevokedPtr = std::unique_ptr<X509_REVOKED, Freer<X509_REVOKED_free>>;
 
 std::time_t Seconds(Time time) { return std::chrono::system_clock::to_time_t(time); }
-
-Result<CertificatePtr> ParseCertificate(const std::string& text) {
-  const BioPtr in = ReadingFrom(text);
-  CertificatePtr certificate(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
-  ERR_clear_error();
-  if (!certificate) return Fail(ErrorCode::kInvalidArgument, "is no certificate in PEM form");
-  return certificate;
-}
-
-Result<KeyPtr> ParseKey(const std::string& text) {
-  const BioPtr in = ReadingFrom(text);
-  // A password is asked for by nobody: keys have none.
-  const auto no_password = [](char*, int, int, void*) { return 0; };
-  KeyPtr key(PEM_read_bio_PrivateKey(in.get(), nullptr, no_password, nullptr));
-  ERR_clear_error();
-  if (!key) return Fail(ErrorCode::kInvalidArgument, "is no private key in PEM form");
-  return key;
-}
 
 Result<std::string> KeyText(EVP_PKEY* key) {
   const BioPtr out = Memory();

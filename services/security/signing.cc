@@ -1,28 +1,18 @@
 #include "services/security/signing.h"
 
 #include "services/security/openssl_ptr.h"
+#include "services/security/pem.h"
 
 namespace trailcast::security {
-namespace {
-
-Result<CertificatePtr> Authority(const std::string& certificate) {
-  const BioPtr in = ReadingFrom(certificate);
-  CertificatePtr authority(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
-  if (!authority) return OpenSslFailed("reading the authority's certificate");
-  return authority;
-}
-
-}  // namespace
-
 Result<std::string> Sign(const std::string& text, const Identity& authority) {
-  const auto certificate = Authority(authority.certificate);
-  if (!certificate) return tl::unexpected(certificate.error());
-  const BioPtr key_text = ReadingFrom(authority.key);
-  const KeyPtr key(PEM_read_bio_PrivateKey(key_text.get(), nullptr, nullptr, nullptr));
-  if (!key) return OpenSslFailed("reading the authority's key");
+  const auto certificate = ParseCertificate(authority.certificate);
+  if (!certificate) return Wrap(certificate.error(), "the authority's certificate");
+  const auto key = ParseKey(authority.key);
+  if (!key) return Wrap(key.error(), "the authority's key");
   constexpr int kReadable = PKCS7_DETACHED | PKCS7_TEXT;
   const BioPtr in = ReadingFrom(text);
-  const Pkcs7Ptr signature(PKCS7_sign(certificate->get(), key.get(), nullptr, in.get(), kReadable));
+  const Pkcs7Ptr signature(
+      PKCS7_sign(certificate->get(), key->get(), nullptr, in.get(), kReadable));
   const BioPtr again = ReadingFrom(text);
   const BioPtr out = Memory();
   if (!signature || SMIME_write_PKCS7(out.get(), signature.get(), again.get(), kReadable) != 1) {
@@ -32,8 +22,8 @@ Result<std::string> Sign(const std::string& text, const Identity& authority) {
 }
 
 Result<std::string> OpenSigned(const std::string& signed_text, const std::string& authority) {
-  const auto certificate = Authority(authority);
-  if (!certificate) return tl::unexpected(certificate.error());
+  const auto certificate = ParseCertificate(authority);
+  if (!certificate) return Wrap(certificate.error(), "the authority's certificate");
   const BioPtr in = ReadingFrom(signed_text);
   BIO* content = nullptr;
   const Pkcs7Ptr signature(SMIME_read_PKCS7(in.get(), &content));

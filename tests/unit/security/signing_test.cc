@@ -34,6 +34,16 @@ TEST_F(SigningTest, WhatWasChangedOrSignedBySomebodyElseIsNot) {
   EXPECT_EQ(OpenSigned("no document", authority_.certificate).error().code, ErrorCode::kCorrupt);
 }
 
+TEST_F(SigningTest, AnAuthorityThatCannotBeReadIsToldOfByItsPart) {
+  const Identity no_key{authority_.certificate, "no key"};
+  EXPECT_THAT(Sign("<a/>\n", no_key).error().message, HasSubstr("the authority's key: is no"));
+  const Identity no_certificate{"no certificate", authority_.key};
+  EXPECT_THAT(Sign("<a/>\n", no_certificate).error().message,
+              HasSubstr("the authority's certificate: is no"));
+  EXPECT_THAT(OpenSigned("", "no certificate").error().message,
+              HasSubstr("the authority's certificate: is no"));
+}
+
 TEST_F(SigningTest, ACertificateSaysWhoAndHowLongAndByWhom) {
   const Identity member = Issue(authority_, "scout.4f2a9c0d11223344.1", year_).value();
   const CertificateFacts facts = ReadCertificate(member.certificate).value();
