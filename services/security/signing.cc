@@ -4,6 +4,7 @@
 #include "services/security/pem.h"
 
 namespace trailcast::security {
+
 Result<std::string> Sign(const std::string& text, const Identity& authority) {
   const auto certificate = ParseCertificate(authority.certificate);
   if (!certificate) return Wrap(certificate.error(), "the authority's certificate");

@@ -98,6 +98,9 @@ start_follower() { start_robot "$1" "$2" replay --wait-for-route --wait 300 --ke
 progress_of() { sed -n 's/.*: \([0-9]*\) % of .*/\1/p' "$(files_of "$1")/heartbeat" 2>/dev/null; }
 is_beyond() { (($(progress_of "$1") + 0 >= $2)); }
 
+# is_well NAME: by its image's check of health.
+is_well() { podman healthcheck run "$1" >/dev/null 2>&1; }
+
 # signal_to SIGNAL NAME PROGRAM: the program that the container's entry point started.
 signal_to() {
   local process

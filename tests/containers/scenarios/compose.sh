@@ -38,5 +38,5 @@ expect_compose() {
     [[ $(status_of "$name") == 0 ]] || fail "$name ended with status $(status_of "$name")"
     note "$file: $name: $(value_of "$name" segments) segments${state:+, $state}"
   done
-  podman healthcheck run trailcast_server_1 >/dev/null || fail 'the server is not well'
+  is_well trailcast_server_1 || fail 'the server is not well'
 }
