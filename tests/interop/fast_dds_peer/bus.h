@@ -67,6 +67,13 @@ class Outlet {
   void Put(typename PubSub::type sample) {
     if (!writer_->write(&sample)) throw std::runtime_error("cannot write to " + topic_);
   }
+  // Somebody reads the topic, and every reader that is known has all that was put.
+  bool IsHeard() {
+    eprosima::fastdds::dds::PublicationMatchedStatus matched;
+    writer_->get_publication_matched_status(matched);
+    return matched.current_count > 0 && writer_->wait_for_acknowledgments({0, 1}) ==
+                                            eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+  }
 
  private:
   std::string topic_;

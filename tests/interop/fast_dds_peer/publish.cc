@@ -55,6 +55,11 @@ class Scout {
     announcements_.Put(announcement);
     ShowStatus();
   }
+  // True when it may go: a receipt can come before a server's reader of statuses is found, and who
+  // leaves then was never seen.
+  bool IsDone() { return Receipted() && statuses_.IsHeard(); }
+
+ private:
   // True when all of it is on a server's disk, the final announcement included.
   bool Receipted() {
     constexpr std::uint8_t kComplete = 1;
@@ -63,13 +68,11 @@ class Scout {
       if (!(receipt.key() == route_.key())) continue;
       if (receipt.refusal() != 0) throw std::runtime_error("refused: " + receipt.reason());
       if (receipt.durable_state() == kComplete && receipt.durable_prefix() == pieces_.size()) {
-        return true;
+        receipted_ = true;
       }
     }
-    return false;
+    return receipted_;
   }
-
- private:
   void Answer(const wire::SegmentRequest& request) {
     if (!(request.key() == route_.key())) return;
     for (const std::uint32_t index : request.lacking()) {
@@ -98,6 +101,7 @@ class Scout {
   Inlet<wire::ReceiptPubSubType> receipts_;
   wire::CatalogRoute route_;
   std::vector<wire::SegmentPiece> pieces_;
+  bool receipted_ = false;
   std::uint64_t instance_ = std::random_device()();
 };
 
@@ -108,7 +112,7 @@ wire::CatalogRoute Publish(Bus& bus, const Fetched& fetched, const std::string& 
   Scout scout(bus, route, fetched.pieces);
   Until(
       bus, "a receipt for '" + name + "'", [&] { scout.Announce(); },
-      [&] { return scout.Receipted(); });
+      [&] { return scout.IsDone(); });
   return route;
 }
 
