@@ -11,9 +11,9 @@
 
 #include "agent/pose_history.h"
 #include "agent/robot_watch.h"
+#include "agent/ros2_picture.h"
 #include "agent/still_watch.h"
 #include "services/image/files.h"
-#include "services/image/raw_picture.h"
 
 namespace trailcast::agent {
 namespace {
@@ -34,25 +34,8 @@ constexpr std::chrono::seconds kSayAgain{1};
 struct Frame {
   SensorTime stamp{};
   steady_clock::time_point came_at;
-  dds::Ros2Sensed picture;
+  Ros2Picture picture;
 };
-
-const std::vector<std::uint8_t>* BytesOf(const dds::Ros2Sensed& picture) {
-  if (const auto* raw = std::get_if<dds::Ros2Image>(&picture)) return &raw->data;
-  if (const auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&picture)) return &jpeg->data;
-  return nullptr;
-}
-
-Result<image::GrayImage> Gray(const dds::Ros2Sensed& picture, const std::string& topic) {
-  if (const auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&picture)) {
-    return image::DecodeGray(jpeg->data, topic);
-  }
-  const auto& raw = std::get<dds::Ros2Image>(picture);
-  auto gray = image::GrayFromRaw(
-      {raw.width_px, raw.height_px, raw.encoding, raw.big_endian, raw.step, raw.data});
-  if (!gray) return Wrap(gray.error(), topic);
-  return gray;
-}
 
 }  // namespace
 
@@ -70,7 +53,7 @@ struct Ros2Device::State {
   // The hearing thread's.
   void Hear();
   void Keep(dds::Ros2Sensed sensed, steady_clock::time_point now);
-  void KeepFrame(Frame frame);
+  void KeepFrame(Ros2Picture picture, steady_clock::time_point now);
   void StopIfInDoubt(steady_clock::time_point now);
   [[nodiscard]] std::string NobodyListens() const;
 
@@ -141,23 +124,25 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     watch.SawOdometry(now, odometry->stamp, odometry->pose);
     return;
   }
-  const auto stamp = std::holds_alternative<dds::Ros2Image>(sensed)
-                         ? std::get<dds::Ros2Image>(sensed).stamp
-                         : std::get<dds::Ros2CompressedImage>(sensed).stamp;
-  KeepFrame({stamp, now, std::move(sensed)});
+  if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
+    KeepFrame(std::move(*jpeg), now);
+  } else {
+    KeepFrame(std::get<dds::Ros2Image>(std::move(sensed)), now);
+  }
 }
 
-void Ros2Device::State::KeepFrame(Frame frame) {
-  if (given && frame.stamp == *given) {
+void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
+  const SensorTime stamp = StampOf(picture);
+  if (given && stamp == *given) {
     // In lockstep: the robot did not get the answer, or does not yet have it.
     if (run.lockstep && answered) (void)driver->Publish({*given, told});
     return;
   }
-  const std::vector<std::uint8_t>& bytes = *BytesOf(frame.picture);
-  watch.SawFrame(frame.came_at, bytes != last_bytes);
+  const std::vector<std::uint8_t>& bytes = BytesOf(picture);
+  watch.SawFrame(now, bytes != last_bytes);
   last_bytes = bytes;
-  if (!newest) unserved_since = frame.came_at;
-  newest = std::move(frame);
+  if (!newest) unserved_since = now;
+  newest = Frame{stamp, now, std::move(picture)};
 }
 
 // Also when the loop that drives does not come back: a command is good for sensor_timeout.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "services/dds/ros2_link.h"
+#include "services/image/image.h"
+
+namespace trailcast::agent {
+
+// A picture of a ROS 2 camera, as it came.
+using Ros2Picture = std::variant<dds::Ros2Image, dds::Ros2CompressedImage>;
+
+[[nodiscard]] SensorTime StampOf(const Ros2Picture& picture);
+[[nodiscard]] const std::vector<std::uint8_t>& BytesOf(const Ros2Picture& picture);
+
+// Messages begin with `topic`. kCorrupt for a picture that is damaged, so that another may be well;
+// anything else holds for the camera.
+[[nodiscard]] Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic);
+
+}  // namespace trailcast::agent
