@@ -18,6 +18,8 @@ constexpr std::chrono::milliseconds kToGetGoing{1000};
 constexpr double kLeastShare = 0.1;
 // Weaving to and fro comes to nothing, and so tells nothing.
 constexpr double kLeastAsked_m = 0.01;
+// After less a picture without noise may be the same.
+constexpr double kLeastSeen_m = 0.01;
 // Half a small robot's width: turns as ways.
 constexpr double kArm_m = 0.15;
 
@@ -39,11 +41,19 @@ void RobotWatch::SawFrame(Time now, bool changed) {
   frame_at_ = now;
   if (changed) frozen_ = false;
   // A picture of a standing robot may well stay as it is.
-  if (changed || Stands(told_)) changed_at_ = now;
+  const bool anew = changed || Stands(told_);
+  if (anew) anew_from_ = pose_;
+  if (anew || StandsYet()) anew_at_ = now;
+}
+
+// A base may take its time. Without odometry it is taken to do as it is told.
+bool RobotWatch::StandsYet() const {
+  return has_odometry_ && Way(anew_from_, pose_) < kLeastSeen_m;
 }
 
 void RobotWatch::SawOdometry(Time now, SensorTime stamp, const motion::Pose2& pose) {
   odometry_at_ = now;
+  pose_ = pose;
   if (!Drives(told_)) return;
   driven_.push_back({stamp, pose, told_});
   JudgeBase();
@@ -92,7 +102,7 @@ std::optional<RobotWatch::Trouble> RobotWatch::CheckCamera(Time now) {
   if (now - *frame_at_ > timeout_) {
     return Trouble{Part::kCamera, fmt::format("no picture for {:.1f} s", Seconds(timeout_))};
   }
-  if (!Stands(told_) && now - changed_at_ > timeout_) frozen_ = true;
+  if (!Stands(told_) && now - anew_at_ > timeout_) frozen_ = true;
   if (frozen_) {
     return Trouble{Part::kCamera, fmt::format("the same picture again and again for {:.1f} s, told "
                                               "to drive: it is frozen, or the robot does not move",

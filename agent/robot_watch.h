@@ -48,14 +48,17 @@ class RobotWatch {
   [[nodiscard]] std::optional<Trouble> CheckOdometry(Time now) const;
   [[nodiscard]] std::optional<Trouble> CheckBase() const;
   void JudgeBase();
+  [[nodiscard]] bool StandsYet() const;
 
   std::chrono::milliseconds timeout_;
   bool has_odometry_;
   motion::VelocityCommand told_;
   std::optional<Time> frame_at_;
-  Time changed_at_{};
+  Time anew_at_{};           // since when pictures should change
+  motion::Pose2 anew_from_;  // where the robot was then
   bool frozen_ = false;
   std::optional<Time> odometry_at_;
+  motion::Pose2 pose_;
   std::deque<Sample> driven_;  // since the base was told to drive
   bool obeyed_ = false;        // it has driven since
   bool disobeyed_ = false;

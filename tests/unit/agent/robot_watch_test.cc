@@ -91,6 +91,32 @@ TEST_F(RobotWatchTest, TakesTheSamePictureForFrozenOnlyWhileTheRobotDrives) {
   EXPECT_FALSE(trouble_);
 }
 
+TEST_F(RobotWatchTest, WaitsForABaseToGetGoingBeforeAPictureMustChange) {
+  picture_changes_ = false;
+  base_ = false;
+  Tell(kAhead);
+  Run(2 * kTimeout);
+  EXPECT_FALSE(trouble_) << trouble_->what;
+  base_ = true;
+  Run(kFrame);
+  EXPECT_FALSE(trouble_) << "the next picture may be the first from elsewhere";
+  const auto began = now_;
+  Run(2 * kTimeout);
+  ASSERT_TRUE(trouble_);
+  EXPECT_EQ(trouble_->part, Part::kCamera);
+  EXPECT_LE(now_ - began, kTimeout + 2 * kFrame);
+}
+
+TEST_F(RobotWatchTest, WithoutOdometryARobotIsTakenToDoAsItIsTold) {
+  watch_ = RobotWatch(kTimeout, false);
+  odometry_ = false;
+  picture_changes_ = false;
+  Tell(kAhead);
+  Run(2 * kTimeout);
+  ASSERT_TRUE(trouble_);
+  EXPECT_EQ(trouble_->part, Part::kCamera);
+}
+
 TEST_F(RobotWatchTest, MissesTheOdometry) {
   Tell(kAhead);
   Run(milliseconds(2000));
