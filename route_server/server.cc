@@ -114,7 +114,8 @@ void Server::Serve() {
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
   }
   // What cannot be handed over is asked for again by whoever lacks it.
-  if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
+  const auto count = [this](const exchange::Message& message) { keeper_->CountSent(message); };
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing, count); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
   for (const exchange::Note& note : keeper_->TakeNotes()) {

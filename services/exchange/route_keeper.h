@@ -81,6 +81,8 @@ class RouteKeeper {
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
+  // What Tick returned was handed over; what a stalled reader blocks is not.
+  void CountSent(const Message& message);
 
   // Stores later labels of revisions, in one commit, and has them announced.
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);

@@ -200,8 +200,6 @@ void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
   AnswerQueue::Answers answers = answers_.Due(
       now, options_.answer_bytes_per_tick,
       [this](const RouteKey& key, SegmentIndex index) { return store_.ReadSegment(key, index); });
-  counters_.answered += answers.pieces.size();
-  for (const SegmentPiece& piece : answers.pieces) counters_.answered_bytes += piece.bytes.size();
   for (SegmentBatch& batch : SplitBatch({.sender = self_, .pieces = std::move(answers.pieces)})) {
     out.emplace_back(std::move(batch));
   }
@@ -212,6 +210,16 @@ void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
     }
     ++counters_.store_failures;
     AddNote(Note::Severity::kError, "unreadable", error.message, now);
+  }
+}
+
+void RouteKeeper::CountSent(const Message& message) {
+  const auto* batch = std::get_if<SegmentBatch>(&message);
+  if (batch == nullptr) return;
+  for (const SegmentPiece& piece : batch->pieces) {
+    if (piece.bytes.empty()) continue;
+    ++counters_.answered;
+    counters_.answered_bytes += piece.bytes.size();
   }
 }
 

@@ -30,12 +30,15 @@ TEST(PublishAll, TriesABlockedTopicOnceAndSendsTheRest) {
   const AgentStatus status{.agent = AgentId("s")};
   const CatalogRequest request{.client = AgentId("s")};
   BlockedExchange exchange;
+  std::vector<Message> told;
   const auto result =
-      PublishAll(exchange, std::vector<Message>{batch, status, batch, batch, request});
+      PublishAll(exchange, std::vector<Message>{batch, status, batch, batch, request},
+                 [&](const Message& message) { told.push_back(message); });
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().message, "blocked");
   EXPECT_EQ(exchange.attempts, 3);
   EXPECT_EQ(exchange.published, (std::vector<Message>{status, request}));
+  EXPECT_EQ(told, exchange.published);
 }
 
 TEST(PublishAll, OfNothingSucceeds) {

@@ -147,8 +147,13 @@ TEST_F(RouteKeeperTest, AnswersFollowersWhoAskTogetherOnce) {
   Ask("follower-1", Indices(0, 5));
   Ask("follower-2", Indices(0, 2));
   EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(9))).empty());
-  EXPECT_EQ(test::PiecesIn(TickAfter(milliseconds(1))), (std::vector{pieces_[0], pieces_[1]}));
+  const auto answers = TickAfter(milliseconds(1));
+  EXPECT_EQ(test::PiecesIn(answers), (std::vector{pieces_[0], pieces_[1]}));
   EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(100))).empty());
+  EXPECT_EQ(keeper_->counters().answered, 0U) << "until they are handed over";
+  for (const Message& message : answers) keeper_->CountSent(message);
+  EXPECT_EQ(keeper_->counters().answered, 2U);
+  EXPECT_EQ(keeper_->counters().answered_bytes, pieces_[0].bytes.size() + pieces_[1].bytes.size());
 }
 
 TEST_F(RouteKeeperTest, RepeatsItsReceiptToAScoutThatMissedIt) {
