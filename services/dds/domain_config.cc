@@ -10,17 +10,18 @@ namespace {
 // third to a half of the time with packets that fit an Ethernet frame (larger ones are lost with
 // any of their fragments, and cost a tenth less where nothing is lost), heartbeats after 20 ms
 // instead of 100 (what was lost last is noticed by them), and a NACK after 10 ms instead of 100.
-// Samples above 2 MB cannot be ours: they are not even put together. WhcHigh: what a writer may
-// have unacknowledged before it waits; 4 MB rides over a reader's short stall, and on a slow link
-// over one that was killed until its lease ends. Not adaptive: that begins with 30 kB, so that the
-// first batch after a reader appears waits over 100 ms for its first acknowledgement, and falls
-// with every loss.
+// Samples above 2 MB cannot be ours: they are not even put together. Watermarks: a writer waits
+// with more than 30 kB, a batch of segments, unacknowledged. So links take segments as fast as they
+// can and no faster: with 4 MB a link of 1 Mbit/s, whose queue then overflows, does not deliver
+// 1 MB within a minute. The price: who is killed while segments are on their way to it keeps them
+// from the others until its lease ends. Not adaptive: that falls with every loss.
 constexpr const char* kDefaults =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
     "<NackDelay>10ms</NackDelay>"
     "<MaxSampleSize>2MB</MaxSampleSize>"
-    "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>4MB</WhcHigh></Watermarks>"
+    "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>30kB</WhcHigh>"
+    "<WhcHighInit>30kB</WhcHighInit></Watermarks>"
     "</Internal></Domain></CycloneDDS>";
 // On an interface that was chosen; on others Cyclone decides for itself. The environment may forbid
 // it.
