@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -44,7 +43,15 @@ Result<std::vector<std::uint8_t>> ReadBytes(const fs::path& file) {
     return Fail(ErrorCode::kUnavailable, "cannot open the picture {}: check its permissions",
                 file.string());
   }
-  std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(stream), {});
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return Fail(ErrorCode::kUnavailable, "{}: {}", file.string(), error.message());
+  std::vector<std::uint8_t> bytes(size);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (stream.bad()) {
+    return Fail(ErrorCode::kUnavailable, "cannot read the picture {}: does the disk work?",
+                file.string());
+  }
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
   return bytes;
 }
 

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace trailcast::security {
@@ -39,7 +38,9 @@ Result<std::string> ReadSmallFile(const std::filesystem::path& file) {
                 file.string(), bytes);
   }
   std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text(bytes, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
   if (!in.is_open() || in.bad()) {
     return Fail(ErrorCode::kUnavailable, "{}: cannot be read by this user", file.string());
   }

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,9 +34,11 @@ bool Within(seconds bound, const std::function<bool()>& predicate) {
   return true;
 }
 
+// As far as it can be read: a process may end meanwhile, and its file with it.
 std::string Contents(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 // Processes of `program` whose command line names `folder`.
