@@ -74,7 +74,8 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
-  follower.link.from_start = replay.from_start;
+  follower.session.anywhere = replay.start == "anywhere";
+  follower.link.from_start = replay.from_start || replay.start != "left";
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {
     follower.link.place_file = options.store_file + "." + options.common.name + ".place";
@@ -139,10 +140,14 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
                    "With --server: also wait for a route that no server knows yet");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
-  command.add_flag(
-      "--from-start", replay.from_start,
-      "Begin at the route's start: do not look whether the robot is where its last run "
-      "has left it");
+  command
+      .add_option("--start", replay.start,
+                  "Where the robot is at first: where its last run has left it, or else at the "
+                  "route's beginning (left); at the beginning; anywhere on the route: it stands "
+                  "until it knows where")
+      ->check(CLI::IsMember({"left", "beginning", "anywhere"}))
+      ->capture_default_str();
+  command.add_flag("--from-start", replay.from_start, "The same as --start beginning");
   command
       .add_option(
           "--keep-distance", replay.keep_distance_m,

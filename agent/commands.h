@@ -45,6 +45,7 @@ struct ReplayCommand {
   bool wait_for_route = false;
   double speed_factor = 1.0;
   bool from_start = false;
+  std::string start = "left";
   double keep_distance_m = KeepDistanceOptions{}.distance_m;
 };
 

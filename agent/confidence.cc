@@ -116,7 +116,9 @@ Verdict Confidence::Judge(const Sighting& seen,
   }
   NoteView(seen);
   if (frames_since_covered_) ++*frames_since_covered_;
-  if (seen.agreeing >= Wanted(seen) && seen.taught >= options_.min_features) {
+  const bool agrees = seen.agreeing >= Wanted(seen) && seen.taught >= options_.min_features;
+  recognised_only_ = false;
+  if (agrees && !seen.elsewhere) {
     sure_once_ = true;
     covered_ = false;
     unsure_m_ = 0.0;
@@ -129,7 +131,12 @@ Verdict Confidence::Judge(const Sighting& seen,
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
   if (covered_) frames_since_covered_ = 0;
   const bool by_distance = moved.has_value() && sure_once_;
-  return {Decide(seen, by_distance), Explain(seen, by_distance)};
+  const Trust trust = Decide(seen, by_distance);
+  if (trust != Trust::kLost || covered_ || !seen.recognised) {
+    return {trust, Explain(seen, by_distance)};
+  }
+  sure_once_ = recognised_only_ = true;
+  return {Trust::kUnsure, Explain(seen, by_distance) + "; steers by the view as a whole"};
 }
 
 }  // namespace trailcast::agent

@@ -21,6 +21,10 @@ struct Sighting {
   std::optional<double> left_sigma_m = std::nullopt;
   // What is seen says that somebody carried the robot off just now.
   bool carried_off = false;
+  // By the belief over the whole route: the view as a whole is that of where the robot is thought
+  // to be; or of somewhere else on the route.
+  bool recognised = false;
+  bool elsewhere = false;
 };
 
 // What a robot may do.
@@ -102,6 +106,8 @@ class Confidence {
            *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
   }
   [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
+  // Not the segment's features, but the view as a whole says that the robot is on the path.
+  [[nodiscard]] bool recognised_only() const { return recognised_only_; }
   [[nodiscard]] const ConfidenceOptions& options() const { return options_; }
   [[nodiscard]] bool ever_sure() const { return sure_once_; }
 
@@ -128,6 +134,7 @@ class Confidence {
   // Since it was last sure.
   double unsure_m_ = 0.0;
   int unsure_frames_ = 0;
+  bool recognised_only_ = false;
   bool covered_ = false;
   std::optional<int> frames_since_covered_;
   std::uint32_t segment_ = 0;

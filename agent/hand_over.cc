@@ -1,7 +1,7 @@
 #include "agent/hand_over.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
 
 #include "services/route/track.h"
@@ -13,16 +13,15 @@ namespace {
 constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too noisy
 constexpr double kShareToLearn = 0.35;      // and from a small share of them not to be trusted
 constexpr std::size_t kMagnificationsKept = 15;
+// What the search at any magnification can find, and how far, as a logarithm, one fit may be from
+// what the run says: a lens's distortion, a patch seen from nearer.
+constexpr double kLeastMagnification = 0.15;
+constexpr double kMostMagnification = 6.5;
+constexpr double kMagnificationApart = 0.3;
 constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
 constexpr std::size_t kEnoughToRecover = 10;
-constexpr double kShareToSkip = 0.5;  // of a later segment's features, to go on from there
-// How many segments a lost robot looks for, the present one among them.
-constexpr std::size_t kAhead = 3;
-constexpr std::size_t kFurthestAhead = 10;
-constexpr std::size_t kNothingToSee = 4;  // a segment with fewer features
-constexpr int kFramesASegment = 5;        // hardly any is shorter
-// Around what the wide search says, in scout's pixels of a picture 320 px wide.
-constexpr double kAfterWide_px = 16.0;
+// Around what a recognised key view says, in scout's pixels of a picture 320 px wide.
+constexpr double kRecognised_px = 20.0;
 // At the start: some degrees of heading and of mount yaw.
 constexpr double kStart_px = 45.0;
 constexpr double kRecover_px = 56.0;
@@ -56,42 +55,41 @@ double Growth(const route::Segment& segment, double s) {
 
 }  // namespace
 
-std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> segments,
-                                             SegmentIndex here, bool has_odometry,
-                                             int lost_frames) {
-  const auto ahead = segments.subspan(here.value());
-  std::size_t reach = kAhead;
-  // Nothing says when a stretch without features is over, but those that come after it.
-  if (!has_odometry && ahead.front().features.size() < kNothingToSee) {
-    reach += static_cast<std::size_t>(lost_frames / kFramesASegment);
-  }
-  return ahead.first(std::min({reach, kFurthestAhead, ahead.size()}));
+// By patterns. A robot that takes its camera to be the scout's knows neither its heading nor its
+// tilt, and how far off features are along v is as uncertain as along u.
+vision::FindResult HandOver::FindNear(const image::GrayImage& frame, const route::Segment& segment,
+                                      std::span<const route::TrackedFeature> expected,
+                                      double magnification, double within_px_at_320) const {
+  const vision::SearchRadius radius = Around(within_px_at_320, scout_width_px_);
+  return any_camera_ ? finder_.FindNear(frame, segment.features, expected, magnification, radius)
+                     : finder_.FindTilted(frame, segment.features, expected, magnification,
+                                          {radius.u_px, radius.u_px});
 }
 
 vision::FindResult HandOver::FindAnywhere(const image::GrayImage& frame,
-                                          const route::Segment& segment, double s) const {
-  if (seen_magnifications_.empty()) {
-    vision::FindResult found = finder_.FindAtAnyMagnification(frame, segment.features, s,
-                                                              Around(kStart_px, scout_width_px_));
-    if (!found.features.empty()) return found;
+                                          const route::Segment& segment, double s,
+                                          const std::optional<vision::ViewFit>& recognised) const {
+  if (recognised) {
+    vision::FindResult found = finder_.FindNear(
+        frame, segment.features, vision::TaughtPlaces(segment.features, s, *recognised),
+        recognised->scale, Around(kRecognised_px, scout_width_px_));
+    if (found.BeyondChance()) return found;
   }
-  const vision::WideResult coarse = finder_.FindWide(frame, segment.features, s);
-  if (coarse.matches == 0) return {};
-  return finder_.FindNear(frame, segment.features,
-                          vision::TaughtPlaces(segment.features, s, coarse.fit), coarse.fit.scale,
-                          Around(kAfterWide_px, scout_width_px_));
+  if (!seen_magnifications_.empty()) return {};
+  return finder_.FindAtAnyMagnification(frame, segment.features, s,
+                                        Around(kStart_px, scout_width_px_));
 }
 
 std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& frame,
-                                                       replay::Follower& follower) {
+                                                       replay::Follower& follower,
+                                                       const Recognise& recognise) {
   const route::Segment& segment = follower.segment();
   last_was_wide_ = false;
   if (segment.features.empty()) return {};
-  vision::FindResult found =
-      finder_.FindNear(frame, segment.features, follower.Expect(), follower.magnification(),
-                       Around(follower.expected_within_px_at_320(), scout_width_px_));
+  vision::FindResult found = FindNear(frame, segment, follower.Expect(), follower.magnification(),
+                                      follower.expected_within_px_at_320());
   if (any_camera_ && ShareInPicture(found) < kEnoughShare) {
-    vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0);
+    vision::FindResult elsewhere = FindAnywhere(frame, segment, 0.0, recognise());
     last_was_wide_ = IsBetter(elsewhere, found);
     if (last_was_wide_) found = std::move(elsewhere);
   }
@@ -124,10 +122,23 @@ std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame
       .features;
 }
 
+// One fit builds on the magnification that the last ones gave: what holds all of them is what the
+// whole run has recognised.
+bool HandOver::Plausible(double magnification) const {
+  if (!std::isfinite(magnification) || magnification < kLeastMagnification ||
+      magnification > kMostMagnification) {
+    return false;
+  }
+  const double run = recognised_magnification_.value_or(
+      seen_magnifications_.empty() ? magnification : seen_magnifications_.front());
+  return std::abs(std::log(magnification / run)) < kMagnificationApart;
+}
+
 // The magnification as a running median: one bad fit does no harm.
 void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower) {
   const bool first = seen_magnifications_.empty() && found.BeyondChance();
   if (found.features.size() < kEnoughToLearn && !first) return;
+  if (!Plausible(found.magnification)) return;
   seen_magnifications_.push_back(found.magnification);
   if (seen_magnifications_.size() > kMagnificationsKept) seen_magnifications_.pop_front();
   std::vector<double> sorted(seen_magnifications_.begin(), seen_magnifications_.end());
@@ -136,43 +147,20 @@ void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower
   follower.SetMagnification(*middle);
 }
 
-vision::FindResult HandOver::FindAt(const image::GrayImage& frame, const route::Segment& segment,
-                                    double s, double magnification) const {
-  vision::FindResult near = finder_.FindNear(
-      frame, segment.features, vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
-      magnification, Around(kRecover_px, scout_width_px_));
-  if (!any_camera_) return near;
-  vision::FindResult anywhere = FindAnywhere(frame, segment, s);
-  return IsBetter(anywhere, near) ? anywhere : near;
-}
-
-std::optional<HandOver::Recovered> HandOver::Recover(const image::GrayImage& frame,
-                                                     replay::Follower& follower,
-                                                     std::span<const route::Segment> ahead,
-                                                     bool can_wait) {
-  constexpr std::array kOfTheFirst = {0.0, 0.5, 1.0};
-  const std::size_t places = kOfTheFirst.size() + ahead.size() - 1;
-  const std::size_t from = can_wait ? turn_++ % places : 0;
-  const std::size_t to = can_wait ? from + 1 : places;
-  vision::FindResult best;
-  std::size_t segment = 0;
-  for (std::size_t place = from; place < to; ++place) {
-    const std::size_t i = place < kOfTheFirst.size() ? 0 : place - kOfTheFirst.size() + 1;
-    if (ahead[i].features.empty()) continue;
-    const double s = i == 0 ? kOfTheFirst.at(place) : 0.0;
-    vision::FindResult found = FindAt(frame, ahead[i], s, follower.magnification());
-    if (found.features.size() <= best.features.size()) continue;
-    best = std::move(found);
-    segment = i;
+std::vector<route::TrackedFeature> HandOver::Recover(
+    const image::GrayImage& frame, replay::Follower& follower, const route::Segment& segment,
+    double s, const std::optional<vision::ViewFit>& recognised) {
+  const double magnification = follower.magnification();
+  vision::FindResult found =
+      FindNear(frame, segment, vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
+               magnification, kRecover_px);
+  if (any_camera_) {
+    vision::FindResult elsewhere = FindAnywhere(frame, segment, s, recognised);
+    if (IsBetter(elsewhere, found)) found = std::move(elsewhere);
   }
-  const double share = static_cast<double>(best.features.size()) /
-                       std::max(1.0, static_cast<double>(ahead[segment].features.size()));
-  // What is ahead may be seen from afar: to go on from there, most of it must be.
-  const bool too_far = can_wait && segment > 0 && share < kShareToSkip;
-  const bool enough = best.features.size() >= kEnoughToRecover || best.BeyondChance();
-  if (!enough || too_far) return std::nullopt;
-  if (any_camera_ && ShareInPicture(best) >= kShareToLearn) Learn(best, follower);
-  return Recovered{segment, std::move(best.features)};
+  if (found.features.size() < kEnoughToRecover && !found.BeyondChance()) return {};
+  if (any_camera_) Learn(found, follower);
+  return std::move(found.features);
 }
 
 }  // namespace trailcast::agent

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,14 +11,9 @@
 #include "services/replay/follower.h"
 #include "services/route/tracked_feature.h"
 #include "services/vision/feature_finder.h"
+#include "services/vision/view_fit.h"
 
 namespace trailcast::agent {
-
-// The segments, from `here` on, that a robot may be in which has lost its features for so many
-// frames.
-[[nodiscard]] std::span<const route::Segment> WhereItMayBe(std::span<const route::Segment> segments,
-                                                           SegmentIndex here, bool has_odometry,
-                                                           int lost_frames);
 
 // Finds a segment's stored features in the follower's picture, whatever its camera, and learns how
 // the two cameras' magnifications compare.
@@ -28,10 +24,15 @@ class HandOver {
   HandOver(bool any_camera, int scout_width_px)
       : any_camera_(any_camera), scout_width_px_(scout_width_px) {}
 
+  // How the scout's picture maps onto this one by what is recognised, as a function that is called
+  // only where the features are not found as they were expected; nothing: nothing is recognised.
+  using Recognise = std::function<std::optional<vision::ViewFit>()>;
+
   // The features of the segment that `follower` has just begun, in the follower's pixels. Tells the
   // follower the magnification it saw.
   [[nodiscard]] std::vector<route::TrackedFeature> ToSegment(const image::GrayImage& frame,
-                                                             replay::Follower& follower);
+                                                             replay::Follower& follower,
+                                                             const Recognise& recognise);
 
   // A segment's features as a robot sees them that stands at its fraction `s`. `grown`: their
   // patterns as much larger as the features are there; finds them late in a segment before a near
@@ -46,19 +47,15 @@ class HandOver {
   [[nodiscard]] std::vector<route::TrackedFeature> Again(const image::GrayImage& frame,
                                                          const replay::Follower& follower) const;
 
-  struct Recovered {
-    std::size_t segment = 0;  // position in `ahead`
-    std::vector<route::TrackedFeature> features;
-  };
-  // Somewhere in the segments `ahead`, for a robot that lost its features, or never had any: tells
-  // the follower the magnification it saw, too. The places are the first segment's beginning,
-  // middle and end and the later ones' beginnings. A search of the whole picture for one of them
-  // takes the time of several frames: a robot that can wait, knowing how far it drives meanwhile,
-  // takes one place a call, by turns.
-  [[nodiscard]] std::optional<Recovered> Recover(const image::GrayImage& frame,
-                                                 replay::Follower& follower,
-                                                 std::span<const route::Segment> ahead,
-                                                 bool can_wait);
+  // The features of any segment, for a robot that lost its own, or never had any: seen from its
+  // fraction `s`, as they are expected by the follower's magnification, or by what is recognised.
+  // Tells the follower the magnification that it saw. Nothing if they are too few to go on with.
+  [[nodiscard]] std::vector<route::TrackedFeature> Recover(
+      const image::GrayImage& frame, replay::Follower& follower, const route::Segment& segment,
+      double s, const std::optional<vision::ViewFit>& recognised);
+
+  // What all of the run so far has recognised: magnifications far from it are not believed.
+  void SetRunMagnification(double magnification) { recognised_magnification_ = magnification; }
 
   // Whether the last ToSegment found them by a search of the whole picture.
   [[nodiscard]] bool last_was_wide() const { return last_was_wide_; }
@@ -67,21 +64,24 @@ class HandOver {
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  [[nodiscard]] vision::FindResult FindAt(const image::GrayImage& frame,
-                                          const route::Segment& segment, double s,
-                                          double magnification) const;
-  [[nodiscard]] vision::FindResult FindAnywhere(const image::GrayImage& frame,
-                                                const route::Segment& segment, double s) const;
+  [[nodiscard]] vision::FindResult FindNear(const image::GrayImage& frame,
+                                            const route::Segment& segment,
+                                            std::span<const route::TrackedFeature> expected,
+                                            double magnification, double within_px_at_320) const;
+  [[nodiscard]] vision::FindResult FindAnywhere(
+      const image::GrayImage& frame, const route::Segment& segment, double s,
+      const std::optional<vision::ViewFit>& recognised) const;
+  [[nodiscard]] bool Plausible(double magnification) const;
   void Learn(const vision::FindResult& found, replay::Follower& follower);
 
   vision::FeatureFinder finder_;
   bool any_camera_;
   int scout_width_px_;
   std::deque<double> seen_magnifications_;
+  std::optional<double> recognised_magnification_;
   bool last_was_wide_ = false;
   double share_sum_ = 0.0;
   int count_ = 0;
-  std::size_t turn_ = 0;  // of Recover, where it can wait
 };
 
 }  // namespace trailcast::agent

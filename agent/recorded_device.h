@@ -32,6 +32,7 @@ class RecordedDevice final : public RobotDevice {
 
   [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
+  [[nodiscard]] int width_px() const { return width_; }
 
  private:
   RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,

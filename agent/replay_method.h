@@ -33,6 +33,9 @@ struct ReplayMethodOptions {
   ReplayMethod method = ReplayMethod::kDefault;
   motion::VelocityLimits limits{1.0, 0.8};
   double speed_factor = 1.0;  // times the taught speed
+  // The robot may be anywhere on the route at first: it stands until it knows where. Otherwise at
+  // the route's start, or where it was left.
+  bool anywhere = false;
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

@@ -10,6 +10,9 @@
 #include "agent/confidence.h"
 #include "agent/frame_check.h"
 #include "agent/hand_over.h"
+#include "agent/place_keeper.h"
+#include "agent/place_trust.h"
+#include "agent/view_follower.h"
 #include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
 
@@ -19,6 +22,7 @@ namespace {
 constexpr double kUncertainSpeedFactor = 0.6;
 // Blind robots look for the route again every so many frames: the wide search costs time.
 constexpr int kLookAgain_frames = 5;
+constexpr double kShareToSkip = 0.5;
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
 constexpr int kRefresh_frames = 6;
@@ -38,9 +42,39 @@ std::ptrdiff_t InPicture(const std::vector<route::TrackedFeature>& places,
   });
 }
 
+// How far most features moved between two frames, as a share of the picture's width.
+double Flow(const std::vector<route::TrackedFeature>& before,
+            const std::vector<route::TrackedFeature>& now, int width_px) {
+  std::vector<double> moved;
+  std::size_t i = 0;
+  for (const route::TrackedFeature& feature : now) {
+    while (i < before.size() && before[i].id != feature.id) ++i;
+    if (i == before.size()) break;
+    moved.push_back(std::hypot(feature.u_px - before[i].u_px, feature.v_px - before[i].v_px));
+  }
+  if (moved.size() < 4) return 1.0;
+  const auto middle = moved.begin() + std::ssize(moved) / 2;
+  std::nth_element(moved.begin(), middle, moved.end());
+  return *middle / width_px;
+}
+
+constexpr int kMostWithoutPicture_frames = 90;
+// How far from the route's start a robot may be that is put there, in the route's units.
+constexpr double kStart_sigma = 0.25;
+constexpr double kFound_m = 0.3;
+// The belief holds the robot to be somewhere else than its features do.
+constexpr double kElsewhere = 2.0;
+constexpr int kEnoughAgreed = 10;
+// How much of a route may be left where a method says that it has arrived.
+constexpr double kEnd = 2.0;
+constexpr double kEndShare = 0.05;
+
 }  // namespace
 
 struct ReplaySession::State {
+  State(const ReplayMethodOptions& method, int scout_px)
+      : options(method), scout_width_px(scout_px), place(scout_px), view_follower(method) {}
+
   ReplayMethodOptions options;
   int scout_width_px = 0;
   std::vector<route::Segment> segments;
@@ -50,30 +84,55 @@ struct ReplaySession::State {
   FrameCheck check;
   vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
+  PlaceKeeper place;
+  ViewFollower view_follower;
   std::optional<HandOver> hand_over;
   std::optional<PlaceFinder> place_finder;     // until it has found the place
   std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
   std::optional<motion::Pose2> last_odometry;
+  std::optional<SensorTime> last_stamp;
   ReplayState state = ReplayState::kWaiting;
   std::string reason;
   int frames_since_find = 0;
   Confidence confidence;
+  PlaceTrust place_trust;  // of the printed methods
   Trust trust = Trust::kSeeking;
   std::vector<Search> searches;  // in this frame
+  int frames_without_picture = 0;
+  bool begun = false;  // a frame was seen while something of the route was known
+  ReplayStep last_report;
 
+  [[nodiscard]] double known_m() const {
+    return segments.empty() ? 0.0 : begin_m.back() + segments.back().length_m;
+  }
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
+  [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
+  void BeginPlace();
+  void Look(const image::GrayImage& frame);
+  [[nodiscard]] bool ByViews() const;
+  [[nodiscard]] ReplayStep StepByViews(const image::GrayImage& frame);
+  [[nodiscard]] ReplayStep StepByFeatures(const image::GrayImage& frame,
+                                          const std::vector<route::TrackedFeature>& tracked,
+                                          const std::optional<motion::OdometryIncrement>& odometry);
   void MakeFollower(const image::GrayImage& frame, const route::Segment& first);
   void Begin(std::size_t index, const image::GrayImage& frame);
+  void SeekFeatures(const image::GrayImage& frame);
+  [[nodiscard]] ReplayStep Turn(const image::GrayImage& frame,
+                                const std::optional<motion::OdometryIncrement>& odometry);
   [[nodiscard]] bool BeginNext(const image::GrayImage& frame);
   [[nodiscard]] bool BeginWhereLeft(const image::GrayImage& frame);
+  [[nodiscard]] bool BeginAnywhere(const image::GrayImage& frame);
+  [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
   void EndSegment(const image::GrayImage& frame);
   void Follow(const std::vector<route::TrackedFeature>& found);
-  void LookAgain(const image::GrayImage& frame);
+  void LookAgain(const image::GrayImage& frame, double fraction, bool elsewhere);
   void Refresh(const image::GrayImage& frame, const replay::FollowStep& step);
+  void Compare(const RoutePoint& point, Sighting& seen) const;
   void JudgeSight(const replay::FollowStep& step,
                   const std::optional<motion::OdometryIncrement>& odometry,
                   const image::GrayImage& frame);
+  void SteerByViews(replay::FollowStep& step) const;
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step) const;
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step) const;
 };
@@ -90,6 +149,61 @@ std::optional<motion::OdometryIncrement> ReplaySession::State::OdometryStep(
   return step;
 }
 
+// A camera that gives nothing to look at: the robot stands, for a while.
+ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
+  if (state == ReplayState::kArrived || state == ReplayState::kLost) return last_report;
+  ReplayStep report = last_report;
+  const bool lost = ++frames_without_picture > kMostWithoutPicture_frames;
+  report.command = {};
+  report.state = lost ? ReplayState::kLost : ReplayState::kBlind;
+  report.trust = lost ? Trust::kLost : Trust::kBlind;
+  report.reason = why;
+  trust = report.trust;
+  if (lost) {
+    state = report.state;
+    last_report = report;
+  }
+  return report;
+}
+
+void ReplaySession::State::BeginPlace() {
+  begun = true;
+  if (options.anywhere || place_finder) {
+    place.StartAnywhere();
+  } else {
+    place.StartAt({SegmentIndex(0), 0.0}, kStart_sigma);
+  }
+}
+
+// Without odometry, in the route or on the robot, our own method goes by what is recognised.
+bool ReplaySession::State::ByViews() const {
+  return options.method == ReplayMethod::kDefault &&
+         !(last_odometry && segments.front().has_odometry);
+}
+
+ReplayStep ReplaySession::State::StepByViews(const image::GrayImage& frame) {
+  place.LookAt(frame);
+  const route::Segment& here = segments[place.point().segment.value()];
+  const double speed_mps = here.has_odometry ? here.speed_mps() : replay::kSpeedWithoutOdometry_mps;
+  ReplayStep report = view_follower.Step(place, options.speed_factor * speed_mps);
+  report.progress =
+      (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
+  if (ViewFollower::AtTheEnd(place)) {
+    report.command = {};
+    report.segment = segments.back().index;
+    report.fraction = 1.0;
+    report.progress = 1.0;
+    report.state = complete ? ReplayState::kArrived : ReplayState::kWaiting;
+    report.reason = complete
+                        ? "arrived at the end of the route"
+                        : fmt::format("waiting for segment {}: not received yet", segments.size());
+  }
+  state = report.state;
+  trust = report.trust;
+  tracker.Detect();  // whose flow tells whether the robot moves
+  return report;
+}
+
 void ReplaySession::State::MakeFollower(const image::GrayImage& frame,
                                         const route::Segment& first) {
   follower = agent::MakeFollower(options, last_odometry.has_value() && first.has_odometry,
@@ -103,7 +217,18 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
   const route::Segment& segment = segments[index];
   if (!follower) MakeFollower(frame, segment);
   follower->Begin(segment);
-  Follow(hand_over->ToSegment(frame, *follower));
+  if (follower->turning()) {  // what it is to find is not in view yet
+    tracker.Follow({});
+    return;
+  }
+  SeekFeatures(frame);
+}
+
+void ReplaySession::State::SeekFeatures(const image::GrayImage& frame) {
+  const route::Segment& segment = follower->segment();
+  Follow(hand_over->ToSegment(frame, *follower, [&] {
+    return place.Recognise(frame, {segment.index, 0.0});
+  }));
   searches.push_back(
       SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over->last_was_wide()));
   frames_since_find = 0;
@@ -115,6 +240,7 @@ bool ReplaySession::State::BeginWhereLeft(const image::GrayImage& frame) {
     const route::Segment& segment = segments[found->segment.value()];
     MakeFollower(frame, segment);
     follower->BeginAt(segment, found->fraction);
+    place.StartAt({found->segment, found->fraction}, kFound_m);
     hand_over->TakeUp(found->seen, *follower);
     Follow(found->seen.features);
     searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), false));
@@ -134,9 +260,32 @@ bool ReplaySession::State::BeginWhereLeft(const image::GrayImage& frame) {
   return false;
 }
 
+// The same, of one that may be anywhere on the route.
+bool ReplaySession::State::BeginAnywhere(const image::GrayImage& frame) {
+  Verdict verdict = place_trust.Judge(place.where());
+  state = verdict.trust == Trust::kLost ? ReplayState::kLost : ReplayState::kBlind;
+  trust = verdict.trust == Trust::kLost ? Trust::kLost : Trust::kSeeking;
+  reason = "looks where on the route it is: " + verdict.reason;
+  const RoutePoint point = place.point();
+  const route::Segment& segment = segments[point.segment.value()];
+  if (!place.where().held || segment.features.empty()) return false;
+  MakeFollower(frame, segment);
+  follower->BeginAt(segment, point.fraction);
+  const auto found =
+      hand_over->Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
+  if (found.empty()) {
+    follower.reset();
+    return false;
+  }
+  Follow(found);
+  searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), true));
+  return true;
+}
+
 // Of a robot that stands, for want of a segment to follow. False: there is none yet.
 bool ReplaySession::State::BeginNext(const image::GrayImage& frame) {
   if (place_finder) return BeginWhereLeft(frame);
+  if (options.anywhere && !follower) return BeginAnywhere(frame);
   const std::size_t next = follower ? follower->segment().index.value() + 1 : 0;
   if (next < segments.size()) {
     Begin(next, frame);
@@ -146,13 +295,24 @@ bool ReplaySession::State::BeginNext(const image::GrayImage& frame) {
   return false;
 }
 
+bool ReplaySession::State::IsElsewhereThanAtTheEnd() const {
+  const double left = place.belief().length() - place.where().along;
+  return place.where().held && left > std::max(kEnd, kEndShare * place.belief().length());
+}
+
 void ReplaySession::State::EndSegment(const image::GrayImage& frame) {
   const std::size_t next = follower->segment().index.value() + 1;
   if (next < segments.size()) {
     Begin(next, frame);
-  } else if (complete) {
+  } else if (complete && !IsElsewhereThanAtTheEnd()) {
     state = ReplayState::kArrived;
     reason = "arrived at the end of the route";
+  } else if (complete) {
+    state = ReplayState::kLost;
+    trust = Trust::kLost;
+    reason = fmt::format("the last segment is over, but what is seen is {:.1f} {} before its end",
+                         place.belief().length() - place.where().along,
+                         place.metric() ? "m" : "s of teaching");
   } else {
     state = ReplayState::kWaiting;
     reason = fmt::format("waiting for segment {}: not received yet", next);
@@ -167,15 +327,30 @@ void ReplaySession::State::Follow(const std::vector<route::TrackedFeature>& foun
   tracker.Follow(found);
 }
 
-void ReplaySession::State::LookAgain(const image::GrayImage& frame) {
+// Where the belief holds it to be, if that is somewhere else; otherwise about where it is thought
+// to be and at the next segment's start, by turns: what is near may be gone for good.
+void ReplaySession::State::LookAgain(const image::GrayImage& frame, double fraction,
+                                     bool elsewhere) {
   if (confidence.unsure_frames() % kLookAgain_frames != 0) return;
-  const auto ahead = WhereItMayBe(segments, follower->segment().index, last_odometry.has_value(),
-                                  confidence.unsure_frames());
-  const auto seen = hand_over->Recover(frame, *follower, ahead, last_odometry.has_value());
-  if (!seen) return;
-  if (seen->segment != 0) follower->Begin(ahead[seen->segment]);
-  Follow(seen->features);
-  searches.push_back(SearchOf(SearchKind::kRecovered, follower->segment(), tracker.count(), true));
+  const SegmentIndex index = follower->segment().index;
+  const std::size_t next = index.value() + 1;
+  const bool ahead = !elsewhere && next < segments.size() &&
+                     confidence.unsure_frames() / kLookAgain_frames % 2 == 0;
+  const RoutePoint point = elsewhere ? place.point()
+                           : ahead   ? RoutePoint{segments[next].index, 0.0}
+                                     : RoutePoint{index, fraction};
+  const route::Segment& segment = segments[point.segment.value()];
+  if (segment.features.empty()) return;
+  const auto found =
+      hand_over->Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
+  // What is ahead may be seen from afar: to go on from there, most of it must be.
+  const bool too_far = ahead && static_cast<double>(found.size()) <
+                                    kShareToSkip * static_cast<double>(segment.features.size());
+  if (found.empty() || too_far) return;
+  if (elsewhere) follower->BeginAt(segment, point.fraction);
+  if (ahead) follower->Begin(segment);
+  Follow(found);
+  searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), true));
 }
 
 // Features once lost (blur, a passer-by) come back into view, and to a robot that was carried off
@@ -192,6 +367,15 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame, const replay::
   searches.push_back(SearchOf(SearchKind::kLookedAgain, segment, tracker.count(), false));
 }
 
+// By the belief over the whole route, of a robot that is thought to be at `point`.
+void ReplaySession::State::Compare(const RoutePoint& point, Sighting& seen) const {
+  if (!place.where().held) return;
+  const bool here = std::abs(place.where().along - place.AlongOf(point)) <= kElsewhere;
+  seen.elsewhere = !here && place.where().agreed >= kEnoughAgreed;
+  seen.recognised =
+      here && options.method == ReplayMethod::kDefault && place.agreed_now() >= kEnoughAgreed;
+}
+
 void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
@@ -203,11 +387,21 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
     seen.left_sigma_m = step.offset->left_sigma_m;
     seen.in_picture = static_cast<int>(InPicture(follower->Expect(), frame));
   }
+  Compare({segment.index, step.fraction}, seen);
+  // Features that lie where odometry and the taught geometry have them outweigh it.
+  const bool elsewhere = seen.elsewhere;
+  seen.elsewhere = elsewhere && AsPrinted(options.method);
   Verdict verdict = confidence.Judge(seen, odometry);
+  if (AsPrinted(options.method)) {  // which know no doubt of their own
+    Verdict by_place = place_trust.Judge(place.where());
+    if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
+  }
   trust = verdict.trust;
   state = StateOf(trust);
   reason = std::move(verdict.reason);
-  if (trust == Trust::kBlind || trust == Trust::kSeeking) LookAgain(frame);
+  const bool astray = trust == Trust::kBlind || trust == Trust::kSeeking ||
+                      (elsewhere && trust == Trust::kUnsure) || confidence.recognised_only();
+  if (astray && state != ReplayState::kLost) LookAgain(frame, step.fraction, elsewhere);
 }
 
 // Share of the method's speed that is driven: less when it is not known how far beside the path
@@ -223,6 +417,65 @@ double ReplaySession::State::SpeedShare(const replay::FollowStep& step) const {
   const double left_m = (1.0 - step.fraction) * segment.length_m;
   const double bound_mps = kEndSpeed_mps + std::sqrt(2.0 * kEndDeceleration_mps2 * left_m);
   return std::min(share, bound_mps / step.command.linear_mps);
+}
+
+// The belief goes along: where the features are lost, it says where to look for them.
+void ReplaySession::State::Look(const image::GrayImage& frame) {
+  if (trust == Trust::kSure && !place.LookIsDue()) return;
+  place.LookAt(frame);
+  if (const auto magnification = place.Magnification(frame.width)) {
+    hand_over->SetRunMagnification(*magnification);
+  }
+}
+
+// Of a robot that has lost the segment's features, where the view as a whole is recognised.
+void ReplaySession::State::SteerByViews(replay::FollowStep& step) const {
+  const ViewFollower::Steering by_views =
+      view_follower.Steer(place, options.speed_factor * follower->segment().speed_mps());
+  if (by_views.turn.features == 0) return;
+  step.turn_rad = step.vision_turn_rad = by_views.turn.turn_rad;
+  step.command = by_views.command;
+}
+
+// On the spot, before a segment: as far as odometry says.
+ReplayStep ReplaySession::State::Turn(const image::GrayImage& frame,
+                                      const std::optional<motion::OdometryIncrement>& odometry) {
+  const replay::FollowStep step = follower->Step({{}, odometry});
+  trust = Trust::kSure;
+  state = ReplayState::kFollowing;
+  reason.clear();
+  if (!follower->turning()) SeekFeatures(frame);
+  return Report(step);
+}
+
+ReplayStep ReplaySession::State::StepByFeatures(
+    const image::GrayImage& frame, const std::vector<route::TrackedFeature>& tracked,
+    const std::optional<motion::OdometryIncrement>& odometry) {
+  if (!hand_over) hand_over.emplace(!AsPrinted(options.method), scout_width_px);
+  Look(frame);
+  if (!follower || state == ReplayState::kWaiting) {
+    if (!BeginNext(frame)) return Report({});
+    const replay::FollowStep first = follower->Step({tracker.Current(), odometry});
+    JudgeSight(first, odometry, frame);
+    return Report(first);
+  }
+  if (follower->turning()) return Turn(frame, odometry);
+  const SegmentIndex segment_before = follower->segment().index;
+  replay::FollowStep step = follower->Step({tracked, odometry});
+  JudgeSight(step, odometry, frame);
+  Refresh(frame, step);
+  const bool next_is_here = follower->segment().index.value() + 1 < segments.size();
+  // What covers this segment's features covers the next one's too.
+  const bool covered = trust == Trust::kCovered || confidence.view_is_going();
+  const bool wants_next = step.wants_next && next_is_here && !covered;
+  if (state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(frame);
+  // A segment that has just begun is not as far along as the last one was.
+  if (follower->segment().index != segment_before) {
+    step.fraction = 0.0;
+    if (step.offset) step.offset->along_m -= segments[segment_before.value()].length_m;
+  }
+  if (confidence.recognised_only()) SteerByViews(step);
+  return Report(step);
 }
 
 ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
@@ -244,8 +497,12 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.progress =
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
   if (confidence.ever_sure() && follower->segment().has_odometry) {
-    report.along_m =
-        begin_m[report.segment.value()] + report.fraction * follower->segment().length_m;
+    // A segment's start may still be ahead: its features are followed as soon as they are in view.
+    const double length_m = follower->segment().length_m;
+    const double along_m =
+        step.offset ? std::min(step.offset->along_m, length_m) : report.fraction * length_m;
+    report.along_m = std::max(0.0, begin_m[report.segment.value()] + along_m);
+    if (state == ReplayState::kArrived) report.along_m = known_m();
   }
   report.turn_rad = step.turn_rad;
   report.decision = step;
@@ -259,12 +516,10 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
 }
 
 ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route)
-    : state_(std::make_unique<State>()) {
-  state_->options = options;
+    : state_(std::make_unique<State>(options, route.image_width_px)) {
   ConfidenceOptions confidence;
   confidence.stand_when_covered = !AsPrinted(options.method);
   state_->confidence = Confidence(confidence);
-  state_->scout_width_px = route.image_width_px;
 }
 
 ReplaySession::~ReplaySession() = default;
@@ -277,8 +532,8 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
                 segment.index.value(), state_->segments.size());
   }
   if (state_->follower && state_->segments.size() < kMostLearnt) state_->follower->Learn(segment);
-  const auto& known = state_->segments;
-  state_->begin_m.push_back(known.empty() ? 0.0 : state_->begin_m.back() + known.back().length_m);
+  state_->begin_m.push_back(state_->known_m());
+  state_->place.Learn(segment);
   state_->segments.push_back(std::move(segment));
   return {};
 }
@@ -292,39 +547,34 @@ void ReplaySession::GoOnFrom(const LeftAt& left) {
   state_->confidence = Confidence(confidence);
 }
 
-double ReplaySession::known_m() const {
-  const State& s = *state_;
-  return s.segments.empty() ? 0.0 : s.begin_m.back() + s.segments.back().length_m;
-}
+double ReplaySession::known_m() const { return state_->known_m(); }
 
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
-  if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
+  if (auto checked = s.check.Check(observation); !checked) {
+    if (checked.error().code != ErrorCode::kInvalidArgument) {
+      return tl::unexpected(checked.error());
+    }
+    return s.StepWithoutPicture(checked.error().message);
+  }
+  s.frames_without_picture = 0;
   const image::GrayImage& frame = s.unroller.Unroll(observation.image);
   const auto driven = s.OdometryStep(observation);
   const auto odometry = UsesOdometry(s.options.method) ? driven : std::nullopt;
+  const double dt_s = s.last_stamp ? Seconds(observation.stamp - *s.last_stamp) : 0.0;
+  s.last_stamp = observation.stamp;
+  const std::vector<route::TrackedFeature> before = s.tracker.Current();
   const std::vector<route::TrackedFeature> tracked = s.tracker.Track(frame);
   s.searches.clear();
-  if (s.state == ReplayState::kArrived) return s.Report({});
-  if (!s.follower || s.state == ReplayState::kWaiting) {
-    if (!s.hand_over) s.hand_over.emplace(!AsPrinted(s.options.method), s.scout_width_px);
-    if (!s.BeginNext(frame)) return s.Report({});
-    const replay::FollowStep first = s.follower->Step({s.tracker.Current(), odometry});
-    s.JudgeSight(first, odometry, frame);
-    return s.Report(first);
-  }
-  const SegmentIndex before = s.follower->segment().index;
-  replay::FollowStep step = s.follower->Step({tracked, odometry});
-  s.JudgeSight(step, odometry, frame);
-  s.Refresh(frame, step);
-  const bool next_is_here = s.follower->segment().index.value() + 1 < s.segments.size();
-  // What covers this segment's features covers the next one's too.
-  const bool covered = s.trust == Trust::kCovered || s.confidence.view_is_going();
-  const bool wants_next = step.wants_next && next_is_here && !covered;
-  if (s.state != ReplayState::kLost && (step.ended || wants_next)) s.EndSegment(frame);
-  // A segment that has just begun is not as far along as the last one was.
-  if (s.follower->segment().index != before) step.fraction = 0.0;
-  return s.Report(step);
+  if (s.state == ReplayState::kArrived) return s.last_report;
+  if (s.segments.empty()) return s.Report({});
+  if (!s.begun) s.BeginPlace();
+  s.place.Move({odometry, Flow(before, tracked, frame.width), dt_s});
+  s.last_report = s.ByViews() ? s.StepByViews(frame) : s.StepByFeatures(frame, tracked, odometry);
+  const belief::RouteBelief::Place& where = s.place.where();
+  const double length = std::max(1e-9, s.place.belief().length());
+  s.last_report.believed = {where.along / length, where.sigma / length, where.off_route};
+  return s.last_report;
 }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {

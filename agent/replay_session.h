@@ -1,44 +1,17 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
+#include <vector>
 
-#include "agent/confidence.h"
 #include "agent/observation.h"
 #include "agent/place_finder.h"
 #include "agent/replay_method.h"
-#include "agent/replay_state.h"
-#include "agent/sight.h"
+#include "agent/replay_step.h"
 #include "services/base/result.h"
-#include "services/motion/motion.h"
 #include "services/replay/feature_view.h"
-#include "services/replay/follower.h"
 #include "services/route/route.h"
 
 namespace trailcast::agent {
-
-struct ReplayStep {
-  motion::VelocityCommand command;  // for the robot's base; zero unless following or blind
-  ReplayState state = ReplayState::kWaiting;
-  Trust trust = Trust::kSeeking;
-  SegmentIndex segment;   // the one being followed
-  double fraction = 0.0;  // of that segment, 0..1
-  double progress = 0.0;  // of the route as far as it is known, 0..1, by segment count
-  // Place on the route, in the scout's metres from its beginning; nothing before the robot has
-  // found the route, and on one that was taught without odometry.
-  std::optional<double> along_m;
-  int features = 0;          // matched and tracked
-  double turn_rad = 0.0;     // desired heading change theta_d, positive to the right
-  double found_share = 0.0;  // of stored features found, mean over hand-overs so far
-  int hand_overs = 0;
-  double magnification = 1.0;   // the follower's pixels per scout's
-  replay::FollowStep decision;  // what the method saw and asked for
-  Sight sight;
-  std::string reason;  // kLost, kBlind, kWaiting: one line for people
-  // What of the robot has failed, for which it stands until that is over; empty: nothing.
-  std::string robot_trouble;
-};
 
 // Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's
 // follower. Segments may be added while driving. Touches no socket, lock, disk or clock.
@@ -60,7 +33,8 @@ class ReplaySession {
   // Metres of the route that are known.
   [[nodiscard]] double known_m() const;
 
-  // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
+  // A robot whose camera gives an empty frame, or one of another size than the first, stands and is
+  // told why. Error: odometry that appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
 
   // The features as of `step`, the last one that Observe returned: for those who draw them.

@@ -32,7 +32,8 @@ constexpr std::chrono::seconds kSameClock{2};
 constexpr std::chrono::seconds kSayAgain{1};
 
 struct Frame {
-  SensorTime stamp{};
+  [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
+
   steady_clock::time_point came_at;
   Ros2Picture picture;
 };
@@ -132,8 +133,7 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
 }
 
 void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
-  const SensorTime stamp = StampOf(picture);
-  if (given && stamp == *given) {
+  if (given && StampOf(picture) == *given) {
     // In lockstep: the robot did not get the answer, or does not yet have it.
     if (run.lockstep && answered) (void)driver->Publish({*given, told});
     return;
@@ -142,7 +142,7 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   watch.SawFrame(now, bytes != last_bytes);
   last_bytes = bytes;
   if (!newest) unserved_since = now;
-  newest = Frame{stamp, now, std::move(picture)};
+  newest = Frame{now, std::move(picture)};
 }
 
 // Also when the loop that drives does not come back: a command is good for sensor_timeout.
@@ -191,7 +191,7 @@ bool Ros2Device::State::ready(steady_clock::time_point now) const {
   if (!newest || trouble) return false;
   if (!has_odometry()) return true;
   if (poses.empty()) return false;
-  return !OfOneClock(newest->stamp) || poses.newest() >= newest->stamp ||
+  return !OfOneClock(newest->stamp()) || poses.newest() >= newest->stamp() ||
          now - unserved_since > kOdometryLate;
 }
 
@@ -315,13 +315,13 @@ Result<std::optional<Frame>> Ros2Device::State::Await(std::unique_lock<std::mute
   }
   ShareTrouble();
   Frame frame = *std::exchange(newest, std::nullopt);
-  if (given && frame.stamp < *given) {
+  if (given && frame.stamp() < *given) {
     return Fail(ErrorCode::kUnavailable,
                 "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
                 "anew?",
-                run.topics.ImageTopic(), Seconds(*given), Seconds(frame.stamp));
+                run.topics.ImageTopic(), Seconds(*given), Seconds(frame.stamp()));
   }
-  given = frame.stamp;
+  given = frame.stamp();
   given_came_at = frame.came_at;
   answered = false;
   return frame;
@@ -344,10 +344,10 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     if (!*awaited) return std::nullopt;
     const Frame& frame = **awaited;
     Observation observation;
-    observation.stamp = frame.stamp;
+    observation.stamp = frame.stamp();
     if (s.has_odometry()) {
-      observation.odometry = s.PoseAt(frame.stamp);
-      if (s.still.Over(frame.stamp, *observation.odometry)) return std::nullopt;
+      observation.odometry = s.PoseAt(frame.stamp());
+      if (s.still.Over(frame.stamp(), *observation.odometry)) return std::nullopt;
     }
     guard.unlock();
     auto gray = Gray(frame.picture, s.run.topics.ImageTopic());

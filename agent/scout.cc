@@ -32,7 +32,8 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
 struct Drive {
   int frames = 0;
   std::size_t features = 0;  // in finished segments
-  bool dark = false;         // the last frame had too few features
+  bool dark = false;
+  teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
 };
 
 // Hands a finished segment over; never waits for it.
@@ -51,6 +52,29 @@ void TellDarkness(const TeachStep& step, Drive& drive) {
   drive.dark = step.too_few_features;
 }
 
+// At once, while the path can still be driven again.
+void TellWeakness(const TeachStep& step, Drive& drive) {
+  if (step.weakness == drive.weakness) return;
+  drive.weakness = step.weakness;
+  switch (step.weakness) {
+    case teach::ViewWeakness::kNone:
+      break;
+    case teach::ViewWeakness::kBland:
+      spdlog::warn(
+          "frame {}: followers will not recognise this place: too little to hold on to (dark, "
+          "blank "
+          "or out of focus?)",
+          drive.frames);
+      break;
+    case teach::ViewWeakness::kUnrelated:
+      spdlog::warn(
+          "frame {}: next to nothing of the last picture is in this one (too fast for the frame "
+          "rate, or blurred?): drive slower here",
+          drive.frames);
+      break;
+  }
+}
+
 // The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
                        ScoutLink& link, Drive& drive) {
@@ -67,6 +91,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     }
     if (step->finished) result = HandOver(std::move(*step->finished), link, drive, now);
     TellDarkness(*step, drive);
+    TellWeakness(*step, drive);
     ++drive.frames;
     now.features = step->features;
     now.drive_progress = device.drive_progress();

@@ -1,11 +1,9 @@
 #include "agent/teach_session.h"
 
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "agent/frame_check.h"
-#include "services/vision/donut.h"
+#include "services/vision/view_features.h"
 
 namespace trailcast::agent {
 namespace {
@@ -16,32 +14,38 @@ constexpr std::size_t kMinFeatures = 8;
 }  // namespace
 
 struct TeachSession::State {
-  explicit State(const TeachOptions& options)
+  State(const TeachOptions& options, int width_px, bool odometry)
       : tracker(options.features),
-        recorder(options.recorder),
+        recorder(width_px, options.recorder),
+        key_views(width_px, odometry ? options.key_views_with_odometry : options.key_views),
         middle_features(options.middle_features) {}
 
-  vision::DonutUnroller unroller;
   vision::FeatureTracker tracker;
+  vision::ViewDescriber describer;
   teach::SegmentRecorder recorder;
+  teach::KeyViewRecorder key_views;
   int middle_features;
-  FrameCheck check;
+  route::View last_view;
+  bool last_is_kept = false;
   // A segment is under way: with features, or blind, by odometry alone, until some come into view.
-  enum class Recording { kNothing, kBlind, kFeatures } recording = Recording::kNothing;
+  enum class Recording { kNothing, kBlind, kFeatures, kTurn } recording = Recording::kNothing;
 
-  [[nodiscard]] bool SegmentEnds(const Observation& observation);
+  using Event = teach::SegmentRecorder::Event;
+  [[nodiscard]] Event Add(const image::GrayImage& frame, const Observation& observation);
   void BeginSegment(const Observation& observation);
+  void KeepView(const image::GrayImage& frame);
 };
 
-bool TeachSession::State::SegmentEnds(const Observation& observation) {
-  const std::vector<route::TrackedFeature> tracked =
-      tracker.Track(unroller.Unroll(observation.image));
-  if (recording == Recording::kNothing) return false;
-  if (recording == Recording::kFeatures) {
-    return recorder.Add(observation.stamp, tracked, observation.odometry);
-  }
-  std::ignore = recorder.Add(observation.stamp, {}, observation.odometry);
-  return tracker.Detect().size() >= kMinFeatures;
+TeachSession::State::Event TeachSession::State::Add(const image::GrayImage& frame,
+                                                    const Observation& observation) {
+  const std::vector<route::TrackedFeature> tracked = tracker.Track(frame);
+  if (recording == Recording::kNothing) return Event::kEnds;
+  const bool by_features = recording == Recording::kFeatures;
+  const Event event =
+      recorder.Add(observation.stamp, by_features ? tracked : std::vector<route::TrackedFeature>{},
+                   observation.odometry);
+  if (event != Event::kGoesOn || recording != Recording::kBlind) return event;
+  return tracker.Detect().size() >= kMinFeatures ? Event::kEnds : Event::kGoesOn;
 }
 
 void TeachSession::State::BeginSegment(const Observation& observation) {
@@ -59,30 +63,42 @@ void TeachSession::State::BeginSegment(const Observation& observation) {
   }
 }
 
-TeachSession::TeachSession(const TeachOptions& options)
-    : state_(std::make_unique<State>(options)) {}
+void TeachSession::State::KeepView(const image::GrayImage& frame) {
+  last_view = describer.Describe(frame);
+  last_is_kept = recording != Recording::kNothing && key_views.Add(last_view);
+  if (last_is_kept) recorder.Keep(key_views.kept());
+}
+
+TeachSession::TeachSession(const TeachOptions& options) : options_(options) {}
 TeachSession::~TeachSession() = default;
 TeachSession::TeachSession(TeachSession&&) noexcept = default;
 
 Result<TeachStep> TeachSession::Observe(const Observation& observation) {
+  if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
+  const image::GrayImage& frame = unroller_.Unroll(observation.image);
+  if (!state_)
+    state_ = std::make_unique<State>(options_, frame.width, observation.odometry.has_value());
   State& s = *state_;
-  if (auto checked = s.check.Check(observation); !checked) return tl::unexpected(checked.error());
   TeachStep step;
-  if (s.SegmentEnds(observation)) {
+  const State::Event event = s.Add(frame, observation);
+  if (event != State::Event::kGoesOn && s.recording != State::Recording::kTurn) {
     step.finished = s.recorder.Finish();
-    s.BeginSegment(observation);
-  } else if (s.recording == State::Recording::kNothing) {
-    s.BeginSegment(observation);
   }
+  if (event == State::Event::kEnds) s.BeginSegment(observation);
+  if (event == State::Event::kTurns) s.recording = State::Recording::kTurn;
+  s.KeepView(frame);
   step.features = s.tracker.count();
+  step.weakness = s.key_views.weakness();
   step.too_few_features = s.recording != State::Recording::kFeatures;
   return step;
 }
 
 std::optional<route::Segment> TeachSession::Finish() {
-  if (state_->recording == State::Recording::kNothing) return std::nullopt;
-  state_->recording = State::Recording::kNothing;
-  return state_->recorder.Finish();
+  if (!state_ || state_->recording == State::Recording::kNothing) return std::nullopt;
+  State& s = *state_;
+  if (!s.last_is_kept && s.key_views.Keep(s.last_view)) s.recorder.Keep(s.key_views.kept());
+  s.recording = State::Recording::kNothing;
+  return s.recorder.Finish();
 }
 
 }  // namespace trailcast::agent

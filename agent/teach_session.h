@@ -4,10 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "agent/frame_check.h"
 #include "agent/observation.h"
 #include "services/base/result.h"
 #include "services/route/route.h"
+#include "services/teach/key_view_recorder.h"
 #include "services/teach/segment_recorder.h"
+#include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -19,12 +22,17 @@ struct TeachOptions {
   // all features alike, and those in the middle say least of where to turn.
   int middle_features = 20;
   teach::SegmentRecorderOptions recorder;
+  teach::KeyViewRecorderOptions key_views;
+  teach::KeyViewRecorderOptions key_views_with_odometry =
+      teach::KeyViewRecorderOptions::WithOdometry();
 };
 
 struct TeachStep {
   std::optional<route::Segment> finished;  // a segment that ended with this frame
   int features = 0;                        // still tracked in the current segment
   bool too_few_features = false;           // nothing to hold on to in this frame (dark, blank)
+  // Whether followers will recognise this place.
+  teach::ViewWeakness weakness = teach::ViewWeakness::kNone;
 };
 
 // Frames and odometry in, segments out: vision's tracker feeding teach's segment recorder. Touches
@@ -43,7 +51,10 @@ class TeachSession {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  TeachOptions options_;
+  FrameCheck check_;
+  vision::DonutUnroller unroller_;
+  std::unique_ptr<State> state_;  // since the first frame
 };
 
 }  // namespace trailcast::agent

@@ -79,6 +79,10 @@ struct FrameRow {
   double angular_radps = 0.0;
   double cpu_ms = 0.0;
   std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
+  // By the belief over the whole route: the likeliest place, as shares of what is known of it.
+  std::optional<double> place;
+  std::optional<double> place_sigma;
+  std::optional<double> off_route;  // probability
 };
 
 struct RunEvent {

@@ -17,6 +17,7 @@ struct Column {
   const char* name;
   Member member;
   int decimals = 0;
+  bool later = false;  // added since the first logs of this version, which do without
 };
 
 // All that is known of the columns: writer and reader are made of this table.
@@ -52,6 +53,9 @@ const std::array kColumns = {
     Column{"angular_radps", &FrameRow::angular_radps, 3},
     Column{"cpu_ms", &FrameRow::cpu_ms, 2},
     Column{"true_off_m", &FrameRow::true_off_m, 3},
+    Column{"place", &FrameRow::place, 4, true},
+    Column{"place_sigma", &FrameRow::place_sigma, 4, true},
+    Column{"off_route", &FrameRow::off_route, 3, true},
 };
 
 constexpr std::string_view kTitle = "# trailcast replay log ";
@@ -174,7 +178,7 @@ Result<std::vector<std::string>> ParseColumns(std::string_view names) {
   std::vector<std::string> columns;
   for (const std::string_view name : Words(names)) columns.emplace_back(name);
   for (const Column& column : kColumns) {
-    if (std::find(columns.begin(), columns.end(), column.name) == columns.end()) {
+    if (!column.later && std::find(columns.begin(), columns.end(), column.name) == columns.end()) {
       return Fail(ErrorCode::kCorrupt, "the header lists no column '{}'", column.name);
     }
   }

@@ -109,6 +109,11 @@ FrameRow RunRecorder::RowOf(const RunFrame& frame, const ReplayStep& step) const
   row.angular_radps = step.command.angular_radps;
   row.cpu_ms = frame.cpu_ms;
   row.true_off_m = frame.true_off_m;
+  if (step.believed) {
+    row.place = step.believed->place;
+    row.place_sigma = step.believed->sigma;
+    row.off_route = step.believed->off_route;
+  }
   return row;
 }
 

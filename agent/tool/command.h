@@ -16,10 +16,12 @@ struct Command {
 
 // Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
 // it.
+[[nodiscard]] Command AddAlignCommand(CLI::App& parent);
 [[nodiscard]] Command AddDemoCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddExportCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const cli::CommonOptions& common);
+[[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const cli::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "agent/tool/command.h"
+#include "agent/tool/recording/recording_csv.h"
+#include "agent/tool/recording/recording_report.h"
 #include "agent/tool/trial_csv.h"
 
 namespace trailcast::tool {
@@ -18,12 +20,20 @@ constexpr const char* kExamples =
 
 int Run(const CLI::App& app, const std::vector<std::string>& files) {
   std::vector<TrialRow> rows;
+  std::vector<RecordingRow> recordings;
   for (const std::string& file : files) {
+    if (IsRecordingCsv(file)) {
+      const auto read = ReadRecordingCsv(file);
+      if (!read) return cli::Complain(app, read.error());
+      recordings.insert(recordings.end(), read->begin(), read->end());
+      continue;
+    }
     const auto read = ReadTrialCsv(file);
     if (!read) return cli::Complain(app, read.error());
     rows.insert(rows.end(), read->begin(), read->end());
   }
-  std::fputs(TrialMarkdown(rows).c_str(), stdout);
+  if (!rows.empty()) std::fputs(TrialMarkdown(rows).c_str(), stdout);
+  if (!recordings.empty()) std::fputs(RecordingMarkdown(recordings).c_str(), stdout);
   return cli::kExitOk;
 }
 
@@ -34,7 +44,7 @@ Command AddFiguresCommand(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "figures", "Tables in Markdown from the CSV files that trials wrote, beside the paper's");
   app->footer(kExamples);
-  app->add_option("files", *files, "What `trailcast trial --csv` wrote")
+  app->add_option("files", *files, "What 'trailcast trial --csv' and 'trailcast judge --csv' wrote")
       ->required()
       ->check(CLI::ExistingFile);
   return {app, [app, files] { return Run(*app, *files); }};

@@ -8,6 +8,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast demo                         # a scout teaches three robots with other cameras\n"
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
+    "  trailcast align drive1/ drive2/ --out truth.csv   # where drive2's frames were taken\n"
+    "  trailcast judge drive1/ drive2/        # recordings taught and replayed, measured\n"
     "  trailcast explain run.log              # what happened in a replay, and why\n"
     "  trailcast routes                       # what the route server keeps\n"
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
@@ -30,6 +32,8 @@ int Run(int argc, char** argv) {
   trailcast::cli::AddCommonOptions(app, common);
   const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
                                       trailcast::tool::AddTrialCommand(app),
+                                      trailcast::tool::AddAlignCommand(app),
+                                      trailcast::tool::AddJudgeCommand(app),
                                       trailcast::tool::AddFiguresCommand(app),
                                       trailcast::tool::AddExplainCommand(app),
                                       trailcast::tool::AddRoutesCommand(app, common),

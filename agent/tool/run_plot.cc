@@ -77,17 +77,23 @@ StripChart Features(const RunLog& log) {
   return chart;
 }
 
-StripChart Estimate(const RunLog& log) {
-  StripChart chart{"estimated place beside the path [m], positive to the left", {}, -0.1, 0.1};
+using Optional = std::optional<double> FrameRow::*;
+
+void AddSigma(StripChart& chart, const RunLog& log, Optional value, Optional sigma) {
   for (const double side : {-1.0, 1.0}) {
-    Curve sigma{side > 0.0 ? "one sigma" : "", kPale, {}};
+    Curve curve{side > 0.0 ? "one sigma" : "", kPale, {}};
     for (const FrameRow& row : log.frames) {
-      const bool known = row.left_m && row.left_sigma_m;
-      sigma.values.push_back(known ? std::optional(*row.left_m + side * *row.left_sigma_m)
+      const bool known = row.*value && row.*sigma;
+      curve.values.push_back(known ? std::optional(*(row.*value) + side * *(row.*sigma))
                                    : std::nullopt);
     }
-    chart.curves.push_back(std::move(sigma));
+    chart.curves.push_back(std::move(curve));
   }
+}
+
+StripChart Estimate(const RunLog& log) {
+  StripChart chart{"estimated place beside the path [m], positive to the left", {}, -0.1, 0.1};
+  AddSigma(chart, log, &FrameRow::left_m, &FrameRow::left_sigma_m);
   chart.curves.push_back(
       CurveOf(log, "estimate", kBlue, [](const FrameRow& row) { return row.left_m; }));
   AddIfAny(chart, CurveOf(log, "true distance (no side)", kOrange,
@@ -106,6 +112,16 @@ StripChart Delta(const RunLog& log) {
   return chart;
 }
 
+StripChart Belief(const RunLog& log) {
+  StripChart chart{"belief: place on the whole route, as a share of it", {}, 0.0, 1.0};
+  AddSigma(chart, log, &FrameRow::place, &FrameRow::place_sigma);
+  chart.curves.push_back(
+      CurveOf(log, "place", kBlue, [](const FrameRow& row) { return row.place; }));
+  chart.curves.push_back(CurveOf(log, "chance of being off it", kOrange,
+                                 [](const FrameRow& row) { return row.off_route; }));
+  return chart;
+}
+
 StripChart Speed(const RunLog& log) {
   StripChart chart{"speed told to the base [m/s]", {}, 0.0, 0.1};
   chart.curves.push_back(
@@ -113,10 +129,27 @@ StripChart Speed(const RunLog& log) {
   return chart;
 }
 
+template <typename Predicate>
+bool AnyFrame(const RunLog& log, Predicate holds) {
+  return std::any_of(log.frames.begin(), log.frames.end(), holds);
+}
+
+// Those of which the method says something.
 std::vector<StripChart> Charts(const RunLog& log) {
-  const bool estimated = std::any_of(log.frames.begin(), log.frames.end(),
-                                     [](const FrameRow& row) { return row.left_m.has_value(); });
-  return {Turns(log), Features(log), estimated ? Estimate(log) : Delta(log), Speed(log)};
+  std::vector<StripChart> charts{Turns(log)};
+  if (AnyFrame(log, [](const FrameRow& row) { return row.stored > 0; })) {
+    charts.push_back(Features(log));
+  }
+  if (AnyFrame(log, [](const FrameRow& row) { return row.left_m.has_value(); })) {
+    charts.push_back(Estimate(log));
+  } else if (AnyFrame(log, [](const FrameRow& row) { return row.delta.value_or(0.0) > 0.0; })) {
+    charts.push_back(Delta(log));
+  }
+  if (AnyFrame(log, [](const FrameRow& row) { return row.place.has_value(); })) {
+    charts.push_back(Belief(log));
+  }
+  charts.push_back(Speed(log));
+  return charts;
 }
 
 // Metres; seconds for a robot that never got going, frames for one without odometry.

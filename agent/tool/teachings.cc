@@ -6,6 +6,11 @@
 
 namespace trailcast::tool {
 
+TrialSeeds SeedsOf(const TrialOptions& options, int trial) {
+  const std::uint64_t seed = SeedOf(options, trial);
+  return {sim::Random(seed, "scout").Bits(), sim::Random(seed, "follower").Bits()};
+}
+
 Teachings::Teachings(const TrialSetup& setup, const TrialOptions& options)
     : setup_(setup), options_(options) {
   for (const TrialCase& each : setup.cases) {
@@ -36,7 +41,7 @@ Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case
     teachings.reserve(cuts_.size());
     for (const agent::ReplayMethod method : cuts_) teachings.push_back(TeachingFor(method));
     auto taught = TeachOnce(setup_, trial_case.scout_camera, teachings,
-                            sim::Random(SeedOf(options_, trial), "scout").Bits(), on_progress);
+                            SeedsOf(options_, trial).scout, on_progress);
     if (taught) {
       drive->taught = std::make_shared<const Taught>(std::move(*taught));
     } else {

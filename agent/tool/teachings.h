@@ -20,6 +20,13 @@ namespace trailcast::tool {
   return options.seed + static_cast<std::uint64_t>(trial - 1);
 }
 
+// What that trial's two robots are drawn from.
+struct TrialSeeds {
+  std::uint64_t scout = 0;
+  std::uint64_t follower = 0;
+};
+[[nodiscard]] TrialSeeds SeedsOf(const TrialOptions& options, int trial);
+
 // Called with the share of the trial that is done, 0..1, now and then. False ends the trial early;
 // its outcome is then of no use.
 using TrialProgress = std::function<bool(double share)>;

@@ -1,11 +1,11 @@
 #include "agent/tool/trial.h"
 
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "agent/tool/cpu_time.h"
 #include "agent/tool/served_route.h"
 #include "agent/tool/standstill_watch.h"
 #include "agent/tool/trial_log.h"
@@ -25,25 +25,22 @@ constexpr double kPatience_s = 60.0;
 constexpr int kProgressEvery = 15;   // frames
 constexpr double kTeachShare = 0.4;  // of a trial's work
 
-double ThreadCpuMs() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
                                                    const TrialCase& trial_case,
-                                                   std::uint64_t seed) {
+                                                   const TrialSeeds& seeds) {
   sim::SimulatedRobotOptions options;
   options.camera = trial_case.follower_camera;
   options.start = sim::StartPose(setup.path.points);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
-  options.seed = seed;
-  auto actors = setup.actors(sim::Role::kFollower, seed);
+  options.seed = seeds.follower;
+  if (setup.same_robot) options.robot_seed = seeds.scout;
+  auto actors = setup.actors(sim::Role::kFollower, seeds.follower);
   if (!actors) return tl::unexpected(actors.error());
   options.actors = std::move(*actors);
-  if (setup.sun_moves) options.lighting = sim::WithMovedSun(setup.world->lighting(), seed);
+  if (setup.sun_moves) {
+    options.lighting = sim::WithMovedSun(setup.world->lighting(), seeds.follower);
+  }
   return options;
 }
 
@@ -183,6 +180,7 @@ TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uin
   row.method = agent::ToString(trial_case.method);
   row.scout_camera = trial_case.scout_camera.name;
   row.follower_camera = trial_case.follower_camera.name;
+  row.same_robot = setup.same_robot;
   row.push_m = trial_case.push_m;
   row.trial = trial;
   row.seed = seed;
@@ -203,8 +201,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
                                     [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
   const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
-  const auto options_of_follower =
-      FollowerOptions(setup, trial_case, sim::Random(seed, "follower").Bits());
+  const auto options_of_follower = FollowerOptions(setup, trial_case, SeedsOf(options, trial));
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
   const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");

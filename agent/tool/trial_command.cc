@@ -29,6 +29,7 @@ constexpr const char* kExamples =
     "  trailcast trial --scenario cameras --trials 1 --csv pairs.csv\n"
     "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
     "  trailcast trial --scenario paved --method default,paper,icra2006   # a column of Table I\n"
+    "  trailcast trial --scenario rough --method paper,icra2006 --same-robot   # as the paper did\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --scenario loop --laps 10 --trials 1   # does it drift from lap to lap?\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
@@ -73,6 +74,10 @@ void AddOptions(CLI::App& app, TrialOptions& options, TrialFiles& files) {
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));
+  app.add_flag(
+      "--same-robot", options.same_robot,
+      "The robot that taught follows, with the same camera, mount and wheels, past nobody, "
+      "under the same sun: how Chen & Birchfield measured. Otherwise another robot does");
   app.add_option("--laps", options.laps,
                  "How often each follower drives the route, without a pause, of a path that ends "
                  "where it begins")

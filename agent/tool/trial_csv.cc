@@ -3,82 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
-#include <fstream>
-#include <map>
-#include <optional>
-#include <sstream>
+#include <utility>
 
 #include "agent/text_file.h"
+#include "agent/tool/csv_line.h"
 
 namespace trailcast::tool {
 namespace {
 
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-// The cells of one line; nothing where a quote is not closed.
-std::optional<std::vector<std::string>> Cells(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += '"';
-      ++i;
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  if (quoted) return std::nullopt;
-  return cells;
-}
-
-// One line by the names of its columns. The first cell that is not what it should be is kept as
-// the line's trouble.
-class Line {
- public:
-  Line(const std::vector<std::string>& names, const std::vector<std::string>& cells) {
-    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) cells_[names[i]] = cells[i];
-  }
-
-  [[nodiscard]] const std::string& Text(const std::string& name) { return cells_[name]; }
-  template <typename Number>
-  void Read(const std::string& name, Number& number) {
-    Parse(name, cells_[name], number);
-  }
-  // Numbers with blanks between.
-  void ReadAll(const std::string& name, std::vector<double>& numbers) {
-    std::istringstream words(cells_[name]);
-    for (std::string word; words >> word;) Parse(name, word, numbers.emplace_back());
-  }
-  [[nodiscard]] const std::string& trouble() const { return trouble_; }
-
- private:
-  template <typename Number>
-  void Parse(const std::string& name, const std::string& text, Number& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if ((error != std::errc() || end != text.data() + text.size()) && trouble_.empty()) {
-      trouble_ = fmt::format("{} is '{}', expected a number", name, text);
-    }
-  }
-
-  std::map<std::string, std::string> cells_;
-  std::string trouble_;
-};
-
-TrialRow RowOf(Line& line) {
+TrialRow RowOf(CsvLine& line) {
   TrialRow row;
   row.scenario = line.Text("scenario");
   row.method = line.Text("method");
@@ -111,6 +44,7 @@ TrialRow RowOf(Line& line) {
   }
   line.Read("p90_path_error_m", verdict.p90_path_error_m);
   line.ReadAll("lap_ends_m", row.lap_ends_m);
+  row.same_robot = line.Text("same_robot") == "1";
   row.reason = line.Text("reason");
   return row;
 }
@@ -121,14 +55,14 @@ std::string TrialCsvHeader() {
   return "scenario,method,scout_camera,follower_camera,trial,seed,arrived,final_error_m,final_x_m,"
          "final_y_m,end_x_m,end_y_m,mean_path_error_m,max_path_error_m,found_share,segments,"
          "bytes_per_m,ms_per_frame,state,taught_m,driven_m,worst_path_error_m,frames,hand_overs,"
-         "push_m,after_push_m,p90_path_error_m,lap_ends_m,reason";
+         "push_m,after_push_m,p90_path_error_m,lap_ends_m,same_robot,reason";
 }
 
 std::string TrialCsvLine(const TrialRow& row) {
   const Verdict& verdict = row.verdict;
   return fmt::format(
       "{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f},"
-      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{:.4f},{:.4f},{}",
+      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{:.4f},{:.4f},{},{}",
       CsvText(row.scenario), row.method, CsvText(row.scout_camera), CsvText(row.follower_camera),
       row.trial, row.seed, row.arrived ? 1 : 0, verdict.final_error_m, verdict.final_m.x(),
       verdict.final_m.y(), row.end_m.x(), row.end_m.y(), verdict.mean_path_error_m,
@@ -136,7 +70,8 @@ std::string TrialCsvLine(const TrialRow& row) {
       row.state, row.taught_m, verdict.driven_m, verdict.worst_path_error_m, row.frames,
       row.hand_overs, row.push_m,
       verdict.after_push_m ? fmt::format("{:.4f}", *verdict.after_push_m) : "",
-      verdict.p90_path_error_m, fmt::join(row.lap_ends_m, " "), CsvText(row.reason));
+      verdict.p90_path_error_m, fmt::join(row.lap_ends_m, " "), row.same_robot ? 1 : 0,
+      CsvText(row.reason));
 }
 
 Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesystem::path& file) {
@@ -146,29 +81,10 @@ Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows, const std::filesys
 }
 
 Result<std::vector<TrialRow>> ReadTrialCsv(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string text;
-  if (!std::getline(in, text) || text != TrialCsvHeader()) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "{} is not a table of trials: expected its first line to be {}", file.string(),
-                TrialCsvHeader());
-  }
-  const std::vector<std::string> names = *Cells(text);
   std::vector<TrialRow> rows;
-  for (int number = 2; std::getline(in, text); ++number) {
-    const auto cells = Cells(text);
-    if (!cells || cells->size() != names.size()) {
-      return Fail(ErrorCode::kInvalidArgument, "{}, line {}: expected {} cells", file.string(),
-                  number, names.size());
-    }
-    Line line(names, *cells);
-    rows.push_back(RowOf(line));
-    if (!line.trouble().empty()) {
-      return Fail(ErrorCode::kInvalidArgument, "{}, line {}: {}", file.string(), number,
-                  line.trouble());
-    }
-  }
-  return rows;
+  return ReadCsvTable(file, TrialCsvHeader(), "a table of trials",
+                      [&](CsvLine& line) { rows.push_back(RowOf(line)); })
+      .map([&] { return std::move(rows); });
 }
 
 }  // namespace trailcast::tool

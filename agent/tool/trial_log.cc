@@ -2,32 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
+#include "agent/tool/file_name.h"
+
 namespace trailcast::tool {
-namespace {
-
-// Worlds and cameras have whatever names their users' files have.
-std::string ForFileName(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(),
-      [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '_' && c != '-'; },
-      '_');
-  return text;
-}
-
-}  // namespace
-
 std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& trial_case,
                                    int trial) {
   const std::string push =
       trial_case.push_m != 0.0 ? fmt::format("-push{:g}", trial_case.push_m) : "";
   const char* const served = trial_case.through_server ? "-served" : "";
-  return fmt::format("{}-{}-{}-{}{}{}-trial{}.log", ForFileName(setup.scenario),
+  const char* const same = setup.same_robot ? "-same" : "";
+  return fmt::format("{}-{}-{}-{}{}{}{}-trial{}.log", ForFileName(setup.scenario),
                      agent::ToString(trial_case.method), ForFileName(trial_case.scout_camera.name),
-                     ForFileName(trial_case.follower_camera.name), push, served, trial);
+                     ForFileName(trial_case.follower_camera.name), push, served, same, trial);
 }
 
 Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup, const TrialCase& trial_case,

@@ -15,8 +15,9 @@ std::string Three(double accuracy_m, double repeatability_m, double largest_m) {
 std::string Table1Line(const std::vector<TrialRow>& rows, const PaperFigures& paper) {
   const TrialSummary summary = Summarize(rows);
   return fmt::format(
-      "| `{}` | `{}` | {} of {} | {} | {} |\n", rows.front().scenario, rows.front().method,
-      summary.arrived, summary.trials,
+      "| `{}`{} | `{}` | {} of {} | {} | {} |\n", rows.front().scenario,
+      rows.front().same_robot ? ", same robot" : "", rows.front().method, summary.arrived,
+      summary.trials,
       Three(summary.accuracy_m, summary.repeatability_m, summary.largest_final_error_m),
       rows.front().method == "default"
           ? fmt::format("({})",

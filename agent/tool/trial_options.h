@@ -21,8 +21,11 @@ struct TrialOptions {
   double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
   int trials = 10;                         // of each method and each of the scenario's cases
   std::uint64_t seed = 1;                  // trial i of n is drawn from seed + i - 1 alone
-  int laps = 1;                            // of a path that ends where it begins
-  std::string log_folder;                  // one log a trial goes here; empty: none
+  // The robot that taught follows, with the same camera on the same mount and the same wheels, past
+  // nobody, under the sun of its teaching: how the paper measured.
+  bool same_robot = false;
+  int laps = 1;            // of a path that ends where it begins
+  std::string log_folder;  // one log a trial goes here; empty: none
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 

@@ -16,10 +16,11 @@ struct TrialRow {
   std::string method;
   std::string scout_camera;
   std::string follower_camera;
-  double push_m = 0.0;     // to the left, half way
-  int trial = 0;           // from 1
-  std::uint64_t seed = 0;  // `--trials 1 --seed <this>` repeats this trial alone
-  bool arrived = false;    // by itself, within 2 m, never more than 5 m off
+  bool same_robot = false;  // the robot that taught followed
+  double push_m = 0.0;      // to the left, half way
+  int trial = 0;            // from 1
+  std::uint64_t seed = 0;   // `--trials 1 --seed <this>` repeats this trial alone
+  bool arrived = false;     // by itself, within 2 m, never more than 5 m off
   Verdict verdict;
   Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  // of the taught path
   double found_share = 0.0;
@@ -52,8 +53,8 @@ struct TrialSummary {
 
 [[nodiscard]] TrialSummary Summarize(const std::vector<TrialRow>& rows);
 
-// What sets a trial's row apart from others of its scenario, besides the seed: method, cameras and
-// push; and the rows of each, in the order of their first ones.
+// What sets a trial's row apart from others of its scenario, besides the seed: method, cameras,
+// whether one robot did both, and push; and the rows of each, in the order of their first ones.
 [[nodiscard]] std::string CaseName(const TrialRow& row);
 [[nodiscard]] std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows);
 

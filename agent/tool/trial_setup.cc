@@ -12,6 +12,9 @@ namespace trailcast::tool {
 namespace {
 
 constexpr double kLapGap_m = 1.0;
+// Of segments for the printed methods: services/replay/README.md tells how it follows from the
+// paper's figures.
+constexpr double kPrintedSegment_m = 0.4;
 
 Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::string>& names) {
   std::vector<agent::ReplayMethod> methods;
@@ -59,6 +62,20 @@ Result<sim::Actors> DrawActors(const Scenario& scenario, const sim::Place& place
   return actors;
 }
 
+// One robot has one camera, and where the paper measured nobody was about.
+Result<void> TakeSameRobot(Scenario& scenario, TrialSetup& setup) {
+  for (const TrialCase& each : setup.cases) {
+    if (each.scout_camera.name == each.follower_camera.name) continue;
+    return Fail(ErrorCode::kInvalidArgument,
+                "the same robot cannot teach with camera '{}' and follow with camera '{}'",
+                each.scout_camera.name, each.follower_camera.name);
+  }
+  scenario.traffic = false;
+  setup.same_robot = true;
+  setup.follower.gain_low = setup.follower.gain_high = 1.0;
+  return {};
+}
+
 // A world and a path of the user's own, or the scenario's place.
 Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, TrialSetup& setup) {
   sim::PlaceOptions where = options.place;
@@ -82,7 +99,8 @@ Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, Tr
   setup.actors = [scenario, place = *place](sim::Role role, std::uint64_t seed) {
     return DrawActors(scenario, place, role, seed);
   };
-  setup.sun_moves = options.place.world.empty() && setup.world->lighting().sun > 0.0F;
+  setup.sun_moves =
+      options.place.world.empty() && !options.same_robot && setup.world->lighting().sun > 0.0F;
   return {};
 }
 
@@ -99,7 +117,7 @@ Result<Scenario> ScenarioOf(const TrialOptions& options) {
 agent::TeachOptions TeachingFor(agent::ReplayMethod method) {
   agent::TeachOptions options;
   if (agent::AsPrinted(method)) {
-    options.recorder.longest_m = std::numeric_limits<double>::infinity();
+    options.recorder.longest_m = kPrintedSegment_m;
     options.recorder.fewest_kept = std::numeric_limits<std::size_t>::max();
     options.middle_features = 0;
   }
@@ -108,12 +126,15 @@ agent::TeachOptions TeachingFor(agent::ReplayMethod method) {
 
 Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   TrialSetup setup;
-  const auto scenario = ScenarioOf(options);
+  auto scenario = ScenarioOf(options);
   if (!scenario) return tl::unexpected(scenario.error());
   setup.scenario = scenario->name;
   auto cases = MakeCases(*scenario, options);
   if (!cases) return tl::unexpected(cases.error());
   setup.cases = std::move(*cases);
+  if (options.same_robot) {
+    if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
+  }
   if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
   if (auto opened = OpenScene(*scenario, options, setup); !opened) {
     return tl::unexpected(opened.error());

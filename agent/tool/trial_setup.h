@@ -27,8 +27,8 @@ struct TrialCase {
   bool through_server = false;
 };
 
-// How a scout of that method teaches: as printed, its segments cut by the 50 % rule alone and no
-// features added in the middle.
+// How a scout of that method teaches: as printed, segments end by the 50 % rule or at the length
+// that the paper's figures speak of, all of their features are kept, none added in the middle.
 [[nodiscard]] agent::TeachOptions TeachingFor(agent::ReplayMethod method);
 
 // Everything that the trials of one command have in common, read and checked.
@@ -38,8 +38,9 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
-  int laps = 1;            // that each follower drives, one after the other
-  bool sun_moves = false;  // between teaching and following
+  int laps = 1;             // that each follower drives, one after the other
+  bool sun_moves = false;   // between teaching and following
+  bool same_robot = false;  // each follower is the scout that taught it
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
       [](sim::Role, std::uint64_t) { return sim::Actors{}; };

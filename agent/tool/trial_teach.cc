@@ -32,57 +32,14 @@ Result<sim::SimulatedRobotOptions> ScoutOptions(const TrialSetup& setup,
   return options;
 }
 
-// One recorder's session and what came of it.
-class RouteRecorder {
- public:
-  RouteRecorder(const std::string& name, const sim::CameraModel& camera,
-                const agent::TeachOptions& options)
-      : session_(options) {
-    // A trial's route is never stored or sent, so it needs no id that differs from others'.
-    taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
-    taught_.info.name = name;
-    taught_.info.scout = AgentId("scout");
-    taught_.info.camera = camera.name;
-    taught_.info.image_width_px = camera.width;
-    taught_.info.image_height_px = camera.height;
-  }
-
-  Result<void> Observe(const agent::Observation& seen) {
-    const auto step = session_.Observe(seen);
-    if (!step) return tl::unexpected(step.error());
-    Keep(step->finished);
-    return {};
-  }
-
-  Result<TaughtRoute> Finish() {
-    Keep(session_.Finish());
-    if (taught_.pieces.empty()) {
-      return Fail(ErrorCode::kUnavailable,
-                  "teaching gave no segment: the scout's camera saw nothing to hold on to");
-    }
-    taught_.info.state = route::RouteState::kComplete;
-    return std::move(taught_);
-  }
-
- private:
-  void Keep(const std::optional<route::Segment>& segment) {
-    if (!segment) return;
-    taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
-    taught_.info.segment_count += 1;
-    taught_.info.length_m += segment->length_m;
-    taught_.info.bytes += taught_.pieces.back().bytes.size();
-  }
-
-  agent::TeachSession session_;
-  TaughtRoute taught_;
-};
-
 class Teaching {
  public:
   Teaching(const TrialSetup& setup, const sim::CameraModel& camera,
            const std::vector<agent::TeachOptions>& teachings, sim::SimulatedRobot& robot)
       : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
-    for (const auto& options : teachings) recorders_.emplace_back(setup.scenario, camera, options);
+    for (const auto& options : teachings) {
+      recorders_.emplace_back(setup.scenario, camera.name, options);
+    }
   }
 
   // One frame. False when the drive is over.

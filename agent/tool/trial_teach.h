@@ -6,17 +6,11 @@
 
 #include "agent/replay_session.h"
 #include "agent/tool/path_judge.h"
+#include "agent/tool/route_recorder.h"
 #include "agent/tool/trial_setup.h"
 #include "services/base/result.h"
-#include "services/route/route.h"
 
 namespace trailcast::tool {
-
-// A route as it travels.
-struct TaughtRoute {
-  route::RouteInfo info;
-  std::vector<route::SegmentPiece> pieces;
-};
 
 // What a scout left behind, and where it truly drove.
 struct Taught {

@@ -29,7 +29,7 @@ Result<route::RouteQuery> QueryOf(const WhereOptions& options) {
   constexpr std::size_t kTooFew = 8;  // as teaching has it
   const auto frame = image::ReadGray(options.frame);
   if (!frame) return tl::unexpected(frame.error());
-  route::RouteQuery query{.view = vision::DescribeView(*frame)};
+  route::RouteQuery query{.view = vision::DescribeForQuery(*frame)};
   if (query.view.size() >= kTooFew) return query;
   return Fail(ErrorCode::kInvalidArgument,
               "{} shows too little to be recognised: {} features, expected {} or more",

@@ -11,10 +11,11 @@ namespace {
 // any of their fragments, and cost a tenth less where nothing is lost), heartbeats after 20 ms
 // instead of 100 (what was lost last is noticed by them), and a NACK after 10 ms instead of 100.
 // Samples above 2 MB cannot be ours: they are not even put together. Watermarks: a writer waits
-// with more than 30 kB, a batch of segments, unacknowledged. So links take segments as fast as they
-// can and no faster: with 4 MB a link of 1 Mbit/s, whose queue then overflows, does not deliver
-// 1 MB within a minute. The price: who is killed while segments are on their way to it keeps them
-// from the others until its lease ends. Not adaptive: that falls with every loss.
+// with more than 30 kB unacknowledged, so that a full batch of segments (48 kB) goes out when the
+// one before has arrived. So links take segments as fast as they can and no faster: with 4 MB a
+// link of 1 Mbit/s, whose queue then overflows, does not deliver 1 MB within a minute. The price:
+// who is killed while segments are on their way to it keeps them from the others until its lease
+// ends. Not adaptive: that falls with every loss.
 constexpr const char* kDefaults =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"

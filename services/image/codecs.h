@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/image/files.h"
@@ -22,6 +23,8 @@ class Codecs {
                                                    const std::string& name) const = 0;
   [[nodiscard]] virtual Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                                      const std::string& name) const = 0;
+  [[nodiscard]] virtual Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture,
+                                                                     int quality) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const RgbImage& picture,
                                               const std::filesystem::path& file) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const GrayImage& picture,

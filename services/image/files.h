@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/image/image.h"
@@ -21,6 +22,8 @@ namespace trailcast::image {
                                          const std::string& name);
 [[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                            const std::string& name);
+// `quality` is 1 to 100.
+[[nodiscard]] Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture, int quality);
 [[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 

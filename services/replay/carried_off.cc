@@ -17,7 +17,8 @@ constexpr double kFurthest_m = 3.0;
 constexpr double kApart_m = 0.5;
 constexpr double kWidest = 8.0;  // times Cauchy's own width
 constexpr int kIterations = 6;
-constexpr std::size_t kFewest = 10;  // features; a handful can be explained from anywhere
+constexpr double kSamePlace_m = 0.4;  // from one look to the next
+constexpr std::size_t kFewest = 10;   // features; a handful can be explained from anywhere
 
 }  // namespace
 
@@ -72,10 +73,22 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
   const Covariance covariance = there.information.inverse();
   const double moved_m = best[kLeft] - state_[kLeft];
   const double told_m = std::max(options_.carried_least_m, std::sqrt(covariance(kLeft, kLeft)));
-  if (std::abs(moved_m) < told_m || here - least < options_.carried_gain ||
-      there.agreement.agreeing <= agreeing_here) {
+  const bool far_better = std::abs(moved_m) >= told_m && std::abs(moved_m) <= kFurthest_m &&
+                          here - least >= options_.carried_gain &&
+                          there.agreement.agreeing > agreeing_here;
+  if (!far_better) {
+    carried_.reset();
     return std::nullopt;
   }
+  const bool again = carried_ && std::abs(best[kLeft] - carried_->left_m) < kSamePlace_m;
+  if (!again) carried_ = CarriedTo{.driven_m = driven_m_};
+  carried_->left_m = best[kLeft];
+  ++carried_->looks;
+  if (carried_->looks < options_.carried_looks ||
+      driven_m_ - carried_->driven_m < options_.carried_after_m) {
+    return std::nullopt;
+  }
+  carried_.reset();
   state_ = best;
   covariance_ = covariance;
   return moved_m;

@@ -8,6 +8,9 @@
 
 namespace trailcast::replay {
 
+// Robots without odometry are told a speed all the same: a walking pace that any of them can do.
+constexpr double kSpeedWithoutOdometry_mps = 0.3;
+
 struct FollowInput {
   // Where the segment's features are now: pixels of the follower's own camera from its image
   // centre; id is the position in Segment::features.
@@ -82,6 +85,9 @@ class Follower {
   // The follower's pixels per scout's pixel, and what the matches at a hand-over say it is.
   [[nodiscard]] virtual double magnification() const = 0;
   virtual void SetMagnification(double magnification) = 0;
+
+  // It turns on the spot, as the scout did before this segment; the features come into view after.
+  [[nodiscard]] virtual bool turning() const { return false; }
 
   [[nodiscard]] virtual FollowStep Step(const FollowInput& input) = 0;
 

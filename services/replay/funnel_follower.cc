@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/base/square.h"
 #include "services/replay/track_progress.h"
 #include "services/route/heading.h"
 #include "services/route/track.h"
@@ -11,30 +12,49 @@
 namespace trailcast::replay {
 namespace {
 
-// Robots without odometry are told a speed all the same: a walking pace that any of them can do.
-constexpr double kSpeedWithoutOdometry_mps = 0.3;
 constexpr std::size_t kFractionMedian = 3;
+
+using Points = std::vector<Eigen::Vector2d>;
 
 Eigen::Vector2d Place(const route::TrackKnot& knot) { return {knot.u_px, knot.v_px}; }
 
-double MeanSquared(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
+// Of the x-coordinates: y counts for roll alone (III), and a robot that pitches moves all of them.
+double MeanSquared(const Points& a, const Points& b) {
   if (a.empty()) return 0.0;
   double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  for (std::size_t i = 0; i < a.size(); ++i) sum += Square(a[i].x() - b[i].x());
   return sum / static_cast<double>(a.size());
+}
+
+double RollTowards(const Points& points, const Points& towards, const RollOptions& options) {
+  std::vector<ImagePair> pairs;
+  for (std::size_t i = 0; i < points.size(); ++i) pairs.push_back({points[i], towards[i]});
+  return EstimateRoll(pairs, options).angle_rad;
+}
+
+Points Unrolled(Points points, double angle_rad) {
+  for (Eigen::Vector2d& point : points) point = Unroll(point, angle_rad);
+  return points;
 }
 
 }  // namespace
 
-// The features in view beside their stored places, one position in each list for a feature.
+// The features in view beside their stored places, in pixels of the scout's magnification; one
+// position in each list for a feature. Two images are compared without the roll between them.
 struct FunnelFollower::Matched {
   std::vector<int> id;
-  std::vector<Eigen::Vector2d> current;  // in pixels of the scout's magnification
-  std::vector<Eigen::Vector2d> first;
-  std::vector<Eigen::Vector2d> milestone;
+  Points current;
+  Points current_as_first;  // unrolled towards the segment's first image, the previous milestone
+  Points first;
+  Points first_as_milestone;
+  Points milestone;
+  double roll_rad = 0.0;  // of the robot now against the milestone
 
-  void UndoRoll(double angle_rad) {
-    for (Eigen::Vector2d& point : current) point = Unroll(point, angle_rad);
+  void UndoRoll(const RollOptions& options) {
+    current_as_first = Unrolled(current, RollTowards(current, first, options));
+    first_as_milestone = Unrolled(first, RollTowards(first, milestone, options));
+    roll_rad = RollTowards(current, milestone, options);
+    current = Unrolled(current, roll_rad);
   }
   [[nodiscard]] std::vector<route::TrackedFeature> Features() const {
     std::vector<route::TrackedFeature> features;
@@ -42,11 +62,6 @@ struct FunnelFollower::Matched {
       features.push_back({id[i], current[i].x(), current[i].y()});
     }
     return features;
-  }
-  [[nodiscard]] std::vector<ImagePair> AgainstMilestone() const {
-    std::vector<ImagePair> pairs;
-    for (std::size_t i = 0; i < current.size(); ++i) pairs.push_back({current[i], milestone[i]});
-    return pairs;
   }
   [[nodiscard]] std::vector<FunnelPair> FunnelPairs() const {
     std::vector<FunnelPair> pairs;
@@ -61,6 +76,7 @@ FunnelFollower::FunnelFollower(int scout_width_px, double magnification,
                                const FunnelFollowerOptions& options)
     : options_(options),
       gain_rad_per_px_(options.gain_rad_per_px_at_320 * 320.0 / scout_width_px),
+      min_feature_sigma_px_(options.min_feature_sigma_px_at_320 * scout_width_px / 320.0),
       magnification_(magnification),
       transition_(options.transition),
       visual_fraction_(kFractionMedian) {}
@@ -73,6 +89,7 @@ void FunnelFollower::Begin(const route::Segment& segment) {
   } else {
     driven_ = {};
   }
+  driven_lately_.clear();
   driven_at_peak_ = {};
   segment_ = segment;
   transition_ = TransitionDetector(options_.transition);
@@ -109,6 +126,8 @@ FunnelFollower::Matched FunnelFollower::Match(
     matched.first.push_back(Place(stored.first()));
     matched.milestone.push_back(Place(stored.milestone()));
   }
+  matched.current_as_first = matched.current;
+  matched.first_as_milestone = matched.first;
   return matched;
 }
 
@@ -122,10 +141,8 @@ FollowStep FunnelFollower::Step(const FollowInput& input) {
                                                  : kSpeedWithoutOdometry_mps;
   FollowStep step;
   Matched matched = Match(input.features);
-  if (options_.compensate_roll) {
-    step.roll_rad = EstimateRoll(matched.AgainstMilestone(), options_.roll).angle_rad;
-    matched.UndoRoll(step.roll_rad);
-  }
+  if (options_.compensate_roll) matched.UndoRoll(options_.roll);
+  step.roll_rad = matched.roll_rad;
 
   // The funnel lane, fused with the taught heading: equation (1). Each half alone where the other
   // is missing.
@@ -151,13 +168,16 @@ double FunnelFollower::VisionTurn(const Matched& matched) const {
 // the image that the segment began with.
 bool FunnelFollower::Ended(const Matched& matched, bool by_odometry, FollowStep& step) {
   TransitionErrors errors = by_odometry ? OdometryErrors() : TransitionErrors{};
-  errors.feature_sigma_px = std::sqrt(MeanSquared(matched.first, matched.milestone));
-  errors.feature_px2 = MeanSquared(matched.current, matched.first);
+  errors.feature_sigma_px = std::max(
+      min_feature_sigma_px_, std::sqrt(MeanSquared(matched.first_as_milestone, matched.milestone)));
+  errors.feature_px2 = MeanSquared(matched.current_as_first, matched.first);
   const double delta_minus = EndProbability(errors);
   errors.feature_px2 = MeanSquared(matched.current, matched.milestone);
   const double delta = EndProbability(errors);
   const bool fallen = transition_.Add(delta, delta_minus);
-  if (transition_.at_peak()) driven_at_peak_ = driven_;
+  driven_lately_.push_back(driven_);
+  if (driven_lately_.size() > options_.transition.median_length) driven_lately_.pop_front();
+  if (transition_.at_peak()) driven_at_peak_ = driven_lately_[(driven_lately_.size() - 1) / 2];
   step.delta = transition_.delta();
   step.delta_minus = transition_.delta_minus();
   step.fraction = fraction_ = Fraction(matched, by_odometry);

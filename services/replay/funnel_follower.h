@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <limits>
 #include <vector>
 
@@ -36,8 +37,9 @@ struct FunnelFollowerOptions {
   // A milestone that went by unnoticed: the segment ends so far past its taught length.
   double overrun_share = 0.25;
   double overrun_m = 0.3;
-  // Floors under equation (2)'s sigmas: a straight or very short segment would otherwise let the
-  // odometry's noise decide.
+  // Floors under equation (2)'s sigmas: a straight or very short segment, or one of distant
+  // features, would otherwise let the noise of odometry and heading decide.
+  double min_feature_sigma_px_at_320 = 3.0;
   double min_distance_sigma_m = 0.2;
   double min_heading_sigma_rad = 0.1;
 };
@@ -84,10 +86,14 @@ class FunnelFollower final : public Follower {
 
   FunnelFollowerOptions options_;
   double gain_rad_per_px_;
+  double min_feature_sigma_px_;
   double magnification_;
   route::Segment segment_;
-  motion::OdometryIncrement driven_;          // since the segment's start
-  motion::OdometryIncrement driven_at_peak_;  // when delta was highest: there the milestone was
+  motion::OdometryIncrement driven_;  // since the segment's start
+  // The same, when the images were taken that delta is smoothed over; and in the middle of those
+  // by which it was highest: there the milestone was.
+  std::deque<motion::OdometryIncrement> driven_lately_;
+  motion::OdometryIncrement driven_at_peak_;
   TransitionDetector transition_;
   MedianFilter visual_fraction_;
   double fraction_ = 0.0;

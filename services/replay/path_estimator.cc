@@ -43,6 +43,7 @@ void PathEstimator::Begin(const route::Segment& segment) {
 
 void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   state_[kLeft] = state_[kHeading] = 0.0;
+  carried_.reset();
   BeUnsure();
   state_[kAlong] = segment_.length_m + along_m;
   Begin(segment);
@@ -98,6 +99,7 @@ void PathEstimator::BeUnsure() {
 }
 
 void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
+  driven_m_ += std::abs(moved.distance_m);
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
   // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.

@@ -37,13 +37,17 @@ struct PathEstimatorOptions {
   double pitch_rad = 0.05;
   // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
   // place at least so far from the believed one has to explain what is seen. Asked every so many
-  // looks: it costs as much as a few of them.
+  // looks: it costs as much as a few of them. Being carried is the rarest of explanations: so many
+  // of these have to say the same place in a row, over so much of a way; one view on rough ground
+  // may say anything.
   double carried_left_m = 2.0;
   double carried_heading_rad = 0.15;
   double carried_along_m = 0.5;
   double carried_least_m = 0.4;
   double carried_gain = 3.0;
   int carried_every_looks = 5;
+  int carried_looks = 3;
+  double carried_after_m = 0.2;
 };
 
 // The widened funnel: the funnel lane's inequality made an equation. With its taught flow known,
@@ -62,6 +66,9 @@ class PathEstimator {
   void Begin(const route::Segment& segment);
   // Begins a segment so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
+
+  // The path turns on the spot, counter-clockwise positive, the robot not yet.
+  void TurnPath(double turn_rad) { state_[kHeading] -= turn_rad; }
 
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);
@@ -122,6 +129,12 @@ class PathEstimator {
     State gradient;
     Agreement agreement;
   };
+  // Where what is seen says that it was carried to.
+  struct CarriedTo {
+    double left_m = 0.0;
+    double driven_m = 0.0;  // when it first did
+    int looks = 0;          // that say so
+  };
   void BeUnsure();
   [[nodiscard]] Equations Linearise(const State& state, const Prior& prior,
                                     const std::vector<route::TrackedFeature>& seen,
@@ -133,7 +146,7 @@ class PathEstimator {
                                   const std::vector<route::TrackedFeature>& seen) const;
   // Whether somebody carried the robot off, which no odometry feels and which a filter sure of its
   // place takes for mismatches: is there a place far from the present one that explains the look
-  // far better? Then goes on from there, and says how far to the left that is.
+  // far better, time and again? Then goes on from there, and says how far to the left that is.
   std::optional<double> FindIfCarriedOff(const Prior& before,
                                          const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
@@ -151,6 +164,8 @@ class PathEstimator {
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
   int looks_ = 0;
+  double driven_m_ = 0.0;
+  std::optional<CarriedTo> carried_;
 };
 
 }  // namespace trailcast::replay

@@ -17,24 +17,45 @@ PathFollower::PathFollower(int scout_width_px, double magnification,
 
 void PathFollower::Begin(const route::Segment& segment) {
   const bool next = begun_ && segment.index.value() == segment_.index.value() + 1;
-  if (!next) return BeginAt(segment, 0.0);
-  estimator_.Begin(segment);
-  segment_ = segment;
+  if (next) {
+    estimator_.Begin(segment);
+    segment_ = segment;
+  } else {
+    BeginAt(segment, 0.0);
+  }
+  estimator_.TurnPath(segment.turn_before_rad);
+  turning_ = segment.turn_before_rad != 0.0;
 }
 
 void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
   estimator_.Restart(segment, fraction * segment.length_m);
   segment_ = segment;
   begun_ = true;
+  turning_ = false;
 }
 
 void PathFollower::SetMagnification(double magnification) {
   if (!settled_) estimator_.SetMagnification(magnification);
 }
 
-FollowStep PathFollower::Step(const FollowInput& input) {
+FollowStep PathFollower::TurnOnTheSpot() {
   FollowStep step;
+  step.offset = estimator_.offset();
+  step.mount_yaw_rad = estimator_.mount_yaw_rad();
+  const double left_rad = -step.offset->heading_rad;
+  turning_ = std::abs(left_rad) > options_.spot_turn_done_rad;
+  if (!turning_) return step;
+  const double rate =
+      std::max(options_.spot_turn_slowest_radps, options_.spot_turn_gain_hz * std::abs(left_rad));
+  step.command = motion::Limit({0.0, std::copysign(rate, left_rad)}, options_.limits);
+  step.turn_rad = step.odometry_turn_rad = -step.command.angular_radps * kTurnTime_s;
+  return step;
+}
+
+FollowStep PathFollower::Step(const FollowInput& input) {
   if (input.odometry) estimator_.Predict(*input.odometry);
+  if (turning_) return TurnOnTheSpot();
+  FollowStep step;
   const Agreement agreement = estimator_.Update(input.features);
   step.agreeing = agreement.agreeing;
   step.rejected = agreement.rejected;

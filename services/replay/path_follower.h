@@ -18,6 +18,10 @@ struct PathFollowerOptions {
   // camera with a narrower view loses the taught ones early.
   int few_features = 10;
   double early_fraction = 0.4;
+  // Turning on the spot: so fast for each radian that is left, but no slower; until so few are.
+  double spot_turn_gain_hz = 1.5;
+  double spot_turn_slowest_radps = 0.2;
+  double spot_turn_done_rad = 0.05;
 };
 
 // Follows by the widened funnel: estimates where the robot is beside the taught path and steers
@@ -42,16 +46,20 @@ class PathFollower final : public Follower {
   [[nodiscard]] double magnification() const override { return estimator_.magnification(); }
   // Taken as the first guess; after that the estimate is better than any one hand-over's.
   void SetMagnification(double magnification) override;
+  [[nodiscard]] bool turning() const override { return turning_; }
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;
   [[nodiscard]] const route::Segment& segment() const override { return segment_; }
 
   [[nodiscard]] PathOffset offset() const { return estimator_.offset(); }
 
  private:
+  [[nodiscard]] FollowStep TurnOnTheSpot();
+
   PathFollowerOptions options_;
   PathEstimator estimator_;
   route::Segment segment_;
   bool begun_ = false;
+  bool turning_ = false;  // on the spot, before the segment
   bool settled_ = false;  // has seen enough to know the magnification by itself
 };
 

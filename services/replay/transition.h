@@ -10,7 +10,7 @@ namespace trailcast::replay {
 // Squared errors, and the scales that make them comparable. A term whose sigma is zero is left out
 // (no odometry; no feature).
 struct TransitionErrors {
-  double feature_px2 = 0.0;        // e_f: mean squared distance of features to the milestone's
+  double feature_px2 = 0.0;        // e_f: mean squared distance to the milestone's, along x
   double feature_sigma_px = 0.0;   // sigma_f: the same at the segment's start, its root
   double distance_m2 = 0.0;        // e_l: squared difference of distance driven and length
   double distance_sigma_m = 0.0;   // sigma_l: the segment's length

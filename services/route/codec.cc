@@ -19,6 +19,9 @@ constexpr double kStepsPerMetre = 1e4;
 constexpr double kStepsPerRadian = 1e5;
 constexpr double kStepsPerSecond = 1e3;
 constexpr int kLastKnotTime = 255;
+constexpr double kStepsPerViewPixel = 4.0;
+constexpr double kSizeStepsPerOctave = 16.0;
+constexpr int kSizeOfOnePixel = 64;
 constexpr std::size_t kPackedPatchBytes = (std::tuple_size_v<Patch> + 1) / 2;
 constexpr std::size_t kDescriptorBytes = std::tuple_size_v<Descriptor>;
 
@@ -83,11 +86,39 @@ void AppendTrack(const std::vector<TrackKnot>& track, format::v1::Segment& out) 
   }
 }
 
+std::uint8_t QuantiseSize(float size_px) {
+  if (!(size_px > 0.0F)) return 0;
+  const double steps = kSizeOfOnePixel + kSizeStepsPerOctave * std::log2(double{size_px});
+  return static_cast<std::uint8_t>(std::clamp(std::lround(steps), 1L, 255L));
+}
+
+float SizeOf(std::uint8_t steps) {
+  if (steps == 0) return 0.0F;
+  return static_cast<float>(std::exp2((steps - kSizeOfOnePixel) / kSizeStepsPerOctave));
+}
+
+std::int32_t QuantisePlace(float px) {
+  return Quantise(std::clamp(px, -1.0F * kMaxCoordinatePx, 1.0F * kMaxCoordinatePx),
+                  kStepsPerViewPixel);
+}
+
+void AppendKeyView(const KeyView& view, format::v1::KeyView& out) {
+  assert(view.features.size() <= kMaxKeyViewFeatures);
+  out.set_at(static_cast<std::uint32_t>(Quantise(std::clamp(view.s, 0.0, 1.0), kLastKnotTime)));
+  for (const ViewFeature& feature : view.features) {
+    out.mutable_descriptors()->append(feature.descriptor.begin(), feature.descriptor.end());
+    out.mutable_sizes()->push_back(static_cast<char>(QuantiseSize(feature.size_px)));
+    out.add_places(QuantisePlace(feature.u_px));
+    out.add_places(QuantisePlace(feature.v_px));
+  }
+}
+
 void SetOdometry(const Segment& segment, format::v1::Odometry& out) {
   out.set_length_tenth_mm(Quantise(segment.length_m, kStepsPerMetre));
   out.set_heading_change_centi_mrad(Quantise(segment.heading_change_rad, kStepsPerRadian));
   out.set_heading_variation_centi_mrad(Quantise(segment.heading_variation_rad, kStepsPerRadian));
   for (const double c : segment.heading.c) out.add_heading_polynomial(static_cast<float>(c));
+  out.set_turn_before_centi_mrad(Quantise(segment.turn_before_rad, kStepsPerRadian));
 }
 
 Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
@@ -99,6 +130,7 @@ Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
   segment.length_m = in.length_tenth_mm() / kStepsPerMetre;
   segment.heading_change_rad = in.heading_change_centi_mrad() / kStepsPerRadian;
   segment.heading_variation_rad = in.heading_variation_centi_mrad() / kStepsPerRadian;
+  segment.turn_before_rad = in.turn_before_centi_mrad() / kStepsPerRadian;
   std::copy(in.heading_polynomial().begin(), in.heading_polynomial().end(),
             segment.heading.c.begin());
   if (!std::all_of(segment.heading.c.begin(), segment.heading.c.end(),
@@ -117,8 +149,9 @@ Result<std::size_t> CountFeatures(const format::v1::Segment& in) {
     return Fail(ErrorCode::kCorrupt, "segment has {} features, more than {}", features,
                 kMaxFeatures);
   }
+  const bool undescribed = in.format_version() > 1 && in.descriptors().empty();
   if (in.patches().size() != features * kPackedPatchBytes ||
-      in.descriptors().size() != features * kDescriptorBytes) {
+      (!undescribed && in.descriptors().size() != features * kDescriptorBytes)) {
     return Fail(ErrorCode::kCorrupt,
                 "segment has {} features by its knot times, but {} bytes of patches (expected {}) "
                 "and {} of descriptors (expected {})",
@@ -196,11 +229,59 @@ Result<void> ReadFeatures(const format::v1::Segment& in, Segment& segment) {
       return Fail(ErrorCode::kCorrupt, "segment's feature {}: its patch has a 122nd sample", i);
     }
     feature.patch = UnpackPatch(packed);
-    std::copy_n(in.descriptors().begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes),
-                kDescriptorBytes, feature.descriptor.begin());
+    if (!in.descriptors().empty()) {
+      std::copy_n(in.descriptors().begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes),
+                  kDescriptorBytes, feature.descriptor.begin());
+    }
     Result<std::vector<TrackKnot>> track = tracks.Next();
     if (!track) return Wrap(track.error(), fmt::format("segment's feature {}", i));
     feature.track = std::move(*track);
+  }
+  return {};
+}
+
+Result<KeyView> ReadKeyView(const format::v1::KeyView& in) {
+  constexpr double kLimit = kMaxCoordinatePx * kStepsPerViewPixel;
+  const std::size_t features = in.sizes().size();
+  if (in.at() > kLastKnotTime || features > kMaxKeyViewFeatures ||
+      in.descriptors().size() != features * kDescriptorBytes ||
+      static_cast<std::size_t>(in.places_size()) != 2 * features) {
+    return Fail(ErrorCode::kCorrupt,
+                "at {} of {}, {} features by their sizes, {} bytes of descriptors, {} coordinates",
+                in.at(), kLastKnotTime, features, in.descriptors().size(), in.places_size());
+  }
+  KeyView view{in.at() / static_cast<double>(kLastKnotTime), View(features)};
+  for (std::size_t i = 0; i < features; ++i) {
+    const double u = in.places(static_cast<int>(2 * i));
+    const double v = in.places(static_cast<int>(2 * i + 1));
+    if (std::abs(u) > kLimit || std::abs(v) > kLimit) {
+      return Fail(ErrorCode::kCorrupt, "a feature lies more than {} px from the image centre",
+                  kMaxCoordinatePx);
+    }
+    ViewFeature& feature = view.features[i];
+    feature.u_px = static_cast<float>(u / kStepsPerViewPixel);
+    feature.v_px = static_cast<float>(v / kStepsPerViewPixel);
+    feature.size_px = SizeOf(static_cast<std::uint8_t>(in.sizes()[i]));
+    std::copy_n(in.descriptors().begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes),
+                kDescriptorBytes, feature.descriptor.begin());
+  }
+  return view;
+}
+
+Result<void> ReadKeyViews(const format::v1::Segment& in, Segment& segment) {
+  const auto count = static_cast<std::size_t>(in.key_views_size());
+  if (count > kMaxKeyViews) {
+    return Fail(ErrorCode::kCorrupt, "segment has {} key views, more than {}", count, kMaxKeyViews);
+  }
+  for (const format::v1::KeyView& each : in.key_views()) {
+    Result<KeyView> view = ReadKeyView(each);
+    if (!view) {
+      return Wrap(view.error(), fmt::format("segment's key view {}", segment.key_views.size()));
+    }
+    if (!segment.key_views.empty() && view->s < segment.key_views.back().s) {
+      return Fail(ErrorCode::kCorrupt, "segment's key views are out of order");
+    }
+    segment.key_views.push_back(std::move(*view));
   }
   return {};
 }
@@ -210,15 +291,22 @@ Result<void> ReadFeatures(const format::v1::Segment& in, Segment& segment) {
 Bytes Encode(const Segment& segment) {
   assert(segment.features.size() <= kMaxFeatures);
   format::v1::Segment out;
-  out.set_format_version(kFormatVersion);
+  const bool first_version = segment.key_views.empty() && segment.turn_before_rad == 0.0;
+  out.set_format_version(first_version ? 1 : kFormatVersion);
   out.set_index(segment.index.value());
   out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
+  const bool described =
+      first_version || std::any_of(segment.features.begin(), segment.features.end(),
+                                   [](const Feature& f) { return IsDescribed(f.descriptor); });
   for (const Feature& feature : segment.features) {
     AppendPatch(feature.patch, *out.mutable_patches());
-    out.mutable_descriptors()->append(feature.descriptor.begin(), feature.descriptor.end());
+    if (described) {
+      out.mutable_descriptors()->append(feature.descriptor.begin(), feature.descriptor.end());
+    }
     AppendTrack(feature.track, out);
   }
+  for (const KeyView& view : segment.key_views) AppendKeyView(view, *out.add_key_views());
   Bytes bytes(out.ByteSizeLong());
   google::protobuf::io::ArrayOutputStream array(bytes.data(), static_cast<int>(bytes.size()));
   google::protobuf::io::CodedOutputStream stream(&array);
@@ -236,9 +324,10 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
   if (!in.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
     return Fail(ErrorCode::kCorrupt, "{} bytes are no segment, or it is cut short", bytes.size());
   }
-  if (in.format_version() != kFormatVersion) {
+  if (in.format_version() < 1 || in.format_version() > kFormatVersion) {
     return Fail(ErrorCode::kCorrupt,
-                "segment is in route format {}, this program reads {}: is it newer than this one?",
+                "segment is in route format {}, this program reads 1 to {}: is it newer than this "
+                "one?",
                 in.format_version(), kFormatVersion);
   }
   Segment segment;
@@ -251,6 +340,9 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
   }
   if (Result<void> features = ReadFeatures(in, segment); !features) {
     return tl::unexpected(features.error());
+  }
+  if (Result<void> views = ReadKeyViews(in, segment); !views) {
+    return tl::unexpected(views.error());
   }
   return segment;
 }

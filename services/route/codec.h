@@ -14,14 +14,21 @@ inline constexpr std::size_t kMaxKnots = 64;
 // Farther than this from the image centre is no pixel of any camera.
 inline constexpr int kMaxCoordinatePx = 1 << 16;
 
-// The version of the route format that is written, and the only one that is read.
-inline constexpr std::uint32_t kFormatVersion = 1;
+inline constexpr std::size_t kMaxKeyViews = 64;
+inline constexpr std::size_t kMaxKeyViewFeatures = 255;
+
+// The newest version of the route format; older ones are read, too. Segments that version 1 can
+// express are written in it.
+inline constexpr std::uint32_t kFormatVersion = 2;
 
 // The route format (idl/route.proto), in bytes. Deterministic: equal segments give equal bytes.
 // Coordinates are rounded to 1/16 px, lengths to 0.1 mm, angles to 0.01 mrad, durations to 1 ms,
 // knot times to 1/255, the heading polynomial to single precision. The first knot's time is written
 // as 0 and the last one's as 1; a knot between them that rounds onto its neighbour is left out.
-// Expects at most kMaxFeatures features of 2 to kMaxKnots knots each, all numbers finite.
+// Of key views, places are rounded to 1/4 px, sizes to a sixteenth of an octave, `s` to 1/255.
+// Expects at most kMaxFeatures features of 2 to kMaxKnots knots each, kMaxKeyViews key views of
+// kMaxKeyViewFeatures features, all numbers finite; descriptors of features are written if any of
+// them has one.
 [[nodiscard]] Bytes Encode(const Segment& segment);
 
 // kCorrupt with what is wrong for bytes that are no segment: truncated, oversize, absurd counts,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/ids.h"
+#include "services/route/key_view.h"
 
 namespace trailcast::route {
 
@@ -15,9 +16,6 @@ namespace trailcast::route {
 // needs, and what travels), 8 about the patch's mean.
 inline constexpr int kPatchSize = 11;
 using Patch = std::array<std::uint8_t, std::size_t{kPatchSize} * kPatchSize>;
-
-// Upright (unrotated) ORB descriptor at the scale of the segment's first image.
-using Descriptor = std::array<std::uint8_t, 32>;
 
 // Where a feature was when a fraction `s` of its segment had been driven. Pixels of the scout's
 // camera from its image centre, u to the right, v down. Resolution on the wire: 1/16 px.
@@ -31,6 +29,8 @@ struct TrackKnot {
 
 struct Feature {
   Patch patch{};
+  // At the scale of the segment's first image. Only in segments without key views, as they were
+  // taught before there were any; all zero otherwise.
   Descriptor descriptor{};
   // At least two knots in rising s; front() is the first image, back() the milestone.
   std::vector<TrackKnot> track;
@@ -59,7 +59,11 @@ struct Segment {
   double heading_variation_rad = 0.0;  // largest |heading| inside the segment: sigma_h
   HeadingPolynomial heading;
   double duration_s = 0.0;  // how long teaching took; speed is length over duration
+  // Turned on the spot before the segment's first image, counter-clockwise positive: the segment
+  // begins where the last one ended, and heads so much further to the left.
+  double turn_before_rad = 0.0;
   std::vector<Feature> features;
+  std::vector<KeyView> key_views;  // in rising s; none in segments taught before there were any
 
   [[nodiscard]] double speed_mps() const { return duration_s > 0.0 ? length_m / duration_s : 0.0; }
   bool operator==(const Segment&) const = default;

@@ -17,7 +17,6 @@ struct TrackedFeature {
 struct DescribedFeature {
   TrackedFeature at;
   Patch patch{};
-  Descriptor descriptor{};
 };
 
 }  // namespace trailcast::route

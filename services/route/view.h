@@ -2,29 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "services/route/route.h"
 
 namespace trailcast::route {
 
-// What a camera sees at one moment, as far as a route's segments can be compared with it: features
-// found and described as teaching does it, places in pixels of that camera from its image centre.
-struct ViewFeature {
-  Descriptor descriptor{};
-  float u_px = 0.0F;
-  float v_px = 0.0F;
-
-  bool operator==(const ViewFeature&) const = default;
-};
-using View = std::vector<ViewFeature>;
-
+// Of a view that a catalog is asked by.
 inline constexpr std::size_t kMaxViewFeatures = 200;
-
-// ORB describes nothing near a picture's edge: such a feature's descriptor is all zero.
-[[nodiscard]] inline bool IsDescribed(const Descriptor& descriptor) {
-  return descriptor != Descriptor{};
-}
 
 // A stretch of a route that looks like a view.
 struct FoundPlace {

@@ -38,22 +38,23 @@ Lighting WithMovedSun(const Lighting& lighting, std::uint64_t seed) {
   return moved;
 }
 
-RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed) {
-  Random body(seed, "robot");
+RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t robot_seed,
+                      std::uint64_t start_seed) {
+  Random body(robot_seed, "robot");
   RobotErrors robot;
   robot.odometry_scale = 1.0 + disturbances.odometry_scale * body.Normal();
   robot.heading_bias_rad_per_m = disturbances.heading_bias_rad_per_m * body.Normal();
   robot.wheel_base = 1.0 + disturbances.wheel_base * body.Normal();
   robot.slip = disturbances.slip;
 
-  Random camera(seed, "camera");
+  Random camera(robot_seed, "camera");
   robot.camera_yaw_rad = disturbances.camera_yaw_rad * camera.Normal();
   robot.camera_pitch_rad = disturbances.camera_pitch_rad * camera.Normal();
   robot.camera_height_m = disturbances.camera_height_m * camera.Normal();
   robot.gain = disturbances.gain_low *
                std::pow(disturbances.gain_high / disturbances.gain_low, camera.Uniform());
 
-  Random start(seed, "start");
+  Random start(start_seed, "start");
   robot.start_left_m = disturbances.start_sideways_m * start.Normal();
   robot.start_ahead_m = disturbances.start_along_m * start.Normal();
   robot.start_heading_rad = disturbances.start_heading_rad * start.Normal();

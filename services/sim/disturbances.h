@@ -48,7 +48,13 @@ struct RobotErrors {
 // The sun some hours on: 15 to 45 degrees round to either side, up to 10 higher or lower.
 [[nodiscard]] Lighting WithMovedSun(const Lighting& lighting, std::uint64_t seed);
 
-// The same seed gives the same robot.
-[[nodiscard]] RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed);
+// Body and camera are drawn from `robot_seed`, where it is set down from `start_seed`: the same
+// robot may start twice.
+[[nodiscard]] RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t robot_seed,
+                                    std::uint64_t start_seed);
+// The same seed gives the same robot at the same start.
+[[nodiscard]] inline RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t seed) {
+  return DrawRobot(disturbances, seed, seed);
+}
 
 }  // namespace trailcast::sim

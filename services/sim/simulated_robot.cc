@@ -34,7 +34,8 @@ Result<std::unique_ptr<SimulatedRobot>> SimulatedRobot::Create(
     return Fail(ErrorCode::kInvalidArgument, "rate {} Hz is not possible: expected 1 to 1000",
                 options.rate_hz);
   }
-  const RobotErrors errors = DrawRobot(options.disturbances, options.seed);
+  const RobotErrors errors =
+      DrawRobot(options.disturbances, options.robot_seed.value_or(options.seed), options.seed);
   const motion::Pose2 start = TrueStart(options, errors);
   const auto ground = options.start_z_max_m
                           ? world->GroundHeight(start.x_m, start.y_m, *options.start_z_max_m)

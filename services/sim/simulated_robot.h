@@ -24,6 +24,8 @@ struct SimulatedRobotOptions {
   std::optional<double> start_z_max_m;
   Disturbances disturbances;
   std::uint64_t seed = 1;
+  // Whose body and camera are drawn; nothing: those of `seed`, which also gives start and noise.
+  std::optional<std::uint64_t> robot_seed;
   RobotBody body;
   SensorOptions sensor;
   double rate_hz = 30.0;

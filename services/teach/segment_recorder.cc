@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace trailcast::teach {
 namespace {
 
-constexpr double kStandstill_m = 1e-3;
 constexpr int kFewestKnots = 3;
+constexpr std::size_t kFewestToTellStill = 4;
 
 // Less than this between two frames is a robot that waits: neither time nor track goes on.
 constexpr double kStep_m = 1e-4;
@@ -19,59 +21,130 @@ constexpr double kStep_rad = 1e-4;
 void SegmentRecorder::Begin(SensorTime stamp, std::vector<route::DescribedFeature> features,
                             const std::optional<motion::Pose2>& odometry) {
   first_ = std::move(features);
-  Moment first{stamp, 0.0, {}};
+  Moment first;
   for (const route::DescribedFeature& feature : first_) {
     first.features[feature.at.id] = feature.at;
   }
+  moved_features_ = first.features;
   moments_.clear();
   moments_.push_back(std::move(first));
-  headings_.assign(1, {});
-  moving_ = SensorTime{0};
-  last_odometry_ = odometry;
+  last_stamp_ = stamp;
+  moved_odometry_ = odometry;
+  if (!turning_) turn_ = SpotTurnWatch();  // what may have been the beginning of a turn is driven
 }
 
-bool SegmentRecorder::Add(SensorTime stamp, const std::vector<route::TrackedFeature>& tracked,
-                          const std::optional<motion::Pose2>& odometry) {
-  bool moved = true;
-  if (odometry && last_odometry_) {
-    const motion::OdometryIncrement step = motion::IncrementBetween(*last_odometry_, *odometry);
-    moved = std::abs(step.distance_m) > kStep_m || std::abs(step.heading_change_rad) > kStep_rad;
-    const HeadingSample before = headings_.back();
-    if (moved) {
-      headings_.push_back(
-          {before.distance_m + step.distance_m, before.heading_rad + step.heading_change_rad});
-    }
+bool SegmentRecorder::Moved(const Features& tracked,
+                            const std::optional<motion::OdometryIncrement>& step) const {
+  if (step) {
+    return std::abs(step->distance_m) > kStep_m || std::abs(step->heading_change_rad) > kStep_rad;
   }
-  if (moved || !odometry) last_odometry_ = odometry;
-  Moment moment{stamp, headings_.back().distance_m, {}};
-  for (const route::TrackedFeature& feature : tracked) moment.features[feature.id] = feature;
-  if (moved || moments_.size() == 1) {
-    moving_ += stamp - moments_.back().stamp;
+  std::vector<double> moved_px;
+  for (const auto& [id, feature] : tracked) {
+    const auto before = moved_features_.find(id);
+    if (before == moved_features_.end()) continue;
+    moved_px.push_back(
+        std::hypot(feature.u_px - before->second.u_px, feature.v_px - before->second.v_px));
+  }
+  if (moved_px.size() < kFewestToTellStill) return true;
+  const auto middle = moved_px.begin() + std::ssize(moved_px) / 2;
+  std::nth_element(moved_px.begin(), middle, moved_px.end());
+  return *middle >= still_px_;
+}
+
+bool SegmentRecorder::LongEnough() const {
+  if (moments_.empty()) return false;
+  return moved_odometry_ ? distance_m() >= options_.shortest_m
+                         : Seconds(moments_.back().moving) >= options_.shortest_s;
+}
+
+// Of a robot that does, or may do so.
+SegmentRecorder::Event SegmentRecorder::TurnOnTheSpot(SpotTurnWatch::State before) {
+  using State = SpotTurnWatch::State;
+  if (before == State::kDrives && turn_.state() != State::kDrives) turn_from_ = moments_.size();
+  if (turning_ && turn_.state() == State::kDrives) {
+    turning_ = false;
+    turn_before_rad_ += turn_.turned_rad();
+    return Event::kEnds;
+  }
+  if (turn_.state() == State::kTurns) {
+    turning_ = true;
+    return Event::kTurns;
+  }
+  return Event::kGoesOn;
+}
+
+SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
+                                            const std::vector<route::TrackedFeature>& tracked,
+                                            const std::optional<motion::Pose2>& odometry) {
+  Features features;
+  for (const route::TrackedFeature& feature : tracked) features[feature.id] = feature;
+  std::optional<motion::OdometryIncrement> step;
+  if (odometry && moved_odometry_) {
+    step = motion::IncrementBetween(*moved_odometry_, *odometry);
+  }
+  const bool moved = Moved(features, step);
+  const SensorTime took = stamp - last_stamp_;
+  last_stamp_ = stamp;
+  if (moved) {
+    moved_odometry_ = odometry;
+    moved_features_ = features;
+  }
+  if (step && moved) {
+    const SpotTurnWatch::State before = turn_.state();
+    std::ignore = turn_.Add(*step);
+    const Event event = TurnOnTheSpot(before);
+    if (event != Event::kGoesOn) return event;
+  } else if (turning_) {
+    return Event::kTurns;
+  }
+
+  Moment moment = moments_.back();
+  if (moved) {
+    moment.key_views.clear();
+    moment.moving += took;
+    moment.distance_m += step ? step->distance_m : 0.0;
+    moment.heading_rad += step ? step->heading_change_rad : 0.0;
+  }
+  moment.features = std::move(features);
+  if (moved) {
     moments_.push_back(std::move(moment));
   } else {
     moments_.back() = std::move(moment);
   }
-  return distance_m() >= options_.longest_m ||
-         static_cast<double>(tracked.size()) <
-             options_.survival_share * static_cast<double>(first_.size());
+  const bool few = static_cast<double>(tracked.size()) <
+                   options_.survival_share * static_cast<double>(first_.size());
+  const bool ends = distance_m() >= options_.longest_m || (few && LongEnough());
+  const bool not_begun = few && moments_.size() == 1;  // those that stood by it have gone
+  return ends || not_begun ? Event::kEnds : Event::kGoesOn;
+}
+
+void SegmentRecorder::Keep(const route::View& view) {
+  if (turning_) {
+    views_before_.push_back(view);
+  } else if (!moments_.empty()) {
+    moments_.back().key_views.push_back(view);
+  }
+}
+
+void SegmentRecorder::PutBefore(std::vector<route::View> views) {
+  std::move(views.begin(), views.end(), std::back_inserter(views_before_));
 }
 
 double SegmentRecorder::FractionAt(const Moment& moment) const {
   const double length_m = moments_.back().distance_m;
-  if (length_m > kStandstill_m) return std::clamp(moment.distance_m / length_m, 0.0, 1.0);
-  const SensorTime begin = moments_.front().stamp;
-  const double duration_s = Seconds(moments_.back().stamp - begin);
-  return duration_s > 0.0 ? Seconds(moment.stamp - begin) / duration_s : 0.0;
+  if (length_m > 0.0) return std::clamp(moment.distance_m / length_m, 0.0, 1.0);
+  const double duration_s = Seconds(moments_.back().moving);
+  return duration_s > 0.0 ? Seconds(moment.moving) / duration_s : 0.0;
 }
 
 int SegmentRecorder::KnotsFor(double length_m) const {
-  if (!last_odometry_) return options_.knots;
+  if (!moved_odometry_) return options_.knots;
   const int by_length = 1 + static_cast<int>(std::ceil(length_m / options_.knot_spacing_m));
   return std::min(std::max(by_length, kFewestKnots), options_.knots);
 }
 
 route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature, int knots) const {
-  route::Feature stored{feature.patch, feature.descriptor, {}};
+  route::Feature stored{feature.patch, {}, {}};
   const auto knot_of = [&](const Moment& moment, double s) {
     const route::TrackedFeature& at = moment.features.at(feature.at.id);
     return route::TrackKnot{static_cast<float>(s), static_cast<float>(at.u_px),
@@ -92,6 +165,18 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature, in
   return stored;
 }
 
+// Those seen before the segment's first image stand at its beginning.
+std::vector<route::KeyView> SegmentRecorder::TakeKeyViews() {
+  std::vector<route::KeyView> views;
+  for (route::View& view : std::exchange(views_before_, {}))
+    views.push_back({0.0, std::move(view)});
+  for (Moment& moment : moments_) {
+    const double s = FractionAt(moment);
+    for (route::View& view : moment.key_views) views.push_back({s, std::move(view)});
+  }
+  return views;
+}
+
 std::size_t SegmentRecorder::MostFeatures(const route::Segment& segment) const {
   if (!segment.has_odometry) return first_.size();
   const auto by_length = static_cast<std::size_t>(options_.features_per_metre * segment.length_m);
@@ -99,21 +184,38 @@ std::size_t SegmentRecorder::MostFeatures(const route::Segment& segment) const {
 }
 
 std::optional<route::Segment> SegmentRecorder::Finish() {
-  const bool survivors = !moments_.empty() && !moments_.back().features.empty();
-  if (moments_.size() < 2 || (!survivors && distance_m() < kStandstill_m)) return std::nullopt;
+  std::vector<route::View> turn_views;  // that were seen before it was clear that the robot turned
+  if (turning_ && turn_from_ < moments_.size()) {
+    for (std::size_t i = turn_from_; i < moments_.size(); ++i) {
+      std::move(moments_[i].key_views.begin(), moments_[i].key_views.end(),
+                std::back_inserter(turn_views));
+    }
+    moments_.resize(turn_from_);
+  }
+  if (!LongEnough()) {
+    if (turning_ && !moments_.empty()) turn_before_rad_ += moments_.back().heading_rad;
+    for (Moment& moment : moments_) PutBefore(std::move(moment.key_views));
+    PutBefore(std::move(turn_views));
+    moments_.clear();
+    return std::nullopt;
+  }
   route::Segment segment;
   segment.index = next_index_;
   next_index_ = SegmentIndex(next_index_.value() + 1);
-  segment.has_odometry = last_odometry_.has_value();
-  segment.duration_s = Seconds(moving_);
+  segment.has_odometry = moved_odometry_.has_value();
+  segment.duration_s = Seconds(moments_.back().moving);
   if (segment.has_odometry) {
-    segment.length_m = std::max(0.0, headings_.back().distance_m);
-    segment.heading_change_rad = headings_.back().heading_rad;
-    for (const HeadingSample& sample : headings_) {
+    segment.length_m = moments_.back().distance_m;
+    segment.heading_change_rad = moments_.back().heading_rad;
+    segment.turn_before_rad = std::exchange(turn_before_rad_, 0.0);
+    std::vector<HeadingSample> headings;
+    headings.reserve(moments_.size());
+    for (const Moment& moment : moments_) {
       segment.heading_variation_rad =
-          std::max(segment.heading_variation_rad, std::abs(sample.heading_rad));
+          std::max(segment.heading_variation_rad, std::abs(moment.heading_rad));
+      headings.push_back({moment.distance_m, moment.heading_rad});
     }
-    segment.heading = FitHeading(headings_);
+    segment.heading = FitHeading(headings);
   }
   const std::size_t most = MostFeatures(segment);
   const int knots = KnotsFor(segment.length_m);
@@ -122,6 +224,8 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
       segment.features.push_back(Store(feature, knots));
     }
   }
+  segment.key_views = TakeKeyViews();
+  PutBefore(std::move(turn_views));
   moments_.clear();
   return segment;
 }

@@ -8,6 +8,7 @@
 #include "services/motion/motion.h"
 #include "services/route/tracked_feature.h"
 #include "services/teach/heading_fit.h"
+#include "services/teach/spot_turn.h"
 
 namespace trailcast::teach {
 
@@ -17,6 +18,13 @@ struct SegmentRecorderOptions {
   // ... or at this length. Where all features are far away half of them survive for long, and the
   // few that come near on the way would never be stored. The paper has no such limit.
   double longest_m = 2.0;
+  // But not before this length, whatever becomes of its features: a robot that stands, or sets off,
+  // teaches no way. The second is for robots without odometry: time in motion.
+  double shortest_m = 0.05;
+  double shortest_s = 0.1;
+  // Without odometry a robot stands whose features, half of them, move less between two frames; in
+  // pixels of a picture 320 px wide.
+  double still_px_at_320 = 0.12;
   // Where segments are short (turns, clutter close by) their features overlap in what they say: of
   // a segment's survivors only so many a metre are kept, the strongest, but never fewer than the
   // second figure. Holds a route under 5 kB a metre, one of sharp turns only just.
@@ -30,46 +38,78 @@ struct SegmentRecorderOptions {
 
 // Turns the tracked features of one segment after the other into what the route stores of it.
 // Begin a segment, add frames until Add says it ends, take it with Finish, begin the next with the
-// same frame.
+// same frame. A turn on the spot belongs to no segment: it is what the next one begins with.
 class SegmentRecorder {
  public:
-  explicit SegmentRecorder(const SegmentRecorderOptions& options = {}) : options_(options) {}
+  enum class Event {
+    kGoesOn,
+    kEnds,   // with this image, the segment or the turn on the spot
+    kTurns,  // on the spot; with the first such image the segment has ended, before the turn
+  };
+
+  // `width_px`: of the scout's frames.
+  explicit SegmentRecorder(int width_px, const SegmentRecorderOptions& options = {})
+      : options_(options), still_px_(options.still_px_at_320 * width_px / 320.0) {}
 
   // The segment's first image: its features, the strongest first, and the odometry pose at that
   // moment, if any.
   void Begin(SensorTime stamp, std::vector<route::DescribedFeature> features,
              const std::optional<motion::Pose2>& odometry);
 
-  // The next image: which of the features are still there. True: the segment ends with this image.
-  [[nodiscard]] bool Add(SensorTime stamp, const std::vector<route::TrackedFeature>& tracked,
-                         const std::optional<motion::Pose2>& odometry);
+  // The next image: which of the features are still there.
+  [[nodiscard]] Event Add(SensorTime stamp, const std::vector<route::TrackedFeature>& tracked,
+                          const std::optional<motion::Pose2>& odometry);
 
-  // The segment from Begin to the last Add, with the features that were tracked throughout. Nothing
-  // if no image was added since Begin, or if it holds neither a feature nor a step of odometry.
+  // The last image given to Begin or Add is a key view.
+  void Keep(const route::View& view);
+
+  // The segment from Begin to the last Add, or to where the robot began to turn on the spot, with
+  // the features that were tracked throughout. Nothing if the robot has not moved since Begin.
   [[nodiscard]] std::optional<route::Segment> Finish();
 
-  [[nodiscard]] double distance_m() const { return headings_.back().distance_m; }
+  [[nodiscard]] double distance_m() const {
+    return moments_.empty() ? 0.0 : moments_.back().distance_m;
+  }
 
  private:
-  // One image of the segment.
+  using Features = std::unordered_map<int, route::TrackedFeature>;
+
+  // One image of the segment; the rest is since the segment's start.
   struct Moment {
-    SensorTime stamp{0};
+    Features features;
     double distance_m = 0.0;
-    std::unordered_map<int, route::TrackedFeature> features;
+    double heading_rad = 0.0;
+    SensorTime moving{0};  // time driven; a robot that waits does not teach slowness
+    std::vector<route::View> key_views;
   };
 
+  [[nodiscard]] bool Moved(const Features& tracked,
+                           const std::optional<motion::OdometryIncrement>& step) const;
+  [[nodiscard]] bool LongEnough() const;
+  [[nodiscard]] Event TurnOnTheSpot(SpotTurnWatch::State before);
+  void PutBefore(std::vector<route::View> views);
   [[nodiscard]] std::size_t MostFeatures(const route::Segment& segment) const;
   [[nodiscard]] int KnotsFor(double length_m) const;
   [[nodiscard]] route::Feature Store(const route::DescribedFeature& feature, int knots) const;
+  [[nodiscard]] std::vector<route::KeyView> TakeKeyViews();
   [[nodiscard]] double FractionAt(const Moment& moment) const;
 
   SegmentRecorderOptions options_;
+  double still_px_;
   SegmentIndex next_index_{0};
   std::vector<route::DescribedFeature> first_;
   std::vector<Moment> moments_;
-  std::vector<HeadingSample> headings_{{}};
-  SensorTime moving_{0};  // time driven; a robot that waits does not teach slowness
-  std::optional<motion::Pose2> last_odometry_;
+  SensorTime last_stamp_{0};
+  // When the robot last moved.
+  std::optional<motion::Pose2> moved_odometry_;
+  Features moved_features_;
+
+  SpotTurnWatch turn_;
+  bool turning_ = false;       // and the segment has ended
+  std::size_t turn_from_ = 0;  // position of the moment with which it may have begun to
+  // What comes before the next segment to be finished.
+  double turn_before_rad_ = 0.0;
+  std::vector<route::View> views_before_;
 };
 
 }  // namespace trailcast::teach

@@ -27,6 +27,29 @@ constexpr int kMostVotes = 0xFFFF;
 // a small fleet's server shall not grow by what it no longer has.
 constexpr std::size_t kSweepFrom = 64;
 
+// What a segment is looked up by: the features of its key views, the strongest of each first; of
+// one that was taught before there were any, its own.
+std::vector<route::Descriptor> DescriptorsOf(const route::Segment& segment) {
+  std::vector<route::Descriptor> descriptors;
+  const auto add = [&](const route::Descriptor& descriptor) {
+    if (descriptors.size() < kMostFeatures && route::IsDescribed(descriptor)) {
+      descriptors.push_back(descriptor);
+    }
+  };
+  for (const route::Feature& feature : segment.features) add(feature.descriptor);
+  if (!descriptors.empty()) return descriptors;
+  std::size_t longest = 0;
+  for (const route::KeyView& view : segment.key_views) {
+    longest = std::max(longest, view.features.size());
+  }
+  for (std::size_t i = 0; i < longest; ++i) {
+    for (const route::KeyView& view : segment.key_views) {
+      if (i < view.features.size()) add(view.features[i].descriptor);
+    }
+  }
+  return descriptors;
+}
+
 }  // namespace
 
 ViewIndex::ViewIndex(const ViewIndexOptions& options)
@@ -91,11 +114,10 @@ bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
   auto& held = route.segments;
   const std::uint32_t number = segment.index.value();
   held.insert(std::upper_bound(held.begin(), held.end(), number), number);
-  const std::size_t most = std::min(segment.features.size(), kMostFeatures);
-  slots_[*slot] = {route.number, number, static_cast<std::uint32_t>(most)};
-  for (const route::Feature& feature : std::span(segment.features).first(most)) {
-    if (!route::IsDescribed(feature.descriptor)) continue;
-    const auto where = WhereIs(feature.descriptor);
+  const std::vector<route::Descriptor> descriptors = DescriptorsOf(segment);
+  slots_[*slot] = {route.number, number, static_cast<std::uint32_t>(descriptors.size())};
+  for (const route::Descriptor& descriptor : descriptors) {
+    const auto where = WhereIs(descriptor);
     for (std::uint32_t table = 0; table < kTables; ++table) {
       Insert(table * kWords + where[table].word, *slot << kCheckBits | where[table].check);
     }

@@ -2,21 +2,10 @@
 
 #include <span>
 
+#include "services/route/key_view.h"
 #include "services/route/route.h"
-#include "services/route/view.h"
 
 namespace trailcast::view {
-
-struct ViewMatchOptions {
-  int max_hamming_bits = 64;    // of 256
-  double hamming_ratio = 0.85;  // best to second best
-  // What the places must agree on: half a picture's width times this.
-  double agree_u = 0.06;
-  double agree_v = 0.04;
-  // Magnification, the camera at hand against the scout's.
-  double least_scale = 0.6;
-  double most_scale = 1.7;
-};
 
 struct ViewMatch {
   // One view in 800 of other worlds agrees so well with any of 100 000 segments.
@@ -31,9 +20,9 @@ struct ViewMatch {
   [[nodiscard]] double score() const { return likeness / (likeness + 10.0); }
 };
 
-// Compares a view with a stored segment, feature by feature, at five places along it.
-// Deterministic. Fewer than kEnough alike: nothing.
+// Compares a view with a stored segment's key views; the likest of them. The pictures' widths are
+// taken to be what the features span. Deterministic.
 [[nodiscard]] ViewMatch Match(std::span<const route::ViewFeature> view,
-                              const route::Segment& segment, const ViewMatchOptions& options = {});
+                              const route::Segment& segment);
 
 }  // namespace trailcast::view

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace trailcast::vision {
@@ -10,8 +9,6 @@ namespace {
 
 constexpr float kMiddleLevel = 8.0F;
 constexpr float kLevelsPerSigma = 3.0F;  // +-2.5 standard deviations fill the 16 levels
-constexpr int kOrbPatch_px = 31;
-constexpr int kOrbEdge_px = 17;
 
 }  // namespace
 
@@ -34,18 +31,6 @@ std::optional<route::Patch> CutPatch(const cv::Mat& frame, cv::Point2f centre) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 15L));
   });
   return patch;
-}
-
-cv::KeyPoint UprightKeyPoint(cv::Point2f at) {
-  return {at, static_cast<float>(kOrbPatch_px), /*angle=*/0.0F, /*response=*/0.0F, /*octave=*/0};
-}
-
-cv::Mat DescribeUpright(const cv::Mat& frame, std::vector<cv::KeyPoint>& key_points) {
-  const auto orb = cv::ORB::create(static_cast<int>(key_points.size()) + 1, 1.2F, /*nlevels=*/1,
-                                   kOrbEdge_px, 0, 2, cv::ORB::HARRIS_SCORE, kOrbPatch_px);
-  cv::Mat descriptors;
-  orb->compute(frame, key_points, descriptors);
-  return descriptors;
 }
 
 }  // namespace trailcast::vision

@@ -18,13 +18,6 @@ struct FeatureFinderOptions {
   // At any magnification (camera at hand / scout's), in steps that a pattern bears.
   double least_magnification = 0.2;
   double most_magnification = 5.0;
-  // Wide search, over the whole frame and all these magnifications.
-  double wide_least_magnification = 0.35;
-  double wide_most_magnification = 2.9;
-  int wide_corners = 350;       // looked at for each magnification
-  int max_hamming_bits = 64;    // of 256
-  double hamming_ratio = 0.85;  // best to second best
-  int min_wide_inliers = 7;
 };
 
 // How far from the expected places to look, in pixels of the scout's magnification.
@@ -52,11 +45,6 @@ struct FindResult {
 [[nodiscard]] std::vector<route::TrackedFeature> TaughtPlaces(
     std::span<const route::Feature> sought, double s, const ViewFit& fit);
 
-struct WideResult {
-  ViewFit fit;      // from the scout's picture to this one
-  int matches = 0;  // that agree on it; 0: the segment is not in view
-};
-
 // Finds a segment's stored features in a frame of whatever camera. Deterministic, stateless.
 class FeatureFinder {
  public:
@@ -69,17 +57,20 @@ class FeatureFinder {
                                     std::span<const route::TrackedFeature> expected,
                                     double magnification, const SearchRadius& radius) const;
 
+  // The same by the scout's own kind of camera on ground that tilts it: the features found agree on
+  // a roll as well, and those that were missed are sought again where the others say. Takes the
+  // magnification to be as it is given.
+  [[nodiscard]] FindResult FindTilted(const image::GrayImage& frame,
+                                      std::span<const route::Feature> sought,
+                                      std::span<const route::TrackedFeature> expected,
+                                      double magnification, const SearchRadius& radius) const;
+
   // The same by a robot that stands where the scout stood at fraction `s` of the segment, give or
   // take the radius, and whose camera nothing is known of: at every magnification. Nothing found
   // that is not beyond chance.
   [[nodiscard]] FindResult FindAtAnyMagnification(const image::GrayImage& frame,
                                                   std::span<const route::Feature> sought, double s,
                                                   const SearchRadius& radius) const;
-
-  // By descriptors, anywhere and at any magnification. `s`: the fraction of the segment at which
-  // the picture is thought to be. Coarse: follow it with FindNear.
-  [[nodiscard]] WideResult FindWide(const image::GrayImage& frame,
-                                    std::span<const route::Feature> sought, double s) const;
 
  private:
   FeatureFinderOptions options_;

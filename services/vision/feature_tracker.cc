@@ -233,22 +233,10 @@ TrackLosses FeatureTracker::losses() const { return state_->losses; }
 std::vector<route::DescribedFeature> FeatureTracker::Describe() const {
   const cv::Mat& frame = state_->last.front();
   const std::vector<route::TrackedFeature> current = state_->Current();
-  std::vector<cv::KeyPoint> key_points;
-  for (std::size_t i = 0; i < current.size(); ++i) {
-    key_points.push_back(UprightKeyPoint(state_->points[i]));
-    key_points.back().class_id = static_cast<int>(i);
-  }
-  const cv::Mat descriptors = DescribeUpright(frame, key_points);
   std::vector<route::DescribedFeature> described;
-  std::vector<route::Descriptor> descriptor_of(current.size());
-  for (std::size_t row = 0; row < key_points.size(); ++row) {
-    const std::uint8_t* bytes = descriptors.ptr<std::uint8_t>(static_cast<int>(row));
-    std::copy_n(bytes, descriptor_of.front().size(),
-                descriptor_of[static_cast<std::size_t>(key_points[row].class_id)].begin());
-  }
   for (std::size_t i = 0; i < current.size(); ++i) {
     const auto patch = CutPatch(frame, state_->points[i]);
-    if (patch) described.push_back({current[i], *patch, descriptor_of[i]});
+    if (patch) described.push_back({current[i], *patch});
   }
   return described;
 }

@@ -1,14 +1,43 @@
 #pragma once
 
+#include <memory>
+
 #include "services/image/image.h"
-#include "services/route/view.h"
+#include "services/route/key_view.h"
 
 namespace trailcast::vision {
 
-// What a frame shows, as a catalog is asked for it: features found and described as teaching finds
-// and describes a segment's, but more of them, at most route::kMaxViewFeatures, for a robot that
-// stands beside the path sees others than the strongest. A donut is unrolled as for teaching.
-// Empty where there is nothing to hold on to.
-[[nodiscard]] route::View DescribeView(const image::GrayImage& frame);
+struct ViewFeatureOptions {
+  // Every picture is looked at with about so many pixels, whatever its own size: two cameras of one
+  // field of view then see things equally large, and a step costs the same.
+  int pixels = 240 * 180;
+  int most_features = 300;
+  int levels = 6;  // of the pyramid, each smaller by `level_step`: nearer and other cameras
+  float level_step = 1.2F;
+  int least_contrast_grey = 7;  // of a corner against what surrounds it: dusk has no more
+};
+
+// What a frame shows, to recognise it by: upright ORB features over a pyramid (Rublee et al. 2011,
+// without their rotation: robots stand upright), the strongest first. Not of the black surround
+// that some lenses leave. Nothing of a picture that is too small, or has nothing to hold on to.
+// Deterministic; not thread-safe.
+class ViewDescriber {
+ public:
+  explicit ViewDescriber(const ViewFeatureOptions& options = {});
+  ~ViewDescriber();
+  ViewDescriber(ViewDescriber&&) noexcept;
+  ViewDescriber& operator=(ViewDescriber&&) noexcept;
+
+  // A donut (donut.h) is to be unrolled before.
+  [[nodiscard]] route::View Describe(const image::GrayImage& frame);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// One frame as a catalog is asked for it: unrolled if it is a donut, at most
+// route::kMaxViewFeatures, spread over the picture.
+[[nodiscard]] route::View DescribeForQuery(const image::GrayImage& frame);
 
 }  // namespace trailcast::vision

@@ -4,9 +4,13 @@
 #include <benchmark/benchmark.h>
 
 #include <opencv2/video/tracking.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "agent/hand_over.h"
+#include "agent/replay_session.h"
+#include "agent/teach_session.h"
 #include "services/replay/funnel_follower.h"
 #include "services/replay/path_follower.h"
 #include "services/teach/segment_recorder.h"
@@ -36,15 +40,15 @@ const std::vector<image::GrayImage>& Frames() {
 
 route::Segment TaughtSegment() {
   vision::FeatureTracker tracker;
-  teach::SegmentRecorder recorder;
+  teach::SegmentRecorder recorder(320);
   tracker.Track(Frames().front());
   tracker.Detect();
   recorder.Begin(SensorTime{0}, tracker.Describe(), motion::Pose2{});
   for (std::size_t i = 1; i < kFrames / 2; ++i) {
     const double x_m = 0.25 * static_cast<double>(i);  // long enough to keep every feature
-    if (recorder.Add(FromSeconds(x_m), tracker.Track(Frames()[i]), motion::Pose2{x_m, 0.0, 0.0})) {
-      break;
-    }
+    const auto event =
+        recorder.Add(FromSeconds(x_m), tracker.Track(Frames()[i]), motion::Pose2{x_m, 0.0, 0.0});
+    if (event != teach::SegmentRecorder::Event::kGoesOn) break;
   }
   return *recorder.Finish();
 }
@@ -120,7 +124,8 @@ void HandOverNear(benchmark::State& state) {
     replay::PathFollower follower(320, 1.0);
     follower.Begin(segment);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(hand_over.ToSegment(Frames()[3], follower));
+    benchmark::DoNotOptimize(
+        hand_over.ToSegment(Frames()[3], follower, [] { return std::nullopt; }));
   }
   state.counters["found_share"] = hand_over.found_share();
   state.counters["sought"] = static_cast<double>(segment.features.size());
@@ -137,14 +142,46 @@ void SearchByPatternsAtAnyMagnification(benchmark::State& state) {
 }
 BENCHMARK(SearchByPatternsAtAnyMagnification)->Unit(benchmark::kMillisecond);
 
-void SearchByDescriptorsAnywhere(benchmark::State& state) {
-  const route::Segment segment = TaughtSegment();
-  const vision::FeatureFinder finder;
+// All that a follower does with a frame, on a route of so many metres: the first segment's features
+// and key views again and again, so that any of it might be the place.
+void WholeStep(benchmark::State& state, bool odometry) {
+  constexpr double kStep_m = 0.001;
+  agent::TeachSession teach;
+  std::vector<route::Segment> taught;
+  for (unsigned i = 0; i < kFrames; ++i) {
+    const auto pose = odometry ? std::optional(motion::Pose2{0.25 * i, 0.0, 0.0}) : std::nullopt;
+    auto step = teach.Observe({FromSeconds(i / 15.0), Frames()[i], pose});
+    if (step && step->finished) taught.push_back(std::move(*step->finished));
+  }
+  if (auto last = teach.Finish()) taught.push_back(std::move(*last));
+  route::RouteInfo info;
+  info.image_width_px = Frames().front().width;
+  info.image_height_px = Frames().front().height;
+  agent::ReplaySession session({}, info);
+  double length = 0.0;
+  for (std::uint32_t i = 0; length < static_cast<double>(state.range(0)); ++i) {
+    route::Segment segment = taught[i % taught.size()];
+    segment.index = SegmentIndex(i);
+    length += odometry ? segment.length_m : 0.3 * segment.duration_s;
+    if (!session.AddSegment(std::move(segment))) return state.SkipWithError("no such segment");
+  }
+  unsigned i = 0;
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(finder.FindWide(Frames()[3], segment.features, 0.0));
+    const auto pose = odometry ? std::optional(motion::Pose2{kStep_m * i, 0.0, 0.0}) : std::nullopt;
+    benchmark::DoNotOptimize(session.Observe({FromSeconds(i / 30.0), Frames()[i % kFrames], pose}));
+    ++i;
   }
 }
-BENCHMARK(SearchByDescriptorsAnywhere)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(WholeStep, WithOdometry, true)
+    ->Arg(10)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(WholeStep, WithoutOdometry, false)
+    ->Arg(10)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trailcast

@@ -105,7 +105,7 @@ Taught TeachIn(const std::string& name, const sim::Place& place) {
 route::View LookFrom(sim::SimulatedRobot& robot, const motion::Pose2& pose) {
   sim::Judge truth(robot);
   truth.Shove(motion::Between(truth.true_pose(), pose));
-  return vision::DescribeView(robot.Step({}).image);
+  return vision::DescribeForQuery(robot.Step({}).image);
 }
 
 // Another robot, under another sun, beside the path and turned a little.
@@ -122,20 +122,15 @@ void SeeAnew(const sim::Place& place, const Taught& taught, const std::string& c
   }
 }
 
-// A view as a segment: what comes nearer spreads from the middle.
+// A view as a segment.
 route::Segment AsSegment(const route::View& view) {
   constexpr std::size_t kStored = 60;
   route::Segment segment;
   segment.has_odometry = true;
   segment.length_m = 1.0;
-  for (const route::ViewFeature& seen : view) {
-    if (segment.features.size() == kStored) break;
-    route::Feature& feature = segment.features.emplace_back();
-    feature.descriptor = seen.descriptor;
-    for (const float s : {0.0F, 0.33F, 0.66F, 1.0F}) {
-      feature.track.push_back({s, seen.u_px * (1.0F + 0.3F * s), seen.v_px * (1.0F + 0.3F * s)});
-    }
-  }
+  segment.key_views.push_back({0.0, view});
+  route::View& features = segment.key_views.back().features;
+  features.resize(std::min(features.size(), kStored));
   return segment;
 }
 
@@ -218,7 +213,7 @@ void SeeByReplay(const Walk& taught, const std::vector<image::GrayImage>& frames
     if (step.state == agent::ReplayState::kLost) break;
     const bool sure = step.state == agent::ReplayState::kFollowing && step.features >= 10;
     if (!sure || i % kEvery != 0) continue;
-    corpus.held.push_back({set, walk, step.segment, vision::DescribeView(frames[i])});
+    corpus.held.push_back({set, walk, step.segment, vision::DescribeForQuery(frames[i])});
   }
 }
 
@@ -244,7 +239,7 @@ void AddRecorded(const std::filesystem::path& data, Corpus& corpus) {
   const auto query = Frames(data / "corridor_offset" / "query");
   for (std::size_t i = 0; i < std::min(query.size(), taught.moments.size()); ++i) {
     corpus.held.push_back(
-        {"corridor_offset", next(), taught.moments[i].segment, vision::DescribeView(query[i])});
+        {"corridor_offset", next(), taught.moments[i].segment, vision::DescribeForQuery(query[i])});
   }
   corpus.walks.push_back(std::move(taught.walk));
 }

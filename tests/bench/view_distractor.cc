@@ -16,23 +16,22 @@ route::Segment Distractor(const std::vector<route::Segment>& elsewhere, std::uin
   // As many as segments have that were taught: half of them 11 to 20, the others up to 56.
   const auto wanted = static_cast<std::size_t>(random.Uniform() < 0.5 ? random.Integer(11, 20)
                                                                       : random.Integer(21, 56));
-  segment.features.clear();
+  route::View& features = segment.key_views.front().features;
+  features.clear();
   const int groups = random.Integer(2, 3);
   for (int group = 0; group < groups; ++group) {
-    const route::Segment& from = elsewhere[pick(elsewhere.size())];
+    const route::View& from = elsewhere[pick(elsewhere.size())].key_views.front().features;
     const auto scale = static_cast<float>(random.Uniform(0.8, 1.25));
     const auto du_px = static_cast<float>(random.Uniform(-60.0, 60.0));
     for (std::size_t i = 0; i < wanted / static_cast<std::size_t>(groups); ++i) {
-      route::Feature feature = from.features[pick(from.features.size())];
+      route::ViewFeature feature = from[pick(from.size())];
       for (int bit = 0; bit < kFlippedBits; ++bit) {
         feature.descriptor[pick(feature.descriptor.size())] ^=
             static_cast<std::uint8_t>(1U << random.Integer(0, 7));
       }
-      for (route::TrackKnot& knot : feature.track) {
-        knot.u_px = scale * knot.u_px + du_px;
-        knot.v_px *= scale;
-      }
-      segment.features.push_back(std::move(feature));
+      feature.u_px = scale * feature.u_px + du_px;
+      feature.v_px *= scale;
+      features.push_back(feature);
     }
   }
   return segment;

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "tests/scenario/programs.h"
-#include "tests/support/second_camera.h"
+#include "tests/support/record_through.h"
 
 namespace trailcast::test {
 
@@ -47,7 +47,7 @@ class RecordedRunsTest : public ProgramsTest {
   };
   // `camera`: the follower's, where it is not the one that recorded the run.
   Replayed TeachAndReplay(const std::filesystem::path& teach, const std::filesystem::path& replay,
-                          const std::optional<SecondCamera>& camera = {}) {
+                          const std::optional<trial::OtherCamera>& camera = {}) {
     const auto taught = RunAgent({"teach", "--frames", teach.string(), "--route", "run", "--store",
                                   Path("route.db"), "--report", Path("taught.txt")});
     EXPECT_EQ(taught.status, 0) << taught.output;

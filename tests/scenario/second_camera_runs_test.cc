@@ -8,7 +8,7 @@ namespace {
 
 class SecondCameraRunsTest : public RecordedRunsTest {
  protected:
-  const SecondCamera camera_;
+  const trial::OtherCamera camera_;
 };
 
 TEST_F(SecondCameraRunsTest, DonkeyTrackGoesRoundAndTurnsAsItsDriverDid) {

@@ -171,6 +171,23 @@ TEST(Trial, MethodsSideBySideComeOutAsEachDoesAlone) {
   EXPECT_EQ(Repeatable(both), alone);
 }
 
+TEST(Trial, TheSameRobotFollowsUnderTheSameSun) {
+  TrialOptions options;
+  options.scenario = "paved";
+  EXPECT_TRUE(ShortTrip(options).sun_moves);
+  options.same_robot = true;
+  const TrialSetup setup = ShortTrip(options);
+  EXPECT_TRUE(setup.same_robot);
+  EXPECT_FALSE(setup.sun_moves);
+  const auto actors = setup.actors(sim::Role::kFollower, 1);
+  ASSERT_TRUE(actors.has_value());
+  EXPECT_TRUE(actors->empty());
+  options.trials = 1;
+  const std::vector<TrialRow> rows = RunAll(setup, options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows.front().same_robot);
+}
+
 // A hall of 9 m x 9 m with pictures all round, no two alike.
 std::shared_ptr<const sim::World> PictureHall() {
   constexpr float kHalf_m = 4.5F;
@@ -249,6 +266,11 @@ TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
   TrialOptions laps;
   laps.laps = 2;
   EXPECT_THAT(message(laps), HasSubstr("laps need one that comes back to within 1 m"));
+  TrialOptions two_cameras;
+  two_cameras.follower_camera = "wide";
+  two_cameras.same_robot = true;
+  EXPECT_THAT(message(two_cameras), HasSubstr("teach with camera 'webcam' and follow with camera "
+                                              "'wide'"));
   TrialOptions pathless;
   pathless.place.world = "place.glb";
   EXPECT_THAT(message(pathless), HasSubstr("--path"));

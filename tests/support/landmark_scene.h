@@ -10,6 +10,13 @@
 
 namespace trailcast::test {
 
+// How the ground tilts a robot. Rolled clockwise as the robot sees the world turning
+// counter-clockwise; pitched nose down.
+struct Tilt {
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+};
+
 // Landmarks in space seen by an ideal camera on a robot in the plane: features without images.
 class LandmarkScene {
  public:
@@ -34,19 +41,21 @@ class LandmarkScene {
     return LandmarkScene(landmarks);
   }
 
-  // Landmarks in view from a robot at `pose_world`, rolled by `roll_rad` (clockwise as it sees the
-  // world turning counter-clockwise); id is the landmark's number.
+  // Landmarks in view from a robot at `pose_world`; id is the landmark's number.
   [[nodiscard]] std::vector<route::TrackedFeature> Look(const motion::Pose2& pose_world,
-                                                        double roll_rad = 0.0,
+                                                        const Tilt& tilt = {},
                                                         double focal_px = kFocal_px) const {
     std::vector<route::TrackedFeature> features;
+    const double sine = std::sin(tilt.pitch_rad);
+    const double cosine = std::cos(tilt.pitch_rad);
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       const motion::Pose2 seen =
           motion::Between(pose_world, {landmarks_[i].x(), landmarks_[i].y(), 0.0});
-      if (seen.x_m < 0.3) continue;
-      const Eigen::Vector2d upright(-focal_px * seen.y_m / seen.x_m,
-                                    -focal_px * landmarks_[i].z() / seen.x_m);
-      const Eigen::Vector2d at = Eigen::Rotation2Dd(roll_rad) * upright;
+      const double ahead_m = cosine * seen.x_m - sine * landmarks_[i].z();
+      const double up_m = sine * seen.x_m + cosine * landmarks_[i].z();
+      if (ahead_m < 0.3) continue;
+      const Eigen::Vector2d upright(-focal_px * seen.y_m / ahead_m, -focal_px * up_m / ahead_m);
+      const Eigen::Vector2d at = Eigen::Rotation2Dd(tilt.roll_rad) * upright;
       if (std::abs(at.x()) > kHalfWidth_px || std::abs(at.y()) > kHalfHeight_px) continue;
       features.push_back({static_cast<int>(i), at.x(), at.y()});
     }

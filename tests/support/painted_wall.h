@@ -41,7 +41,8 @@ class PaintedWall {
   }
 
   // A frame in which the wall's point (x, y) appears at scale * (x, y) + (du, dv) pixels from the
-  // image centre, all grey levels multiplied by `gain`, with noise of `noise_grey`.
+  // image centre, turned clockwise by roll_rad before the shift, all grey levels multiplied by
+  // `gain`, with noise of `noise_grey`.
   struct View {
     double scale = 1.0;
     double du_px = 0.0;
@@ -51,6 +52,7 @@ class PaintedWall {
     int width = 320;
     int height = 240;
     unsigned noise_seed = 1;
+    double roll_rad = 0.0;
   };
 
   [[nodiscard]] image::GrayImage Photograph(const View& view) const {
@@ -58,8 +60,10 @@ class PaintedWall {
     std::mt19937 random(view.noise_seed);
     for (int row = 0; row < view.height; ++row) {
       for (int column = 0; column < view.width; ++column) {
-        const double x = (column - 0.5 * (view.width - 1) - view.du_px) / view.scale;
-        const double y = (row - 0.5 * (view.height - 1) - view.dv_px) / view.scale;
+        const double u = (column - 0.5 * (view.width - 1) - view.du_px) / view.scale;
+        const double v = (row - 0.5 * (view.height - 1) - view.dv_px) / view.scale;
+        const double x = std::cos(view.roll_rad) * u + std::sin(view.roll_rad) * v;
+        const double y = std::cos(view.roll_rad) * v - std::sin(view.roll_rad) * u;
         // The sum of three uniform numbers is near enough to a Gaussian of standard deviation 1/2.
         double noise = -1.5;
         for (int i = 0; i < 3; ++i) noise += static_cast<double>(random()) / 4294967296.0;

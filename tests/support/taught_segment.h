@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <tuple>
 #include <vector>
 
@@ -14,7 +15,7 @@ inline std::vector<route::DescribedFeature> Describe(
     const std::vector<route::TrackedFeature>& features) {
   std::vector<route::DescribedFeature> described;
   described.reserve(features.size());
-  for (const auto& feature : features) described.push_back({feature, {}, {}});
+  for (const auto& feature : features) described.push_back({feature, {}});
   return described;
 }
 
@@ -25,10 +26,11 @@ struct Arc {
   double turn_rad = 0.0;  // left positive
 };
 
-// How the scout's camera is mounted, and its lens.
+// How the scout's camera is mounted, and its lens; and how the ground tilts it along the way.
 struct ScoutEye {
   double yaw_rad = 0.0;  // to the left
   double focal_px = LandmarkScene::kFocal_px;
+  std::function<Tilt(const motion::Pose2&)> tilt = [](const motion::Pose2&) { return Tilt{}; };
 };
 
 struct TaughtRun {
@@ -40,10 +42,10 @@ struct TaughtRun {
 inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& start,
                            const std::vector<Arc>& arcs, const ScoutEye& eye = {}) {
   constexpr double kStep_m = 0.01;
-  teach::SegmentRecorder recorder;
+  teach::SegmentRecorder recorder(320);
   motion::Pose2 pose = start;
   const auto look = [&] {
-    return scene.Look(motion::Compose(pose, {0.0, 0.0, eye.yaw_rad}), 0.0, eye.focal_px);
+    return scene.Look(motion::Compose(pose, {0.0, 0.0, eye.yaw_rad}), eye.tilt(pose), eye.focal_px);
   };
   std::vector<route::TrackedFeature> in_view = look();
   recorder.Begin(SensorTime{0}, Describe(in_view), pose);
@@ -70,10 +72,10 @@ inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& star
 
 // What a robot at `pose` sees of the run's features, numbered as in the segment.
 inline std::vector<route::TrackedFeature> Matched(const LandmarkScene& scene, const TaughtRun& run,
-                                                  const motion::Pose2& pose, double roll_rad = 0.0,
+                                                  const motion::Pose2& pose, const Tilt& tilt = {},
                                                   double focal_px = LandmarkScene::kFocal_px) {
   std::vector<route::TrackedFeature> matched;
-  for (const auto& now : scene.Look(pose, roll_rad, focal_px)) {
+  for (const auto& now : scene.Look(pose, tilt, focal_px)) {
     for (std::size_t i = 0; i < run.landmark_of_feature.size(); ++i) {
       if (run.landmark_of_feature[i] == now.id) {
         matched.push_back({static_cast<int>(i), now.u_px, now.v_px});

@@ -52,6 +52,9 @@ FrameRow FullRow() {
   row.angular_radps = -0.058;
   row.cpu_ms = 12.25;
   row.true_off_m = 0.062;
+  row.place = 0.25;
+  row.place_sigma = 0.0125;
+  row.off_route = 0.125;
   return row;
 }
 

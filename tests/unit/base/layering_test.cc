@@ -19,18 +19,19 @@ namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 using testing::IsEmpty;
 
-// What each folder of services/ may include besides itself: base -> motion, route, image -> vision,
-// teach, replay, view, store -> exchange, archive, catalog, security -> dds, sim -> agent,
-// route_server.
+// What each folder of services/ may include besides itself: base -> motion, route, image, belief ->
+// view -> vision, teach, replay, store -> exchange, archive, catalog, security -> dds, sim ->
+// agent, route_server.
 const std::map<std::string, Folders> kMayInclude{
     {"base", {}},
     {"motion", {"base"}},
     {"image", {"base"}},
     {"route", {"base", "motion"}},
-    {"vision", {"base", "motion", "image", "route"}},
-    {"teach", {"base", "motion", "route"}},
+    {"vision", {"base", "motion", "image", "route", "view"}},
+    {"teach", {"base", "motion", "route", "view"}},
     {"replay", {"base", "motion", "route"}},
     {"view", {"base", "route"}},
+    {"belief", {"base"}},
     {"store", {"base", "route"}},
     {"exchange", {"base", "route", "store"}},
     {"archive", {"base", "route", "exchange"}},
@@ -38,6 +39,7 @@ const std::map<std::string, Folders> kMayInclude{
     {"security", {"base", "route", "exchange"}},
     {"dds", {"base", "motion", "image", "route", "exchange", "security"}},
     {"sim", {"base", "motion", "image"}},
+    {"trial", {"base", "image"}},
 };
 
 // Where each third-party library may be used, by the beginning of its headers' names. "services/x"
@@ -47,7 +49,7 @@ struct Library {
   Folders homes;
 };
 const std::vector<Library> kLibraries{
-    {"opencv2/", {"services/image", "services/vision"}},
+    {"opencv2/", {"services/image", "services/trial", "services/vision"}},
     {"google/protobuf/", {"services/route"}},
     {"idl/route.pb.h", {"services/route"}},
     {"dds/", {"services/dds"}},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "tests/support/taught_segment.h"
 
@@ -12,6 +13,17 @@ namespace {
 const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 80, 5);
 constexpr double kDt_s = 1.0 / 30.0;
 
+using Ground = std::function<test::Tilt(const motion::Pose2&)>;
+const Ground kFlat = [](const motion::Pose2&) { return test::Tilt{}; };
+
+// Humps and slopes that tilt a robot by up to 4 degrees, roll and pitch each in its own rhythm.
+Ground Rough(double phase_rad) {
+  return [phase_rad](const motion::Pose2& pose) {
+    return test::Tilt{0.07 * std::sin(5.0 * pose.x_m + 2.0 * phase_rad),
+                      0.07 * std::sin(7.0 * pose.x_m + phase_rad)};
+  };
+}
+
 // Drives a perfect robot by the follower's commands until the segment ends.
 struct Outcome {
   motion::Pose2 end;
@@ -19,14 +31,14 @@ struct Outcome {
   bool ended = false;
 };
 
-Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, double roll_rad = 0.0,
-              bool with_odometry = true) {
+Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, bool with_odometry = true,
+              const Ground& ground = kFlat) {
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
   Outcome outcome;
   motion::OdometryIncrement moved;
   for (int i = 0; i < 600 && !outcome.ended; ++i) {
-    FollowInput input{test::Matched(kScene, run, robot, roll_rad), std::nullopt};
+    FollowInput input{test::Matched(kScene, run, robot, ground(robot)), std::nullopt};
     if (with_odometry) input.odometry = moved;
     const FollowStep step = follower.Step(input);
     moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
@@ -75,10 +87,44 @@ TEST(FunnelFollower, RollIsUndoneBeforeComparing) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
-  const FollowStep step = follower.Step(
-      {test::Matched(kScene, run, {1.9, 0.0, 0.0}, 0.08), motion::OdometryIncrement{}});
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, run, {1.9, 0.0, 0.0}, {.roll_rad = 0.08}),
+                     motion::OdometryIncrement{}});
   EXPECT_NEAR(step.roll_rad, -0.08, 0.02);
   EXPECT_NEAR(step.vision_turn_rad, 0.0, 0.01);
+}
+
+TEST(FunnelFollower, PitchAndRollDoNotEndASegmentEarly) {
+  for (int taught = 0; taught < 4; ++taught) {
+    const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}}, {.tilt = Rough(1.5 * taught)});
+    for (int driven = 0; driven < 4; ++driven) {
+      const Outcome outcome = Drive(run, {}, /*with_odometry=*/true, Rough(0.7 + 1.5 * driven));
+      ASSERT_TRUE(outcome.ended);
+      EXPECT_NEAR(outcome.driven_m, 2.2, 0.4) << taught << ", " << driven;
+      EXPECT_NEAR(outcome.end.y_m, 0.0, 0.1) << taught << ", " << driven;
+    }
+  }
+}
+
+TEST(FunnelFollower, WhatWasDrivenPastTheMilestoneBelongsToTheNextSegment) {
+  const auto first = test::TeachArcs(kScene, {}, {{1.0, 0.0}});
+  auto second = test::TeachArcs(kScene, first.end, {{1.0, 0.0}});
+  second.segment.index = SegmentIndex(1);
+  FunnelFollowerOptions options;
+  options.transition.median_length = 15;  // delta is half a second old, and so would its peak be
+  FunnelFollower follower(320, 1.0, options);
+  follower.Begin(first.segment);
+  motion::Pose2 robot;
+  constexpr motion::OdometryIncrement kStep{0.01, 0.0};
+  while (!follower.Step({test::Matched(kScene, first, robot), kStep}).ended) {
+    robot = motion::Advance(robot, kStep);
+    ASSERT_LT(robot.x_m, 1.5);
+  }
+  follower.Begin(second.segment);
+  const FollowStep step =
+      follower.Step({test::Matched(kScene, second, robot), motion::OdometryIncrement{}});
+  EXPECT_GT(robot.x_m, 1.15);
+  EXPECT_NEAR(step.fraction, robot.x_m - 1.0, 0.05);
 }
 
 TEST(FunnelFollower, VisionAloneSteersWithoutOdometry) {
@@ -94,7 +140,7 @@ TEST(FunnelFollower, VisionAloneSteersWithoutOdometry) {
 
 TEST(FunnelFollower, WithoutOdometryTheTracksSayWhereItEnds) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
-  const Outcome outcome = Drive(run, {}, 0.0, /*with_odometry=*/false);
+  const Outcome outcome = Drive(run, {}, /*with_odometry=*/false);
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.driven_m, 1.7, 0.25);
 }

@@ -29,7 +29,7 @@ PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, doubl
   PathEstimator estimator = AMetreAlong(run, magnification);
   for (int i = 0; i < 5; ++i) {
     EXPECT_GE(estimator
-                  .Update(test::Matched(kScene, run, pose, roll_rad,
+                  .Update(test::Matched(kScene, run, pose, {.roll_rad = roll_rad},
                                         magnification * test::LandmarkScene::kFocal_px))
                   .agreeing,
               10);
@@ -83,6 +83,23 @@ TEST(PathEstimator, PassesOverMismatches) {
 }
 
 // Sure of its place on the path, then at another without having driven there.
+// Being carried is the rarest of explanations.
+TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator = AMetreAlong(run);
+  for (int i = 0; i < 20; ++i) {
+    static_cast<void>(estimator.Update(test::Matched(kScene, run, {1.0, 0.0, 0.0})));
+  }
+  for (int i = 0; i < 30; ++i) {
+    const bool elsewhere = i % 10 < 6;
+    const double along_m = 1.0 + 0.02 * i;
+    const auto seen = test::Matched(kScene, run, {along_m, elsewhere ? 1.2 : 0.0, 0.0});
+    EXPECT_FALSE(estimator.Update(seen).carried_left_m) << i;
+    estimator.Predict({0.02, 0.0});
+  }
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.15);
+}
+
 TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   for (const double carried_m : {-1.2, 0.7, 1.2}) {
@@ -92,11 +109,12 @@ TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
     }
     EXPECT_LT(estimator.offset_sigma_m(), 0.05);
     std::optional<double> found_m;
-    for (int i = 0; i < PathEstimatorOptions{}.carried_every_looks; ++i) {
-      const auto seen = test::Matched(kScene, run, {1.0, carried_m, 0.0});
-      if (const Agreement agreement = estimator.Update(seen); agreement.carried_left_m) {
-        found_m = agreement.carried_left_m;
-      }
+    double along_m = 1.0;
+    while (!found_m && along_m < 1.5) {
+      const auto seen = test::Matched(kScene, run, {along_m, carried_m, 0.0});
+      found_m = estimator.Update(seen).carried_left_m;
+      estimator.Predict({0.02, 0.0});
+      along_m += 0.02;
     }
     ASSERT_TRUE(found_m) << carried_m;
     EXPECT_NEAR(estimator.offset().left_m, carried_m, 0.15);
@@ -170,7 +188,7 @@ motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robo
     follower.Begin(segment);
     FollowStep step;
     for (int frame = 0; frame < 900 && !step.ended; ++frame) {
-      step = follower.Step({test::Matched(kScene, runs[i], robot, 0.0,
+      step = follower.Step({test::Matched(kScene, runs[i], robot, {},
                                           magnification * test::LandmarkScene::kFocal_px),
                             moved});
       if (step.ended) {

@@ -16,8 +16,9 @@ namespace {
 using testing::HasSubstr;
 
 // A small language for damage: a good message, changed by one line, must be refused and say why.
-std::string ErrorAfter(const std::function<void(format::v1::Segment&)>& damage) {
-  const Bytes good = Encode(SampleSegment(5, 3, 3));
+std::string ErrorAfter(const std::function<void(format::v1::Segment&)>& damage,
+                       const Segment& sample = SampleSegment(5, 3, 3)) {
+  const Bytes good = Encode(sample);
   format::v1::Segment message;
   EXPECT_TRUE(message.ParseFromArray(good.data(), static_cast<int>(good.size())));
   damage(message);
@@ -34,7 +35,7 @@ TEST(CodecDamage, MessageLeftAsItIsIsAccepted) {
 }
 
 TEST(CodecDamage, OtherFormatVersionIsRefusedAndNamed) {
-  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(2); }), HasSubstr("route format 2"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(3); }), HasSubstr("route format 3"));
   EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_format_version(); }), HasSubstr("route format 0"));
 }
 
@@ -46,6 +47,41 @@ TEST(CodecDamage, ColumnsOfDifferentLengthsAreRefused) {
   EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_track()->RemoveLast(); }),
               HasSubstr("17 track coordinates, expected 18"));
   EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_knot_times(); }), HasSubstr("0 features"));
+}
+
+TEST(CodecDamage, KeyViewsWhoseColumnsDisagreeAreRefused) {
+  const Segment sample = SampleSegmentWithKeyViews(5, 3);
+  EXPECT_EQ(ErrorAfter([](auto&) {}, sample), "accepted");
+  EXPECT_THAT(
+      ErrorAfter([](auto& m) { m.mutable_key_views(1)->mutable_sizes()->pop_back(); }, sample),
+      HasSubstr("key view 1: at 0 of 255, 2 features by their sizes"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_key_views(1)->mutable_descriptors()->pop_back(); },
+                         sample),
+              HasSubstr("95 bytes of descriptors"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_key_views(1)->add_places(1); }, sample),
+              HasSubstr("7 coordinates"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_key_views(3)->set_at(256); }, sample),
+              HasSubstr("key view 3: at 256 of 255"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_key_views(3)->set_at(50); }, sample),
+              HasSubstr("key views are out of order"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_key_views(0)->set_places(0, 1 << 30); }, sample),
+              HasSubstr("more than 65536 px"));
+  EXPECT_THAT(ErrorAfter(
+                  [](auto& m) {
+                    while (m.key_views_size() <= 64) m.add_key_views()->set_at(255);
+                  },
+                  sample),
+              HasSubstr("65 key views, more than 64"));
+}
+
+TEST(CodecDamage, OnlyVersion2MayLeaveDescriptorsOut) {
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_descriptors(); }),
+              HasSubstr("0 of descriptors (expected 96)"));
+  EXPECT_EQ(ErrorAfter([](auto& m) {
+              m.clear_descriptors();
+              m.set_format_version(2);
+            }),
+            "accepted");
 }
 
 TEST(CodecDamage, LastFeatureWithoutMilestoneIsRefused) {
@@ -154,14 +190,16 @@ TEST(CodecDamage, CutShortAnywhereIsRefused) {
 }
 
 TEST(CodecDamage, EveryByteChangedEveryWayIsRefusedOrSane) {
-  const Bytes good = Encode(SampleSegment(1, 2, 3));
-  Bytes bytes = good;
-  for (std::size_t i = 0; i < good.size(); ++i) {
-    for (unsigned value = 0; value < 256; ++value) {
-      bytes[i] = static_cast<std::uint8_t>(value);
-      ExpectSane(Decode(bytes));
+  for (const Segment& segment : {SampleSegment(1, 2, 3), SampleSegmentWithKeyViews(1, 2)}) {
+    const Bytes good = Encode(segment);
+    Bytes bytes = good;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      for (unsigned value = 0; value < 256; ++value) {
+        bytes[i] = static_cast<std::uint8_t>(value);
+        ExpectSane(Decode(bytes));
+      }
+      bytes[i] = good[i];
     }
-    bytes[i] = good[i];
   }
 }
 

@@ -19,6 +19,30 @@ TEST(Codec, SegmentOnTheGridComesBackUnchanged) {
   }
 }
 
+TEST(Codec, KeyViewsAndTheTurnBeforeComeBackUnchanged) {
+  const Segment segment = SampleSegmentWithKeyViews(7, 40);
+  const Result<Segment> decoded = Decode(Encode(segment));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
+}
+
+TEST(Codec, WhatVersion1CanExpressIsWrittenInIt) {
+  const Bytes first = Encode(SampleSegment(7, 2));
+  EXPECT_EQ(first[1], 1);
+  EXPECT_EQ(Encode(SampleSegmentWithKeyViews(7, 2))[1], 2);
+}
+
+TEST(Codec, AFeatureOfAKeyViewTakes38BytesAndOneOfASegmentWithThem32Less) {
+  Segment segment = SampleSegmentWithKeyViews(7, 40);
+  const std::size_t with = Encode(segment).size();
+  segment.key_views.pop_back();
+  EXPECT_LE(with - Encode(segment).size(), 40U * 38U);
+  segment.key_views.clear();
+  segment.turn_before_rad = 1.0;
+  EXPECT_NEAR(static_cast<double>(Encode(segment).size()),
+              static_cast<double>(Encode(SampleSegment(7, 40)).size()) - 40 * 32, 16);
+}
+
 TEST(Codec, SegmentWithoutFeaturesOrOdometryComesBackUnchanged) {
   Segment segment;
   segment.index = SegmentIndex(4294967295U);

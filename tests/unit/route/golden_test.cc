@@ -12,12 +12,18 @@
 namespace trailcast::route {
 namespace {
 
-const std::filesystem::path kFile =
-    std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden/segment-v1.bin";
+const std::filesystem::path kGolden = std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden";
+const std::filesystem::path kFile = kGolden / "segment-v1.bin";
+const std::filesystem::path kFileOfVersion2 = kGolden / "segment-v2.bin";
 
 Bytes ReadFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void Write(const std::filesystem::path& file, const Bytes& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
 }
 
 class Golden : public testing::Test {
@@ -25,10 +31,10 @@ class Golden : public testing::Test {
   void SetUp() override {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread runs here.
     if (std::getenv("TRAILCAST_WRITE_GOLDEN") == nullptr) return;
-    const Bytes bytes = Encode(SampleSegment(42, 3, 4));
-    std::ofstream(kFile, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-    GTEST_SKIP() << "wrote " << kFile << "; see tests/golden/README.md before committing it";
+    Write(kFile, Encode(SampleSegment(42, 3, 4)));
+    Write(kFileOfVersion2, Encode(SampleSegmentWithKeyViews(42, 3)));
+    GTEST_SKIP() << "wrote " << kFile << " and " << kFileOfVersion2
+                 << "; see tests/golden/README.md before committing it";
   }
 };
 
@@ -40,6 +46,14 @@ TEST_F(Golden, FileIsDecodedToTheKnownSegment) {
   const Result<Segment> decoded = Decode(ReadFile(kFile));
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(*decoded, SampleSegment(42, 3, 4));
+}
+
+TEST_F(Golden, SegmentWithKeyViewsIsEncodedToItsFileAndDecodedFromIt) {
+  const Segment segment = SampleSegmentWithKeyViews(42, 3);
+  EXPECT_EQ(Encode(segment), ReadFile(kFileOfVersion2));
+  const Result<Segment> decoded = Decode(ReadFile(kFileOfVersion2));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
 }
 
 // Stores and receipts hold digests of these bytes: written out here so that regenerating the file

@@ -39,4 +39,25 @@ namespace trailcast::route {
   return segment;
 }
 
+// The same as it is taught today: with key views, its features' descriptors left out, and a turn on
+// the spot before it.
+[[nodiscard]] inline Segment SampleSegmentWithKeyViews(std::uint32_t index, int features) {
+  Segment segment = SampleSegment(index, features);
+  segment.turn_before_rad = 1.57;
+  for (const int at : {0, 0, 51, 255}) {
+    KeyView& view = segment.key_views.emplace_back();
+    view.s = at / 255.0;
+    for (Feature& feature : segment.features) {
+      const float u = feature.first().u_px * 0.5F;
+      const float v = feature.first().v_px + static_cast<float>(at);
+      const auto on_grid = [](float px) {
+        return static_cast<float>(static_cast<int>(4.0F * px)) / 4.0F;
+      };
+      view.features.push_back({feature.descriptor, on_grid(u), on_grid(v), at == 51 ? 0.0F : 2.0F});
+    }
+  }
+  for (Feature& feature : segment.features) feature.descriptor = {};
+  return segment;
+}
+
 }  // namespace trailcast::route

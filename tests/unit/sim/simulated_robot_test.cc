@@ -88,6 +88,17 @@ TEST(SimulatedRobot, ExposureOfFollowersStaysWithinItsRange) {
   EXPECT_EQ(DrawRobot(Disturbances::ForScout(), 1).gain, 1.0);
 }
 
+TEST(SimulatedRobot, TheSameRobotMayStartTwice) {
+  const RobotErrors first = DrawRobot(Disturbances(), 1, 2);
+  const RobotErrors again = DrawRobot(Disturbances(), 1, 3);
+  EXPECT_EQ(first.camera_yaw_rad, again.camera_yaw_rad);
+  EXPECT_EQ(first.camera_height_m, again.camera_height_m);
+  EXPECT_EQ(first.odometry_scale, again.odometry_scale);
+  EXPECT_EQ(first.heading_bias_rad_per_m, again.heading_bias_rad_per_m);
+  EXPECT_NE(first.start_left_m, again.start_left_m);
+  EXPECT_NE(first.camera_yaw_rad, DrawRobot(Disturbances(), 2).camera_yaw_rad);
+}
+
 TEST(SimulatedRobot, ShoveMovesItWithoutItsOdometryNoticing) {
   const auto robot = *SimulatedRobot::Create(Place(), Options(1));
   const motion::Pose2 before = robot->Step({}).odometry;

@@ -58,6 +58,7 @@ TEST(TrialCsv, WhatWasWrittenIsReadAgain) {
   const test::TempDir folder;
   TrialRow pushed = EndedAt(0.3, 0.4);
   pushed.push_m = -2.0;
+  pushed.same_robot = true;
   pushed.verdict.after_push_m = 0.125;
   pushed.verdict.p90_path_error_m = 0.25;
   pushed.lap_ends_m = {0.05, 0.0625};
@@ -84,7 +85,7 @@ TEST(TrialCsv, SaysWhichLineIsNotATrial) {
   const std::string header = TrialCsvHeader() + "\n";
   const std::string good = TrialCsvLine(EndedAt(0.0, 0.0)) + "\n";
   EXPECT_THAT(message("x_m,y_m\n"), HasSubstr("not a table of trials"));
-  EXPECT_THAT(message(header + good + "indoor,default\n"), HasSubstr("line 3: expected 29 cells"));
+  EXPECT_THAT(message(header + good + "indoor,default\n"), HasSubstr("line 3: expected 30 cells"));
   std::string bad = good;
   bad.replace(bad.find("10.0000"), 7, "far");
   EXPECT_THAT(message(header + bad), HasSubstr("line 2: final_x_m is 'far', expected a number"));

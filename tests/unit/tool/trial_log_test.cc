@@ -30,6 +30,10 @@ TEST(TrialLogName, SaysWhatTheTrialWas) {
   TrialCase served = CaseOf("webcam", "wide", 0.0);
   served.through_server = true;
   EXPECT_EQ(TrialLogName(setup, served, 3), "indoor-paper-webcam-wide-served-trial3.log");
+  TrialSetup same = setup;
+  same.same_robot = true;
+  EXPECT_EQ(TrialLogName(same, CaseOf("webcam", "webcam", 0.0), 3),
+            "indoor-paper-webcam-webcam-same-trial3.log");
 }
 
 TEST(TrialLogName, StaysInItsFolderWhateverThingsAreCalled) {

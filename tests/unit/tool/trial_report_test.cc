@@ -56,5 +56,15 @@ TEST(TrialMarkdown, PutsTableOneBesideThePaperAndEveryCaseBelow) {
   EXPECT_THAT(text, Not(HasSubstr("| `bookstore` | `default`")));
 }
 
+TEST(TrialMarkdown, KeepsTheSameRobotsTrialsApartFromThoseOfTwo) {
+  TrialRow two = EndedAt(0.3, 0.4);
+  TrialRow one = EndedAt(0.0, 0.1);
+  one.same_robot = true;
+  const std::string text = TrialMarkdown({two, one});
+  EXPECT_THAT(text, HasSubstr("| `indoor` | `default` | 1 of 1 | 0.50 / 0.00, 0.50 |"));
+  EXPECT_THAT(text, HasSubstr("| `indoor`, same robot | `default` | 1 of 1 | 0.10 / 0.00, 0.10 |"));
+  EXPECT_THAT(text, HasSubstr("webcam > wide, same robot | 1 of 1 | 0.100 |"));
+}
+
 }  // namespace
 }  // namespace trailcast::tool

@@ -22,7 +22,7 @@ std::vector<route::Feature> Stored() {
   for (const auto& described : tracker.Describe()) {
     const auto u = static_cast<float>(described.at.u_px);
     const auto v = static_cast<float>(described.at.v_px);
-    stored.push_back({described.patch, described.descriptor, {{0.0F, u, v}, {1.0F, u, v}}});
+    stored.push_back({described.patch, {}, {{0.0F, u, v}, {1.0F, u, v}}});
   }
   return stored;
 }
@@ -33,8 +33,10 @@ std::size_t CountRight(const std::vector<route::Feature>& stored, const FindResu
   std::size_t right = 0;
   for (const auto& feature : found.features) {
     const auto& taught = stored[static_cast<std::size_t>(feature.id)].first();
-    right += std::hypot(feature.u_px - (view.scale * taught.u_px + view.du_px),
-                        feature.v_px - (view.scale * taught.v_px + view.dv_px)) <
+    const double cosine = view.scale * std::cos(view.roll_rad);
+    const double sine = view.scale * std::sin(view.roll_rad);
+    right += std::hypot(feature.u_px - (cosine * taught.u_px - sine * taught.v_px + view.du_px),
+                        feature.v_px - (sine * taught.u_px + cosine * taught.v_px + view.dv_px)) <
              2.0 * std::max(1.0, view.scale);
   }
   EXPECT_GE(right * 10, found.features.size() * 9) << "more than a tenth is misplaced";
@@ -75,6 +77,50 @@ TEST(FindNear, FindsThemThroughAnotherMagnificationThatIsKnown) {
   }
 }
 
+// How many of the features a robot still sees that rolls, pitches and heads elsewhere.
+std::size_t InView(const std::vector<route::Feature>& stored, const test::PaintedWall::View& view) {
+  return static_cast<std::size_t>(
+      std::count_if(stored.begin(), stored.end(), [&](const auto& each) {
+        const double u = each.first().u_px;
+        const double v = each.first().v_px;
+        return std::abs(std::cos(view.roll_rad) * u - std::sin(view.roll_rad) * v + view.du_px) <
+                   154.0 &&
+               std::abs(std::sin(view.roll_rad) * u + std::cos(view.roll_rad) * v + view.dv_px) <
+                   114.0;
+      }));
+}
+
+TEST(FindTilted, FindsFiveOfSixWhoseViewIsRolledAndPitched) {
+  const auto stored = Stored();
+  for (const double roll_rad : {-0.1, 0.1, 0.15}) {
+    const test::PaintedWall::View view{
+        .du_px = 12.0, .dv_px = 30.0, .noise_grey = 2.5, .noise_seed = 5, .roll_rad = roll_rad};
+    const image::GrayImage frame = kWall.Photograph(view);
+    const auto found =
+        FeatureFinder().FindTilted(frame, stored, Expected(stored), 1.0, {56.0, 56.0});
+    EXPECT_GE(CountRight(stored, found, view) * 6, InView(stored, view) * 5) << roll_rad;
+    const auto upright =
+        FeatureFinder().FindNear(frame, stored, Expected(stored), 1.0, {56.0, 56.0});
+    EXPECT_LT(upright.features.size() * 4, InView(stored, view) * 3) << roll_rad;
+  }
+}
+
+TEST(FindTilted, FindsThemThroughAnotherMagnificationThatIsKnown) {
+  const auto stored = Stored();
+  const test::PaintedWall::View view{
+      .scale = 1.5, .du_px = 3.0, .noise_grey = 2.0, .roll_rad = 0.05};
+  const auto found = FeatureFinder().FindTilted(kWall.Photograph(view), stored,
+                                                Expected(stored, 1.5), 1.5, {56.0, 56.0});
+  EXPECT_GE(CountRight(stored, found, view), 15U);
+}
+
+TEST(FindTilted, FindsNoMoreOnAnotherWallThanChanceHas) {
+  const auto stored = Stored();
+  const auto found = FeatureFinder().FindTilted(test::PaintedWall(77).Photograph({}), stored,
+                                                Expected(stored), 1.0, {56.0, 56.0});
+  EXPECT_LE(found.features.size(), stored.size() / 3);
+}
+
 TEST(FindNear, SaysHowManyShouldBeInThePicture) {
   const auto stored = Stored();
   const auto found = FeatureFinder().FindNear(kWall.Photograph({.scale = 2.0}), stored,
@@ -111,26 +157,6 @@ TEST(FindNear, FindsNothingOnAnotherWall) {
   const auto found = FeatureFinder().FindNear(test::PaintedWall(77).Photograph({}), stored,
                                               Expected(stored), 1.0, {});
   EXPECT_LE(found.features.size(), stored.size() / 3);
-}
-
-TEST(FindWide, FindsTheMagnificationWithoutBeingTold) {
-  const auto stored = Stored();
-  for (const double scale : {0.5, 0.7, 1.0, 1.4, 1.9}) {
-    const test::PaintedWall::View view{
-        .scale = scale, .du_px = -12.0, .dv_px = 6.0, .noise_grey = 2.0};
-    const auto found = FeatureFinder().FindWide(kWall.Photograph(view), stored, 0.0);
-    ASSERT_GT(found.matches, 0) << "scale " << scale;
-    EXPECT_NEAR(found.fit.scale, scale, 0.06 * scale);
-    EXPECT_NEAR(found.fit.du_px, -12.0, 4.0);
-  }
-}
-
-TEST(FindWide, SaysNothingRatherThanSomethingWrong) {
-  const auto stored = Stored();
-  const auto other = test::PaintedWall(77).Photograph({});
-  EXPECT_EQ(FeatureFinder().FindWide(other, stored, 0.0).matches, 0);
-  const auto blank = test::PaintedWall(1, 0).Photograph({.noise_grey = 3.0});
-  EXPECT_EQ(FeatureFinder().FindWide(blank, stored, 0.0).matches, 0);
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <filesystem>
-
 #include "services/image/image.h"
 
-namespace trailcast::test {
+namespace trailcast::trial {
 
 // Another camera than the one that recorded a run, as far as its pictures can tell: it magnifies
 // more, bends towards the edge, answers to light otherwise, and has another resolution.
-struct SecondCamera {
+struct OtherCamera {
   int width = 320;
   int height = 240;
   double magnification = 1.3;  // of the picture's content, beside the change of resolution
@@ -19,11 +17,6 @@ struct SecondCamera {
 };
 
 // What that camera would have recorded in place of `frame`.
-[[nodiscard]] image::GrayImage Through(const SecondCamera& camera, const image::GrayImage& frame);
+[[nodiscard]] image::GrayImage Through(const OtherCamera& camera, const image::GrayImage& frame);
 
-// A whole run, a folder of pictures, into another folder, which is made; throws std::runtime_error
-// where a picture cannot be read or written.
-void RecordThrough(const SecondCamera& camera, const std::filesystem::path& frames,
-                   const std::filesystem::path& into);
-
-}  // namespace trailcast::test
+}  // namespace trailcast::trial

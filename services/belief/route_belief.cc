@@ -1,0 +1,363 @@
+#include "services/belief/route_belief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace trailcast::belief {
+namespace {
+
+constexpr double kSamePlace =
+    1e-3;  // key views no further apart, of a robot that turned on the spot
+constexpr std::size_t kMagnificationsKept = 60;
+constexpr double kFewestMagnifications = 3.0;  // of independent looks
+
+// How far a robot may have come whose way nobody measured, in multiples of what is guessed: about
+// that half of the time, anything from standing to a multiple of it otherwise; a little backwards.
+struct Share {
+  double of_guess = 0.0;
+  double weight = 0.0;
+};
+constexpr std::array kGuesses = {Share{0.0, 0.11}, Share{0.35, 0.08}, Share{0.7, 0.16},
+                                 Share{1.0, 0.25}, Share{1.4, 0.14},  Share{2.0, 0.10},
+                                 Share{3.0, 0.05}, Share{-1.0, 0.05}};
+// Whatever the pace so far, some multiples of the taught one.
+constexpr std::array kPaces = {Share{3.0, 0.04}, Share{4.5, 0.02}};
+constexpr double kSlowestPace = 0.2;
+constexpr double kFastestBackwards = -3.0;
+constexpr double kFastestPace = 4.0;
+constexpr double kPaceLearns = 0.1;       // a look
+constexpr double kGrowthLearns = 0.15;    // a look
+constexpr double kShrinks = -0.003;       // a look: a robot that drives backwards
+constexpr double kLongestPaceStep = 0.4;  // route units between looks that say something of pace
+
+// Half of the weight is below it.
+double WeightedMedian(const std::deque<std::pair<double, double>>& values_and_weights) {
+  std::vector<std::pair<double, double>> sorted(values_and_weights.begin(),
+                                                values_and_weights.end());
+  std::sort(sorted.begin(), sorted.end());
+  double left = 0.0;
+  for (const auto& [value, weight] : sorted) left += 0.5 * weight;
+  for (const auto& [value, weight] : sorted) {
+    left -= weight;
+    if (left <= 0.0) return value;
+  }
+  return sorted.back().first;
+}
+
+int Median(const std::deque<int>& values) {
+  std::vector<int> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+}  // namespace
+
+void RouteBelief::Extend(double length, std::span<const ViewPlace> views) {
+  for (const ViewPlace& view : views) views_.push_back({length_ + view.at, view.growth});
+  length_ += length;
+  const auto cells = static_cast<std::size_t>(std::floor(length_ / options_.cell)) + 1;
+  cells_.Grow(cells - cells_.size());
+}
+
+std::size_t RouteBelief::CellOf(double along) const {
+  const double cell = std::floor((along - offset_) / options_.cell);
+  return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(cells_.size()) - 1.0));
+}
+
+void RouteBelief::StartAt(double along, double sigma) {
+  if (cells_.size() == 0) return;
+  constexpr double kReach = 5.0;  // standard deviations
+  const double width = std::max(sigma, 0.5 * options_.cell);
+  cells_.Reset(0.0);
+  for (std::size_t i = CellOf(along - kReach * width); i <= CellOf(along + kReach * width); ++i) {
+    const double off = (cell_at(i) - along) / width;
+    cells_.Set(i, std::exp(-0.5 * off * off));
+  }
+  cells_.Scale((1.0 - options_.starts_off) / cells_.Sum());
+  off_ = options_.starts_off;
+  start_ = along;
+  Locate();
+}
+
+void RouteBelief::StartAnywhere() {
+  if (cells_.size() == 0) return;
+  constexpr double kOn = 0.1;
+  cells_.Reset(kOn);
+  off_ = 1.0 - kOn;
+  start_.reset();
+  Locate();
+}
+
+// A random walk of that variance, as steps to the neighbouring cells.
+void RouteBelief::Spread(double variance) {
+  constexpr double kWorthWhile = 0.1;  // of a cell squared
+  constexpr double kMostAStep = 0.25;
+  variance_due_ += variance / (options_.cell * options_.cell);
+  if (variance_due_ < kWorthWhile) return;
+  while (variance_due_ > 0.0) {
+    const double aside = std::min(kMostAStep, 0.5 * variance_due_);
+    cells_.Move({-1, {aside, 1.0 - 2.0 * aside, aside}});
+    variance_due_ -= 2.0 * aside;
+  }
+  variance_due_ = 0.0;
+}
+
+void RouteBelief::Guess(double along) {
+  CellGrid::Taps taps;
+  for (const Share& share : kGuesses) {
+    taps.Add(share.of_guess * pace_ * along / options_.cell, share.weight);
+  }
+  for (const Share& share : kPaces) {
+    taps.Add(share.of_guess * along / options_.cell, share.weight);
+  }
+  cells_.Move(taps);
+}
+
+void RouteBelief::Move(const Motion& motion) {
+  if (cells_.size() == 0) return;
+  if (motion.guessed) {
+    Guess(motion.along);
+    moved_ += motion.along;
+    return;
+  }
+  offset_ += motion.along;
+  const double cells = std::floor(offset_ / options_.cell);
+  if (cells != 0.0) {
+    cells_.Move({static_cast<std::ptrdiff_t>(cells), {1.0}});
+    offset_ -= cells * options_.cell;
+  }
+  Spread(motion.sigma * motion.sigma +
+         options_.diffusion * options_.diffusion * std::abs(motion.along));
+}
+
+// Log-likelihood ratio by how many features agree.
+double RouteBelief::Alike(const ComparedView& view, int best) const {
+  const double ratio =
+      std::clamp(options_.gain * (view.agreed - options_.neutral), options_.least, options_.most);
+  const double behind =
+      options_.behind_best * (view.agreed - std::max<double>(best, options_.neutral));
+  return ratio + std::max(options_.behind_best_least, behind);
+}
+
+// ... and by how large they are, where the scout would have seen them so much larger than in the
+// view itself.
+double RouteBelief::SizeFits(const ComparedView& view, double growth) const {
+  const double off = (view.log_scale - *log_magnification_ - growth) / options_.log_scale_sigma;
+  return std::max(options_.log_scale_least, -0.5 * off * off);
+}
+
+// The views that are next to a place on either side of it, and those that share it.
+struct RouteBelief::Neighbours {
+  std::size_t first = 0;  // of those that share it
+  std::size_t after = 0;  // the next one, or views_.size()
+};
+
+RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
+  Neighbours neighbours{view, view + 1};
+  const double at = views_[view].at;
+  while (neighbours.first > 0 && at - views_[neighbours.first - 1].at < kSamePlace) {
+    --neighbours.first;
+  }
+  while (neighbours.after < views_.size() && views_[neighbours.after].at - at < kSamePlace) {
+    ++neighbours.after;
+  }
+  return neighbours;
+}
+
+// Between two views both count, each the more the nearer it is.
+void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double independent) {
+  const double at = views_[view.view].at;
+  const auto [first_here, next] = NeighboursOf(view.view);
+  const bool is_first = first_here == 0;
+  const bool is_last = next == views_.size();
+  const double before = is_first ? -1.0 : views_[first_here - 1].at;
+  const double after = is_last ? length_ + 1.0 : views_[next].at;
+  const std::optional<double> grown_here = views_[first_here].growth;
+  const std::optional<double> grows_on = is_last ? std::nullopt : views_[next].growth;
+  const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;
+  const double alike = Alike(view, best);
+  const std::size_t first = is_first ? 0 : CellOf(before);
+  const std::size_t last = is_last ? cells_.size() - 1 : CellOf(after);
+  std::vector<double> factors(last - first + 1, 1.0);
+  for (std::size_t i = first; i <= last; ++i) {
+    const double along = cell_at(i);
+    const bool is_before = along < at;
+    const double gap = is_before ? at - before : after - at;
+    const double off = std::clamp((along - at) / gap, -1.0, 1.0);
+    const bool at_the_end = is_before ? is_first : is_last;
+    const std::optional<double> growth = is_before ? grown_here : grows_on;
+    double ratio = alike;
+    if (sized && growth) ratio += SizeFits(view, at_the_end ? 0.0 : off * *growth);
+    const double share = at_the_end ? 1.0 : 1.0 - std::abs(off);
+    factors[i - first] = std::exp(independent * share * ratio);
+  }
+  cells_.Multiply(first, factors);
+}
+
+void RouteBelief::Weigh(std::span<const ComparedView> compared, double independent) {
+  if (cells_.size() == 0 || compared.empty()) return;
+  Leave(independent);
+  int best = 0;
+  for (const ComparedView& view : compared) best = std::max(best, view.agreed);
+  std::vector<ComparedView> ordered(compared.begin(), compared.end());
+  std::sort(ordered.begin(), ordered.end(),
+            [](const auto& a, const auto& b) { return a.view < b.view; });
+  // Of those that share their place, the one that is recognised best.
+  for (auto view = ordered.begin(); view != ordered.end();) {
+    const double at = views_[view->view].at;
+    const auto end = std::find_if(view, ordered.end(), [&](const ComparedView& other) {
+      return views_[other.view].at - at >= kSamePlace;
+    });
+    WeighCellsAbout(
+        *std::max_element(view, end,
+                          [](const auto& a, const auto& b) { return a.agreed < b.agreed; }),
+        best, independent);
+    view = end;
+  }
+  Normalise();
+  Locate();
+  NoteLook(ordered, independent);
+}
+
+void RouteBelief::Leave(double independent) {
+  const double leaves = options_.leaves * independent;
+  const double returns = options_.returns * independent;
+  cells_.Scale(1.0 - leaves);
+  const double evenly = start_ ? options_.starts_elsewhere : 1.0;
+  cells_.AddEvenly(evenly * off_ * returns);
+  if (start_) {
+    const std::size_t first = CellOf(*start_ - options_.window);
+    const std::size_t last = CellOf(*start_ + options_.window);
+    const double each = (1.0 - evenly) * off_ * returns / static_cast<double>(last - first + 1);
+    for (std::size_t i = first; i <= last; ++i) cells_.Set(i, cells_.at(i) + each);
+  }
+  off_ += leaves * (1.0 - off_) - returns * off_;
+}
+
+void RouteBelief::Normalise() {
+  constexpr double kNegligible = 1e-6;
+  const double sum = cells_.Sum() + off_;
+  cells_.Scale(1.0 / sum);
+  off_ /= sum;
+  cells_.Forget(kNegligible);
+}
+
+void RouteBelief::Locate() {
+  const double middle = cell_at(cells_.Peak());
+  double mass = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (std::size_t i = CellOf(middle - options_.window); i <= CellOf(middle + options_.window);
+       ++i) {
+    const double off = cell_at(i) - middle;
+    mass += cells_.at(i);
+    first += cells_.at(i) * off;
+    second += cells_.at(i) * off * off;
+  }
+  place_.here = mass;
+  place_.off_route = off_;
+  if (mass <= 0.0) return;
+  const double mean = first / mass;
+  place_.along = std::clamp(middle + mean, 0.0, length_);
+  place_.sigma = std::sqrt(std::max(0.0, second / mass - mean * mean));
+}
+
+void RouteBelief::NoteGrowth(std::span<const ComparedView> compared) {
+  std::vector<ComparedView> well;
+  double grown = 0.0;
+  int count = 0;
+  for (const ComparedView& view : compared) {
+    if (view.agreed < options_.agreed_for_scale) continue;
+    well.push_back(view);
+    for (const ComparedView& before : well_recognised_) {
+      if (before.view != view.view) continue;
+      grown += view.log_scale - before.log_scale;
+      ++count;
+    }
+  }
+  if (count > 0) growth_ += kGrowthLearns * (grown / count - growth_);
+  well_recognised_ = std::move(well);
+}
+
+void RouteBelief::NoteLook(std::span<const ComparedView> compared, double independent) {
+  NoteGrowth(compared);
+  const ComparedView* nearest = nullptr;
+  for (const ComparedView& view : compared) {
+    if (std::abs(views_[view.view].at - place_.along) > options_.window) continue;
+    if (nearest == nullptr || view.agreed > nearest->agreed) nearest = &view;
+  }
+  if (nearest == nullptr) return;
+  agreed_.push_back(nearest->agreed);
+  if (agreed_.size() > options_.looks) agreed_.pop_front();
+  place_.agreed = Median(agreed_);
+  const bool was_held = place_.held;
+  place_.held = place_.here >= options_.sure && place_.agreed >= options_.least_agreed;
+  if (place_.held) start_.reset();
+  NoteWay(was_held);
+  if (place_.held && nearest->agreed >= options_.agreed_for_scale) {
+    NoteMagnification(*nearest, independent);
+  }
+}
+
+void RouteBelief::NoteWay(bool was_held) {
+  const double moved = std::exchange(moved_, 0.0);
+  const double come = place_.along - std::exchange(held_along_, place_.along);
+  const bool jumped = std::abs(come) >= options_.window;
+  const bool goes_on = place_.held && was_held && !jumped;
+  if (jumped) place_.come = 0.0;
+  if (goes_on) place_.come += come;
+  if (!place_.held) {
+    pace_ += kPaceLearns * (1.0 - pace_);
+  } else if (goes_on && moved > 0.0 && moved < kLongestPaceStep) {
+    const double slowest = growth_ < kShrinks ? kFastestBackwards : kSlowestPace;
+    pace_ = std::clamp(pace_ + kPaceLearns * (come / moved - pace_), slowest, kFastestPace);
+  }
+}
+
+// Of what is seen of the nearest view, so much is its having been taught from elsewhere.
+void RouteBelief::NoteMagnification(const ComparedView& nearest, double independent) {
+  const double at = views_[nearest.view].at;
+  const auto [first, next] = NeighboursOf(nearest.view);
+  double grown = 0.0;
+  if (place_.along < at && first > 0) {
+    const double gap = at - views_[first - 1].at;
+    grown = -views_[first].growth.value_or(0.0) * std::min(1.0, (at - place_.along) / gap);
+  } else if (place_.along > at && next < views_.size()) {
+    const double gap = views_[next].at - at;
+    grown = views_[next].growth.value_or(0.0) * std::min(1.0, (place_.along - at) / gap);
+  }
+  magnifications_.emplace_back(nearest.log_scale - grown, independent);
+  if (magnifications_.size() > kMagnificationsKept) magnifications_.pop_front();
+  double independent_looks = 0.0;
+  for (const auto& [magnification, weight] : magnifications_) independent_looks += weight;
+  if (independent_looks >= kFewestMagnifications) {
+    log_magnification_ = WeightedMedian(magnifications_);
+  }
+}
+
+std::vector<std::size_t> RouteBelief::Around(double along, std::size_t most) const {
+  const auto before = [](const ViewPlace& view, double place) { return view.at < place; };
+  const auto next = static_cast<std::size_t>(
+      std::distance(views_.begin(), std::lower_bound(views_.begin(), views_.end(), along, before)));
+  const std::size_t first = next > most / 2 ? next - most / 2 : 0;
+  std::vector<std::size_t> around(std::min(views_.size(), first + most) - first);
+  std::iota(around.begin(), around.end(), first);
+  return around;
+}
+
+std::vector<std::size_t> RouteBelief::WorthComparing(std::size_t near, std::size_t others) {
+  std::vector<std::size_t> worth = Around(place_.along, near);
+  const std::size_t first = worth.empty() ? 0 : worth.front();
+  const std::size_t rest = views_.size() - worth.size();
+  for (std::size_t i = 0; i < std::min(others, rest); ++i) {
+    const std::size_t turn = turn_++ % rest;
+    worth.push_back(turn < first ? turn : turn + (views_.size() - rest));
+  }
+  return worth;
+}
+
+}  // namespace trailcast::belief

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "services/replay/funnel_lane.h"
+
+namespace trailcast::replay {
+
+// A key view of the route that is recognised in the present picture: its features as pairs for the
+// funnel lane, the key view being the milestone; the present picture brought to its magnification.
+struct SeenKeyView {
+  double along = 0.0;  // where the scout saw it, in the route's units
+  std::vector<FunnelPair> pairs;
+};
+
+struct ViewTurnOptions {
+  // gamma, radians per pixel of the scout's picture, were it 320 px wide: what one subtends with a
+  // usual webcam.
+  double gain_rad_per_px_at_320 = 0.0035;
+  double largest_rad = 0.6;
+  int fewest_pairs = 5;
+};
+
+struct ViewTurn {
+  double turn_rad = 0.0;  // desired heading change, positive to the right
+  int features = 0;       // that say so; 0: no view does
+};
+
+// Where to turn for the place `aim` of the route, by the key views recognised on either side of it.
+[[nodiscard]] ViewTurn TurnTowards(double aim, std::span<const SeenKeyView> seen,
+                                   int scout_width_px, const ViewTurnOptions& options = {});
+
+}  // namespace trailcast::replay

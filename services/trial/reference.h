@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::trial {
+
+// Where on the taught recording a frame of the replayed one was taken, as found offline.
+struct Alignment {
+  int replay_frame = 0;  // both counted from 0, in the order in which recordings are read
+  int teach_frame = 0;
+  int inliers = 0;  // features that agree on one camera motion between the two pictures
+  // How much further right they lie in the replay's picture, the median in pixels of the recording:
+  // positive asks for a turn to the right.
+  double median_du_px = 0.0;
+  bool good = false;  // enough of them: the others say nothing
+};
+
+// In rising replay frames; not every frame need have one.
+using Reference = std::vector<Alignment>;
+
+// CSV `replay_frame,teach_frame,inliers,median_du_px,good`. Errors name file, line and what was
+// expected there.
+[[nodiscard]] Result<Reference> ReadReference(const std::filesystem::path& file);
+[[nodiscard]] Result<void> WriteReference(const Reference& reference,
+                                          const std::filesystem::path& file);
+
+// Of a recording on itself.
+[[nodiscard]] Reference IdentityReference(int frames);
+
+// How the driver of a recording steered, by its frames; above 0 is to the right.
+using Steering = std::map<int, double>;
+
+// CSV `frame,steering`, more columns are not looked at.
+[[nodiscard]] Result<Steering> ReadSteering(const std::filesystem::path& file);
+
+}  // namespace trailcast::trial

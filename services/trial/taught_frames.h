@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+namespace trailcast::trial {
+
+// The frames of a taught recording that one segment of its route was made of.
+struct FrameSpan {
+  int first = 0;
+  int last = 0;  // the milestone; the next segment begins with it, or after a gap
+
+  bool operator==(const FrameSpan&) const = default;
+};
+
+// The frame of the taught recording at `progress` of its route: 0..1 by segment count, as a replay
+// tells it. `segments` is not empty.
+[[nodiscard]] double TaughtFrameAt(const std::vector<FrameSpan>& segments, double progress);
+
+}  // namespace trailcast::trial

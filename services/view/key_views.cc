@@ -1,0 +1,25 @@
+#include "services/view/key_views.h"
+
+#include <array>
+
+#include "services/route/track.h"
+
+namespace trailcast::view {
+
+std::vector<route::KeyView> KeyViewsOf(const route::Segment& segment) {
+  constexpr std::array kPlaces = {0.0, 0.5, 1.0};
+  if (!segment.key_views.empty()) return segment.key_views;
+  std::vector<route::KeyView> views;
+  for (const double s : kPlaces) {
+    route::KeyView view{s, {}};
+    for (const route::Feature& feature : segment.features) {
+      if (!route::IsDescribed(feature.descriptor)) continue;
+      const route::TrackKnot place = route::TaughtPlace(feature, s);
+      view.features.push_back({feature.descriptor, place.u_px, place.v_px, 0.0F});
+    }
+    if (!view.features.empty()) views.push_back(std::move(view));
+  }
+  return views;
+}
+
+}  // namespace trailcast::view

@@ -1,0 +1,228 @@
+#include "services/belief/route_belief.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace trailcast::belief {
+namespace {
+
+// From a view to the next, things grow by a tenth of their size.
+std::vector<ViewPlace> Views(const std::vector<double>& places) {
+  std::vector<ViewPlace> views;
+  for (const double at : places) views.push_back({at, 0.1});
+  return views;
+}
+
+// A route of so many metres with a key view at each, and a robot on it.
+class Route {
+ public:
+  explicit Route(int length, RouteBeliefOptions options = {}) : belief(options) {
+    for (int i = 0; i < length; ++i) belief.Extend(1.0, Views({0.0}));
+  }
+
+  // What a robot at `along` would find: many features at the nearest views, fewer further off,
+  // things looking larger from nearer.
+  void See(double along, int peak = 20, double independent = 1.0) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : belief.WorthComparing(8, 32)) {
+      const double off = belief.view_at(view) - along;
+      const int agreed = std::max(2, static_cast<int>(peak * (1.0 - 0.4 * std::abs(off))));
+      compared.push_back({view, agreed, -0.1 * off});
+    }
+    belief.Weigh(compared, independent);
+  }
+  void SeeNothing(double independent = 1.0) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : belief.WorthComparing(8, 32)) compared.push_back({view, 3, 0.0});
+    belief.Weigh(compared, independent);
+  }
+
+  // With odometry, from the route's beginning; how far it got.
+  double Drive(double to) {
+    double along = 0.0;
+    for (; along < to; along += 0.3) {
+      See(along);
+      belief.Move({0.3, 0.015, false});
+    }
+    return along;
+  }
+
+  RouteBelief belief;
+};
+
+TEST(RouteBelief, FollowsARobotByOdometry) {
+  Route route(100);
+  route.belief.StartAt(0.0, 0.5);
+  double along = 0.0;
+  for (; along < 95.0; along += 0.3) {
+    route.See(along);
+    EXPECT_TRUE(route.belief.place().held);
+    EXPECT_NEAR(route.belief.place().along, along, 0.35);
+    route.belief.Move({0.3, 0.015, false});
+  }
+}
+
+TEST(RouteBelief, FollowsARobotWhoseWayNobodyMeasuresAtAnyPace) {
+  for (const double pace : {0.35, 1.0, 2.5}) {
+    Route route(60);
+    route.belief.StartAt(0.0, 0.5);
+    int held = 0;
+    int looks = 0;
+    for (double along = 0.0; along < 55.0; along += 0.2 * pace) {
+      route.See(along, 20, 0.3);
+      ++looks;
+      held += route.belief.place().held && std::abs(route.belief.place().along - along) < 1.0;
+      route.belief.Move({0.2, 0.0, true});
+    }
+    EXPECT_GE(held, 97 * looks / 100) << "pace " << pace;
+  }
+}
+
+TEST(RouteBelief, ARobotThatStandsStaysWhereItIs) {
+  Route route(60);
+  route.belief.StartAt(20.0, 0.5);
+  for (int i = 0; i < 200; ++i) {
+    route.See(20.0, 20, 0.1);
+    EXPECT_NEAR(route.belief.place().along, 20.0, 0.5);
+  }
+}
+
+TEST(RouteBelief, IsNotSureWhereNothingIsRecognised) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  for (int i = 0; i < 30; ++i) {
+    route.SeeNothing();
+    route.belief.Move({0.3, 0.015, false});
+    EXPECT_FALSE(route.belief.place().held);
+  }
+  EXPECT_GT(route.belief.place().off_route, 0.95);
+}
+
+TEST(RouteBelief, AHandfulOfFeaturesThatAgreeByChanceAreNoPlace) {
+  Route route(60);
+  std::mt19937 random(1);
+  std::binomial_distribution<int> agreed(12, 0.25);  // as in pictures of other buildings
+  route.belief.StartAt(0.0, 0.5);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : route.belief.WorthComparing(8, 32)) {
+      compared.push_back({view, agreed(random), 0.0});
+    }
+    route.belief.Weigh(compared, 1.0);
+    route.belief.Move({0.3, 0.0, true});
+    EXPECT_FALSE(route.belief.place().held);
+  }
+}
+
+TEST(RouteBelief, FindsItselfWhereverItIsPut) {
+  for (const double along : {3.0, 31.5, 57.0}) {
+    Route route(60);
+    route.belief.StartAnywhere();
+    int looks = 0;
+    while (!route.belief.place().held && looks < 30) {
+      route.See(along);
+      ++looks;
+    }
+    EXPECT_LE(looks, 12);
+    EXPECT_NEAR(route.belief.place().along, along, 0.5);
+  }
+}
+
+TEST(RouteBelief, NoticesBeingCarriedAlongTheRoute) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  double along = route.Drive(10.0);
+  along = 42.0;
+  int looks = 0;
+  do {
+    route.See(along);
+    ++looks;
+  } while (looks < 40 &&
+           !(route.belief.place().held && std::abs(route.belief.place().along - along) < 1.0));
+  EXPECT_LE(looks, 20);
+}
+
+TEST(RouteBelief, OneLookElsewhereIsNoProofOfHavingBeenCarried) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  double along = route.Drive(10.0);
+  route.See(42.0);
+  EXPECT_NEAR(route.belief.place().along, along, 1.0);
+  route.belief.Move({0.3, 0.015, false});
+  route.See(along + 0.3);
+  EXPECT_TRUE(route.belief.place().held);
+  EXPECT_NEAR(route.belief.place().along, along + 0.3, 0.5);
+}
+
+TEST(RouteBelief, LearnsHowMuchLargerItsCameraShowsThings) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  EXPECT_FALSE(route.belief.log_magnification());
+  for (double along = 0.0; along < 20.0; along += 0.3) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : route.belief.WorthComparing(8, 4)) {
+      const double off = route.belief.view_at(view) - along;
+      compared.push_back(
+          {view, std::max(2, static_cast<int>(20 - 8 * std::abs(off))), 0.26 - 0.1 * off});
+    }
+    route.belief.Weigh(compared, 1.0);
+    route.belief.Move({0.3, 0.015, false});
+  }
+  ASSERT_TRUE(route.belief.log_magnification());
+  EXPECT_NEAR(*route.belief.log_magnification(), 0.26, 0.03);
+}
+
+TEST(RouteBelief, ComparesTheNeighboursEachTimeAndTheOthersByTurns) {
+  Route route(100);
+  route.belief.StartAt(50.0, 0.5);
+  std::vector<int> compared(100);
+  for (int i = 0; i < 20; ++i) {
+    for (const std::size_t view : route.belief.WorthComparing(8, 5)) ++compared[view];
+  }
+  for (std::size_t view = 47; view < 53; ++view) EXPECT_EQ(compared[view], 20);
+  EXPECT_GE(*std::min_element(compared.begin(), compared.end()), 1);
+}
+
+TEST(RouteBelief, GrowsWhileItIsFollowed) {
+  RouteBelief belief;
+  belief.Extend(1.0, Views({0.0}));
+  belief.StartAt(0.0, 0.2);
+  belief.Move({3.0, 0.1, false});
+  EXPECT_LE(belief.place().along, 1.0);
+  for (int i = 0; i < 20; ++i) belief.Extend(1.0, Views({0.0, 0.5}));
+  EXPECT_EQ(belief.views(), 41U);
+  EXPECT_EQ(belief.length(), 21.0);
+  belief.Move({2.0, 0.1, false});
+  belief.Weigh(std::vector{ComparedView{5, 20, 0.0}}, 1.0);
+  EXPECT_NEAR(belief.place().along, 3.0, 0.3);
+}
+
+TEST(RouteBelief, ViewsOfATurnOnTheSpotShareTheirPlace) {
+  RouteBelief belief;
+  for (int i = 0; i < 5; ++i) belief.Extend(1.0, Views({0.0}));
+  belief.Extend(1.0, Views({0.0, 0.0, 0.0, 0.5}));
+  belief.StartAt(5.0, 0.3);
+  belief.Weigh(std::vector{ComparedView{5, 3, 0.0}, ComparedView{6, 25, 0.0},
+                           ComparedView{7, 3, 0.0}, ComparedView{4, 3, 0.0}},
+               1.0);
+  EXPECT_TRUE(belief.place().held);
+  EXPECT_NEAR(belief.place().along, 5.0, 0.2);
+}
+
+TEST(RouteBelief, ARouteWithoutAViewIsNeverHeld) {
+  RouteBelief belief;
+  belief.StartAnywhere();
+  EXPECT_TRUE(belief.WorthComparing(8, 8).empty());
+  belief.Extend(10.0, {});
+  belief.StartAt(0.0, 0.5);
+  belief.Move({1.0, 0.1, false});
+  belief.Weigh({}, 1.0);
+  EXPECT_FALSE(belief.place().held);
+}
+
+}  // namespace
+}  // namespace trailcast::belief
