@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "agent/confidence.h"
 #include "services/belief/route_belief.h"
@@ -18,7 +19,8 @@ class PlaceTrust {
  public:
   explicit PlaceTrust(const PlaceTrustOptions& options = {}) : options_(options) {}
 
-  [[nodiscard]] Verdict Judge(const belief::RouteBelief::Place& place);
+  // `doubt`: what speaks against following although the place is held; empty: nothing.
+  [[nodiscard]] Verdict Judge(const belief::RouteBelief::Place& place, std::string_view doubt = "");
   [[nodiscard]] bool ever_sure() const { return ever_sure_; }
 
  private:

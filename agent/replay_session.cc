@@ -68,6 +68,9 @@ constexpr int kEnoughAgreed = 10;
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
+constexpr const char* kOnlyTheEnd =
+    "what is seen looks like the route's end, where the robot was put and has not come by itself: "
+    "put it further back";
 
 }  // namespace
 
@@ -185,10 +188,14 @@ ReplayStep ReplaySession::State::StepByViews(const image::GrayImage& frame) {
   place.LookAt(frame);
   const route::Segment& here = segments[place.point().segment.value()];
   const double speed_mps = here.has_odometry ? here.speed_mps() : replay::kSpeedWithoutOdometry_mps;
-  ReplayStep report = view_follower.Step(place, options.speed_factor * speed_mps);
+  const bool end_is_seen = ViewFollower::SeesTheEnd(place);
+  const bool end_is_reached = end_is_seen && ViewFollower::HasCome(place);
+  ReplayStep report =
+      view_follower.Step(place, options.speed_factor * speed_mps,
+                         complete && end_is_seen && !end_is_reached ? kOnlyTheEnd : "");
   report.progress =
       (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
-  if (ViewFollower::AtTheEnd(place)) {
+  if (complete ? end_is_reached : end_is_seen) {
     report.command = {};
     report.segment = segments.back().index;
     report.fraction = 1.0;

@@ -10,7 +10,6 @@ constexpr double kLookAhead_s = 0.2;
 constexpr double kLookAhead_m = 0.3;
 constexpr double kArrived_s = 0.15;
 constexpr double kArrived_m = 0.15;
-// What looks like the end from where a robot was put may be the beginning: of a lap, say.
 constexpr double kCome_s = 1.0;
 constexpr double kCome_m = 0.5;
 constexpr double kTurnTime_s = 0.3;  // over which a turn is carried out
@@ -32,11 +31,14 @@ std::vector<replay::SeenKeyView> Seen(const PlaceKeeper& place, const Look& look
 
 }  // namespace
 
-bool ViewFollower::AtTheEnd(const PlaceKeeper& place) {
+bool ViewFollower::SeesTheEnd(const PlaceKeeper& place) {
   const double tolerance = place.metric() ? kArrived_m : kArrived_s;
-  const double length = place.belief().length();
-  return place.where().held && place.where().along >= length - tolerance &&
-         place.where().come >= std::min(place.metric() ? kCome_m : kCome_s, 0.5 * length);
+  return place.where().held && place.where().along >= place.belief().length() - tolerance;
+}
+
+bool ViewFollower::HasCome(const PlaceKeeper& place) {
+  return place.where().come >=
+         std::min(place.metric() ? kCome_m : kCome_s, 0.5 * place.belief().length());
 }
 
 ViewFollower::Steering ViewFollower::Steer(const PlaceKeeper& place, double speed_mps) const {
@@ -46,9 +48,9 @@ ViewFollower::Steering ViewFollower::Steer(const PlaceKeeper& place, double spee
   return {turn, motion::Limit({speed_mps, -turn.turn_rad / kTurnTime_s}, options_.limits)};
 }
 
-ReplayStep ViewFollower::Step(const PlaceKeeper& place, double speed_mps) {
+ReplayStep ViewFollower::Step(const PlaceKeeper& place, double speed_mps, std::string_view doubt) {
   const belief::RouteBelief::Place& where = place.where();
-  Verdict verdict = trust_.Judge(where);
+  Verdict verdict = trust_.Judge(where, doubt);
   const RoutePoint point = place.point();
   const Steering steering = Steer(place, speed_mps);
   ReplayStep step;

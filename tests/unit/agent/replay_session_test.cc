@@ -161,5 +161,26 @@ TEST_P(ReplaySessionTest, ACameraThatGivesNoPicturesAtAllIsLost) {
   EXPECT_THAT(last.reason, HasSubstr("empty frame"));
 }
 
+// It may as well be at the beginning of a lap: it has not come there.
+TEST(ReplaySessionByViews, ARobotThatWasPutAtTheEndIsNotDrivenPastIt) {
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(false), options);
+  ReplayStep last;
+  double commanded_m = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const int frame = kFrames - 2 + i % 2;  // of a camera that shakes
+    const auto step =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(frame)], std::nullopt});
+    ASSERT_TRUE(step);
+    EXPECT_NE(step->state, ReplayState::kArrived);
+    commanded_m += step->command.linear_mps / kFrames_hz;
+    last = *step;
+  }
+  EXPECT_LT(commanded_m, 0.1);
+  EXPECT_EQ(last.state, ReplayState::kLost);
+  EXPECT_THAT(last.reason, HasSubstr("looks like the route's end"));
+}
+
 }  // namespace
 }  // namespace trailcast::agent
