@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too noisy
 constexpr double kShareToLearn = 0.35;      // and from a small share of them not to be trusted
 constexpr std::size_t kMagnificationsKept = 15;
+constexpr std::size_t kMagnificationsKnown =
+    10;  // what an earlier run has learnt counts as so many
 // What the search at any magnification can find, and how far, as a logarithm, one fit may be from
 // what the run says: a lens's distortion, a patch seen from nearer.
 constexpr double kLeastMagnification = 0.15;
@@ -120,6 +122,10 @@ std::vector<route::TrackedFeature> HandOver::Again(const image::GrayImage& frame
       .FindNear(frame, follower.segment().features, follower.Expect(), follower.magnification(),
                 Around(follower.expected_within_px_at_320(), scout_width_px_))
       .features;
+}
+
+void HandOver::KnowMagnification(double magnification) {
+  seen_magnifications_.assign(kMagnificationsKnown, magnification);
 }
 
 // One fit builds on the magnification that the last ones gave: what holds all of them is what the

@@ -54,6 +54,8 @@ class HandOver {
       const image::GrayImage& frame, replay::Follower& follower, const route::Segment& segment,
       double s, const std::optional<vision::ViewFit>& recognised);
 
+  // Of a run that goes on: what the one before had learnt.
+  void KnowMagnification(double magnification);
   // What all of the run so far has recognised: magnifications far from it are not believed.
   void SetRunMagnification(double magnification) { recognised_magnification_ = magnification; }
 

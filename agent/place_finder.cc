@@ -16,6 +16,8 @@ constexpr std::array kAround_m = {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, 0.8, 1.0, 1.2,
 // It is there if it sees so many, and such a share, of the features that should be in its picture:
 // more than at a hand-over, where it is known to be near.
 constexpr std::size_t kLeastFeatures = 8;
+constexpr std::size_t kLeastFeaturesWhereRecognised = 5;
+constexpr double kRecognised_m = 2.0;
 constexpr double kLeastShare = 0.6;
 // A place from which everything looks so much larger or smaller than it should is another.
 constexpr double kOtherSize = 0.2;
@@ -39,9 +41,9 @@ double Share(const vision::FindResult& seen) {
   return static_cast<double>(seen.features.size()) / std::max(1, seen.in_picture);
 }
 
-bool IsThere(const vision::FindResult& seen) {
-  return seen.BeyondChance() && seen.features.size() >= kLeastFeatures &&
-         Share(seen) >= kLeastShare;
+bool IsThere(const vision::FindResult& seen, bool recognised) {
+  const std::size_t least = recognised ? kLeastFeaturesWhereRecognised : kLeastFeatures;
+  return seen.BeyondChance() && seen.features.size() >= least && Share(seen) >= kLeastShare;
 }
 
 }  // namespace
@@ -53,10 +55,12 @@ double PlaceFinder::Likeness(const Found& found) const {
 
 std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& frame,
                                                     std::span<const route::Segment> segments,
-                                                    const HandOver& hand_over) {
+                                                    const HandOver& hand_over,
+                                                    std::optional<double> recognised_m) {
   if (given_up()) return std::nullopt;
   const bool at_start = turn_ == kAround_m.size();
-  const auto place = PlaceAt(segments, at_start ? 0.0 : left_.along_m + kAround_m.at(turn_));
+  const double along_m = at_start ? 0.0 : left_.along_m + kAround_m.at(turn_);
+  const auto place = PlaceAt(segments, along_m);
   if (place) {
     const bool grown = rounds_ > 0;  // where nothing was found as it was taught
     Found found{
@@ -65,7 +69,9 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
     if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
     // It is back at the start only if it is nowhere about the other place.
     const bool likest = !likest_ || (!at_start && Likeness(found) > Likeness(*likest_));
-    if (IsThere(found.seen) && Likeness(found) > 0.0 && likest) likest_ = std::move(found);
+    const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
+    if (IsThere(found.seen, recognised) && Likeness(found) > 0.0 && likest)
+      likest_ = std::move(found);
   }
   if (!at_start) {
     ++turn_;

@@ -31,10 +31,12 @@ class PlaceFinder {
 
   explicit PlaceFinder(const LeftAt& left) : left_(left) {}
 
-  // `segments`: from the route's first on, as far as they are known.
+  // `segments`: from the route's first on, as far as they are known. `recognised_m`: where along
+  // the route the view as a whole is recognised: there, fewer features are proof enough.
   [[nodiscard]] std::optional<Found> Look(const image::GrayImage& frame,
                                           std::span<const route::Segment> segments,
-                                          const HandOver& hand_over);
+                                          const HandOver& hand_over,
+                                          std::optional<double> recognised_m = std::nullopt);
 
   // It has looked often enough: the robot is at neither.
   [[nodiscard]] bool given_up() const { return rounds_ >= kRounds; }

@@ -34,11 +34,14 @@ void PlaceKeeper::Learn(const route::Segment& segment) {
   speeds_mps_.push_back(segment.speed_mps());
 }
 
-void PlaceKeeper::StartAt(const RoutePoint& point, double sigma) {
-  place_.belief().StartAt(place_.AlongOf(point), sigma);
-}
+void PlaceKeeper::StartAt(double along, double sigma) { place_.belief().StartAt(along, sigma); }
 
 void PlaceKeeper::StartAnywhere() { place_.belief().StartAnywhere(); }
+
+void PlaceKeeper::KnowMagnification(double magnification, int width_px) {
+  place_.belief().KnowMagnification(
+      std::log(magnification * recogniser_.scout_width_px() / width_px));
+}
 
 void PlaceKeeper::Move(const FrameMotion& moved) {
   if (moved.odometry) {
@@ -56,13 +59,18 @@ void PlaceKeeper::Move(const FrameMotion& moved) {
   }
 }
 
+void PlaceKeeper::SetTracked(const std::optional<RoutePoint>& point, int agreed) {
+  tracked_.reset();
+  if (point) tracked_ = {place_.AlongOf(*point), agreed};
+}
+
 bool PlaceKeeper::LookIsDue() const { return !where().held || new_since_look_ >= kLookIsDue; }
 
 void PlaceKeeper::LookAt(const image::GrayImage& frame) {
   belief::RouteBelief& belief = place_.belief();
   look_ = recogniser_.LookAt(
       frame, belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
-  belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0));
+  belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
   new_since_look_ = 0.0;
 }
 

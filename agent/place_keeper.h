@@ -29,11 +29,16 @@ class PlaceKeeper {
   void Learn(const route::Segment& segment);
   [[nodiscard]] bool known() const { return place_.known(); }
 
-  // About so many of the route's units from there (RoutePlace::metric), or anywhere.
-  void StartAt(const RoutePoint& point, double sigma);
+  // About there, in the route's units (RoutePlace::metric), or anywhere.
+  void StartAt(double along, double sigma);
   void StartAnywhere();
+  // This camera's pixels per scout's, as an earlier run knew it.
+  void KnowMagnification(double magnification, int width_px);
 
   void Move(const FrameMotion& moved);
+  // By so many features that are tracked the robot is there; nothing: they do not tell. Counts in
+  // the next look.
+  void SetTracked(const std::optional<RoutePoint>& point, int agreed);
   // Compares a frame with the key views that are worth it. The next frame's look says more the more
   // the picture has changed until then.
   void LookAt(const image::GrayImage& frame);
@@ -60,6 +65,7 @@ class PlaceKeeper {
   Recogniser recogniser_;
   RoutePlace place_;
   std::vector<double> speeds_mps_;  // taught, of each segment
+  std::optional<belief::TrackedPlace> tracked_;
   Look look_;
   double new_since_look_ = 1.0;  // how much of a new look the next one is
 };

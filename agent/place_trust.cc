@@ -14,11 +14,11 @@ Verdict PlaceTrust::Judge(const belief::RouteBelief::Place& place, std::string_v
   const std::string why =
       place.held
           ? std::string(doubt)
-          : fmt::format("{} for {} frames: {} features of the likeliest place in view, off the "
-                        "route with {:.0f} %",
-                        ever_sure_ ? "the place on the route is not known"
-                                   : "the route is not recognised",
-                        unsure_frames_, place.agreed, 100.0 * place.off_route);
+          : fmt::format(
+                "{} for {} frames: {} features of the likeliest place in view, off the "
+                "route with {:.0f} %",
+                ever_sure_ ? "the place on the route is not known" : "the route is not recognised",
+                unsure_frames_, place.agreed, 100.0 * place.off_route);
   if (unsure_frames_ > options_.limit_frames) return {Trust::kLost, why};
   return {ever_sure_ ? Trust::kBlind : Trust::kSeeking, why};
 }

@@ -20,6 +20,7 @@ constexpr std::array kMethods = {NamedMethod{"default", ReplayMethod::kDefault},
                                  NamedMethod{"paper", ReplayMethod::kPaper},
                                  NamedMethod{"icra2006", ReplayMethod::kIcra2006}};
 
+constexpr double kKnownMagnification = 0.005;  // relative: of what an earlier run has learnt
 constexpr double kBangBang_radps = 0.35;
 
 }  // namespace
@@ -49,11 +50,13 @@ Result<ReplayMethod> FindReplayMethod(const std::string& name) {
 }
 
 std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options, bool by_odometry,
-                                               int scout_width_px, double magnification) {
+                                               int scout_width_px, double magnification,
+                                               bool known) {
   if (options.method == ReplayMethod::kDefault && by_odometry) {
     replay::PathFollowerOptions path;
     path.limits = options.limits;
     path.speed_factor = options.speed_factor;
+    if (known) path.estimator.start_magnification = kKnownMagnification;
     return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
   }
   replay::FunnelFollowerOptions funnel;

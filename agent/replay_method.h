@@ -39,8 +39,9 @@ struct ReplayMethodOptions {
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.
+// `known`: the magnification is an earlier run's, and not what the pictures' widths say.
 [[nodiscard]] std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options,
                                                              bool by_odometry, int scout_width_px,
-                                                             double magnification);
+                                                             double magnification, bool known);
 
 }  // namespace trailcast::agent

@@ -61,6 +61,7 @@ double Flow(const std::vector<route::TrackedFeature>& before,
 constexpr int kMostWithoutPicture_frames = 90;
 // How far from the route's start a robot may be that is put there, in the route's units.
 constexpr double kStart_sigma = 0.25;
+constexpr double kLeft_m = 0.5;  // and from where it was left
 constexpr double kFound_m = 0.3;
 // The belief holds the robot to be somewhere else than its features do.
 constexpr double kElsewhere = 2.0;
@@ -76,7 +77,11 @@ constexpr const char* kOnlyTheEnd =
 
 struct ReplaySession::State {
   State(const ReplayMethodOptions& method, int scout_px)
-      : options(method), scout_width_px(scout_px), place(scout_px), view_follower(method) {}
+      : options(method),
+        scout_width_px(scout_px),
+        place(scout_px),
+        view_follower(method),
+        hand_over(!AsPrinted(method.method), scout_px) {}
 
   ReplayMethodOptions options;
   int scout_width_px = 0;
@@ -89,7 +94,7 @@ struct ReplaySession::State {
   vision::FeatureTracker tracker;
   PlaceKeeper place;
   ViewFollower view_follower;
-  std::optional<HandOver> hand_over;
+  HandOver hand_over;
   std::optional<PlaceFinder> place_finder;     // until it has found the place
   std::unique_ptr<replay::Follower> follower;  // made when the first segment begins
   std::optional<motion::Pose2> last_odometry;
@@ -111,7 +116,7 @@ struct ReplaySession::State {
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
-  void BeginPlace();
+  void BeginPlace(const image::GrayImage& frame);
   void Look(const image::GrayImage& frame);
   [[nodiscard]] bool ByViews() const;
   [[nodiscard]] ReplayStep StepByViews(const image::GrayImage& frame);
@@ -169,12 +174,17 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   return report;
 }
 
-void ReplaySession::State::BeginPlace() {
+void ReplaySession::State::BeginPlace(const image::GrayImage& frame) {
   begun = true;
-  if (options.anywhere || place_finder) {
+  if (place_finder) {
+    const double magnification = place_finder->left().magnification;
+    hand_over.KnowMagnification(magnification);
+    place.KnowMagnification(magnification, frame.width);
+    place.StartAt(place_finder->left().along_m, kLeft_m);
+  } else if (options.anywhere) {
     place.StartAnywhere();
   } else {
-    place.StartAt({SegmentIndex(0), 0.0}, kStart_sigma);
+    place.StartAt(0.0, kStart_sigma);
   }
 }
 
@@ -213,8 +223,10 @@ ReplayStep ReplaySession::State::StepByViews(const image::GrayImage& frame) {
 
 void ReplaySession::State::MakeFollower(const image::GrayImage& frame,
                                         const route::Segment& first) {
+  const double magnification = place_finder ? place_finder->left().magnification
+                                            : static_cast<double>(frame.width) / scout_width_px;
   follower = agent::MakeFollower(options, last_odometry.has_value() && first.has_odometry,
-                                 scout_width_px, static_cast<double>(frame.width) / scout_width_px);
+                                 scout_width_px, magnification, place_finder.has_value());
   const std::size_t known = std::min(segments.size(), kMostLearnt);
   for (std::size_t i = 0; i < known; ++i) follower->Learn(segments[i]);
 }
@@ -233,22 +245,23 @@ void ReplaySession::State::Begin(std::size_t index, const image::GrayImage& fram
 
 void ReplaySession::State::SeekFeatures(const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
-  Follow(hand_over->ToSegment(frame, *follower, [&] {
+  Follow(hand_over.ToSegment(frame, *follower, [&] {
     return place.Recognise(frame, {segment.index, 0.0});
   }));
   searches.push_back(
-      SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over->last_was_wide()));
+      SearchOf(SearchKind::kHandOver, segment, tracker.count(), hand_over.last_was_wide()));
   frames_since_find = 0;
 }
 
 // False: it has not found the place, yet or at all.
 bool ReplaySession::State::BeginWhereLeft(const image::GrayImage& frame) {
-  if (const auto found = place_finder->Look(frame, segments, *hand_over)) {
+  const auto recognised_m = place.where().held ? std::optional(place.where().along) : std::nullopt;
+  if (const auto found = place_finder->Look(frame, segments, hand_over, recognised_m)) {
     const route::Segment& segment = segments[found->segment.value()];
     MakeFollower(frame, segment);
     follower->BeginAt(segment, found->fraction);
-    place.StartAt({found->segment, found->fraction}, kFound_m);
-    hand_over->TakeUp(found->seen, *follower);
+    place.StartAt(place.AlongOf({found->segment, found->fraction}), kFound_m);
+    hand_over.TakeUp(found->seen, *follower);
     Follow(found->seen.features);
     searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), false));
     place_finder.reset();
@@ -279,7 +292,7 @@ bool ReplaySession::State::BeginAnywhere(const image::GrayImage& frame) {
   MakeFollower(frame, segment);
   follower->BeginAt(segment, point.fraction);
   const auto found =
-      hand_over->Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
+      hand_over.Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
   if (found.empty()) {
     follower.reset();
     return false;
@@ -349,7 +362,7 @@ void ReplaySession::State::LookAgain(const image::GrayImage& frame, double fract
   const route::Segment& segment = segments[point.segment.value()];
   if (segment.features.empty()) return;
   const auto found =
-      hand_over->Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
+      hand_over.Recover(frame, *follower, segment, point.fraction, place.Recognise(frame, point));
   // What is ahead may be seen from afar: to go on from there, most of it must be.
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
@@ -368,7 +381,7 @@ void ReplaySession::State::Refresh(const image::GrayImage& frame, const replay::
   const bool due = ++frames_since_find >= kRefresh_frames && few;
   if (AsPrinted(options.method) || (!due && !step.carried_left_m)) return;
   frames_since_find = 0;
-  std::vector<route::TrackedFeature> found = hand_over->Again(frame, *follower);
+  std::vector<route::TrackedFeature> found = hand_over.Again(frame, *follower);
   if (static_cast<int>(found.size()) <= step.agreeing) return;
   tracker.Follow(found);
   searches.push_back(SearchOf(SearchKind::kLookedAgain, segment, tracker.count(), false));
@@ -387,6 +400,7 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
                                       const std::optional<motion::OdometryIncrement>& odometry,
                                       const image::GrayImage& frame) {
   const route::Segment& segment = follower->segment();
+  const RoutePoint point{segment.index, step.fraction};
   Sighting seen{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
                 tracker.losses().not_returned};
   seen.carried_off = step.carried_left_m.has_value();
@@ -394,7 +408,7 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
     seen.left_sigma_m = step.offset->left_sigma_m;
     seen.in_picture = static_cast<int>(InPicture(follower->Expect(), frame));
   }
-  Compare({segment.index, step.fraction}, seen);
+  Compare(point, seen);
   // Features that lie where odometry and the taught geometry have them outweigh it.
   const bool elsewhere = seen.elsewhere;
   seen.elsewhere = elsewhere && AsPrinted(options.method);
@@ -406,6 +420,8 @@ void ReplaySession::State::JudgeSight(const replay::FollowStep& step,
   trust = verdict.trust;
   state = StateOf(trust);
   reason = std::move(verdict.reason);
+  const bool tracked = trust == Trust::kSure && step.offset && step.agreeing > 0;
+  place.SetTracked(tracked ? std::optional(point) : std::nullopt, step.agreeing);
   const bool astray = trust == Trust::kBlind || trust == Trust::kSeeking ||
                       (elsewhere && trust == Trust::kUnsure) || confidence.recognised_only();
   if (astray && state != ReplayState::kLost) LookAgain(frame, step.fraction, elsewhere);
@@ -431,7 +447,7 @@ void ReplaySession::State::Look(const image::GrayImage& frame) {
   if (trust == Trust::kSure && !place.LookIsDue()) return;
   place.LookAt(frame);
   if (const auto magnification = place.Magnification(frame.width)) {
-    hand_over->SetRunMagnification(*magnification);
+    hand_over.SetRunMagnification(*magnification);
   }
 }
 
@@ -458,7 +474,6 @@ ReplayStep ReplaySession::State::Turn(const image::GrayImage& frame,
 ReplayStep ReplaySession::State::StepByFeatures(
     const image::GrayImage& frame, const std::vector<route::TrackedFeature>& tracked,
     const std::optional<motion::OdometryIncrement>& odometry) {
-  if (!hand_over) hand_over.emplace(!AsPrinted(options.method), scout_width_px);
   Look(frame);
   if (!follower || state == ReplayState::kWaiting) {
     if (!BeginNext(frame)) return Report({});
@@ -491,10 +506,8 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.trust = trust;
   report.sight = {0, tracker.losses(), searches};
   report.reason = reason;
-  if (hand_over) {
-    report.found_share = hand_over->found_share();
-    report.hand_overs = hand_over->count();
-  }
+  report.found_share = hand_over.found_share();
+  report.hand_overs = hand_over.count();
   report.features = tracker.count();
   if (!follower) return report;
   report.segment = follower->segment().index;
@@ -575,7 +588,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.searches.clear();
   if (s.state == ReplayState::kArrived) return s.last_report;
   if (s.segments.empty()) return s.Report({});
-  if (!s.begun) s.BeginPlace();
+  if (!s.begun) s.BeginPlace(frame);
   s.place.Move({odometry, Flow(before, tracked, frame.width), dt_s});
   s.last_report = s.ByViews() ? s.StepByViews(frame) : s.StepByFeatures(frame, tracked, odometry);
   const belief::RouteBelief::Place& where = s.place.where();

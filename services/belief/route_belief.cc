@@ -13,6 +13,7 @@ constexpr double kSamePlace =
     1e-3;  // key views no further apart, of a robot that turned on the spot
 constexpr std::size_t kMagnificationsKept = 60;
 constexpr double kFewestMagnifications = 3.0;  // of independent looks
+constexpr double kKnownMagnification = 10.0;   // what an earlier run knew counts as so many
 
 // How far a robot may have come whose way nobody measured, in multiples of what is guessed: about
 // that half of the time, anything from standing to a multiple of it otherwise; a little backwards.
@@ -92,6 +93,11 @@ void RouteBelief::StartAnywhere() {
   Locate();
 }
 
+void RouteBelief::KnowMagnification(double log_magnification) {
+  magnifications_.assign(1, {log_magnification, kKnownMagnification});
+  log_magnification_ = log_magnification;
+}
+
 // A random walk of that variance, as steps to the neighbouring cells.
 void RouteBelief::Spread(double variance) {
   constexpr double kWorthWhile = 0.1;  // of a cell squared
@@ -135,11 +141,10 @@ void RouteBelief::Move(const Motion& motion) {
 }
 
 // Log-likelihood ratio by how many features agree.
-double RouteBelief::Alike(const ComparedView& view, int best) const {
+double RouteBelief::Alike(int agreed, int best) const {
   const double ratio =
-      std::clamp(options_.gain * (view.agreed - options_.neutral), options_.least, options_.most);
-  const double behind =
-      options_.behind_best * (view.agreed - std::max<double>(best, options_.neutral));
+      std::clamp(options_.gain * (agreed - options_.neutral), options_.least, options_.most);
+  const double behind = options_.behind_best * (agreed - std::max<double>(best, options_.neutral));
   return ratio + std::max(options_.behind_best_least, behind);
 }
 
@@ -179,7 +184,7 @@ void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double ind
   const std::optional<double> grown_here = views_[first_here].growth;
   const std::optional<double> grows_on = is_last ? std::nullopt : views_[next].growth;
   const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;
-  const double alike = Alike(view, best);
+  const double alike = Alike(view.agreed, best);
   const std::size_t first = is_first ? 0 : CellOf(before);
   const std::size_t last = is_last ? cells_.size() - 1 : CellOf(after);
   std::vector<double> factors(last - first + 1, 1.0);
@@ -198,10 +203,24 @@ void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double ind
   cells_.Multiply(first, factors);
 }
 
-void RouteBelief::Weigh(std::span<const ComparedView> compared, double independent) {
+// The less the further off, as between two views.
+void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, int best, double independent) {
+  const double ratio = Alike(tracked.agreed, best);
+  const std::size_t first = CellOf(tracked.along - options_.window);
+  const std::size_t last = CellOf(tracked.along + options_.window);
+  std::vector<double> factors(last - first + 1, 1.0);
+  for (std::size_t i = first; i <= last; ++i) {
+    const double off = std::abs(cell_at(i) - tracked.along) / options_.window;
+    factors[i - first] = std::exp(independent * std::max(0.0, 1.0 - off) * ratio);
+  }
+  cells_.Multiply(first, factors);
+}
+
+void RouteBelief::Weigh(std::span<const ComparedView> compared, double independent,
+                        const std::optional<TrackedPlace>& tracked) {
   if (cells_.size() == 0 || compared.empty()) return;
   Leave(independent);
-  int best = 0;
+  int best = tracked ? tracked->agreed : 0;
   for (const ComparedView& view : compared) best = std::max(best, view.agreed);
   std::vector<ComparedView> ordered(compared.begin(), compared.end());
   std::sort(ordered.begin(), ordered.end(),
@@ -218,9 +237,10 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
         best, independent);
     view = end;
   }
+  if (tracked) WeighCellsAbout(*tracked, best, independent);
   Normalise();
   Locate();
-  NoteLook(ordered, independent);
+  NoteLook(ordered, independent, tracked);
 }
 
 void RouteBelief::Leave(double independent) {
@@ -283,7 +303,8 @@ void RouteBelief::NoteGrowth(std::span<const ComparedView> compared) {
   well_recognised_ = std::move(well);
 }
 
-void RouteBelief::NoteLook(std::span<const ComparedView> compared, double independent) {
+void RouteBelief::NoteLook(std::span<const ComparedView> compared, double independent,
+                           const std::optional<TrackedPlace>& tracked) {
   NoteGrowth(compared);
   const ComparedView* nearest = nullptr;
   for (const ComparedView& view : compared) {
@@ -291,7 +312,8 @@ void RouteBelief::NoteLook(std::span<const ComparedView> compared, double indepe
     if (nearest == nullptr || view.agreed > nearest->agreed) nearest = &view;
   }
   if (nearest == nullptr) return;
-  agreed_.push_back(nearest->agreed);
+  const bool is_tracked = tracked && std::abs(tracked->along - place_.along) <= options_.window;
+  agreed_.push_back(is_tracked ? std::max(nearest->agreed, tracked->agreed) : nearest->agreed);
   if (agreed_.size() > options_.looks) agreed_.pop_front();
   place_.agreed = Median(agreed_);
   const bool was_held = place_.held;

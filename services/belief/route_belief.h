@@ -26,6 +26,13 @@ struct ComparedView {
   double log_scale = 0.0;  // natural logarithm of that magnification, if they are enough to tell it
 };
 
+// A place that is known otherwise: by so many features that are tracked and lie where odometry and
+// the taught geometry have them.
+struct TrackedPlace {
+  double along = 0.0;
+  int agreed = 0;
+};
+
 // How the robot moved since the last call, along the route, in the route's units.
 struct Motion {
   double along = 0.0;
@@ -87,9 +94,13 @@ class RouteBelief {
   void StartAt(double along, double sigma);
   void StartAnywhere();
 
+  // Of a run that goes on: what the one before knew of the magnification, as its logarithm.
+  void KnowMagnification(double log_magnification);
+
   void Move(const Motion& motion);
   // `independent`: how much of a new look it is, 0 to 1: a robot that stands sees the same again.
-  void Weigh(std::span<const ComparedView> compared, double independent);
+  void Weigh(std::span<const ComparedView> compared, double independent,
+             const std::optional<TrackedPlace>& tracked = std::nullopt);
 
   struct Place {
     double along = 0.0;
@@ -119,10 +130,11 @@ class RouteBelief {
 
  private:
   struct Neighbours;
-  [[nodiscard]] double Alike(const ComparedView& view, int best) const;
+  [[nodiscard]] double Alike(int agreed, int best) const;
   [[nodiscard]] double SizeFits(const ComparedView& view, double growth) const;
   [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
   void WeighCellsAbout(const ComparedView& view, int best, double independent);
+  void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent);
   [[nodiscard]] std::size_t CellOf(double along) const;
   void Spread(double variance);
   void Guess(double along);
@@ -130,7 +142,8 @@ class RouteBelief {
   void Normalise();
   void Locate();
   void NoteGrowth(std::span<const ComparedView> compared);
-  void NoteLook(std::span<const ComparedView> compared, double independent);
+  void NoteLook(std::span<const ComparedView> compared, double independent,
+                const std::optional<TrackedPlace>& tracked);
   void NoteWay(bool was_held);
   void NoteMagnification(const ComparedView& nearest, double independent);
 

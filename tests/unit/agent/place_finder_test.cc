@@ -84,6 +84,23 @@ TEST_F(PlaceFinderTest, GivesUpWhereTheRobotIsNeitherAndTellsWhatItSaw) {
   EXPECT_THAT(finder_.MostSeen(), HasSubstr(" features of segment "));
 }
 
+// A narrow camera shows few of a segment's features: too few to be sure by, on their own.
+TEST_F(PlaceFinderTest, WhereTheViewIsRecognisedFewFeaturesAreEnough) {
+  constexpr std::size_t kFew = 6;
+  for (route::Segment& segment : segments_) {
+    if (segment.features.size() > kFew) segment.features.resize(kFew);
+  }
+  EXPECT_EQ(LookAt(test::WalkFrame(kLeft)), std::nullopt);
+  finder_ = PlaceFinder(LeftAt{.along_m = kStep_m * kLeft});
+  std::optional<double> along_m;
+  for (int i = 0; i < kMostLooks && !along_m && !finder_.given_up(); ++i) {
+    const auto found = finder_.Look(test::WalkFrame(kLeft), segments_, hand_over_, kStep_m * kLeft);
+    if (found) along_m = Along(*found);
+  }
+  ASSERT_TRUE(along_m) << finder_.MostSeen();
+  EXPECT_NEAR(*along_m, kStep_m * kLeft, 0.5);
+}
+
 TEST_F(PlaceFinderTest, APlaceBeyondWhatIsKnownOfTheRouteIsLookedForAtTheStartAlone) {
   PlaceFinder beyond(LeftAt{.along_m = 100.0});
   finder_ = beyond;

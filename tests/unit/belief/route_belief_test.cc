@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -26,14 +27,15 @@ class Route {
 
   // What a robot at `along` would find: many features at the nearest views, fewer further off,
   // things looking larger from nearer.
-  void See(double along, int peak = 20, double independent = 1.0) {
+  void See(double along, int peak = 20, double independent = 1.0,
+           const std::optional<TrackedPlace>& tracked = std::nullopt) {
     std::vector<ComparedView> compared;
     for (const std::size_t view : belief.WorthComparing(8, 32)) {
       const double off = belief.view_at(view) - along;
       const int agreed = std::max(2, static_cast<int>(peak * (1.0 - 0.4 * std::abs(off))));
       compared.push_back({view, agreed, -0.1 * off});
     }
-    belief.Weigh(compared, independent);
+    belief.Weigh(compared, independent, tracked);
   }
   void SeeNothing(double independent = 1.0) {
     std::vector<ComparedView> compared;
@@ -156,6 +158,37 @@ TEST(RouteBelief, OneLookElsewhereIsNoProofOfHavingBeenCarried) {
   route.See(along + 0.3);
   EXPECT_TRUE(route.belief.place().held);
   EXPECT_NEAR(route.belief.place().along, along + 0.3, 0.5);
+}
+
+// Another camera's views may be a little like those of a place some metres off.
+TEST(RouteBelief, FeaturesThatAreTrackedHoldAPlaceThatViewsMistake) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  for (double along = 0.0; along < 40.0; along += 0.3) {
+    route.See(std::max(0.0, along - 2.0), 10, 1.0, TrackedPlace{along, 25});
+    EXPECT_TRUE(route.belief.place().held);
+    EXPECT_NEAR(route.belief.place().along, along, 0.5);
+    route.belief.Move({0.3, 0.015, false});
+  }
+}
+
+TEST(RouteBelief, AFewTrackedFeaturesDoNotHideThatItWasCarried) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  const double along = route.Drive(10.0);
+  int looks = 0;
+  while (looks < 40 && std::abs(route.belief.place().along - 42.0) > 1.0) {
+    route.See(42.0, 20, 1.0, TrackedPlace{along, 7});
+    ++looks;
+  }
+  EXPECT_LE(looks, 20);
+}
+
+TEST(RouteBelief, WhatAnEarlierRunKnewOfTheMagnificationStands) {
+  Route route(60);
+  route.belief.KnowMagnification(0.26);
+  route.belief.StartAt(0.0, 0.5);
+  EXPECT_EQ(route.belief.log_magnification(), 0.26);
 }
 
 TEST(RouteBelief, LearnsHowMuchLargerItsCameraShowsThings) {
