@@ -170,13 +170,17 @@ std::string RouteJson(const route::RouteInfo& info) {
       cli::JsonText(info.description), info.edition);
 }
 
-std::string RoutesJson(const exchange::CatalogReply& reply) {
+std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {
   std::string text = "[";
   for (const route::RouteInfo& info : reply.page.routes) {
     std::string route = RouteJson(info);
     route.pop_back();
-    text += fmt::format("{}{}, \"held_by\": {}}}", text.size() > 1 ? ",\n  " : "\n  ", route,
+    text += fmt::format("{}{}, \"held_by\": {}", text.size() > 1 ? ",\n  " : "\n  ", route,
                         JsonTexts(HoldersOf(info.key, reply)));
+    if (const auto study = studies.find(info.key); study != studies.end()) {
+      text += fmt::format(", \"weak\": {}", WeakPlacesJson(info, study->second));
+    }
+    text += "}";
   }
   return text + "\n]\n";
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "agent/tool/route_study.h"
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/route_exchange.h"
@@ -36,9 +37,10 @@ namespace trailcast::tool {
 // For people: one line a route, `now_unix_ms` for their ages.
 [[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
                                       std::int64_t now_unix_ms);
-// For programs: an object, and an array of them.
+// For programs: an object, and an array of them, with what was found out of some besides.
 [[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
-[[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply);
+[[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply,
+                                     const RouteStudies& studies = {});
 
 // "12 s", "5 min", "3 h", "2 d".
 [[nodiscard]] std::string Age(std::int64_t milliseconds);

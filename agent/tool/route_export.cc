@@ -19,27 +19,28 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kTakeWait{20};
 
-// Fetched pieces come in any order, a file's are in order: those that came early wait here. The
+using Take = std::function<Result<void>(const route::SegmentPiece&)>;
+
+// Fetched pieces come in any order and are passed on in order: those that came early wait here. The
 // fetcher asks for the lowest first, so they are few.
 class InOrder {
  public:
-  explicit InOrder(archive::RouteFileWriter writer) : writer_(std::move(writer)) {}
+  explicit InOrder(const Take& take) : take_(take) {}
 
   Result<void> Add(route::SegmentPiece piece) {
     bytes_ += piece.bytes.size();
     early_.emplace(piece.index, std::move(piece));
     while (!early_.empty() && early_.begin()->first.value() == next_) {
-      if (auto added = writer_.Add(early_.begin()->second); !added) return added;
+      if (auto taken = take_(early_.begin()->second); !taken) return taken;
       early_.erase(early_.begin());
       ++next_;
     }
     return {};
   }
-  Result<std::uint64_t> Finish() { return writer_.Finish(); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
-  archive::RouteFileWriter writer_;
+  const Take& take_;
   std::map<SegmentIndex, route::SegmentPiece> early_;
   std::uint32_t next_ = 0;
   std::uint64_t bytes_ = 0;
@@ -95,13 +96,12 @@ Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::Rou
   return writer.Finish();
 }
 
-Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInfo& info,
-                                       archive::RouteFileWriter writer,
-                                       const TransferWatch& watch) {
+Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
+                          const TransferWatch& watch, const Take& take) {
   const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
   exchange::RouteFetcher fetcher(peer.self, info.key, {}, integrity, Clock::now());
   fetcher.Learn(info, Clock::now());
-  InOrder file(std::move(writer));
+  InOrder pieces(take);
   auto deadline = Clock::now() + watch.timeout;
   while (!fetcher.Complete()) {
     for (const exchange::Message& message : peer.exchange->Take(kTakeWait)) {
@@ -111,7 +111,7 @@ Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInf
     // What cannot be sent is asked for again.
     std::ignore = exchange::PublishAll(*peer.exchange, fetcher.Tick(now));
     for (route::SegmentPiece& piece : fetcher.TakeArrived()) {
-      if (auto added = file.Add(std::move(piece)); !added) return tl::unexpected(added.error());
+      if (auto added = pieces.Add(std::move(piece)); !added) return added;
       deadline = now + watch.timeout;
     }
     const exchange::FetchProgress progress = fetcher.Progress(now);
@@ -129,9 +129,18 @@ Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInf
                   progress.held, info.segment_count, info.name,
                   std::chrono::duration<double>(watch.timeout).count());
     }
-    watch.progress(file.bytes());
+    watch.progress(pieces.bytes());
   }
-  return file.Finish();
+  return {};
+}
+
+Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInfo& info,
+                                       archive::RouteFileWriter writer,
+                                       const TransferWatch& watch) {
+  const auto fetched = FetchInOrder(
+      peer, info, watch, [&](const route::SegmentPiece& piece) { return writer.Add(piece); });
+  if (!fetched) return tl::unexpected(fetched.error());
+  return writer.Finish();
 }
 
 }  // namespace trailcast::tool

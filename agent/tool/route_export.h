@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,8 +26,13 @@ namespace trailcast::tool {
 [[nodiscard]] Result<std::uint64_t> ExportFromStore(store::RouteStore& store,
                                                     const route::RouteInfo& info,
                                                     archive::RouteFileWriter writer);
-// `exchange` has a follower's topics. kUnavailable when nothing new has come for the watch's
-// timeout, or it was stopped; kCorrupt when what servers hold is not what was announced.
+// All the route's segments, in order, each to `take`, whose errors end it. `peer` has a follower's
+// topics. kUnavailable when nothing new has come for the watch's timeout, or it was stopped;
+// kCorrupt when what servers hold is not what was announced.
+[[nodiscard]] Result<void> FetchInOrder(
+    OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
+    const std::function<Result<void>(const route::SegmentPiece&)>& take);
+// The same into a file.
 [[nodiscard]] Result<std::uint64_t> ExportFromServer(OperatorPeer& peer,
                                                      const route::RouteInfo& info,
                                                      archive::RouteFileWriter writer,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "agent/cli/place_options.h"
+#include "agent/cli/stop_signal.h"
 #include "agent/tool/catalog_client.h"
 #include "agent/tool/command.h"
 #include "agent/tool/route_edits.h"
@@ -25,6 +26,7 @@ struct RoutesOptions {
   double older_than_s = 0.0;
   std::size_t limit = 100;
   bool json = false;
+  bool looked_into = false;
   double timeout_s = 5.0;
 };
 
@@ -32,6 +34,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast routes\n"
     "  trailcast routes --name aisle-3 --json\n"
+    "  trailcast routes --name aisle-3 --long     # and where it is weak\n"
     "  trailcast routes --prefix barn- --tag night --sort longest\n"
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
     "  trailcast routes --network-interface lo --timeout 2\n"
@@ -95,21 +98,54 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
                                                           reply.server.value(), name, similar)});
 }
 
+// Of the routes that are complete.
+Result<RouteStudies> Study(OperatorPeer& peer, const std::vector<route::RouteInfo>& routes,
+                           std::chrono::milliseconds timeout) {
+  const cli::StopSignal stop;
+  RouteStudies studies;
+  for (const route::RouteInfo& info : routes) {
+    if (info.state != route::RouteState::kComplete) continue;
+    TransferProgress progress(fmt::format("looking into '{}'", info.name), info.bytes);
+    TransferWatch watch;
+    watch.timeout = timeout;
+    watch.stop = [] { return cli::StopSignal::requested(); };
+    watch.progress = [&progress](std::uint64_t done) { progress.Show(done); };
+    auto study = StudyRoute(peer, info, watch);
+    if (!study) return tl::unexpected(study.error());
+    studies.emplace(info.key, std::move(*study));
+  }
+  return studies;
+}
+
+std::string TextOf(const exchange::CatalogReply& reply, const RouteStudies& studies, bool json,
+                   std::int64_t now_unix_ms) {
+  if (json) return RoutesJson(reply, studies);
+  std::string text = RoutesTable(reply, now_unix_ms);
+  for (const route::RouteInfo& info : reply.page.routes) {
+    const auto study = studies.find(info.key);
+    if (study != studies.end()) text += WeakPlacesText(info, study->second);
+  }
+  return text;
+}
+
 int Run(const CLI::App& app, const cli::CommonOptions& common, const RoutesOptions& options) {
   const std::int64_t now_unix_ms = NowUnixMs();
   const route::RouteQuery query = QueryOf(options, now_unix_ms);
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return cli::Complain(app, possible.error());
   }
-  const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
+  auto peer = JoinAsOperator(
+      common, options.looked_into ? exchange::FollowerTopics() : exchange::ObserverTopics());
   if (!peer) return cli::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply = AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
   if (!reply) return cli::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
   if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
-  std::fputs((options.json ? RoutesJson(*reply) : RoutesTable(*reply, now_unix_ms)).c_str(),
-             stdout);
+  Result<RouteStudies> studies;
+  if (options.looked_into) studies = Study(*peer, routes, timeout);
+  if (!studies) return cli::Complain(app, studies.error());
+  std::fputs(TextOf(*reply, *studies, options.json, now_unix_ms).c_str(), stdout);
   if (routes.size() < reply->page.total) {
     std::fputs(
         fmt::format("{} of {} routes; --limit shows more\n", routes.size(), reply->page.total)
@@ -156,6 +192,8 @@ Command AddRoutesCommand(CLI::App& parent, const cli::CommonOptions& common) {
   app->add_option("--limit", options->limit, "Routes to list at most")
       ->check(CLI::Range(1, 10'000'000));
   app->add_flag("--json", options->json, "For programs");
+  app->add_flag("--long", options->looked_into,
+                "Fetch each route that is listed and tell where followers may be lost, and why");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->check(CLI::Range(0.1, 3600.0));
   const std::vector<Command> edits = AddRouteEdits(*app, common, options->timeout_s);

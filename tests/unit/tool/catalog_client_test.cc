@@ -12,6 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 route::RouteInfo Aisle() {
   route::RouteInfo info;
@@ -108,6 +109,20 @@ TEST(RoutesTable, ShowsWhatARouteWeighsAMetre) {
   EXPECT_THAT(table, HasSubstr("4000"));  // B/m
   EXPECT_THAT(table, HasSubstr("64.0"));  // kB
   EXPECT_THAT(table, HasSubstr("5 min"));
+}
+
+TEST(RoutesTable, TellsWhereARouteIsWeak) {
+  const RouteStudy study{
+      {{3.0, 4.5, view::Weakness::kBland, 7}, {9.0, 9.25, view::Weakness::kUnrelated, 2}}};
+  const std::string text = WeakPlacesText(Aisle(), study);
+  EXPECT_THAT(text, HasSubstr("'aisle-3' revision 3: weak where"));
+  EXPECT_THAT(text, HasSubstr("3.0 to      4.5 m  little to recognise, 7 features"));
+  EXPECT_THAT(text, HasSubstr("9.0 to      9.2 m  views in a row with 2 features in common"));
+  EXPECT_THAT(WeakPlacesText(Aisle(), {}), HasSubstr("no weak place"));
+  const std::string json = RoutesJson(Reply({Aisle()}), {{Aisle().key, study}});
+  EXPECT_THAT(json, HasSubstr("\"weak\": [{\"begin_m\": 3.00, \"end_m\": 4.50, \"why\": "
+                              "\"bland\", \"features\": 7}, {"));
+  EXPECT_THAT(RoutesJson(Reply({Aisle()})), Not(HasSubstr("weak")));
 }
 
 TEST(RoutesTable, SaysThatThereAreNone) { EXPECT_EQ(RoutesTable({}, 0), "no routes\n"); }

@@ -9,6 +9,7 @@
 
 #include "agent/tool/route_export.h"
 #include "agent/tool/route_import.h"
+#include "agent/tool/route_study.h"
 #include "agent/tool/route_summary.h"
 #include "services/archive/route_file.h"
 #include "services/catalog/catalog.h"
@@ -120,6 +121,19 @@ TEST_F(RouteTransferTest, ARouteGoesToAServerAndComesBackByteForByte) {
   const auto held = store_->FindRoute(file.info().key).value();
   ASSERT_TRUE(held);
   EXPECT_TRUE(route::SameTeaching(*held, file.info()));
+}
+
+TEST_F(RouteTransferTest, ARouteIsLookedIntoWhereItIs) {
+  const TaughtRoute taught = TeachSamples(5, 2);
+  Hold(taught);
+  Serve();
+  OperatorPeer peer{AgentId("operator-3"), bus_.Open(exchange::FollowerTopics())};
+  const auto study = StudyRoute(peer, taught.info, {});
+  ASSERT_TRUE(study) << study.error().message;
+  // Samples are of noise: none is like the next.
+  ASSERT_FALSE(study->weak_places.empty());
+  EXPECT_EQ(study->weak_places.front().begin, 0.0);
+  EXPECT_LE(study->weak_places.back().end, taught.info.length_m + 1e-9);
 }
 
 TEST_F(RouteTransferTest, WhatTheServerHasAlreadyIsSaidToBeThere) {
