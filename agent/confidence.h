@@ -96,6 +96,9 @@ class Confidence {
  public:
   explicit Confidence(const ConfidenceOptions& options = {}) : options_(options) {}
 
+  // The robot is on the path by other evidence than a segment's features: it may go on as if it had
+  // been sure.
+  void SetFound() { sure_once_ = true; }
   // `moved`: since the last frame; nothing on robots without odometry.
   [[nodiscard]] Verdict Judge(const Sighting& seen,
                               const std::optional<motion::OdometryIncrement>& moved);

@@ -265,6 +265,9 @@ bool ReplaySession::State::BeginWhereLeft(const image::GrayImage& frame) {
     Follow(found->seen.features);
     searches.push_back(SearchOf(SearchKind::kRecovered, segment, tracker.count(), false));
     place_finder.reset();
+    if (recognised_m && std::abs(*recognised_m - place.where().along) < kElsewhere) {
+      confidence.SetFound();
+    }
     return true;
   }
   state = ReplayState::kBlind;

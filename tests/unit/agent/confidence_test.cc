@@ -55,6 +55,13 @@ TEST_F(ConfidenceTest, SeeksTheRouteStartStandingAndIsLostWithoutIt) {
             "are needed to be sure");
 }
 
+// Where a narrow camera has next to none of a segment's features in its picture, say.
+TEST_F(ConfidenceTest, FoundOtherwiseItGoesOnByOdometryForAShortWay) {
+  confidence_.SetFound();
+  EXPECT_EQ(See(2, 124).trust, Trust::kBlind);
+  EXPECT_EQ(See(2, 2).trust, Trust::kLost);
+}
+
 TEST_F(ConfidenceTest, GoesOnByAFewFeaturesForAShortWay) {
   See(9);
   EXPECT_EQ(See(5, 124).trust, Trust::kUnsure);
