@@ -100,8 +100,6 @@ void PathEstimator::BeUnsure() {
 
 void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   driven_m_ += std::abs(moved.distance_m);
-  new_since_look_ += std::abs(moved.distance_m) / options_.new_look_m +
-                     std::abs(moved.heading_change_rad) / options_.new_look_rad;
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
   // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
@@ -190,7 +188,6 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
                                                   const std::vector<route::TrackedFeature>& seen,
                                                   double cauchy_px) const {
   const double scale = prior.mean[kMagnification];
-  const double is_new = std::clamp(new_since_look_, options_.least_new, 1.0);
   Equations equations{prior.information, prior.information * (prior.mean - state), {}};
   for (const route::TrackedFeature& feature : seen) {
     const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state);
@@ -199,7 +196,7 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
     const double residual_px = std::hypot(ru, rv) / scale;
     Count(residual_px, options_.outlier_px, equations.agreement);
     // Cauchy's weight: a mismatch counts for little, wherever it is.
-    const double robust = is_new / (1.0 + Square(residual_px / cauchy_px));
+    const double robust = 1.0 / (1.0 + Square(residual_px / cauchy_px));
     const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
     const double noise_v = Square(scale * options_.feature_noise_px);
     equations.information +=
@@ -218,7 +215,6 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
     state_ += equations.information.ldlt().solve(equations.gradient);
   }
   covariance_ = equations.information.inverse();
-  new_since_look_ = 0.0;
   if (++looks_ % options_.carried_every_looks == 0) {
     equations.agreement.carried_left_m = FindIfCarriedOff(prior, seen);
   }

@@ -18,10 +18,6 @@ struct PathEstimatorOptions {
   double feature_noise_px = 3.0;
   double cauchy_px = 3.0;  // beyond this a residual counts less and less
   double outlier_px = 12.0;
-  // A look from so far on is a new one; what is seen from nearer to the last one errs as it did.
-  double new_look_m = 0.02;
-  double new_look_rad = 0.02;
-  double least_new = 0.1;
   // At the route's start.
   double start_left_m = 0.10;
   double start_heading_rad = 0.08;
@@ -167,7 +163,6 @@ class PathEstimator {
   std::vector<InverseDepth> depths_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  double new_since_look_ = 1.0;
   int looks_ = 0;
   double driven_m_ = 0.0;
   std::optional<CarriedTo> carried_;
