@@ -76,15 +76,17 @@ constexpr const char* kOnlyTheEnd =
 }  // namespace
 
 struct ReplaySession::State {
-  State(const ReplayMethodOptions& method, int scout_px)
+  State(const ReplayMethodOptions& method, const route::RouteInfo& route)
       : options(method),
-        scout_width_px(scout_px),
-        place(scout_px),
+        scout_width_px(route.image_width_px),
+        announced_segments(route.segment_count),
+        place(scout_width_px),
         view_follower(method),
-        hand_over(!AsPrinted(method.method), scout_px) {}
+        hand_over(!AsPrinted(method.method), scout_width_px) {}
 
   ReplayMethodOptions options;
   int scout_width_px = 0;
+  std::size_t announced_segments = 0;  // of the route; not all of them may have come yet
   std::vector<route::Segment> segments;
   std::vector<double> begin_m;  // of each segment, along the route
   bool complete = false;
@@ -112,6 +114,10 @@ struct ReplaySession::State {
 
   [[nodiscard]] double known_m() const {
     return segments.empty() ? 0.0 : begin_m.back() + segments.back().length_m;
+  }
+  [[nodiscard]] double ProgressAt(SegmentIndex segment, double fraction) const {
+    return (segment.value() + fraction) /
+           static_cast<double>(std::max(segments.size(), announced_segments));
   }
   [[nodiscard]] std::optional<motion::OdometryIncrement> OdometryStep(
       const Observation& observation);
@@ -203,13 +209,12 @@ ReplayStep ReplaySession::State::StepByViews(const image::GrayImage& frame) {
   ReplayStep report =
       view_follower.Step(place, options.speed_factor * speed_mps,
                          complete && end_is_seen && !end_is_reached ? kOnlyTheEnd : "");
-  report.progress =
-      (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
+  report.progress = ProgressAt(report.segment, report.fraction);
   if (complete ? end_is_reached : end_is_seen) {
     report.command = {};
     report.segment = segments.back().index;
     report.fraction = 1.0;
-    report.progress = 1.0;
+    report.progress = ProgressAt(report.segment, report.fraction);
     report.state = complete ? ReplayState::kArrived : ReplayState::kWaiting;
     report.reason = complete
                         ? "arrived at the end of the route"
@@ -517,8 +522,7 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
   report.sight.stored = static_cast<int>(follower->segment().features.size());
   report.magnification = follower->magnification();
   report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
-  report.progress =
-      (report.segment.value() + report.fraction) / static_cast<double>(segments.size());
+  report.progress = ProgressAt(report.segment, report.fraction);
   if (confidence.ever_sure() && follower->segment().has_odometry) {
     // A segment's start may still be ahead: its features are followed as soon as they are in view.
     const double length_m = follower->segment().length_m;
@@ -539,7 +543,7 @@ ReplayStep ReplaySession::State::Report(const replay::FollowStep& step) const {
 }
 
 ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route)
-    : state_(std::make_unique<State>(options, route.image_width_px)) {
+    : state_(std::make_unique<State>(options, route)) {
   ConfidenceOptions confidence;
   confidence.stand_when_covered = !AsPrinted(options.method);
   state_->confidence = Confidence(confidence);

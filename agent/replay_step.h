@@ -26,7 +26,7 @@ struct ReplayStep {
   Trust trust = Trust::kSeeking;
   SegmentIndex segment;   // the one being followed
   double fraction = 0.0;  // of that segment, 0..1
-  double progress = 0.0;  // of the route as far as it is known, 0..1, by segment count
+  double progress = 0.0;  // of the route as far as it was announced, 0..1, by segment count
   // Place on the route, in the scout's metres from its beginning; nothing before the robot has
   // found the route, and on one that was taught without odometry.
   std::optional<double> along_m;

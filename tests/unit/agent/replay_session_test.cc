@@ -161,6 +161,27 @@ TEST_P(ReplaySessionTest, ACameraThatGivesNoPicturesAtAllIsLost) {
   EXPECT_THAT(last.reason, HasSubstr("empty frame"));
 }
 
+// Segments come one by one; where the robot is on the route does not depend on how many have.
+TEST_P(ReplaySessionTest, ProgressIsOfTheWholeRouteAlsoWhileItComes) {
+  std::vector<route::Segment> segments = Taught(odometry());
+  ASSERT_GE(segments.size(), 1U);
+  route::RouteInfo info;
+  info.image_width_px = Walk().front().width;
+  info.image_height_px = Walk().front().height;
+  info.segment_count = 20;
+  ReplaySession session({}, info);
+  ASSERT_TRUE(session.AddSegment(segments.front()));
+  const auto step = session.Observe({StampOf(0), Walk().front(), PoseAt(0, odometry())});
+  ASSERT_TRUE(step);
+  EXPECT_LE(step->progress, 1.0 / 20.0);
+  for (int i = 1; i < 10; ++i) {
+    const auto next =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry())});
+    ASSERT_TRUE(next);
+    EXPECT_LE(next->progress, 1.0 / 20.0);
+  }
+}
+
 // It may as well be at the beginning of a lap: it has not come there.
 TEST(ReplaySessionByViews, ARobotThatWasPutAtTheEndIsNotDrivenPastIt) {
   ReplayMethodOptions options;
