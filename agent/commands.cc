@@ -4,13 +4,16 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <utility>
+#include <vector>
 
-#include "agent/cli/open_exchange.h"
-#include "agent/cli/place_options.h"
-#include "agent/cli/stop_signal.h"
 #include "agent/fetch.h"
 #include "services/base/time.h"
+#include "services/program/open_exchange.h"
+#include "services/program/output_file.h"
+#include "services/program/place_options.h"
+#include "services/program/stop_signal.h"
 
 namespace trailcast::agent {
 namespace {
@@ -19,11 +22,13 @@ namespace {
 constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
 void AddRoute(CLI::App& command, std::string& route) {
-  command.add_option("--route", route, "The route's name")->required()->check(cli::NameValidator());
+  command.add_option("--route", route, "The route's name")
+      ->required()
+      ->check(program::NameValidator());
 }
 
 void AddRevision(CLI::App& command, std::uint32_t& revision, const char* help) {
-  command.add_option("--revision", revision, help)->check(CLI::PositiveNumber);
+  command.add_option("--revision", revision, help)->check(program::RevisionValidator());
 }
 
 void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
@@ -36,7 +41,7 @@ void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
 Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
                                                       const exchange::TopicUse& use) {
   if (!options.server) return nullptr;
-  return cli::OpenExchange(options.common, cli::WithAgents(use));
+  return program::OpenExchange(options.common, program::WithAgents(use));
 }
 
 ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& teach) {
@@ -44,8 +49,16 @@ ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& 
   link.agent = AgentId(options.common.name);
   link.store_file = options.store_file;
   link.delivery_timeout = ToMilliseconds(teach.delivery_timeout_s);
-  link.stop = [] { return cli::StopSignal::requested(); };
+  link.stop = [] { return program::StopSignal::requested(); };
   return link;
+}
+
+// Asked before the drive, so that what is to tell of it is not lost after.
+Result<void> CanAllBeWritten(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files) {
+    if (auto can = program::CanBeWritten(file); !can) return can;
+  }
+  return {};
 }
 
 Result<void> Tell(const Summary& summary, const CommandOptions& options) {
@@ -58,7 +71,7 @@ Result<void> Tell(const Summary& summary, const CommandOptions& options) {
 Result<int> Ended(const Result<Summary>& summary, const CommandOptions& options) {
   if (!summary) return tl::unexpected(summary.error());
   if (auto told = Tell(*summary, options); !told) return tl::unexpected(told.error());
-  return cli::kExitOk;
+  return program::kExitOk;
 }
 
 FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayCommand& replay) {
@@ -69,7 +82,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.store_file = options.store_file;
   follower.link.wait_for_route = replay.wait_for_route;
   follower.link.wait = ToMilliseconds(replay.wait_s);
-  follower.link.stop = [] { return cli::StopSignal::requested(); };
+  follower.link.stop = [] { return program::StopSignal::requested(); };
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
@@ -88,7 +101,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
 }  // namespace
 
 void AddSharedOptions(CLI::App& app, CommandOptions& options) {
-  cli::AddCommonOptions(app, options.common);
+  program::AddCommonOptions(app, options.common);
   app.add_option("--store", options.store_file,
                  "This agent's routes: a SQLite file, created if missing")
       ->required()
@@ -105,11 +118,12 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
   command
       .add_option("--tag", teach.tags,
                   "A word by which the route is found in the catalog; may be given several times")
-      ->check(cli::NameValidator())
+      ->check(program::NameValidator())
       ->expected(1, static_cast<int>(route::kMaxTags))
       ->take_all()
       ->allow_extra_args(false);
-  cli::AddPlaceOptions(command, "place", "Where the route begins, for the catalog", teach.place);
+  program::AddPlaceOptions(command, "place", "Where the route begins, for the catalog",
+                           teach.place);
   AddDeliveryTimeout(command, teach);
   AddDeviceOptions(command, teach.device, true);
 }
@@ -170,6 +184,9 @@ void AddDeliverOptions(CLI::App& command, TeachCommand& deliver) {
 }
 
 Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
+  if (auto can = CanAllBeWritten({options.report, teach.device.truth}); !can) {
+    return tl::unexpected(can.error());
+  }
   auto opened = OpenDevice(teach.device, options.common);
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
@@ -183,9 +200,11 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
 }
 
 Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver) {
+  if (auto can = program::CanBeWritten(options.report); !can) return tl::unexpected(can.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = cli::OpenExchange(options.common, cli::WithAgents(exchange::ScoutTopics()));
+  auto exchange =
+      program::OpenExchange(options.common, program::WithAgents(exchange::ScoutTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
   return Ended(
       DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),
@@ -193,9 +212,11 @@ Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& delive
 }
 
 Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
+  if (auto can = program::CanBeWritten(options.report); !can) return tl::unexpected(can.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = cli::OpenExchange(options.common, cli::WithAgents(exchange::FollowerTopics()));
+  auto exchange =
+      program::OpenExchange(options.common, program::WithAgents(exchange::FollowerTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
   FollowerLinkOptions link;
   link.agent = AgentId(options.common.name);
@@ -203,11 +224,16 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
   link.revision = {.number = fetch.revision, .newest = true};
   link.store_file = options.store_file;
   link.wait = ToMilliseconds(fetch.wait_s);
-  link.stop = [] { return cli::StopSignal::requested(); };
+  link.stop = [] { return program::StopSignal::requested(); };
   return Ended(Fetch(link, std::move(*store), std::move(*exchange)), options);
 }
 
 Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay) {
+  if (auto can =
+          CanAllBeWritten({options.report, replay.csv, replay.diagnosis.log, replay.device.truth});
+      !can) {
+    return tl::unexpected(can.error());
+  }
   auto opened = OpenDevice(replay.device, options.common);
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
@@ -223,9 +249,9 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (written) written = outcome->diagnosed;
   if (outcome->error) return tl::unexpected(*outcome->error);
   if (!written) return tl::unexpected(written.error());
-  if (outcome->success) return cli::kExitOk;
+  if (outcome->success) return program::kExitOk;
   spdlog::warn("not arrived: {} ({})", outcome->state, outcome->reason);
-  return cli::kExitNotArrived;
+  return program::kExitNotArrived;
 }
 
 }  // namespace trailcast::agent

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "agent/cli/command_line.h"
-#include "agent/device_options.h"
+#include "agent/device/device_options.h"
 #include "agent/follower.h"
 #include "agent/scout.h"
+#include "services/program/command_line.h"
 
 namespace trailcast::agent {
 
 // What all commands of trailcast-agent are told.
 struct CommandOptions {
-  cli::CommonOptions common;
+  program::CommonOptions common;
   std::string store_file;
   bool server = false;  // join the network
   std::filesystem::path report;

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "agent/follower_link.h"
-#include "agent/summary.h"
+#include "agent/diagnosis/summary.h"
+#include "agent/link/follower_link.h"
 
 namespace trailcast::agent {
 

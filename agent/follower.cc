@@ -6,8 +6,8 @@
 #include <ctime>
 #include <utility>
 
+#include "agent/device/standstill.h"
 #include "agent/progress_watch.h"
-#include "agent/standstill.h"
 #include "agent/yielding.h"
 
 namespace trailcast::agent {

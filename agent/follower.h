@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "agent/device.h"
+#include "agent/device/device.h"
 #include "agent/diagnosis/diagnosis.h"
-#include "agent/follower_link.h"
+#include "agent/diagnosis/replay_log.h"
+#include "agent/diagnosis/summary.h"
 #include "agent/keep_distance.h"
-#include "agent/replay_log.h"
-#include "agent/summary.h"
+#include "agent/link/follower_link.h"
 
 namespace trailcast::agent {
 

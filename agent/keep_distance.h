@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "agent/neighbours.h"
+#include "agent/link/neighbours.h"
 
 namespace trailcast::agent {
 

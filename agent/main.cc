@@ -1,10 +1,10 @@
-#include "agent/cli/heartbeat.h"
-#include "agent/cli/stop_signal.h"
 #include "agent/commands.h"
+#include "services/program/heartbeat.h"
+#include "services/program/stop_signal.h"
 
 namespace {
 
-namespace cli = trailcast::cli;
+namespace program = trailcast::program;
 namespace agent = trailcast::agent;
 
 constexpr const char* kFooter = R"(Examples:
@@ -50,26 +50,26 @@ int Run(int argc, char** argv) {
   agent::AddReplayOptions(*replay_app, replay);
   agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
-  CLI::App* health_app = cli::AddHeartbeat(app, options.common);
+  CLI::App* health_app = program::AddHeartbeat(app, options.common);
   for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app, health_app}) {
     ShareHelp(app, *command);
   }
-  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  if (health_app->parsed()) return cli::RunHealth(app, options.common);
+  if (const auto ended = program::Parse(app, argc, argv)) return *ended;
+  if (health_app->parsed()) return program::RunHealth(app, options.common);
   if (options.common.name.empty()) {
     options.common.name = replay_app->parsed() || fetch_app->parsed() ? "follower" : "scout";
   }
-  cli::SetUpLog(options.common);
-  const cli::StopSignal stop;
+  program::SetUpLog(options.common);
+  const program::StopSignal stop;
   const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
                       : replay_app->parsed() ? agent::RunReplay(options, replay)
                       : fetch_app->parsed()  ? agent::RunFetch(options, fetch)
                                              : agent::RunDeliver(options, deliver);
-  return status ? *status : cli::Complain(app, status.error());
+  return status ? *status : program::Complain(app, status.error());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return cli::RunMain("trailcast-agent", [&] { return Run(argc, argv); });
+  return program::RunMain("trailcast-agent", [&] { return Run(argc, argv); });
 }

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "agent/replay_session.h"
+#include "agent/session/replay_session.h"
 #include "services/base/time.h"
 
 namespace trailcast::agent {

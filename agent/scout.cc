@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "agent/standstill.h"
-#include "agent/teach_session.h"
+#include "agent/device/standstill.h"
+#include "agent/session/teach_session.h"
 
 namespace trailcast::agent {
 namespace {
@@ -28,10 +28,16 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   return info;
 }
 
+// Shorter than any that somebody meant to teach.
+constexpr double kLeastRoute_m = 0.2;
+// Two to five thousand are usual.
+constexpr double kManyBytes_per_m = 10'000.0;
+
 // What the control loop counts.
 struct Drive {
   int frames = 0;
   std::size_t features = 0;  // in finished segments
+  bool has_odometry = false;
   bool dark = false;
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
 };
@@ -39,6 +45,7 @@ struct Drive {
 // Hands a finished segment over; never waits for it.
 Result<void> HandOver(route::Segment segment, ScoutLink& link, Drive& drive, TeachingNow& now) {
   drive.features += segment.features.size();
+  drive.has_odometry = segment.has_odometry;
   now.speed_mps = segment.speed_mps();
   if (link.Offer(std::move(segment))) return {};
   return Fail(ErrorCode::kUnavailable, "the store does not keep up with teaching");
@@ -184,6 +191,19 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
                            : AgentMode::kArrived,
              judged ? "" : judged.error().message);
   if (!judged) return tl::unexpected(judged.error());
+  if (drive.has_odometry && outcome->route->length_m < kLeastRoute_m) {
+    spdlog::warn(
+        "the route is {:.2f} m long: was the robot driven? ('trailcast robot' drives itself with "
+        "--scout)",
+        outcome->route->length_m);
+  } else if (drive.has_odometry &&
+             outcome->route->bytes > kManyBytes_per_m * outcome->route->length_m) {
+    spdlog::warn(
+        "the route takes {:.0f} kB a metre, where 2 to 5 are usual: features are soon lost, so "
+        "followers will find few; is what the camera sees bland, blurred, or odometry in other "
+        "units than metres?",
+        1e-3 * outcome->route->bytes / outcome->route->length_m);
+  }
   return Summarize(*outcome, drive);
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "agent/device.h"
-#include "agent/scout_link.h"
-#include "agent/summary.h"
+#include "agent/device/device.h"
+#include "agent/diagnosis/summary.h"
+#include "agent/link/scout_link.h"
 
 namespace trailcast::agent {
 

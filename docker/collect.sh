@@ -57,7 +57,14 @@ for image in "${images[@]}"; do
   case $image in
     server | agent) collect "$image" '' "$programs/trailcast-$image" ;;
     robot) collect robot agent "$programs/trailcast" "$here/robot.sh" ;;
-    tools) collect tools '' "$programs"/{trailcast{,-agent,-server},libtrailcast_codecs.so} ;;
+    tools)
+      collect tools '' "$programs"/{trailcast{,-agent,-server},libtrailcast_{codecs,simulated}.so}
+      # What plots are lettered with.
+      install -d "$destination/tools/etc"
+      install -D -m 644 -t "$destination/tools/usr/share/fonts" \
+        /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+      cp -rL /etc/fonts "$destination/tools/etc"
+      ;;
     *)
       printf "collect.sh: there is no image '%s': server, agent, robot or tools\n" "$image" >&2
       exit 2

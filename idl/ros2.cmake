@@ -4,6 +4,6 @@ idlc_generate(TARGET trailcast_ros2_types_generated NO_TYPE_INFO FILES
 add_library(trailcast_ros2_types STATIC)
 target_link_libraries(
   trailcast_ros2_types
-  PRIVATE trailcast_ros2_types_generated
+  PRIVATE $<BUILD_INTERFACE:trailcast_ros2_types_generated>
   PUBLIC CycloneDDS::ddsc)
-target_include_directories(trailcast_ros2_types SYSTEM INTERFACE "${CMAKE_CURRENT_BINARY_DIR}")
+target_include_directories(trailcast_ros2_types SYSTEM INTERFACE "$<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>")

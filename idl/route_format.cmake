@@ -12,5 +12,5 @@ add_custom_command(
   VERBATIM)
 add_library(trailcast_route_format STATIC "${TRAILCAST_ROUTE_PB}.cc" "${TRAILCAST_ROUTE_PB}.h")
 target_compile_features(trailcast_route_format PUBLIC cxx_std_20)
-target_include_directories(trailcast_route_format SYSTEM PUBLIC "${TRAILCAST_GENERATED_DIR}")
+target_include_directories(trailcast_route_format SYSTEM PUBLIC "$<BUILD_INTERFACE:${TRAILCAST_GENERATED_DIR}>")
 target_link_libraries(trailcast_route_format PUBLIC protobuf::libprotobuf-lite)

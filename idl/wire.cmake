@@ -5,6 +5,6 @@ add_library(trailcast_wire_types STATIC)
 # PRIVATE: the generated target's sources must not be compiled again by each user.
 target_link_libraries(
   trailcast_wire_types
-  PRIVATE trailcast_wire_types_generated
+  PRIVATE $<BUILD_INTERFACE:trailcast_wire_types_generated>
   PUBLIC CycloneDDS::ddsc)
-target_include_directories(trailcast_wire_types SYSTEM INTERFACE "${CMAKE_CURRENT_BINARY_DIR}")
+target_include_directories(trailcast_wire_types SYSTEM INTERFACE "$<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <vector>
@@ -8,19 +9,26 @@
 
 namespace trailcast::server {
 
-// Which agent said last that it holds which revisions. It still does when it is gone from the
-// network: switched off, or out of reach.
+// Which agent said last that it holds which revisions. It still does when it is switched off or out
+// of reach, for a while; one that was not heard of for so many days is told of no longer.
 class Holders {
  public:
-  void Note(const exchange::AgentStatus& status);
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::hours kForgotten{3 * 24};
+
+  void Note(const exchange::AgentStatus& status, Time now);
   // Of the routes given, as many as a reply carries.
-  [[nodiscard]] std::vector<exchange::Holding> Of(
-      const std::vector<route::RouteInfo>& routes) const;
+  [[nodiscard]] std::vector<exchange::Holding> Of(const std::vector<route::RouteInfo>& routes,
+                                                  Time now) const;
 
  private:
+  struct Held {
+    std::vector<route::RouteKey> keys;
+    Time heard;
+  };
   static constexpr std::size_t kMostAgents = 4096;  // strangers can make up names
 
-  std::map<AgentId, std::vector<route::RouteKey>> held_;
+  std::map<AgentId, Held> held_;
   std::map<route::RouteKey, std::set<AgentId>>
       holders_;  // the same, for the catalog's many questions
 };

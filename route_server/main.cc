@@ -1,12 +1,12 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
-#include "agent/cli/command_line.h"
-#include "agent/cli/heartbeat.h"
-#include "agent/cli/open_exchange.h"
-#include "agent/cli/stop_signal.h"
 #include "route_server/check.h"
 #include "route_server/server.h"
+#include "services/program/command_line.h"
+#include "services/program/heartbeat.h"
+#include "services/program/open_exchange.h"
+#include "services/program/stop_signal.h"
 #include "services/store/damaged_store.h"
 #include "services/store/open_store.h"
 #include "services/store/postgres_url.h"
@@ -14,7 +14,7 @@
 namespace {
 
 using trailcast::AgentId;
-namespace cli = trailcast::cli;
+namespace program = trailcast::program;
 
 constexpr const char* kFooter = R"(Examples:
   trailcast-server --store routes.db
@@ -90,48 +90,49 @@ void KeepHeapWhole() {
   mallopt(M_MMAP_THRESHOLD, kHalfAMegabyte);  // NOLINT(concurrency-mt-unsafe): the only thread yet
 }
 
-int Serve(const CLI::App& app, const cli::CommonOptions& common, const StoreOptions& options,
+int Serve(const CLI::App& app, const program::CommonOptions& common, const StoreOptions& options,
           const HttpOptions& http) {
   KeepHeapWhole();
-  cli::SetUpLog(common);
-  const cli::StopSignal stop;
+  program::SetUpLog(common);
+  const program::StopSignal stop;
   auto store = OpenStore(options);
-  if (!store) return cli::Complain(app, store.error());
-  auto exchange = cli::OpenExchange(common, cli::WithAgents(trailcast::exchange::ServerTopics()));
-  if (!exchange) return cli::Complain(app, exchange.error());
+  if (!store) return program::Complain(app, store.error());
+  auto exchange =
+      program::OpenExchange(common, program::WithAgents(trailcast::exchange::ServerTopics()));
+  if (!exchange) return program::Complain(app, exchange.error());
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
-  if (!server) return cli::Complain(app, server.error());
+  if (!server) return program::Complain(app, server.error());
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};
   if (policy.any()) (*server)->Retain(policy);
   if (http.port != 0) {
     auto page = trailcast::server::HttpPage::Open(http.host, http.port);
-    if (!page) return cli::Complain(app, page.error());
+    if (!page) return program::Complain(app, page.error());
     (*server)->ShowOn(std::move(*page));
     spdlog::info("health and metrics: http://{}:{}/health and /metrics", http.host, http.port);
   }
-  if (auto ran = (*server)->Run([] { return cli::StopSignal::requested(); }); !ran) {
-    return cli::Complain(app, ran.error());
+  if (auto ran = (*server)->Run([] { return program::StopSignal::requested(); }); !ran) {
+    return program::Complain(app, ran.error());
   }
-  return cli::kExitOk;
+  return program::kExitOk;
 }
 
 int CheckStore(const CLI::App& app, const std::string& location, bool repair) {
   const auto whole = trailcast::server::Check(location, repair);
-  if (!whole) return cli::Complain(app, whole.error());
-  return *whole ? cli::kExitOk : cli::kExitFailure;
+  if (!whole) return program::Complain(app, whole.error());
+  return *whole ? program::kExitOk : program::kExitFailure;
 }
 
 int Run(int argc, char** argv) {
   CLI::App app("Keeps the routes of a swarm: stores what scouts teach, serves it to followers.",
                "trailcast-server");
   app.footer(kFooter);
-  cli::CommonOptions common;
+  program::CommonOptions common;
   common.name = "server";
   StoreOptions store;
-  cli::AddCommonOptions(app, common);
+  program::AddCommonOptions(app, common);
   AddStoreOptions(app, store);
   HttpOptions http;
   app.add_option("--http-port", http.port,
@@ -146,9 +147,9 @@ int Run(int argc, char** argv) {
   check->fallthrough();
   check->add_flag("--repair", repair,
                   "Make a store of what is whole, and keep the damaged file beside it");
-  const CLI::App* health = cli::AddHeartbeat(app, common);
-  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
-  if (health->parsed()) return cli::RunHealth(app, common);
+  const CLI::App* health = program::AddHeartbeat(app, common);
+  if (const auto ended = program::Parse(app, argc, argv)) return *ended;
+  if (health->parsed()) return program::RunHealth(app, common);
   if (check->parsed()) return CheckStore(app, store.location, repair);
   return Serve(app, common, store, http);
 }
@@ -156,5 +157,5 @@ int Run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return cli::RunMain("trailcast-server", [&] { return Run(argc, argv); });
+  return program::RunMain("trailcast-server", [&] { return Run(argc, argv); });
 }

@@ -89,7 +89,9 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
 void Server::Receive(const exchange::Message& message) {
   presence_.Handle(message);
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
-  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) holders_.Note(*status);
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    holders_.Note(*status, steady_clock::now());
+  }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
   }
@@ -170,7 +172,7 @@ exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
   exchange::CatalogReply reply = request.query.view.empty()
                                      ? catalog::Answer(request, name, *store_)
                                      : views_.Answer(request, name);
-  reply.holdings = holders_.Of(reply.page.routes);
+  reply.holdings = holders_.Of(reply.page.routes, begin);
   const std::chrono::duration<double> took = steady_clock::now() - begin;
   metrics_.queries[KindOf(request.query)].Note(took.count());
   return reply;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "agent/cli/presence.h"
 #include "route_server/holders.h"
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
@@ -13,6 +12,7 @@
 #include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
+#include "services/program/presence.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::server {
@@ -53,7 +53,7 @@ class Server {
   catalog::ViewCatalog views_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::unique_ptr<exchange::RouteKeeper> keeper_;
-  cli::Presence presence_;
+  program::Presence presence_;
   Journal journal_;
   Holders holders_;
   std::uint64_t told_dropped_ = 0;

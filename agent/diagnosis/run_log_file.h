@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "agent/mailbox.h"
+#include "services/base/mailbox.h"
 #include "services/base/result.h"
 
 namespace trailcast::agent {

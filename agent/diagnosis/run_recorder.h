@@ -4,7 +4,7 @@
 #include <string>
 
 #include "agent/diagnosis/run_log.h"
-#include "agent/replay_session.h"
+#include "agent/session/replay_session.h"
 #include "services/base/time.h"
 #include "services/motion/motion.h"
 #include "services/route/route.h"

@@ -31,7 +31,8 @@ function(trailcast_target_defaults target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
                                            -Wnon-virtual-dtor -Woverloaded-virtual)
-  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+                                              "$<INSTALL_INTERFACE:include/trailcast>")
 endfunction()
 
 # trailcast_library(<name> SOURCES a.cc b.cc DEPS x PRIVATE_DEPS y)
@@ -65,6 +66,8 @@ function(trailcast_test name)
   add_executable(${name} ${ARG_SOURCES})
   trailcast_target_defaults(${name})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  # A quarter less time to compile; what is tested is optimised all the same.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(
     ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                     TRAILCAST_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")

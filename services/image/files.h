@@ -27,7 +27,8 @@ namespace trailcast::image {
 [[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 
-// The frames of a recorded run, in order: a folder of pictures (sorted by name) or a video file.
+// The frames of a recorded run, in order: a folder of pictures (by name, f2 before f10) or a
+// video file.
 class FrameSequence {
  public:
   [[nodiscard]] static Result<std::unique_ptr<FrameSequence>> Open(

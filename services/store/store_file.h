@@ -10,9 +10,8 @@ namespace trailcast::store {
 
 // In SQLite's header, so that `file` and we can tell a route store from any other database: "TRCT".
 inline constexpr std::uint32_t kApplicationId = 0x54524354;
-// Version of the tables, in SQLite's user_version; older ones are brought up to date when opened.
+// Version of the tables, in SQLite's user_version.
 inline constexpr std::uint32_t kSchemaVersion = 4;
-inline constexpr std::uint32_t kOldestSchemaVersion = 1;
 
 // The file of a store, locked for this process and looked at before SQLite touches it (which would
 // create files beside it, or roll back a stranger's journal). The lock is the kernel's: it goes

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "agent/cli/command_line.h"
+#include "services/program/command_line.h"
 #include "services/store/route_store.h"
 #include "tests/bench/million_routes.h"
 #include "tests/support/taught_route.h"
@@ -101,5 +101,5 @@ int Run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trailcast::cli::RunMain("network_bench", [&] { return Run(argc, argv); });
+  return trailcast::program::RunMain("network_bench", [&] { return Run(argc, argv); });
 }

@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "agent/cli/command_line.h"
-#include "agent/cli/open_exchange.h"
-#include "agent/cli/presence.h"
-#include "agent/cli/stop_signal.h"
 #include "services/exchange/publish.h"
 #include "services/exchange/route_fetcher.h"
+#include "services/program/command_line.h"
+#include "services/program/open_exchange.h"
+#include "services/program/presence.h"
+#include "services/program/stop_signal.h"
 #include "services/route/digest.h"
 #include "tests/bench/network_bench.h"
 
@@ -99,7 +99,7 @@ class LightAgent {
   LightAgentOptions options_;
   AgentId self_;
   exchange::RouteExchange& exchange_;
-  cli::Presence presence_;
+  program::Presence presence_;
   std::set<std::string> others_;
   std::optional<exchange::RouteFetcher> fetcher_;
   bool fetched_ = false;
@@ -110,13 +110,13 @@ class LightAgent {
 }  // namespace
 
 Result<void> RunLightAgent(const LightAgentOptions& options) {
-  cli::CommonOptions common;
+  program::CommonOptions common;
   common.name = options.name;
   common.network_interface = options.network_interface;
-  const cli::StopSignal stop;
-  auto exchange = cli::OpenExchange(common, cli::WithAgents(exchange::FollowerTopics()));
+  const program::StopSignal stop;
+  auto exchange = program::OpenExchange(common, program::WithAgents(exchange::FollowerTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
-  return LightAgent(options, **exchange).Run([] { return cli::StopSignal::requested(); });
+  return LightAgent(options, **exchange).Run([] { return program::StopSignal::requested(); });
 }
 
 }  // namespace trailcast::bench

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <numeric>
 
-#include "services/dds/entities.h"
-#include "services/dds/wire.h"
+#include "services/dds/src/entities.h"
+#include "services/dds/src/wire.h"
 #include "tests/bench/network_bench.h"
 #include "tests/support/pieces.h"
 

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "agent/hand_over.h"
-#include "agent/replay_session.h"
-#include "agent/teach_session.h"
+#include "agent/session/hand_over.h"
+#include "agent/session/replay_session.h"
+#include "agent/session/teach_session.h"
 #include "services/replay/funnel_follower.h"
 #include "services/replay/path_follower.h"
 #include "services/teach/segment_recorder.h"
 #include "services/vision/feature_tracker.h"
-#include "services/vision/frame.h"
+#include "services/vision/src/frame.h"
 #include "tests/support/painted_wall.h"
 
 namespace trailcast {

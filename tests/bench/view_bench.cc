@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "agent/cli/command_line.h"
 #include "services/catalog/view_catalog.h"
+#include "services/program/command_line.h"
 #include "services/route/digest.h"
 #include "tests/bench/view_corpus.h"
 #include "tests/support/temp_dir.h"
@@ -213,7 +213,7 @@ int Run(std::uint32_t segments, const std::filesystem::path& data) {
 }  // namespace trailcast::bench
 
 int main(int argc, char** argv) {
-  return trailcast::cli::RunMain("bench_view", [&] {
+  return trailcast::program::RunMain("bench_view", [&] {
     const auto segments = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100'000UL;
     const std::filesystem::path data =
         argc > 2 ? argv[2] : std::filesystem::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "data";

@@ -7,14 +7,14 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "agent/replay_session.h"
-#include "agent/teach_session.h"
+#include "agent/session/replay_session.h"
+#include "agent/session/teach_session.h"
 #include "services/image/files.h"
-#include "services/sim/judge.h"
-#include "services/sim/path_follow_driver.h"
-#include "services/sim/place.h"
-#include "services/sim/random.h"
-#include "services/sim/simulated_robot.h"
+#include "services/sim/core/judge.h"
+#include "services/sim/core/path_follow_driver.h"
+#include "services/sim/core/random.h"
+#include "services/sim/core/simulated_robot.h"
+#include "services/sim/places/place.h"
 #include "services/vision/view_features.h"
 
 namespace trailcast::bench {

@@ -4,10 +4,10 @@
 #include <array>
 #include <limits>
 
-#include "services/dds/domain_config.h"
-#include "services/dds/entities.h"
-#include "services/dds/qos_table.h"
-#include "services/dds/wire.h"
+#include "services/dds/src/domain_config.h"
+#include "services/dds/src/entities.h"
+#include "services/dds/src/qos_table.h"
+#include "services/dds/src/wire.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/topics.h"
 #include "tests/contract/network.h"

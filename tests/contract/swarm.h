@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "services/exchange/faulty_exchange.h"
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_keeper.h"
 #include "services/exchange/route_sender.h"
 #include "tests/contract/network.h"
+#include "tests/support/faulty_exchange.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/pieces.h"
 

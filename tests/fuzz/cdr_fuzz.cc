@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "services/dds/wire.h"
+#include "services/dds/src/wire.h"
 #include "services/exchange/bounds.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "agent/odometry_file.h"
+#include "agent/device/odometry_file.h"
 #include "tests/fuzz/fuzz.h"
 
 using trailcast::fuzz::Require;

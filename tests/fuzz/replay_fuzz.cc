@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "agent/replay_session.h"
-#include "agent/teach_session.h"
+#include "agent/session/replay_session.h"
+#include "agent/session/teach_session.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/walk_frames.h"
 

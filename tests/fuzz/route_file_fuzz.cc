@@ -1,7 +1,7 @@
 // Route files: the input as it is, and with its size and checksum made right, as somebody would who
 // means to deceive. What is taken is within bounds and all there.
-#include "services/archive/layout.h"
 #include "services/archive/route_file.h"
+#include "services/archive/src/layout.h"
 #include "services/exchange/bounds.h"
 #include "services/route/digest.h"
 #include "tests/fuzz/fuzz.h"

@@ -3,7 +3,7 @@
 
 #include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/run_log_reader.h"
-#include "agent/tool/story.h"
+#include "services/explain/story.h"
 #include "tests/fuzz/fuzz.h"
 
 using trailcast::fuzz::Require;
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             "a row that was read can be written and read");
   }
   for (const bool all : {false, true}) {
-    Require(!trailcast::tool::TellStory(*log, all).empty(), "every log has a story");
+    Require(!trailcast::explain::TellStory(*log, all).empty(), "every log has a story");
   }
   return 0;
 }

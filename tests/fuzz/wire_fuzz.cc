@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "services/dds/wire.h"
+#include "services/dds/src/wire.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/topics.h"
 #include "tests/fuzz/fuzz.h"

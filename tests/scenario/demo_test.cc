@@ -11,11 +11,11 @@
 #include <thread>
 #include <vector>
 
-#include "agent/tool/child_process.h"
+#include "services/demo/child_process.h"
 #include "services/image/files.h"
 #include "tests/support/temp_dir.h"
 
-namespace trailcast::tool {
+namespace trailcast::demo {
 namespace {
 
 using std::chrono::milliseconds;
@@ -161,4 +161,4 @@ TEST_F(DemoTest, AskingForRoutesWhereThereIsNoServerFailsAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::demo

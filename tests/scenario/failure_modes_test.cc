@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "services/image/canvas.h"
-#include "services/sim/scene_builder.h"
+#include "services/sim/core/scene_builder.h"
 #include "tests/scenario/taught_run.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 // How far the robot stands from a point, along and across the path's first leg.
@@ -137,4 +137,4 @@ TEST(FailureMode, ARobotThatSeesOnlyDistantFeaturesIsNeverSureOfItsPlace) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

@@ -6,10 +6,10 @@
 
 #include <filesystem>
 
-#include "agent/tool/recording/recording_batch.h"
-#include "agent/tool/recording/recording_report.h"
+#include "services/trial/judge/recording_batch.h"
+#include "services/trial/judge/recording_report.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ TEST_F(JudgedRecordingsTest, AnotherPlaceIsNotFollowed) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "agent/tool/trial_batch.h"
+#include "services/trial/trial_batch.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 // Chen & Birchfield's method as they measured it, one robot teaching and following, on the first
@@ -61,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(Outdoors, PrintedMethod,
                          [](const auto& test) { return std::string(test.param.scenario); });
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

@@ -2,7 +2,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "services/trial/reference.h"
+#include "services/trial/recording/reference.h"
 #include "tests/scenario/programs.h"
 
 namespace trailcast::test {

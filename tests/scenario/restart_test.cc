@@ -8,7 +8,7 @@
 
 #include "tests/scenario/taught_run.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 using agent::ReplayState;
@@ -162,4 +162,4 @@ TEST(RestartTest, SaysWhyItCannotGoOnWhereItWasTurnedRound) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

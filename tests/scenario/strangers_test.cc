@@ -1,7 +1,7 @@
 // Strangers at a fleet with DDS Security: each gets nothing, the fleet does not notice, and the
 // server's log tells once who was kept out and why.
-#include "services/security/files.h"
-#include "services/security/signing.h"
+#include "services/security/src/files.h"
+#include "services/security/src/signing.h"
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/secured_fleet.h"
 #include "tests/support/pieces.h"

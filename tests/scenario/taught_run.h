@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "agent/tool/trial_teach.h"
-#include "services/sim/judge.h"
-#include "services/sim/place.h"
+#include "services/sim/core/judge.h"
+#include "services/sim/places/place.h"
+#include "services/trial/trial_teach.h"
 
-namespace trailcast::tool::test {
+namespace trailcast::trial::test {
 
 inline sim::Place Open(const std::string& name) {
   sim::PlaceOptions options;
@@ -75,4 +75,4 @@ inline Ending FollowIn(
   return ending;
 }
 
-}  // namespace trailcast::tool::test
+}  // namespace trailcast::trial::test

@@ -8,12 +8,12 @@
 #include <random>
 #include <string>
 
-#include "agent/tool/trial_batch.h"
-#include "agent/tool/trial_csv.h"
 #include "services/image/canvas.h"
-#include "services/sim/scene_builder.h"
+#include "services/sim/core/scene_builder.h"
+#include "services/trial/trial_batch.h"
+#include "services/trial/trial_csv.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 using ::testing::AllOf;
@@ -71,7 +71,7 @@ TEST_P(FollowingQuality, IsKept) {
   ASSERT_TRUE(setup.has_value()) << setup.error().message;
   const std::vector<TrialRow> rows = RunAll(*setup, options);
   ASSERT_EQ(rows.size(), 1U);
-  const Verdict& verdict = rows.front().verdict;
+  const PathVerdict& verdict = rows.front().verdict;
   EXPECT_TRUE(rows.front().arrived) << TrialTable(rows);
   EXPECT_LT(verdict.final_error_m, wanted.final_m) << TrialTable(rows);
   EXPECT_LT(verdict.mean_path_error_m, wanted.mean_m) << TrialTable(rows);
@@ -277,4 +277,4 @@ TEST(PrepareTrials, NamesWhatThereIsWhenAskedForWhatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

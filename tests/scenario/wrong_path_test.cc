@@ -5,7 +5,7 @@
 
 #include "tests/scenario/taught_run.h"
 
-namespace trailcast::tool {
+namespace trailcast::trial {
 namespace {
 
 constexpr double kTaught_m = 5.0;
@@ -33,4 +33,4 @@ INSTANTIATE_TEST_SUITE_P(Worlds, WrongPath,
                                            std::pair("paved", "ramp")));
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::trial

@@ -4,15 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 
-#include "agent/cli/command_line.h"
-#include "agent/cli/stop_signal.h"
+#include "services/program/command_line.h"
+#include "services/program/stop_signal.h"
 #include "tests/soak/soak.h"
 #include "tests/support/network_lab.h"
 #include "tests/support/temp_dir.h"
 
 namespace {
 
-namespace cli = trailcast::cli;
+namespace program = trailcast::program;
 namespace soak = trailcast::soak;
 
 constexpr const char* kFooter =
@@ -35,22 +35,22 @@ int Run(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Draws the faults, and the robots' errors");
   app.add_option("--folder", folder, "Keeps logs and stores here; default: a temporary one");
   app.add_option("--csv", options.csv, "Writes the server's memory, threads and descriptors here");
-  if (const auto ended = cli::Parse(app, argc, argv)) return *ended;
+  if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   if (const std::string obstacle = trailcast::test::NetworkLab::Obstacle(); !obstacle.empty()) {
-    return cli::Complain(app, {trailcast::ErrorCode::kUnavailable, obstacle});
+    return program::Complain(app, {trailcast::ErrorCode::kUnavailable, obstacle});
   }
   options.length = std::chrono::minutes(minutes);
   const trailcast::test::TempDir temporary;
   options.folder = folder.empty() ? temporary.path() : std::filesystem::absolute(folder);
-  const cli::StopSignal stop;
+  const program::StopSignal stop;
   soak::Soak run(options);
-  const soak::Report report = run.Run([] { return cli::StopSignal::requested(); });
+  const soak::Report report = run.Run([] { return program::StopSignal::requested(); });
   fmt::print("{}", report.Text());
-  return report.failures.empty() ? cli::kExitOk : cli::kExitFailure;
+  return report.failures.empty() ? program::kExitOk : program::kExitFailure;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return cli::RunMain("soak", [&] { return Run(argc, argv); });
+  return program::RunMain("soak", [&] { return Run(argc, argv); });
 }

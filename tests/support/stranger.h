@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "services/dds/dds_exchange.h"
-#include "services/security/files.h"
 #include "services/security/member_keys.h"
-#include "services/security/signing.h"
+#include "services/security/src/files.h"
+#include "services/security/src/signing.h"
 
 namespace trailcast::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "agent/device.h"
+#include "agent/device/device.h"
 #include "tests/support/walk_frames.h"
 
 namespace trailcast::test {

@@ -1,4 +1,4 @@
-#include "agent/place_finder.h"
+#include "agent/session/place_finder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

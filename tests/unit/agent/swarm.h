@@ -45,7 +45,7 @@ class Swarm {
     return folder_ / (agent + ".db");
   }
   std::unique_ptr<exchange::RouteExchange> Join(const exchange::TopicUse& use) {
-    return bus_.Open(cli::WithAgents(use));
+    return bus_.Open(program::WithAgents(use));
   }
 
   agent::ScoutOptions ScoutNamed(const std::string& name) const {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "agent/device.h"
+#include "agent/device/device.h"
 #include "tests/support/walk_frames.h"
 
 namespace trailcast::test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "services/archive/layout.h"
 #include "services/archive/route_file.h"
+#include "services/archive/src/layout.h"
 #include "services/route/digest.h"
 #include "services/route/info_codec.h"
 #include "tests/support/taught_route.h"

@@ -1,52 +1,93 @@
 // The rules of services/README.md that a compiler does not enforce: who may include whom, which
-// folder each third-party library lives in, and that what is meant to be pure reads no clock.
+// room each third-party library lives in, and that what is meant to be pure reads no clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "tests/unit/base/source_rooms.h"
 
 namespace trailcast {
 namespace {
 
 namespace fs = std::filesystem;
-using Folders = std::set<std::string>;
+using Rooms = std::set<std::string>;
 using testing::IsEmpty;
 
-// What each folder of services/ may include besides itself: base -> motion, route, image, belief ->
-// view -> vision, teach, replay, store -> exchange, archive, catalog, security -> dds, sim ->
-// agent, route_server.
-const std::map<std::string, Folders> kMayInclude{
-    {"base", {}},
-    {"motion", {"base"}},
-    {"image", {"base"}},
-    {"route", {"base", "motion"}},
-    {"vision", {"base", "motion", "image", "route", "view"}},
-    {"teach", {"base", "motion", "route", "view"}},
-    {"replay", {"base", "motion", "route"}},
-    {"view", {"base", "route"}},
-    {"belief", {"base"}},
-    {"store", {"base", "route"}},
-    {"exchange", {"base", "route", "store"}},
-    {"archive", {"base", "route", "exchange"}},
-    {"catalog", {"base", "route", "view", "store", "exchange"}},
-    {"security", {"base", "route", "exchange"}},
-    {"dds", {"base", "motion", "image", "route", "exchange", "security"}},
-    {"sim", {"base", "motion", "image"}},
-    {"trial", {"base", "image"}},
+// What each room may include besides itself. A room is a folder of services/ or agent/; what lies
+// in agent/ itself, as in route_server/, is a program.
+const std::map<std::string, Rooms> kMayInclude{
+    {"services/base", {}},
+    {"services/motion", {"services/base"}},
+    {"services/image", {"services/base"}},
+    {"services/route", {"services/base", "services/motion"}},
+    {"services/vision",
+     {"services/base", "services/motion", "services/image", "services/route", "services/view"}},
+    {"services/teach", {"services/base", "services/motion", "services/route", "services/view"}},
+    {"services/replay", {"services/base", "services/motion", "services/route"}},
+    {"services/view", {"services/base", "services/route"}},
+    {"services/belief", {"services/base"}},
+    {"services/store", {"services/base", "services/route"}},
+    {"services/exchange", {"services/base", "services/route", "services/store"}},
+    {"services/archive", {"services/base", "services/route", "services/exchange"}},
+    {"services/catalog",
+     {"services/base", "services/route", "services/view", "services/store", "services/exchange"}},
+    {"services/security", {"services/base", "services/route", "services/exchange"}},
+    {"services/dds",
+     {"services/base", "services/motion", "services/image", "services/route", "services/exchange",
+      "services/security"}},
+    {"services/sim", {"services/base", "services/motion", "services/image"}},
+    {"services/program",
+     {"services/base", "services/route", "services/exchange", "services/security", "services/dds"}},
+    {"services/plot", {"services/base", "services/image"}},
+    {"agent/session",
+     {"services/base", "services/motion", "services/image", "services/route", "services/view",
+      "services/vision", "services/teach", "services/replay", "services/belief"}},
+    {"agent/diagnosis",
+     {"services/base", "services/motion", "services/image", "services/route", "services/vision",
+      "services/replay", "agent/session"}},
+    {"agent/device",
+     {"services/base", "services/motion", "services/image", "services/dds", "services/sim",
+      "services/program", "agent/session"}},
+    {"agent/link",
+     {"services/base", "services/route", "services/store", "services/exchange", "services/program",
+      "agent/session"}},
+    {"agent/simulated",
+     {"services/base", "services/motion", "services/dds", "services/sim", "services/program",
+      "agent/device", "agent/diagnosis"}},
+    {"agent",
+     {"services/base", "services/motion", "services/image", "services/route", "services/store",
+      "services/exchange", "services/program", "agent/session", "agent/diagnosis", "agent/device",
+      "agent/link"}},
+    {"route_server",
+     {"services/base", "services/route", "services/store", "services/exchange", "services/catalog",
+      "services/program"}},
+    {"services/explain", {"services/base", "services/image", "services/plot", "agent/diagnosis"}},
+    {"services/trial",
+     {"services/base", "services/motion", "services/image", "services/route", "services/store",
+      "services/exchange", "services/sim", "services/plot", "agent/session", "agent/diagnosis",
+      "agent/device", "agent/simulated"}},
+    {"services/demo",
+     {"services/base", "services/image", "services/exchange", "services/sim", "services/program",
+      "services/plot", "services/trial"}},
+    {"services/tool",
+     {"services/base",    "services/image",    "services/route",    "services/view",
+      "services/vision",  "services/store",    "services/exchange", "services/archive",
+      "services/catalog", "services/security", "services/sim",      "services/program",
+      "services/plot",    "services/explain",  "services/trial",    "services/demo",
+      "agent/session",    "agent/diagnosis",   "agent/device",      "agent/simulated"}},
 };
 
-// Where each third-party library may be used, by the beginning of its headers' names. "services/x"
-// is one folder, "agent" a whole program, "*" everywhere.
+// The rooms where each third-party library may be used, by the beginning of its headers' names; "*"
+// is everywhere.
 struct Library {
   std::string prefix;
-  Folders homes;
+  Rooms homes;
 };
 const std::vector<Library> kLibraries{
     {"opencv2/", {"services/image", "services/trial", "services/vision"}},
@@ -60,11 +101,16 @@ const std::vector<Library> kLibraries{
     {"assimp/", {"services/sim"}},
     {"openssl/", {"services/route", "services/security"}},
     {"tl/", {"services/base"}},
-    {"CLI/", {"agent", "route_server"}},
+    {"CLI/",
+     {"services/program", "services/tool", "agent", "agent/device", "agent/simulated",
+      "route_server"}},
     {"httplib.h", {"route_server"}},
-    {"spdlog/", {"agent", "route_server"}},
+    {"spdlog/",
+     {"services/program", "agent", "agent/device", "agent/link", "agent/simulated",
+      "route_server"}},
     {"Eigen/", {"*"}},
     {"fmt/", {"*"}},
+    {"cairo/", {"services/plot"}},
 };
 // Headers of the system itself; anything else in angle brackets with a slash or a ".h" must be a
 // library of the list above.
@@ -78,56 +124,13 @@ const std::set<std::string> kSystemHeaders{
     "sys/time.h",     "sys/timerfd.h",  "sys/timex.h",  "sys/types.h",  "sys/un.h",
     "sys/utsname.h",  "sys/wait.h"};
 
-struct Include {
-  std::string folder;  // "services/vision", "agent", "route_server"
-  std::string where;   // file:line
-  std::string header;
-  bool quoted = false;
-};
-
-struct SourceLine {
-  std::string folder;
-  std::string where;
-  std::string text;
-};
-
-std::vector<SourceLine> ReadSources() {
-  const fs::path root(TRAILCAST_SOURCE_DIR);
-  std::vector<SourceLine> lines;
-  for (const char* top : {"services", "agent", "route_server"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".h" && extension != ".cc" && extension != ".c") continue;
-      const fs::path path = entry.path().lexically_relative(root);
-      auto part = path.begin();
-      std::string folder = *part++;
-      if (folder == "services") folder.append("/").append(part->string());
-      std::ifstream in(entry.path());
-      std::string text;
-      for (int number = 1; std::getline(in, text); ++number) {
-        lines.push_back({folder, path.string() + ":" + std::to_string(number), text});
-      }
-    }
-  }
-  return lines;
-}
-
-std::vector<Include> FindIncludes(const std::vector<SourceLine>& lines) {
-  const auto after = [](const std::string& text, std::string_view word) -> std::string {
-    const std::size_t start = text.find_first_not_of(" \t");
-    if (start == std::string::npos || !text.substr(start).starts_with(word)) return "";
-    return text.substr(start + word.size());
-  };
-  std::vector<Include> includes;
-  for (const SourceLine& line : lines) {
-    const std::string rest = after(after(line.text, "#"), "include");
-    const std::size_t open = rest.find_first_of("<\"");
-    if (open == std::string::npos) continue;
-    const bool quoted = rest[open] == '"';
-    const std::size_t close = rest.find(quoted ? '"' : '>', open + 1);
-    includes.push_back({line.folder, line.where, rest.substr(open + 1, close - open - 1), quoted});
-  }
-  return includes;
+// Whether it is among the sources of a room that the file at `where` is not in.
+bool IsPrivateElsewhere(const std::string& header, const std::string& where) {
+  const std::size_t sources = header.find("/src/");
+  if (sources == std::string::npos) return false;
+  const std::string room = header.substr(0, sources);
+  const fs::path folder = fs::path(where).parent_path();
+  return folder != room && folder != room + "/src";
 }
 
 // Empty if the include is allowed, else what is wrong with it.
@@ -135,25 +138,20 @@ std::string FaultOf(const Include& include) {
   const std::string& header = include.header;
   for (const Library& library : kLibraries) {
     if (!header.starts_with(library.prefix)) continue;
-    const bool home = library.homes.contains("*") || library.homes.contains(include.folder);
+    const bool home = library.homes.contains("*") || library.homes.contains(include.room);
     return home ? "" : "belongs in " + testing::PrintToString(library.homes);
   }
   if (header.starts_with("tests/")) return "belongs in tests/";
-  if (header.starts_with("services/")) {
-    if (!include.folder.starts_with("services/")) return "";
-    const std::string from = include.folder.substr(9);
-    const std::string to = header.substr(9, header.find('/', 9) - 9);
-    if (from == to) return "";
-    if (!kMayInclude.contains(from)) return "is in a folder this test has no rule for";
-    return kMayInclude.at(from).contains(to) ? "" : "goes against the order of services/";
-  }
   if (include.quoted) {
-    if (header.starts_with(include.folder + "/")) return "";  // agent/ and route_server/ themselves
-    if (header.starts_with("agent/cli/")) {                   // what all programs share
-      return include.folder == "route_server" ? "" : "is for programs only";
-    }
     // What idlc generates from idl/*.idl bears the bare name of its file.
-    return include.folder == "services/dds" ? "" : "is given by no path from the root";
+    if (header.find('/') == std::string::npos) {
+      return include.room == "services/dds" ? "" : "is given by no path from the root";
+    }
+    if (IsPrivateElsewhere(header, include.where)) return "is not offered to others";
+    const std::string room = RoomOf(header);
+    if (room == include.room) return "";
+    if (!kMayInclude.contains(include.room)) return "is in a room this test has no rule for";
+    return kMayInclude.at(include.room).contains(room) ? "" : "goes against the order of rooms";
   }
   const bool library_like = header.find('/') != std::string::npos || header.ends_with(".h");
   if (!library_like || kSystemHeaders.contains(header)) return "";
@@ -169,24 +167,27 @@ std::vector<std::string> Faults(const std::vector<Include>& includes) {
   return faults;
 }
 
-TEST(Layering, EveryIncludeFollowsTheOrderOfFoldersAndKeepsLibrariesInTheirs) {
+TEST(Layering, EveryIncludeFollowsTheOrderOfRoomsAndKeepsLibrariesInTheirs) {
   const std::vector<Include> includes = FindIncludes(ReadSources());
   EXPECT_GT(includes.size(), 50U) << "read from " << TRAILCAST_SOURCE_DIR;
   EXPECT_THAT(Faults(includes), IsEmpty());
 }
 
-TEST(Layering, EveryFolderOfServicesHasARule) {
-  for (const auto& entry : fs::directory_iterator(fs::path(TRAILCAST_SOURCE_DIR) / "services")) {
-    if (entry.is_directory()) {
-      EXPECT_TRUE(kMayInclude.contains(entry.path().filename())) << entry.path();
+TEST(Layering, EveryRoomHasARule) {
+  const fs::path root(TRAILCAST_SOURCE_DIR);
+  for (const char* top : {"services", "agent"}) {
+    for (const auto& entry : fs::directory_iterator(root / top)) {
+      if (!entry.is_directory()) continue;
+      const std::string room = entry.path().lexically_relative(root).string();
+      EXPECT_TRUE(kMayInclude.contains(room)) << room;
     }
   }
 }
 
-TEST(Layering, RulesLeadNoFolderBackToItself) {
-  // Each folder may include only folders that may not, by any way, include it.
-  for (const auto& [folder, allowed] : kMayInclude) {
-    Folders reached;
+TEST(Layering, RulesLeadNoRoomBackToItself) {
+  // Each room may include only rooms that may not, by any way, include it.
+  for (const auto& [room, allowed] : kMayInclude) {
+    Rooms reached;
     std::vector<std::string> open(allowed.begin(), allowed.end());
     while (!open.empty()) {
       const std::string next = open.back();
@@ -194,7 +195,7 @@ TEST(Layering, RulesLeadNoFolderBackToItself) {
       if (!reached.insert(next).second) continue;
       open.insert(open.end(), kMayInclude.at(next).begin(), kMayInclude.at(next).end());
     }
-    EXPECT_FALSE(reached.contains(folder)) << folder;
+    EXPECT_FALSE(reached.contains(room)) << room;
   }
 }
 
@@ -207,29 +208,35 @@ bool ReadsAClock(const std::string& line) {
                      [&](const std::string& clock) { return line.find(clock) != line.npos; });
 }
 
-TEST(Layering, VisionTeachingAndReplayReadNoClock) {
-  const Folders pure{"services/motion", "services/vision", "services/teach", "services/replay"};
+TEST(Layering, VisionTeachingReplayAndSessionsReadNoClock) {
+  const Rooms pure{"services/motion", "services/vision", "services/teach",
+                   "services/replay", "services/belief", "agent/session"};
   std::vector<std::string> readers;
   for (const SourceLine& line : ReadSources()) {
-    if (pure.contains(line.folder) && ReadsAClock(line.text)) readers.push_back(line.where);
+    if (pure.contains(line.room) && ReadsAClock(line.text)) readers.push_back(line.where);
   }
   EXPECT_THAT(readers, IsEmpty());
 }
 
 // The test's own teeth.
 TEST(Layering, FaultsAreFound) {
-  const auto fault = [](const std::string& folder, const std::string& line) {
-    const auto includes = FindIncludes({{folder, "file.cc:1", line}});
+  const auto fault = [](const std::string& room, const std::string& line) {
+    const auto includes = FindIncludes({{room, room + "/src/file.cc:1", line}});
     EXPECT_EQ(includes.size(), 1U) << line;
     return includes.empty() ? "not an include" : FaultOf(includes[0]);
   };
   EXPECT_EQ(fault("services/replay", "#include \"services/motion/motion.h\""), "");
   EXPECT_EQ(fault("services/vision", "#include <opencv2/core.hpp>"), "");
-  EXPECT_EQ(fault("agent", "#include \"services/sim/world.h\""), "");
+  EXPECT_EQ(fault("services/trial", "#include \"services/sim/core/world.h\""), "");
+  EXPECT_EQ(fault("services/dds", "#include \"services/dds/src/wire.h\""), "");
   EXPECT_EQ(fault("services/dds", "#include \"trailcast.h\"  // generated"), "");
   EXPECT_EQ(fault("services/base", "#include <vector>"), "");
   EXPECT_EQ(fault("agent", "#include <sys/wait.h>"), "");
-  EXPECT_NE(fault("services/replay", "#include \"services/sim/world.h\""), "");
+  EXPECT_NE(fault("services/replay", "#include \"services/sim/core/world.h\""), "");
+  EXPECT_NE(fault("agent", "#include \"services/sim/core/world.h\""), "");
+  EXPECT_NE(fault("services/session", "#include \"services/trial/trial.h\""), "");
+  EXPECT_NE(fault("services/program", "#include \"services/dds/src/wire.h\""), "");
+  EXPECT_NE(fault("services/trial/judge", "#include \"services/trial/src/trial_log.h\""), "");
   EXPECT_NE(fault("services/base", "#include \"services/route/route.h\""), "");
   EXPECT_NE(fault("services/exchange", "#include \"services/dds/dds_exchange.h\""), "");
   EXPECT_NE(fault("services/teach", "  #  include <opencv2/core.hpp>"), "");

@@ -1,4 +1,4 @@
-#include "services/catalog/similar_names.h"
+#include "services/catalog/src/similar_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

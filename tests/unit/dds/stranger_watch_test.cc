@@ -1,4 +1,4 @@
-#include "services/dds/stranger_watch.h"
+#include "services/dds/src/stranger_watch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "services/exchange/faulty_exchange.h"
+#include "tests/support/faulty_exchange.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "services/image/picture_size.h"
+#include "services/image/src/picture_size.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::image {

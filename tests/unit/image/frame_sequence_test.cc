@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
+#include <vector>
 
 #include "services/image/files.h"
 #include "tests/support/temp_dir.h"
@@ -44,6 +45,20 @@ TEST(FrameSequence, FolderGivesItsPicturesInTheOrderOfTheirNames) {
   const auto end = (*frames)->Next();
   ASSERT_TRUE(end);
   EXPECT_FALSE(end->has_value());
+}
+
+TEST(FrameSequence, NumbersInNamesCountAsNumbers) {
+  const test::TempDir folder;
+  const std::vector<std::string> names{"a1.png",  "f1.png",   "f2.png",  "f09.png",
+                                       "f10.png", "f10b.png", "f100.png"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Write(Plain(8, 6, static_cast<std::uint8_t>(10 * i)), folder / names[i]);
+  }
+  auto frames = FrameSequence::Open(folder.path());
+  ASSERT_TRUE(frames) << frames.error().message;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ((*frames)->Next().value()->at(0, 0), 10 * i) << names[i];
+  }
 }
 
 TEST(FrameSequence, MissingFolderIsNotFound) {

@@ -1,4 +1,4 @@
-#include "services/replay/track_progress.h"
+#include "services/replay/src/track_progress.h"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+const Holders::Time kNow{};
 const route::RouteKey kOld = test::KeyNumber(1, 1);
 const route::RouteKey kNew = test::KeyNumber(1, 2);
 
@@ -29,21 +30,33 @@ std::vector<route::RouteInfo> Page(const route::RouteKey& key) {
 
 TEST(Holders, TheLastWordOfEachAgentCounts) {
   Holders holders;
-  holders.Note(Status("robot-1", {kOld}));
-  holders.Note(Status("robot-2", {kNew, kOld}));
-  EXPECT_THAT(holders.Of(Page(kNew)), ElementsAre(exchange::Holding{kNew, AgentId("robot-2")}));
-  holders.Note(Status("robot-1", {kNew}));
-  EXPECT_THAT(holders.Of(Page(kOld)), ElementsAre(exchange::Holding{kOld, AgentId("robot-2")}));
-  EXPECT_EQ(holders.Of(Page(kNew)).size(), 2U);
+  holders.Note(Status("robot-1", {kOld}), kNow);
+  holders.Note(Status("robot-2", {kNew, kOld}), kNow);
+  EXPECT_THAT(holders.Of(Page(kNew), kNow),
+              ElementsAre(exchange::Holding{kNew, AgentId("robot-2")}));
+  holders.Note(Status("robot-1", {kNew}), kNow);
+  EXPECT_THAT(holders.Of(Page(kOld), kNow),
+              ElementsAre(exchange::Holding{kOld, AgentId("robot-2")}));
+  EXPECT_EQ(holders.Of(Page(kNew), kNow).size(), 2U);
+}
+
+TEST(Holders, OneThatIsLongGoneIsToldOfNoLonger) {
+  Holders holders;
+  holders.Note(Status("robot-1", {kOld}), kNow);
+  EXPECT_EQ(holders.Of(Page(kOld), kNow + Holders::kForgotten).size(), 1U);
+  const Holders::Time later = kNow + Holders::kForgotten + std::chrono::seconds(1);
+  EXPECT_THAT(holders.Of(Page(kOld), later), IsEmpty());
+  holders.Note(Status("robot-1", {kOld}), later);
+  EXPECT_EQ(holders.Of(Page(kOld), later).size(), 1U) << "back again, with the same";
 }
 
 TEST(Holders, OneThatHasJustStartedHasNotLookedYet) {
   Holders holders;
-  holders.Note(Status("robot-1", {kOld}));
-  holders.Note(Status("robot-1", {}, exchange::AgentMode::kStarting));
-  EXPECT_EQ(holders.Of(Page(kOld)).size(), 1U);
-  holders.Note(Status("robot-1", {}));
-  EXPECT_THAT(holders.Of(Page(kOld)), IsEmpty());
+  holders.Note(Status("robot-1", {kOld}), kNow);
+  holders.Note(Status("robot-1", {}, exchange::AgentMode::kStarting), kNow);
+  EXPECT_EQ(holders.Of(Page(kOld), kNow).size(), 1U);
+  holders.Note(Status("robot-1", {}), kNow);
+  EXPECT_THAT(holders.Of(Page(kOld), kNow), IsEmpty());
 }
 
 }  // namespace

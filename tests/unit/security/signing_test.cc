@@ -1,4 +1,4 @@
-#include "services/security/signing.h"
+#include "services/security/src/signing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

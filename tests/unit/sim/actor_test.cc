@@ -1,4 +1,4 @@
-#include "services/sim/actor.h"
+#include "services/sim/core/actor.h"
 
 #include <gtest/gtest.h>
 

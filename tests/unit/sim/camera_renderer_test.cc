@@ -1,4 +1,4 @@
-#include "services/sim/camera_renderer.h"
+#include "services/sim/core/camera_renderer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/sim/camera.h"
+#include "services/sim/core/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

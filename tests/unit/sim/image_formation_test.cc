@@ -1,4 +1,4 @@
-#include "services/sim/image_formation.h"
+#include "services/sim/core/image_formation.h"
 
 #include <gtest/gtest.h>
 

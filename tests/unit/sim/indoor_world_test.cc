@@ -1,12 +1,12 @@
-#include "services/sim/indoor_world.h"
+#include "services/sim/places/indoor_world.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "services/sim/camera_renderer.h"
-#include "services/sim/path_follow_driver.h"
+#include "services/sim/core/camera_renderer.h"
+#include "services/sim/core/path_follow_driver.h"
 
 namespace trailcast::sim {
 namespace {

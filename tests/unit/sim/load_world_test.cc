@@ -1,4 +1,4 @@
-#include "services/sim/load_world.h"
+#include "services/sim/core/load_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "services/image/files.h"
-#include "services/sim/path.h"
-#include "services/sim/simulated_robot.h"
+#include "services/sim/core/path.h"
+#include "services/sim/core/simulated_robot.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::sim {

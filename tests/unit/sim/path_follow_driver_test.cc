@@ -1,4 +1,4 @@
-#include "services/sim/path_follow_driver.h"
+#include "services/sim/core/path_follow_driver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "services/base/angles.h"
-#include "services/sim/robot.h"
+#include "services/sim/core/robot.h"
 #include "tests/unit/sim/test_worlds.h"
 
 namespace trailcast::sim {

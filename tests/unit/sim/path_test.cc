@@ -1,4 +1,4 @@
-#include "services/sim/path.h"
+#include "services/sim/core/path.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "services/base/angles.h"
-#include "services/sim/camera_renderer.h"
-#include "services/sim/path_follow_driver.h"
-#include "services/sim/place.h"
-#include "services/sim/robot.h"
+#include "services/sim/core/camera_renderer.h"
+#include "services/sim/core/path_follow_driver.h"
+#include "services/sim/core/robot.h"
+#include "services/sim/places/place.h"
 
 namespace trailcast::sim {
 namespace {

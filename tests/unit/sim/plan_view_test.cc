@@ -1,4 +1,4 @@
-#include "services/sim/plan_view.h"
+#include "services/sim/core/plan_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/sim/random.h"
+#include "services/sim/core/random.h"
 
 #include <gtest/gtest.h>
 

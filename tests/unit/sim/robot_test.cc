@@ -1,4 +1,4 @@
-#include "services/sim/robot.h"
+#include "services/sim/core/robot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "services/sim/simulated_robot.h"
+#include "services/sim/core/simulated_robot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "services/sim/judge.h"
+#include "services/sim/core/judge.h"
 #include "tests/unit/sim/test_worlds.h"
 
 namespace trailcast::sim {

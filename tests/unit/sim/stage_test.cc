@@ -1,13 +1,13 @@
-#include "services/sim/stage.h"
+#include "services/sim/core/stage.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "services/sim/judge.h"
-#include "services/sim/pedestrian.h"
-#include "services/sim/simulated_robot.h"
+#include "services/sim/core/judge.h"
+#include "services/sim/core/simulated_robot.h"
+#include "services/sim/looks/pedestrian.h"
 #include "tests/unit/sim/test_worlds.h"
 
 namespace trailcast::sim {

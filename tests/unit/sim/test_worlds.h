@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "services/image/canvas.h"
-#include "services/sim/scene_builder.h"
-#include "services/sim/world.h"
+#include "services/sim/core/scene_builder.h"
+#include "services/sim/core/world.h"
 
 namespace trailcast::sim::test {
 

@@ -1,4 +1,4 @@
-#include "services/sim/texture.h"
+#include "services/sim/core/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/sim/traffic.h"
+#include "services/sim/places/traffic.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/sim/world.h"
+#include "services/sim/core/world.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "services/store/open_store.h"
-#include "services/store/postgres_schema.h"
 #include "services/store/postgres_url.h"
+#include "services/store/src/postgres_schema.h"
 #include "tests/support/postgres_server.h"
 #include "tests/unit/store/pieces.h"
 
@@ -277,9 +277,9 @@ TEST(PostgresStoreRestart, GoesOnWhenPostgresIsBackAndSaysWhileItIsNot) {
     EXPECT_EQ(store->HeldSegments(kYard).error().code, ErrorCode::kUnavailable);
   }
   server.Start();
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!store->AppendSegments(Pieces({2})) && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the processor is the server's
   }
   EXPECT_EQ(store->HeldSegments(kYard).value(), Indices({0, 1, 2}));
   EXPECT_THAT(store->Verify().value(), IsEmpty());

@@ -1,4 +1,4 @@
-#include "agent/tool/catalog_client.h"
+#include "services/tool/routes/catalog_client.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,11 @@
-#include "agent/tool/checkup.h"
+#include "services/tool/checkup.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::tool {
 namespace {
@@ -40,6 +44,18 @@ TEST(Checkup, AClockThatNobodyKeepsRightIsAWarning) {
   EXPECT_THAT(JudgeClock(std::nullopt).advice, HasSubstr("chrony"));
 }
 
+TEST(Checkup, SettingsOfDdsHaveToBeThere) {
+  const test::TempDir folder;
+  const std::string file = (folder / "dds.xml").string();
+  EXPECT_EQ(JudgeCycloneUri("").grade, Grade::kGood);
+  EXPECT_EQ(JudgeCycloneUri("<CycloneDDS/>").grade, Grade::kGood);
+  EXPECT_THAT(JudgeCycloneUri("file://" + file).what, HasSubstr(file));
+  EXPECT_EQ(JudgeCycloneUri("file://" + file).grade, Grade::kBad);
+  std::ofstream(file) << "<CycloneDDS/>";
+  EXPECT_EQ(JudgeCycloneUri("file://" + file).grade, Grade::kGood);
+  EXPECT_EQ(JudgeCycloneUri(file + ",/nowhere.xml").grade, Grade::kBad);
+}
+
 TEST(Checkup, ADiskIsGoodLowOrFull) {
   EXPECT_EQ(JudgeDisk("/data", 5ULL << 30U).grade, Grade::kGood);
   EXPECT_EQ(JudgeDisk("/data", 500ULL << 20U).grade, Grade::kWarning);
@@ -49,10 +65,10 @@ TEST(Checkup, ADiskIsGoodLowOrFull) {
 
 TEST(Checkup, ThisMachineGetsALineForEach) {
   const auto findings = ExamineMachine(".", "lo");
-  ASSERT_EQ(findings.size(), 4U);
+  ASSERT_EQ(findings.size(), 5U);
   EXPECT_EQ(findings[1].grade, Grade::kGood);
   const std::string text = CheckupText(findings);
-  for (const char* what : {"receive buffers", "network", "clock", "disk"}) {
+  for (const char* what : {"receive buffers", "network", "clock", "settings of DDS", "disk"}) {
     EXPECT_THAT(text, HasSubstr(what));
   }
 }

@@ -1,4 +1,4 @@
-#include "agent/tool/keys_report.h"
+#include "services/tool/keys_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

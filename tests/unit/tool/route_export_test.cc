@@ -1,4 +1,4 @@
-#include "agent/tool/route_export.h"
+#include "services/tool/routes/route_export.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

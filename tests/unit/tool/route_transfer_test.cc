@@ -7,10 +7,6 @@
 #include <iterator>
 #include <thread>
 
-#include "agent/tool/route_export.h"
-#include "agent/tool/route_import.h"
-#include "agent/tool/route_study.h"
-#include "agent/tool/route_summary.h"
 #include "services/archive/route_file.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/in_process_exchange.h"
@@ -19,6 +15,10 @@
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "services/store/route_store.h"
+#include "services/tool/routes/route_export.h"
+#include "services/tool/routes/route_import.h"
+#include "services/tool/routes/route_study.h"
+#include "services/tool/routes/route_summary.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 

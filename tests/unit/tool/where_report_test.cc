@@ -1,4 +1,4 @@
-#include "agent/tool/where_report.h"
+#include "services/tool/routes/where_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "services/trial/align.h"
+#include "services/trial/align/align.h"
 
 #include <gmock/gmock.h>
 

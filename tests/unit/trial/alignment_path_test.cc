@@ -1,4 +1,4 @@
-#include "services/trial/alignment_path.h"
+#include "services/trial/align/src/alignment_path.h"
 
 #include <gmock/gmock.h>
 

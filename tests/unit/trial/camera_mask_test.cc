@@ -1,4 +1,4 @@
-#include "services/trial/camera_mask.h"
+#include "services/trial/align/src/camera_mask.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/trial/disturbance.h"
+#include "services/trial/recording/disturbance.h"
 
 #include <gmock/gmock.h>
 

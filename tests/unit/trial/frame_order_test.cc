@@ -1,4 +1,4 @@
-#include "services/trial/frame_order.h"
+#include "services/trial/recording/frame_order.h"
 
 #include <gmock/gmock.h>
 

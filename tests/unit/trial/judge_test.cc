@@ -1,4 +1,4 @@
-#include "services/trial/judge.h"
+#include "services/trial/recording/judge.h"
 
 #include <gmock/gmock.h>
 

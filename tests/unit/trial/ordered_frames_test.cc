@@ -1,4 +1,4 @@
-#include "services/trial/ordered_frames.h"
+#include "services/trial/recording/ordered_frames.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "services/trial/other_camera.h"
+#include "services/trial/recording/src/other_camera.h"
 
 #include <gtest/gtest.h>
 

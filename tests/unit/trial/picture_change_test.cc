@@ -1,4 +1,4 @@
-#include "services/trial/picture_change.h"
+#include "services/trial/recording/picture_change.h"
 
 #include <gmock/gmock.h>
 

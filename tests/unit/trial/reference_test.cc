@@ -1,4 +1,4 @@
-#include "services/trial/reference.h"
+#include "services/trial/recording/reference.h"
 
 #include <gmock/gmock.h>
 
@@ -46,7 +46,7 @@ TEST_F(ReferenceTest, SaysWhatIsWrongAndWhere) {
               HasSubstr("in.csv, line 1: expected a header with the columns replay_frame"));
   EXPECT_THAT(Refusal(header_ + "0,0,18,1.0,1\n4,far,18,1.0,1\n"),
               HasSubstr("line 3: expected a number under 'teach_frame'"));
-  EXPECT_THAT(Refusal(header_ + "0,0,18\n"), HasSubstr("under 'median_du_px'"));
+  EXPECT_THAT(Refusal(header_ + "0,0,18\n"), HasSubstr("3 columns; expected the 5 of"));
   EXPECT_THAT(Refusal(header_ + "0,0.5,18,1.0,1\n"), HasSubstr("whole numbers"));
   EXPECT_THAT(Refusal(header_ + "0,1e300,18,1.0,1\n"), HasSubstr("whole numbers"));
   EXPECT_THAT(Refusal(header_ + "4,0,18,1.0,1\n4,0,18,1.0,1\n"),

@@ -1,9 +1,9 @@
-#include "services/trial/scene_match.h"
+#include "services/trial/align/src/scene_match.h"
 
 #include <gtest/gtest.h>
 
-#include "services/trial/camera_mask.h"
-#include "services/trial/feature_file.h"
+#include "services/trial/align/src/camera_mask.h"
+#include "services/trial/align/src/feature_file.h"
 #include "tests/support/painted_wall.h"
 
 namespace trailcast::trial {

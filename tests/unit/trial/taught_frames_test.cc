@@ -1,4 +1,4 @@
-#include "services/trial/taught_frames.h"
+#include "services/trial/recording/taught_frames.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "agent/session/observation.h"
+#include "services/base/result.h"
+#include "services/motion/motion.h"
+
+namespace trailcast::agent {
+
+// The robot behind an agent: simulated, recorded or real. Frames come at the device's own
+// pace: Next() waits for the next one, in lockstep devices it makes it.
+class RobotDevice {
+ public:
+  virtual ~RobotDevice() = default;
+  RobotDevice(const RobotDevice&) = delete;
+  RobotDevice& operator=(const RobotDevice&) = delete;
+
+  // The next observation, or nothing when there will be none (a recording's end, a taught drive
+  // that is over). An error is final: the camera or the odometry failed.
+  [[nodiscard]] virtual Result<std::optional<Observation>> Next() = 0;
+
+  // What the base shall do until told otherwise. Recorded devices note it and do nothing.
+  [[nodiscard]] virtual Result<void> Drive(const motion::VelocityCommand& command) = 0;
+
+  // Whom Next tells, from its own thread, that the robot had to be stopped and why, and with ""
+  // that it may drive again. Devices that never have to wait for their robot do not call it.
+  using Trouble = std::function<void(const std::string& what)>;
+  virtual void OnTrouble(const Trouble& /*tell*/) {}
+
+  // For people: "webcam 320x240", "recorded 160x120".
+  [[nodiscard]] virtual std::string camera() const = 0;
+  // Share of the drive done, 0..1, where the device knows it (a recording, a scripted scout).
+  [[nodiscard]] virtual std::optional<double> drive_progress() const = 0;
+
+ protected:
+  RobotDevice() = default;
+};
+
+}  // namespace trailcast::agent

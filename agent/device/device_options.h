@@ -1,0 +1,53 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "agent/device/recorded_device.h"
+#include "agent/device/ros2_device.h"
+#include "agent/device/simulated_robot.h"
+#include "services/program/command_line.h"
+
+namespace trailcast::agent {
+
+// Which robot is behind the agent, as the command line says it.
+struct DeviceOptions {
+  RecordedRun recorded;
+  SimulatedRun simulated;
+  Ros2Run ros2;
+  double sensor_timeout_s = 0.3;
+  double sensor_patience_s = 10.0;
+  double still_at_end_s = 0.0;
+  std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
+
+  [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
+  [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty(); }
+};
+
+// Flags of `command`; one of --frames, --sim and --ros2 is required. The scout's differ: a
+// simulated one is told a speed, a real one when its drive is over.
+void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// Those of them for a simulated robot. Returns the one that names the world.
+CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// Those of them that say which topics a ROS 2 robot has; they need the option `robot`.
+void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
+                         dds::Ros2Options& topics);
+
+// The robot's topics, if they name no interface, are on the network's.
+void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
+
+struct OpenedDevice {
+  std::unique_ptr<RobotDevice> device;
+  const SimulatedRobot* simulated = nullptr;  // the same, where it is one
+
+  // Writes what `options` asks for after the run.
+  [[nodiscard]] Result<void> WriteTruth(const DeviceOptions& options) const;
+};
+
+[[nodiscard]] Result<OpenedDevice> OpenDevice(const DeviceOptions& options,
+                                              const program::CommonOptions& network);
+
+}  // namespace trailcast::agent

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/device/device.h"
+#include "agent/device/odometry_file.h"
+#include "services/image/files.h"
+
+namespace trailcast::agent {
+
+struct RecordedRun {
+  std::filesystem::path frames;    // a folder of pictures or a video
+  std::filesystem::path odometry;  // empty: vision only
+  std::optional<double> rate_hz;   // nothing: the video's own, or kDefaultRate_hz
+};
+
+// A run that was recorded, as fast as it can be read. What it is told to drive has no effect.
+class RecordedDevice final : public RobotDevice {
+ public:
+  static constexpr double kDefaultRate_hz = 30.0;
+
+  // Reads the first frame already, so that what is unusable is found before anything starts.
+  [[nodiscard]] static Result<std::unique_ptr<RecordedDevice>> Open(const RecordedRun& run);
+
+  [[nodiscard]] Result<std::optional<Observation>> Next() override;
+  [[nodiscard]] Result<void> Drive(const motion::VelocityCommand&) override { return {}; }
+  [[nodiscard]] std::string camera() const override;
+  [[nodiscard]] std::optional<double> drive_progress() const override;
+
+  [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
+  [[nodiscard]] double rate_hz() const { return rate_hz_; }
+  [[nodiscard]] int width_px() const { return width_; }
+
+ private:
+  RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,
+                 std::optional<OdometryFile> odometry, double rate_hz);
+
+  std::unique_ptr<image::FrameSequence> frames_;
+  std::optional<image::GrayImage> first_;  // until it is handed out
+  int width_;
+  int height_;
+  std::optional<OdometryFile> odometry_;
+  double rate_hz_;
+  int next_ = 0;  // number of the next frame
+};
+
+}  // namespace trailcast::agent

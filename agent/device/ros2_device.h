@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/device/device.h"
+#include "services/dds/ros2_link.h"
+
+namespace trailcast::agent {
+
+struct Ros2Run {
+  dds::Ros2Options topics;
+  std::string camera = "camera";  // for people
+  // Silence of camera, odometry or base for longer stops the robot. In lockstep the robot's time
+  // stands meanwhile, and only the patience counts.
+  std::chrono::milliseconds sensor_timeout{300};
+  // How long a stopped robot waits for what fell silent, and the agent for the robot to appear.
+  std::chrono::milliseconds patience{10'000};
+  // The robot waits for a command with the stamp of its frame: answer each, even while teaching.
+  bool lockstep = false;
+  // The drive is over when the robot, after having moved, has stood for so long; 0: it never is.
+  // By odometry and its stamps.
+  std::chrono::milliseconds still_at_end{0};
+  // Asked while waiting for the robot: the drive is over.
+  std::function<bool()> stop = [] { return false; };
+};
+
+// A ROS 2 robot over DDS, without ROS. A thread of its own hears the robot, and tells it to stand
+// within a moment of sensor_timeout when something fails (RobotWatch), or when the loop that
+// drives it hangs; Next then waits for what failed to come back, at most `patience`.
+class Ros2Device final : public RobotDevice {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Ros2Device>> Open(const Ros2Run& run);
+  ~Ros2Device() override;
+
+  [[nodiscard]] Result<std::optional<Observation>> Next() override;
+  // While something is wrong the robot is told to stand, whatever `command` says.
+  [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
+  [[nodiscard]] std::string camera() const override;
+  [[nodiscard]] std::optional<double> drive_progress() const override { return std::nullopt; }
+  void OnTrouble(const Trouble& tell) override;
+
+ private:
+  struct State;
+  explicit Ros2Device(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::agent

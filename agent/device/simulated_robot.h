@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "agent/device/device.h"
+#include "services/base/result.h"
+#include "services/sim/places/place_options.h"
+
+namespace trailcast::agent {
+
+struct SimulatedRun {
+  sim::PlaceOptions place;
+  std::string camera = "webcam";  // a built-in camera's name, or a .toml file
+  std::uint64_t seed = 1;         // draws the robot's errors and all noise
+  double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
+  bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
+  bool stays_at_end = false;      // the scout goes on looking where its drive ended
+};
+
+class SimulatedRobot : public RobotDevice {
+ public:
+  // For whoever judges: the true poses of the frames so far, CSV `t_s,x_m,y_m,heading_rad` in the
+  // world's frame. Agents know this class as a RobotDevice only.
+  [[nodiscard]] virtual Result<void> WriteTruth(const std::filesystem::path& file) const = 0;
+};
+
+// From the library of simulated robots, which brings a ray tracer and readers of world files with
+// it that a robot has no use for. Error: kUnavailable where it is not installed; those of
+// SimulatedDevice::Open.
+[[nodiscard]] Result<std::unique_ptr<SimulatedRobot>> OpenSimulatedRobot(const SimulatedRun& run);
+
+}  // namespace trailcast::agent
+
+// What that library exports under this name.
+extern "C" void trailcast_open_simulated_robot(
+    const trailcast::agent::SimulatedRun& run,
+    trailcast::Result<std::unique_ptr<trailcast::agent::SimulatedRobot>>& opened);

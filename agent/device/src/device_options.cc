@@ -1,0 +1,191 @@
+#include "agent/device/device_options.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "services/program/stop_signal.h"
+
+namespace trailcast::agent {
+namespace {
+
+CLI::Option* AddRecordedOptions(CLI::App& command, RecordedRun& recorded) {
+  const std::string recording = "Recorded run";
+  auto* frames = command.add_option(
+      "--frames", recorded.frames,
+      "Folder of pictures (in the order of their names, f2 before f10) or video");
+  frames->group(recording);
+  command
+      .add_option("--odometry", recorded.odometry,
+                  "CSV t_s,x_m,y_m,heading_rad, times counted from the first frame")
+      ->needs(frames)
+      ->group(recording);
+  command
+      .add_option("--rate", recorded.rate_hz, "Frames a second; default: the video's own, or 30")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->needs(frames)
+      ->group(recording);
+  return frames;
+}
+
+CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scout) {
+  const std::string robot = "ROS 2 robot (no ROS needed)";
+  dds::Ros2Options& topics = options.ros2.topics;
+  auto* ros2 = command.add_option("--ros2", topics.robot,
+                                  "The robot's namespace, as '/robot1', or '/' for none");
+  ros2->group(robot);
+  const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(ros2)->group(robot);
+  };
+  AddRos2TopicOptions(command, ros2, robot, topics);
+  add("--camera-name", options.ros2.camera, "The camera's make, for the catalog");
+  add("--sensor-timeout", options.sensor_timeout_s,
+      "Seconds without a picture, odometry or an obeying base until the robot is stopped")
+      ->check(CLI::Range(0.1, 60.0));
+  add("--sensor-patience", options.sensor_patience_s,
+      "Seconds that a stopped robot waits for them to come back")
+      ->check(CLI::Range(0.0, 3600.0));
+  command
+      .add_flag("--lockstep", options.ros2.lockstep,
+                "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
+      ->needs(ros2)
+      ->group(robot);
+  if (scout) {
+    add("--end-when-still", options.still_at_end_s,
+        "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
+        ->check(CLI::Range(0.0, 3600.0));
+  }
+  return ros2;
+}
+
+Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
+                                              const program::CommonOptions& network) {
+  Ros2Run run = options.ros2;
+  JoinNetwork(run.topics, network);
+  run.sensor_timeout = ToMilliseconds(options.sensor_timeout_s);
+  run.patience = ToMilliseconds(options.sensor_patience_s);
+  run.still_at_end = ToMilliseconds(options.still_at_end_s);
+  run.stop = [] { return program::StopSignal::requested(); };
+  auto device = Ros2Device::Open(run);
+  if (!device) return tl::unexpected(device.error());
+  spdlog::info("robot {}: pictures from {}, {}, commands to {}, ROS domain {}", run.topics.robot,
+               run.topics.ImageTopic(),
+               run.topics.odometry.empty() ? "no odometry: vision only"
+                                           : "odometry from " + run.topics.OdometryTopic(),
+               run.topics.CommandTopic(), run.topics.domain_id);
+  return device;
+}
+
+}  // namespace
+
+CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout) {
+  SimulatedRun& simulated = options.simulated;
+  simulated.drives_itself = scout;
+  const std::string simulation = "Simulated robot";
+  auto* world = command.add_option("--sim", simulated.place.world,
+                                   "World: a built-in one's name, or a file (.obj, .glb, ...)");
+  world->group(simulation);
+  const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(world)->group(simulation);
+  };
+  add("--camera", simulated.camera, "Built-in camera's name, or a .toml file");
+  add("--seed", simulated.seed, "Draws this robot's errors and noise");
+  add("--path", simulated.place.path,
+      "CSV x_m,y_m: the taught path; default: the built-in world's own");
+  add("--up", simulated.place.up, "Axis that is up in a world file")
+      ->check(CLI::IsMember({"y", "z"}));
+  add("--scale", simulated.place.scale, "Metres per unit of a world file")
+      ->check(CLI::PositiveNumber);
+  add("--ground", simulated.place.ground, "What robots stand on")
+      ->check(CLI::IsMember({"mesh", "flat"}));
+  if (scout) {
+    add("--speed", simulated.speed_mps,
+        "How fast the scout is driven, m/s; default: the place's own")
+        ->default_str("")
+        ->check(CLI::Range(0.05, 2.0));
+  }
+  add("--sim-truth", options.truth, "Writes the true poses here, for a judge");
+  return world;
+}
+
+void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network) {
+  if (topics.network_interface.empty()) topics.network_interface = network.network_interface;
+}
+
+void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
+                         dds::Ros2Options& topics) {
+  const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(robot)->group(group);
+  };
+  // Whoever works with ROS has it in the environment, which must not ask for a robot.
+  command.add_option("--ros-domain", topics.domain_id, "The robot's ROS_DOMAIN_ID")
+      ->group(group)
+      ->check(CLI::Range(0, 230))
+      ->envname("ROS_DOMAIN_ID");
+  add("--ros-interface", topics.network_interface,
+      "Network interface of the robot's own topics, as 'lo' where its nodes run on this computer; "
+      "default: --network-interface");
+  add("--ros-dds-tag", topics.discovery_tag,
+      "DDS domain tag of the robot's own topics; real robots have none");
+  add("--image-topic", topics.image,
+      "sensor_msgs/Image, or CompressedImage if it ends with '/compressed'; below the namespace "
+      "unless it begins with '/'");
+  add("--odom-topic", topics.odometry, "nav_msgs/Odometry; '' for a robot that has none");
+  add("--cmd-vel-topic", topics.command, "geometry_msgs/Twist or TwistStamped");
+  command
+      .add_option_function<std::string>(
+          "--cmd-vel-type",
+          [&topics](const std::string& type) {
+            topics.command_type = type == "twist" ? dds::Ros2CommandType::kTwist
+                                                  : dds::Ros2CommandType::kTwistStamped;
+          },
+          "What the base listens to; default: twist_stamped")
+      ->default_str("")
+      ->check(CLI::IsMember({"twist", "twist_stamped"}))
+      ->needs(robot)
+      ->group(group);
+}
+
+void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
+  auto* frames = AddRecordedOptions(command, options.recorded);
+  auto* world = AddSimulatedOptions(command, options, scout);
+  auto* ros2 = AddRos2Options(command, options, scout);
+  world->excludes(frames);
+  ros2->excludes(frames)->excludes(world);
+  command.callback([&options] {
+    if (!options.is_recorded() && !options.is_simulated() && options.ros2.topics.robot.empty()) {
+      throw CLI::RequiredError("--frames, --sim or --ros2");
+    }
+  });
+}
+
+Result<void> OpenedDevice::WriteTruth(const DeviceOptions& options) const {
+  if (simulated == nullptr || options.truth.empty()) return {};
+  return simulated->WriteTruth(options.truth);
+}
+
+Result<OpenedDevice> OpenDevice(const DeviceOptions& options,
+                                const program::CommonOptions& network) {
+  OpenedDevice opened;
+  if (options.is_simulated()) {
+    auto device = OpenSimulatedRobot(options.simulated);
+    if (!device) return tl::unexpected(device.error());
+    opened.simulated = device->get();
+    opened.device = std::move(*device);
+    return opened;
+  }
+  if (!options.is_recorded()) {
+    auto device = OpenRos2(options, network);
+    if (!device) return tl::unexpected(device.error());
+    opened.device = std::move(*device);
+    return opened;
+  }
+  auto device = RecordedDevice::Open(options.recorded);
+  if (!device) return tl::unexpected(device.error());
+  spdlog::info("{}, {:g} frames a second{}", (*device)->camera(), (*device)->rate_hz(),
+               (*device)->has_odometry() ? ", with odometry" : ", no odometry: vision only");
+  opened.device = std::move(*device);
+  return opened;
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,128 @@
+#include "agent/device/src/robot_watch.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "services/base/angles.h"
+
+namespace trailcast::agent {
+namespace {
+
+// Less than this, and a base may well stand: friction, dead bands.
+constexpr double kLeastDrive_mps = 0.05;
+constexpr double kLeastTurn_radps = 0.15;
+// A base takes its time to get going from a stand, where it does no harm.
+constexpr std::chrono::milliseconds kToGetGoing{1000};
+// Of the way asked for: less, and it did not obey.
+constexpr double kLeastShare = 0.1;
+// Weaving to and fro comes to nothing, and so tells nothing.
+constexpr double kLeastAsked_m = 0.01;
+// After less a picture without noise may be the same.
+constexpr double kLeastSeen_m = 0.01;
+// Half a small robot's width: turns as ways.
+constexpr double kArm_m = 0.15;
+
+bool Drives(const motion::VelocityCommand& command) {
+  return std::abs(command.linear_mps) >= kLeastDrive_mps ||
+         std::abs(command.angular_radps) >= kLeastTurn_radps;
+}
+
+bool Stands(const motion::VelocityCommand& command) { return command == motion::VelocityCommand{}; }
+
+double Way(const motion::Pose2& from, const motion::Pose2& to) {
+  return (motion::Position(to) - motion::Position(from)).norm() +
+         kArm_m * std::abs(WrapAngle(to.heading_rad - from.heading_rad));
+}
+
+}  // namespace
+
+void RobotWatch::SawFrame(Time now, bool changed) {
+  frame_at_ = now;
+  if (changed) frozen_ = false;
+  // A picture of a standing robot may well stay as it is.
+  const bool anew = changed || Stands(told_);
+  if (anew) anew_from_ = pose_;
+  if (anew || StandsYet()) anew_at_ = now;
+}
+
+// A base may take its time. Without odometry it is taken to do as it is told.
+bool RobotWatch::StandsYet() const {
+  return has_odometry_ && Way(anew_from_, pose_) < kLeastSeen_m;
+}
+
+void RobotWatch::SawOdometry(Time now, SensorTime stamp, const motion::Pose2& pose) {
+  odometry_at_ = now;
+  pose_ = pose;
+  if (!Drives(told_)) return;
+  driven_.push_back({stamp, pose, told_});
+  JudgeBase();
+}
+
+void RobotWatch::Told(const motion::VelocityCommand& command) {
+  told_ = command;
+  if (Drives(command)) return;
+  driven_.clear();
+  obeyed_ = false;
+}
+
+// Looks back over the last while of driving: how far was asked for, and how far it went.
+void RobotWatch::JudgeBase() {
+  const auto span = obeyed_ ? timeout_ : std::max(timeout_, kToGetGoing);
+  while (driven_.size() > 2 && driven_.back().stamp - driven_[1].stamp >= span) {
+    driven_.pop_front();
+  }
+  const Sample& first = driven_.front();
+  const Sample& last = driven_.back();
+  if (last.stamp - first.stamp < span) return;
+  motion::Pose2 asked;
+  for (std::size_t i = 1; i < driven_.size(); ++i) {
+    const motion::VelocityCommand& told = driven_[i - 1].told;
+    const double seconds = Seconds(driven_[i].stamp - driven_[i - 1].stamp);
+    asked = motion::Advance(asked, {told.linear_mps * seconds, told.angular_radps * seconds});
+  }
+  const double asked_m = Way({}, asked);
+  if (asked_m < kLeastAsked_m) return;
+  if (Way(first.pose, last.pose) < kLeastShare * asked_m) {
+    disobeyed_ = true;
+  } else {
+    obeyed_ = true;
+  }
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::Check(Time now) {
+  if (!frame_at_) return std::nullopt;
+  if (auto camera = CheckCamera(now)) return camera;
+  if (auto odometry = CheckOdometry(now)) return odometry;
+  return CheckBase();
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::CheckCamera(Time now) {
+  using Part = Trouble::Part;
+  if (now - *frame_at_ > timeout_) {
+    return Trouble{Part::kCamera, fmt::format("no picture for {:.1f} s", Seconds(timeout_))};
+  }
+  if (!Stands(told_) && now - anew_at_ > timeout_) frozen_ = true;
+  if (frozen_) {
+    return Trouble{Part::kCamera, fmt::format("the same picture again and again for {:.1f} s, told "
+                                              "to drive: it is frozen, or the robot does not move",
+                                              Seconds(timeout_))};
+  }
+  return std::nullopt;
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::CheckOdometry(Time now) const {
+  if (!has_odometry_ || !odometry_at_ || now - *odometry_at_ <= timeout_) return std::nullopt;
+  return Trouble{Trouble::Part::kOdometry,
+                 fmt::format("no odometry for {:.1f} s", Seconds(timeout_))};
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::CheckBase() const {
+  if (!disobeyed_) return std::nullopt;
+  return Trouble{Trouble::Part::kBase,
+                 "told to drive, and by its odometry it stands: blocked, switched off, or held by "
+                 "an emergency stop",
+                 true};
+}
+
+}  // namespace trailcast::agent

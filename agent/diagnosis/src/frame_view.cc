@@ -1,0 +1,149 @@
+#include "agent/diagnosis/src/frame_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::agent {
+namespace {
+
+using image::Canvas;
+using image::Color;
+using image::PixelPoint;
+using replay::FeatureVerdict;
+
+constexpr int kLeastWidth_px = 640;
+constexpr int kPanelHeight_px = 96;
+constexpr double kTextHeight_px = 11.0;
+constexpr double kLine_px = 22.0;
+constexpr double kMargin_px = 10.0;
+constexpr Color kPanel{24, 24, 24};
+constexpr Color kInk{235, 235, 235};
+
+// Turns of this size fill half the bar under the picture.
+constexpr double kFullTurn_rad = 0.3;
+
+// From pixels about the frame's centre to the enlarged picture.
+struct Enlarged {
+  int width = 0;
+  int height = 0;
+  int times = 1;
+
+  [[nodiscard]] PixelPoint At(const route::TrackedFeature& feature) const {
+    return {(feature.u_px + 0.5 * width) * times, (feature.v_px + 0.5 * height) * times};
+  }
+};
+
+image::RgbImage Grey(const image::GrayImage& frame) {
+  image::RgbImage picture{frame.width, frame.height, {}};
+  picture.pixels.reserve(3 * frame.pixels.size());
+  for (const std::uint8_t grey : frame.pixels) picture.pixels.insert(picture.pixels.end(), 3, grey);
+  return picture;
+}
+
+void DrawFeatures(Canvas& canvas, const Enlarged& enlarged,
+                  std::span<const replay::FeatureView> features) {
+  for (const replay::FeatureView& feature : features) {
+    const bool rejected = feature.verdict == FeatureVerdict::kRejected;
+    const route::TrackedFeature& target = rejected ? feature.expected : feature.milestone;
+    canvas.Line({enlarged.At(feature.at), enlarged.At(target)}, VerdictColor(feature.verdict), 1.0);
+  }
+  for (const replay::FeatureView& feature : features) {
+    canvas.Disc(enlarged.At(feature.at), 4.0, VerdictColor(feature.verdict));
+  }
+}
+
+// From the middle to the side that is asked for.
+void DrawTurn(Canvas& canvas, double turn_rad, double y) {
+  const double half = 0.5 * canvas.picture().width;
+  const double share = std::clamp(turn_rad / kFullTurn_rad, -1.0, 1.0);
+  canvas.Line({{half, y}, {half + share * (half - kMargin_px), y}},
+              VerdictColor(turn_rad > 0.0 ? FeatureVerdict::kAsksRight : FeatureVerdict::kAsksLeft),
+              6.0);
+  canvas.Line({{half, y - 6.0}, {half, y + 6.0}}, kInk, 1.0);
+}
+
+void DrawLegend(Canvas& canvas, const ReplayStep& step,
+                std::span<const replay::FeatureView> features, double baseline) {
+  struct Entry {
+    const char* text;
+    FeatureVerdict verdict;
+  };
+  const std::string all = fmt::format("{} of {}:", features.size(), step.sight.stored);
+  canvas.Text(all, {kMargin_px, baseline}, kTextHeight_px, kInk);
+  double x = kMargin_px + Canvas::TextWidth(all, kTextHeight_px) + 12.0;
+  for (const Entry& entry : {Entry{"in funnel lane", FeatureVerdict::kInside},
+                             Entry{"ask left", FeatureVerdict::kAsksLeft},
+                             Entry{"ask right", FeatureVerdict::kAsksRight},
+                             Entry{"rejected", FeatureVerdict::kRejected}}) {
+    const auto count = std::count_if(features.begin(), features.end(), [&](const auto& feature) {
+      return feature.verdict == entry.verdict;
+    });
+    canvas.Disc({x + 4.0, baseline - 0.5 * kTextHeight_px}, 4.0, VerdictColor(entry.verdict));
+    const std::string text = fmt::format("{} {}", count, entry.text);
+    canvas.Text(text, {x + 14.0, baseline}, kTextHeight_px, kInk);
+    x += Canvas::TextWidth(text, kTextHeight_px) + 26.0;
+  }
+}
+
+std::string Where(const ReplayStep& step) {
+  return fmt::format("{} ({})   segment {}, {:.0f} % of it   {:.2f} m/s", ToString(step.state),
+                     ToString(step.trust), step.segment.value(), 100.0 * step.fraction,
+                     step.command.linear_mps);
+}
+
+std::string Turn(const ReplayStep& step) {
+  const replay::FollowStep& decision = step.decision;
+  std::string text = fmt::format("turn {:.3f} rad {}", std::abs(step.turn_rad),
+                                 step.turn_rad > 0.0 ? "right" : "left");
+  if (decision.offset) {
+    text += fmt::format("   {:.2f} m {} of the path, +- {:.2f}", std::abs(decision.offset->left_m),
+                        decision.offset->left_m > 0.0 ? "left" : "right",
+                        decision.offset->left_sigma_m);
+  } else {
+    text += fmt::format("   vision {:+.3f}, odometry {:+.3f}   delta {:.2f}, {:.2f}",
+                        decision.vision_turn_rad, decision.odometry_turn_rad, decision.delta,
+                        decision.delta_minus);
+  }
+  return text;
+}
+
+}  // namespace
+
+image::Color VerdictColor(FeatureVerdict verdict) {
+  switch (verdict) {
+    case FeatureVerdict::kInside:
+      return {0, 200, 120};
+    case FeatureVerdict::kAsksRight:
+      return {255, 150, 0};
+    case FeatureVerdict::kAsksLeft:
+      return {70, 170, 255};
+    case FeatureVerdict::kRejected:
+      break;
+  }
+  return {230, 40, 40};
+}
+
+image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& step,
+                              std::span<const replay::FeatureView> features) {
+  Enlarged enlarged{frame.width, frame.height, 1};
+  while (enlarged.times * frame.width < kLeastWidth_px) ++enlarged.times;
+  const int width = enlarged.times * frame.width;
+  const int height = enlarged.times * frame.height;
+  Canvas canvas(width, height + kPanelHeight_px, kPanel);
+  canvas.Paste(Grey(frame), 0, 0, width, height);
+  DrawFeatures(canvas, enlarged, features);
+  // What lies outside the picture (a milestone often does) shall not cross the text.
+  canvas.FillBox({0.0, static_cast<double>(height)},
+                 {static_cast<double>(width), static_cast<double>(height + kPanelHeight_px)},
+                 kPanel);
+  DrawTurn(canvas, step.turn_rad, height + 12.0);
+  double y = height + 38.0;
+  canvas.Text(Where(step), {kMargin_px, y}, kTextHeight_px, kInk);
+  canvas.Text(Turn(step), {kMargin_px, y += kLine_px}, kTextHeight_px, kInk);
+  DrawLegend(canvas, step, features, y + kLine_px);
+  return canvas.picture();
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "agent/link/neighbours.h"
+#include "agent/link/place_note.h"
+#include "agent/session/replay_session.h"
+#include "services/base/mailbox.h"
+#include "services/exchange/route_fetcher.h"
+#include "services/exchange/route_finder.h"
+#include "services/exchange/spare_holder.h"
+#include "services/program/presence.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::agent {
+
+struct FollowerLinkOptions {
+  AgentId agent;
+  std::string route;  // name
+  exchange::RevisionChoice revision{};
+  std::string store_file;            // for messages
+  bool wait_for_route = false;       // a route that nobody knows yet may still be taught
+  std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
+  bool from_start = false;           // whatever was noted
+  // How long the agent waits for a server, the route, or the next segment, while none comes.
+  std::chrono::milliseconds wait{30'000};
+  std::function<bool()> stop = [] { return false; };  // any thread
+};
+
+// What the link gives the control loop, in this order: the route, where the robot was left on it
+// (if it was), its segments, that it is complete (or that no more can be had); or why there will be
+// nothing more.
+struct RouteComplete {};
+using Feed =
+    std::variant<std::monostate, route::RouteInfo, LeftAt, route::Segment, RouteComplete, Error>;
+
+// The follower's other half: a thread that owns store and exchange, finds the route, fetches into
+// the own store what is missing, and feeds the control loop from there.
+class FollowerLink {
+ public:
+  // `exchange` may be null: then the route comes from the own store alone.
+  FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
+               std::unique_ptr<exchange::RouteExchange> exchange);
+  ~FollowerLink();
+  FollowerLink(const FollowerLink&) = delete;
+  FollowerLink& operator=(const FollowerLink&) = delete;
+
+  // Claims the name, then starts the thread.
+  [[nodiscard]] Result<void> Start();
+
+  // For the control loop. Neither takes a lock nor waits.
+  [[nodiscard]] std::optional<Feed> TryTake() { return feed_.TryGet(); }
+  void Report(const ReplayStep& step);
+  // Of the route's segments, those that were in the own store when the fetching began, and those
+  // that came since. Any thread.
+  [[nodiscard]] std::uint32_t held_before() const { return held_before_; }
+  [[nodiscard]] std::uint32_t fetched() const { return fetched_; }
+  // Who else is on the route, whenever that has changed. Nothing before the route was fed.
+  [[nodiscard]] std::optional<std::vector<Neighbour>> TryTakeNeighbours() {
+    return told_neighbours_.TryGet();
+  }
+  // While the robot stands: waits until something was fed, others have moved, or `at_most`.
+  void WaitForNews(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
+
+  // Ends the thread.
+  void Finish();
+  // The last status peers see, and what the next run is told. After Finish.
+  void Close(exchange::AgentMode mode, const std::string& detail);
+  // As far as it is known. After Finish.
+  [[nodiscard]] const std::optional<route::RouteInfo>& route() const { return route_; }
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  void Run();
+  [[nodiscard]] Result<void> Work();
+  [[nodiscard]] Result<void> Find();
+  [[nodiscard]] Result<std::optional<route::RouteInfo>> FindOwn();
+  [[nodiscard]] Result<bool> Asked(Time began, const std::optional<route::RouteInfo>& own);
+  [[nodiscard]] Result<void> StartFetching();
+  [[nodiscard]] Result<void> Follow();
+  void Trade();
+  void Say(Time now);  // what the fetcher or the finder, and whoever lends, have to say
+  [[nodiscard]] Result<void> StoreArrived();
+  [[nodiscard]] Result<void> StoreNews();
+  [[nodiscard]] Result<void> TellHeld();
+  [[nodiscard]] Result<void> CountHeld();
+  [[nodiscard]] Result<void> FeedAll();
+  [[nodiscard]] bool all_known() const;
+  [[nodiscard]] bool TryPut(Feed item);
+  [[nodiscard]] std::optional<LeftAt> ReadPlace() const;
+  void NotePlace();
+  void EndNote(exchange::AgentMode mode);
+  void TakeReports();
+  void ShowStatus();
+  void HearServer();
+  void TellNeighbours(Time now);
+  [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
+
+  FollowerLinkOptions options_;
+  std::unique_ptr<store::RouteStore> store_;
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  std::optional<program::Presence> presence_;
+  exchange::RouteFinder finder_;
+  std::optional<route::RouteInfo> route_;   // the newest that is known of it
+  std::optional<route::RouteInfo> stored_;  // what of that is in the own store
+  std::optional<exchange::RouteFetcher> fetcher_;
+  exchange::SpareHolder spare_;
+  PlaceNote place_note_;
+  std::optional<NotedPlace> place_;  // the last that the robot was sure of
+  std::optional<Time> noted_;        // when
+  Neighbours neighbours_;
+  std::vector<Neighbour> told_;  // to the control loop
+  std::vector<route::RouteKey> held_revisions_;
+  std::set<SegmentIndex> damaged_;  // in the own store: fetched anew
+  std::uint32_t held_ = 0;          // segments in the own store without a gap
+  std::uint32_t next_feed_ = 0;
+  std::atomic<std::uint32_t> held_before_ = 0;
+  std::atomic<std::uint32_t> fetched_ = 0;
+  bool fed_all_ = false;
+  std::string waiting_for_ = "starting";
+  std::optional<AgentId> told_server_;
+
+  Mailbox<Feed> feed_{16};
+  Mailbox<std::vector<Neighbour>> told_neighbours_{4};
+  Mailbox<ReplayStep> reports_{64};
+  ReplayStep latest_;
+  Bell fed_;
+  Bell reported_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace trailcast::agent

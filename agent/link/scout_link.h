@@ -1,0 +1,104 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "agent/link/outbox.h"
+#include "services/base/mailbox.h"
+#include "services/program/presence.h"
+
+namespace trailcast::agent {
+
+// What the control loop tells of itself, a frame at a time.
+struct TeachingNow {
+  std::optional<double> drive_progress;
+  double speed_mps = 0.0;
+  int features = 0;
+};
+
+struct ScoutLinkOptions {
+  AgentId agent;
+  std::string store_file;  // for messages
+  std::chrono::milliseconds delivery_timeout{30'000};
+  // After a signal the process shall end soon.
+  std::chrono::milliseconds delivery_timeout_when_stopped{3'000};
+  std::function<bool()> stop = [] { return false; };  // any thread
+};
+
+// The scout's other half: a thread that owns store and exchange, writes each segment down, then
+// sends it, and waits for receipts at the end. The control loop gives it segments and never waits.
+class ScoutLink {
+ public:
+  // `exchange` may be null: then segments are only stored.
+  ScoutLink(ScoutLinkOptions options, std::unique_ptr<store::RouteStore> store,
+            std::unique_ptr<exchange::RouteExchange> exchange);
+  ~ScoutLink();  // Close() if that was not called
+  ScoutLink(const ScoutLink&) = delete;
+  ScoutLink& operator=(const ScoutLink&) = delete;
+
+  // Claims the name and takes up what earlier runs left. Before Start.
+  [[nodiscard]] Result<void> Open();
+  // Starts the thread. `route` is what is to be taught (none: only the backlog is delivered); it
+  // begins with its first segment. Its id is that of the newest route of this name in the store,
+  // with the next revision.
+  [[nodiscard]] Result<void> Start(std::optional<route::RouteInfo> route);
+
+  // From the control loop. False: the disk does not keep up, or failed; see Finish.
+  [[nodiscard]] bool Offer(route::Segment segment);
+  void Report(const TeachingNow& now);
+  // The store failed: teaching is of no use any more.
+  [[nodiscard]] bool failed() const { return failed_.load(); }
+
+  struct Outcome {
+    std::optional<route::RouteInfo> route;  // as it is on disk; nothing if no segment was taught
+    std::size_t unreceipted = 0;
+    bool all_receipted = false;
+    std::optional<std::string> refusal;  // why a server takes nothing, if one said so
+  };
+  // No segment will follow: completes the route, waits for receipts, ends the thread. The error is
+  // the store's, if it failed.
+  [[nodiscard]] Result<Outcome> Finish();
+  // The last status peers see. After Finish.
+  void Close(exchange::AgentMode mode, const std::string& detail);
+
+ private:
+  [[nodiscard]] Result<void> Assign(route::RouteInfo& route);
+  void Run();
+  [[nodiscard]] Result<void> Step();
+  [[nodiscard]] Result<void> StoreOffered();
+  [[nodiscard]] Result<void> Trade();
+  [[nodiscard]] Result<void> Deliver();
+  [[nodiscard]] Result<void> TellHeld();
+  void HearServer();
+  void HearRefusal();
+  void ShowStatus(exchange::AgentMode mode, const std::string& detail);
+
+  ScoutLinkOptions options_;
+  std::unique_ptr<store::RouteStore> store_;
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  Outbox outbox_;
+  std::optional<program::Presence> presence_;
+  std::optional<route::RouteInfo> planned_;
+  std::optional<route::RouteKey> key_;  // of the route taught, once it has a segment
+  std::chrono::steady_clock::time_point opened_{};
+  std::optional<AgentId> told_server_;
+  std::optional<std::string> told_refusal_;
+  std::vector<route::RouteKey> held_revisions_;
+  bool told_no_server_ = false;
+
+  Mailbox<std::optional<route::Segment>> segments_{256};
+  Mailbox<TeachingNow> reports_{64};
+  TeachingNow latest_;
+  Bell bell_;
+  std::atomic<bool> ending_{false};
+  std::atomic<bool> failed_{false};
+  std::optional<Error> error_;  // written by the thread, read after it ended
+  std::thread thread_;
+};
+
+}  // namespace trailcast::agent

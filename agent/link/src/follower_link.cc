@@ -1,0 +1,272 @@
+#include "agent/link/follower_link.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "agent/link/src/held_revisions.h"
+#include "services/base/time.h"
+#include "services/exchange/publish.h"
+#include "services/route/digest.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{20};
+constexpr milliseconds kWaitFeeding{5};
+
+exchange::AgentStatus FollowerStatus(const AgentId& agent, const std::string& route) {
+  exchange::AgentStatus status;
+  status.agent = agent;
+  status.role = exchange::AgentRole::kFollower;
+  status.route = route;
+  return status;
+}
+
+}  // namespace
+
+FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
+                           std::unique_ptr<exchange::RouteExchange> exchange)
+    : options_(std::move(options)),
+      store_(std::move(store)),
+      exchange_(std::move(exchange)),
+      finder_(options_.agent, options_.route, options_.revision),
+      spare_(options_.agent,
+             [this](const route::RouteKey& key, SegmentIndex index) {
+               return store_->ReadSegment(key, index);
+             }),
+      place_note_(options_.place_file),
+      neighbours_(options_.agent) {
+  if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
+}
+
+FollowerLink::~FollowerLink() { Finish(); }
+
+Result<void> FollowerLink::Start() {
+  if (presence_) {
+    const auto handle = [this](const exchange::Message& message) {
+      finder_.Handle(message);
+      neighbours_.Handle(message, steady_clock::now());
+    };
+    if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
+  }
+  thread_ = std::thread([this] { Run(); });
+  return {};
+}
+
+void FollowerLink::Report(const ReplayStep& step) {
+  ReplayStep copy = step;
+  // Full: the thread is busy on the disk, and will get a newer one.
+  [[maybe_unused]] const bool put = reports_.TryPut(std::move(copy));
+  reported_.Ring();
+}
+
+void FollowerLink::Finish() {
+  ending_ = true;
+  reported_.Ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FollowerLink::Run() {
+  auto worked = Work();
+  if (worked) return;
+  while (!over() && !TryPut(worked.error())) reported_.Wait(kWait);
+}
+
+Result<void> FollowerLink::Work() {
+  if (auto told = TellHeld(); !told) return told;
+  if (auto found = Find(); !found) return found;
+  if (over()) return {};
+  if (auto started = StartFetching(); !started) return started;
+  return Follow();
+}
+
+Result<void> FollowerLink::StartFetching() {
+  const route::RouteKey& key = route_->key;
+  auto indices = store_->HeldSegments(key);
+  if (!indices) return tl::unexpected(indices.error());
+  std::vector<exchange::RouteFetcher::Held> held;
+  for (const SegmentIndex index : *indices) {
+    auto piece = store_->ReadSegment(key, index);
+    if (piece) {
+      held.push_back({index, piece->digest});
+    } else if (exchange_ && piece.error().code == ErrorCode::kCorrupt) {
+      spdlog::warn("fetching it anew: {}", piece.error().message);
+      damaged_.insert(index);
+    } else {
+      return tl::unexpected(piece.error());
+    }
+  }
+  spdlog::info("route '{}' of scout '{}', camera {}: {} segments so far, {} of them here",
+               route_->name, route_->scout.value(), route_->camera, route_->segment_count,
+               held.size());
+  held_before_ = static_cast<std::uint32_t>(held.size());
+  if (exchange_) {
+    const auto now = steady_clock::now();
+    auto others = store_->FindRevisions(key.route);
+    if (!others) return tl::unexpected(others.error());
+    std::erase_if(*others, [&](const route::RouteInfo& info) { return info.key == key; });
+    exchange::RouteFetcherOptions options;
+    if (!others->empty()) {
+      options.own_content = [this](const route::Digest& digest) {
+        return store_->FindContent(digest).value_or(std::nullopt);
+      };
+    }
+    fetcher_.emplace(options_.agent, key, held,
+                     exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now, options);
+    fetcher_->Learn(*route_, now);
+    // What the own store knows may be more than what the finder heard.
+    auto own = store_->FindRoute(key);
+    if (!own) return tl::unexpected(own.error());
+    stored_ = *own;
+    if (stored_) fetcher_->Learn(*stored_, now);
+    Say(now);  // its first requests, at once
+  } else if (route_->state == route::RouteState::kTeaching) {
+    spdlog::warn("'{}' is unfinished in {}: following what is there", route_->name,
+                 options_.store_file);
+  }
+  while (!over() && !TryPut(*route_)) reported_.Wait(kWait);
+  if (const auto left = ReadPlace()) {
+    while (!over() && !TryPut(*left)) reported_.Wait(kWait);
+  }
+  return CountHeld();
+}
+
+Result<void> FollowerLink::Follow() {
+  while (!over()) {
+    TakeReports();
+    NotePlace();
+    if (exchange_) {
+      Trade();
+      if (auto stored = StoreArrived(); !stored) return stored;
+    } else {
+      reported_.Wait(kWait);
+    }
+    if (auto fed = FeedAll(); !fed) return fed;
+  }
+  return {};
+}
+
+void FollowerLink::Trade() {
+  auto messages = exchange_->Take(next_feed_ < held_ ? kWaitFeeding : kWait);
+  const auto now = steady_clock::now();
+  for (const exchange::Message& message : messages) {
+    presence_->Handle(message);
+    neighbours_.Handle(message, now);
+    spare_.Handle(message, now);
+    if (fetcher_) {
+      fetcher_->Handle(message, now);
+    } else {
+      finder_.Handle(message);
+    }
+  }
+  Say(now);
+  HearServer();
+  TellNeighbours(now);
+  ShowStatus();
+  presence_->Tick(now);
+}
+
+void FollowerLink::Say(steady_clock::time_point now) {
+  auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
+  for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
+    spdlog::debug("{}", sent.error().message);
+  }
+}
+
+Result<void> FollowerLink::StoreArrived() {
+  const auto arrived = fetcher_->TakeArrived();
+  if (!arrived.empty()) {
+    if (auto appended = store_->AppendSegments(arrived); !appended) return appended;
+    // These are another agent's to deliver: never ours.
+    std::vector<SegmentIndex> indices;
+    indices.reserve(arrived.size());
+    for (const route::SegmentPiece& piece : arrived) {
+      indices.push_back(piece.index);
+      damaged_.erase(piece.index);
+    }
+    if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
+    fetched_ += static_cast<std::uint32_t>(arrived.size());
+    if (auto counted = CountHeld(); !counted) return counted;
+  }
+  const auto progress = fetcher_->Progress(steady_clock::now());
+  if (progress.state == exchange::FetchState::kWrong) {
+    return Fail(ErrorCode::kCorrupt,
+                "the {} segments of route '{}' in {} are not those that its scout announced: move "
+                "that file away and fetch the route anew",
+                progress.held, route_->name, options_.store_file);
+  }
+  if (fetcher_->deleted() && !fetcher_->Complete()) {
+    return Fail(ErrorCode::kNotFound,
+                "revision {} of route '{}' was deleted by an operator: {} of its {} segments are "
+                "here",
+                route_->key.revision.value(), route_->name, progress.held, progress.known);
+  }
+  waiting_for_ = progress.state == exchange::FetchState::kWaiting
+                     ? "nobody who holds the route is heard"
+                     : fmt::format("{} of {} segments here", progress.held, progress.known);
+  return StoreNews();
+}
+
+Result<void> FollowerLink::StoreNews() {
+  if (!fetcher_->info()) return {};
+  route_ = *fetcher_->info();
+  route::RouteInfo news = *route_;
+  // Complete in the own store only when all of it is there and right.
+  if (!fetcher_->Complete()) news.state = route::RouteState::kTeaching;
+  if (news == stored_) return {};
+  stored_ = news;
+  if (auto put = store_->PutRoute(news); !put) return put;
+  return news.state == route::RouteState::kComplete ? TellHeld() : Result<void>();
+}
+
+Result<void> FollowerLink::TellHeld() {
+  auto held = HeldRevisions(*store_);
+  if (!held) return tl::unexpected(held.error());
+  held_revisions_ = std::move(*held);
+  spare_.Hold(held_revisions_);
+  return {};
+}
+
+Result<void> FollowerLink::CountHeld() {
+  auto indices = store_->HeldSegments(route_->key);
+  if (!indices) return tl::unexpected(indices.error());
+  std::erase_if(*indices, [this](SegmentIndex index) { return damaged_.contains(index); });
+  while (held_ < indices->size() && (*indices)[held_].value() == held_) ++held_;
+  if (exchange_) spdlog::debug("{} segments of '{}' are here", held_, route_->name);
+  return {};
+}
+
+bool FollowerLink::all_known() const {
+  if (fetcher_) return fetcher_->Complete() && next_feed_ == fetcher_->info()->segment_count;
+  return next_feed_ == held_;
+}
+
+Result<void> FollowerLink::FeedAll() {
+  for (; next_feed_ < held_; ++next_feed_) {
+    auto piece = store_->ReadSegment(route_->key, SegmentIndex(next_feed_));
+    if (!piece) return tl::unexpected(piece.error());
+    auto segment = route::Open(*piece);
+    if (!segment) return tl::unexpected(segment.error());
+    if (!TryPut(std::move(*segment))) return {};
+  }
+  if (!fed_all_ && all_known()) {
+    fed_all_ = TryPut(RouteComplete{});
+    if (fed_all_) spdlog::info("all {} segments of '{}' are here", next_feed_, route_->name);
+  }
+  return {};
+}
+
+bool FollowerLink::TryPut(Feed item) {
+  const bool put = feed_.TryPut(std::move(item));
+  if (put) fed_.Ring();
+  return put;
+}
+
+}  // namespace trailcast::agent

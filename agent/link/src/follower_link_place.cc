@@ -1,0 +1,75 @@
+// What one run of a follower leaves to the next: how far along its route the robot is.
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "agent/link/follower_link.h"
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using std::chrono::system_clock;
+
+// Often enough to find the place again, and no burden on a memory card.
+constexpr milliseconds kNoteEvery{1000};
+
+std::int64_t UnixMs() {
+  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void Complain(const Result<void>& noted) {
+  if (!noted)
+    spdlog::warn("a later run will not know where this one got to: {}", noted.error().message);
+}
+
+}  // namespace
+
+std::optional<LeftAt> FollowerLink::ReadPlace() const {
+  if (options_.place_file.empty() || options_.from_start) return std::nullopt;
+  const auto noted = place_note_.Read();
+  if (!noted) {
+    spdlog::warn("beginning at the route's start: {}", noted.error().message);
+    return std::nullopt;
+  }
+  if (!*noted) return std::nullopt;
+  const NotedPlace& place = **noted;
+  if (place.key != route_->key) {
+    spdlog::info("beginning at the route's start: the last run was on another route or revision");
+    return std::nullopt;
+  }
+  spdlog::info(
+      "the last run got {:.1f} m along the route, {:.0f} s ago: looking whether the robot "
+      "is still there",
+      place.left.along_m, 1e-3 * static_cast<double>(UnixMs() - place.unix_ms));
+  return place.left;
+}
+
+void FollowerLink::TakeReports() {
+  while (auto report = reports_.TryGet()) latest_ = std::move(*report);
+  if (latest_.state == ReplayState::kFollowing && latest_.along_m && route_) {
+    place_ = {route_->key, {*latest_.along_m, latest_.magnification}, UnixMs()};
+  }
+}
+
+void FollowerLink::NotePlace() {
+  const auto now = steady_clock::now();
+  const bool due = !noted_ || now - *noted_ >= kNoteEvery;
+  if (options_.place_file.empty() || !place_ || !due) return;
+  noted_ = now;
+  Complain(place_note_.Write(*place_));
+}
+
+void FollowerLink::EndNote(exchange::AgentMode mode) {
+  if (options_.place_file.empty()) return;
+  if (mode == exchange::AgentMode::kArrived) {
+    Complain(place_note_.Remove());
+  } else if (place_) {
+    Complain(place_note_.Write(*place_));
+  }
+}
+
+}  // namespace trailcast::agent

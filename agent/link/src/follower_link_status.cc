@@ -1,0 +1,94 @@
+// What others hear of this follower, and it of them.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "agent/link/follower_link.h"
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+namespace {
+
+exchange::AgentMode ModeOf(ReplayState state) {
+  switch (state) {
+    case ReplayState::kWaiting:
+    case ReplayState::kYielding:
+      return exchange::AgentMode::kWaiting;
+    case ReplayState::kFollowing:
+    case ReplayState::kBlind:
+      return exchange::AgentMode::kReplaying;
+    case ReplayState::kArrived:
+      return exchange::AgentMode::kArrived;
+    case ReplayState::kLost:
+      return exchange::AgentMode::kFault;
+  }
+  return exchange::AgentMode::kFault;
+}
+
+}  // namespace
+
+void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
+  TakeReports();
+  EndNote(mode);
+  if (!presence_) return;
+  ShowStatus();
+  exchange::AgentStatus status = presence_->status();
+  status.mode = mode;
+  status.detail = detail;
+  status.speed_mps = 0.0;
+  presence_->Set(std::move(status));
+  presence_->Publish();
+}
+
+void FollowerLink::ShowStatus() {
+  exchange::AgentStatus status;
+  status.route = options_.route;
+  status.segments = route_ ? route_->segment_count : 0;
+  const bool started = next_feed_ > 0;
+  status.mode = started ? ModeOf(latest_.state) : exchange::AgentMode::kWaiting;
+  status.segment = latest_.segment.value();
+  status.progress = latest_.progress;
+  status.speed_mps = latest_.command.linear_mps;
+  status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
+  status.found_share = latest_.found_share;
+  status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
+  if (!latest_.robot_trouble.empty()) {
+    status.mode = exchange::AgentMode::kFault;
+    status.detail = latest_.robot_trouble;
+  }
+  status.held = held_revisions_;
+  if (route_ && latest_.along_m) status.place = {route_->key, *latest_.along_m};
+  presence_->Set(std::move(status));
+}
+
+void FollowerLink::HearServer() {
+  const auto& server = presence_->server();
+  if (server == told_server_) return;
+  if (server) {
+    spdlog::info("server '{}' is there", server->value());
+  } else {
+    spdlog::warn("server '{}' is gone: going on with what is in {}", told_server_->value(),
+                 options_.store_file);
+  }
+  told_server_ = server;
+}
+
+void FollowerLink::TellNeighbours(Time now) {
+  if (!route_) return;
+  for (const Neighbour& gone : neighbours_.Forget(now)) {
+    spdlog::warn(
+        "{} was last heard {:.0f} s ago, {:.1f} m along the route, and may still stand there: no "
+        "longer waiting for it",
+        gone.agent.value(), Seconds(now - gone.told_at), gone.along_m);
+  }
+  auto on = neighbours_.On(route_->key);
+  if (on == told_) return;
+  auto copy = on;
+  // Full: the control loop is at work on a frame, and will get newer ones.
+  if (!told_neighbours_.TryPut(std::move(copy))) return;
+  told_ = std::move(on);
+  fed_.Ring();
+}
+
+}  // namespace trailcast::agent

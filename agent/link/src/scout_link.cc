@@ -1,0 +1,251 @@
+#include "agent/link/scout_link.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "agent/link/src/held_revisions.h"
+#include "services/base/time.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/publish.h"
+#include "services/exchange/text.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{20};
+// A server answers well within this; who hears none by then is told so.
+constexpr milliseconds kServerPatience{3000};
+
+exchange::AgentStatus ScoutStatus(const AgentId& agent) {
+  exchange::AgentStatus status;
+  status.agent = agent;
+  status.role = exchange::AgentRole::kScout;
+  return status;
+}
+
+}  // namespace
+
+ScoutLink::ScoutLink(ScoutLinkOptions options, std::unique_ptr<store::RouteStore> store,
+                     std::unique_ptr<exchange::RouteExchange> exchange)
+    : options_(std::move(options)),
+      store_(std::move(store)),
+      exchange_(std::move(exchange)),
+      outbox_(options_.agent, *store_) {
+  if (exchange_) presence_.emplace(*exchange_, ScoutStatus(options_.agent));
+}
+
+ScoutLink::~ScoutLink() {
+  if (!thread_.joinable()) return;
+  options_.delivery_timeout = milliseconds{0};
+  if (auto outcome = Finish(); !outcome) spdlog::error("{}", outcome.error().message);
+}
+
+Result<void> ScoutLink::Open() {
+  opened_ = steady_clock::now();
+  if (!exchange_) return {};
+  auto notes = outbox_.LoadBacklog();
+  if (!notes) return tl::unexpected(notes.error());
+  for (const std::string& note : *notes) spdlog::info("{}", note);
+  if (auto told = TellHeld(); !told) return told;
+  const auto handle = [this](const exchange::Message& message) {
+    outbox_.Handle(message, steady_clock::now());
+  };
+  return presence_->Claim(handle, options_.stop);
+}
+
+Result<void> ScoutLink::Assign(route::RouteInfo& route) {
+  auto earlier = store_->FindRoutesByName(route.name);
+  if (!earlier) return tl::unexpected(earlier.error());
+  if (earlier->empty()) {
+    route.key = {MakeRouteId(), RevisionNumber(1)};
+    return {};
+  }
+  route.key = earlier->front().key;
+  for (const route::RouteInfo& info : *earlier) {
+    if (info.key.route == route.key.route) {
+      route.key.revision = std::max(route.key.revision, info.key.revision);
+    }
+  }
+  route.key.revision = RevisionNumber(route.key.revision.value() + 1);
+  spdlog::info("route '{}' is known here: teaching its revision {}", route.name,
+               route.key.revision.value());
+  return {};
+}
+
+Result<void> ScoutLink::Start(std::optional<route::RouteInfo> route) {
+  if (route) {
+    if (auto assigned = Assign(*route); !assigned) return assigned;
+    planned_ = std::move(route);
+  }
+  thread_ = std::thread([this] { Run(); });
+  return {};
+}
+
+bool ScoutLink::Offer(route::Segment segment) {
+  if (failed()) return false;
+  const bool put = segments_.TryPut(std::move(segment));
+  bell_.Ring();
+  return put;
+}
+
+void ScoutLink::Report(const TeachingNow& now) {
+  // Full: the thread is busy on the disk, and will get a newer one.
+  [[maybe_unused]] const bool put = reports_.TryPut(TeachingNow(now));
+}
+
+Result<ScoutLink::Outcome> ScoutLink::Finish() {
+  ending_ = true;
+  bell_.Ring();
+  if (thread_.joinable()) thread_.join();
+  if (error_) return tl::unexpected(*error_);
+  Outcome outcome;
+  if (key_) outcome.route = outbox_.info(*key_);
+  outcome.unreceipted = outbox_.unreceipted();
+  outcome.all_receipted = outbox_.AllReceipted();
+  outcome.refusal = outbox_.refusal();
+  return outcome;
+}
+
+void ScoutLink::Close(exchange::AgentMode mode, const std::string& detail) {
+  if (!presence_) return;
+  ShowStatus(mode, detail);
+  presence_->Publish();
+}
+
+void ScoutLink::Run() {
+  Result<void> result;
+  while (result && !ending_.load()) result = Step();
+  if (result) result = StoreOffered();
+  if (result && key_) result = outbox_.Complete(*key_);
+  if (result) result = TellHeld();
+  if (result && exchange_) result = Deliver();
+  if (!result) {
+    error_ = result.error();
+    failed_ = true;
+  }
+}
+
+Result<void> ScoutLink::TellHeld() {
+  auto held = HeldRevisions(*store_);
+  if (!held) return tl::unexpected(held.error());
+  held_revisions_ = std::move(*held);
+  return {};
+}
+
+Result<void> ScoutLink::Step() {
+  if (auto stored = StoreOffered(); !stored) return stored;
+  if (!exchange_) {
+    bell_.Wait(milliseconds(200));
+    return {};
+  }
+  ShowStatus(exchange::AgentMode::kTeaching, "");
+  return Trade();
+}
+
+Result<void> ScoutLink::StoreOffered() {
+  while (auto segment = segments_.TryGet()) {
+    if (!key_) {
+      if (auto begun = outbox_.Begin(*planned_); !begun) return begun;
+      key_ = planned_->key;
+    }
+    if (auto added = outbox_.Add(*key_, **segment); !added) return added;
+    const route::RouteInfo& info = outbox_.info(*key_);
+    spdlog::info("segment {} of '{}': {:.2f} m, {} features; {} bytes stored so far",
+                 (*segment)->index.value(), info.name, (*segment)->length_m,
+                 (*segment)->features.size(), info.bytes);
+  }
+  while (auto report = reports_.TryGet()) latest_ = *report;
+  return {};
+}
+
+Result<void> ScoutLink::Trade() {
+  for (const exchange::Message& message : exchange_->Take(kWait)) {
+    presence_->Handle(message);
+    outbox_.Handle(message, steady_clock::now());
+  }
+  const auto now = steady_clock::now();
+  if (auto sent = exchange::PublishAll(*exchange_, outbox_.Tick(now)); !sent) {
+    spdlog::debug("{}", sent.error().message);
+  }
+  for (const Error& error : outbox_.TakeReadErrors()) {
+    spdlog::error("cannot send: {}", error.message);
+  }
+  presence_->Tick(now);
+  HearServer();
+  HearRefusal();
+  return outbox_.SaveReceipts();
+}
+
+Result<void> ScoutLink::Deliver() {
+  const auto began = steady_clock::now();
+  if (!outbox_.AllReceipted()) {
+    spdlog::info("waiting for a server's receipts of {} segments (at most {:.0f} s)",
+                 outbox_.unreceipted(), Seconds(options_.delivery_timeout));
+  }
+  while (!outbox_.AllReceipted()) {
+    const auto bound = options_.stop() ? std::min(options_.delivery_timeout_when_stopped,
+                                                  options_.delivery_timeout)
+                                       : options_.delivery_timeout;
+    if (steady_clock::now() - began > bound) return {};
+    ShowStatus(exchange::AgentMode::kWaiting,
+               fmt::format("{} for receipts of {} segments",
+                           presence_->server() ? "waiting" : "no server heard: waiting",
+                           outbox_.unreceipted()));
+    if (auto traded = Trade(); !traded) return traded;
+  }
+  return {};
+}
+
+void ScoutLink::HearServer() {
+  const auto& server = presence_->server();
+  if (server && server != told_server_) {
+    spdlog::info("server '{}' is there", server->value());
+    told_server_ = server;
+  } else if (!server && told_server_) {
+    spdlog::warn("server '{}' is gone: segments are kept in {} until one confirms them",
+                 told_server_->value(), options_.store_file);
+    told_server_.reset();
+    told_no_server_ = true;
+  } else if (!server && !told_no_server_ && steady_clock::now() - opened_ > kServerPatience) {
+    spdlog::warn("no server heard yet: segments are kept in {} until one confirms them",
+                 options_.store_file);
+    told_no_server_ = true;
+  }
+}
+
+void ScoutLink::HearRefusal() {
+  auto refusal = outbox_.refusal();
+  if (refusal == told_refusal_) return;
+  told_refusal_ = std::move(refusal);
+  if (told_refusal_) {
+    spdlog::warn("{}; this agent's copy stays in {}", *told_refusal_, options_.store_file);
+  } else {
+    spdlog::info("the server takes segments again");
+  }
+}
+
+void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) {
+  exchange::AgentStatus status;
+  status.mode = mode;
+  if (planned_) status.route = planned_->name;
+  if (key_) {
+    const route::RouteInfo& info = outbox_.info(*key_);
+    status.segments = info.segment_count;
+    status.segment = info.segment_count;
+  }
+  const bool driving = mode == exchange::AgentMode::kTeaching;
+  status.progress = driving ? latest_.drive_progress.value_or(0.0) : 1.0;
+  status.speed_mps = driving ? latest_.speed_mps : 0.0;
+  status.features = driving ? static_cast<std::uint32_t>(std::max(0, latest_.features)) : 0U;
+  status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
+  status.detail = exchange::PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
+  status.held = held_revisions_;
+  presence_->Set(std::move(status));
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "agent/session/frame_check.h"
+#include "agent/session/observation.h"
+#include "services/base/result.h"
+#include "services/base/time.h"
+#include "services/image/image.h"
+#include "services/motion/motion.h"
+#include "services/route/tracked_feature.h"
+#include "services/vision/donut.h"
+#include "services/vision/feature_tracker.h"
+
+namespace trailcast::agent {
+
+// What one frame shows.
+struct Seen {
+  const image::GrayImage* frame = nullptr;      // an omnidirectional one unrolled; until the next
+  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now
+  double flow = 0.0;                            // how far most moved, as a share of the width
+  std::optional<motion::OdometryIncrement> driven;  // since the last frame; nothing: no odometry
+  double dt_s = 0.0;                                // the same
+};
+
+// A picture's first station: checked, unrolled, its features tracked.
+class Eyes {
+ public:
+  // Errors: those of FrameCheck.
+  [[nodiscard]] Result<Seen> See(const Observation& observation);
+
+  [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
+  [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
+  [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }
+
+ private:
+  [[nodiscard]] std::optional<motion::OdometryIncrement> Driven(const Observation& observation);
+
+  FrameCheck check_;
+  vision::DonutUnroller unroller_;
+  vision::FeatureTracker tracker_;
+  std::optional<motion::Pose2> last_odometry_;
+  std::optional<SensorTime> last_stamp_;
+};
+
+}  // namespace trailcast::agent

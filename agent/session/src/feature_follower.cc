@@ -1,0 +1,161 @@
+#include "agent/session/src/feature_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "agent/session/src/view_follower.h"
+
+namespace trailcast::agent {
+namespace {
+
+// Blind robots look for the route again every so many frames: the wide search costs time.
+constexpr int kLookAgain_frames = 5;
+constexpr double kShareToSkip = 0.5;
+constexpr int kEnoughAgreed = 10;
+
+// How many of these places, from the image centre, are in the picture.
+int InPicture(const std::vector<route::TrackedFeature>& places, const image::GrayImage& frame) {
+  return static_cast<int>(
+      std::count_if(places.begin(), places.end(), [&](const route::TrackedFeature& place) {
+        return std::abs(place.u_px) < 0.5 * frame.width &&
+               std::abs(place.v_px) < 0.5 * frame.height;
+      }));
+}
+
+ConfidenceOptions ConfidenceOf(ReplayMethod method) {
+  ConfidenceOptions options;
+  options.stand_when_covered = !AsPrinted(method);
+  return options;
+}
+
+}  // namespace
+
+FeatureFollower::FeatureFollower(const ReplayMethodOptions& options, int scout_width_px,
+                                 const KnownRoute& route, Eyes& eyes, PlaceKeeper& place)
+    : options_(options),
+      scout_width_px_(scout_width_px),
+      route_(route),
+      eyes_(eyes),
+      place_(place),
+      search_(!AsPrinted(options.method), scout_width_px, eyes, place),
+      confidence_(ConfidenceOf(options.method)) {}
+
+replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
+  search_.Open(*seen.frame);
+  if (const auto magnification = place_.Magnification(seen.frame->width)) {
+    search_.hand_over().SetRunMagnification(*magnification);
+  }
+  if (!follower_ || standing.state == ReplayState::kWaiting) {
+    if (!BeginNext(standing)) return {};
+    const replay::FollowStep first = follower_->Step({eyes_.tracker().Current(), seen.driven});
+    Judge(first, seen, standing);
+    return first;
+  }
+  return follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
+}
+
+// On the spot, before a segment: as far as odometry says.
+replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
+  const replay::FollowStep step = follower_->Step({{}, seen.driven});
+  standing = {ReplayState::kFollowing, Trust::kSure, ""};
+  if (!follower_->turning()) search_.HandOverTo(*follower_);
+  return step;
+}
+
+replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
+  const SegmentIndex before = follower_->segment().index;
+  replay::FollowStep step = follower_->Step({seen.features, seen.driven});
+  Judge(step, seen, standing);
+  if (!AsPrinted(options_.method)) {
+    search_.Refresh(*follower_, step.agreeing, step.carried_left_m.has_value());
+  }
+  const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
+  // What covers this segment's features covers the next one's too.
+  const bool covered = standing.trust == Trust::kCovered || confidence_.view_is_going();
+  const bool wants_next = step.wants_next && next_is_here && !covered;
+  if (standing.state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(standing);
+  // A segment that has just begun is not as far along as the last one was.
+  if (follower_->segment().index != before) {
+    step.fraction = 0.0;
+    if (step.offset) step.offset->along_m -= route_.segment(before).length_m;
+  }
+  if (confidence_.recognised_only()) SteerByWholeView(step);
+  return step;
+}
+
+Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {
+  const route::Segment& segment = follower_->segment();
+  Sighting sighting{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
+                    eyes_.tracker().losses().not_returned};
+  sighting.carried_off = step.carried_left_m.has_value();
+  if (step.offset) {
+    sighting.left_sigma_m = step.offset->left_sigma_m;
+    sighting.in_picture = InPicture(follower_->Expect(), *seen.frame);
+  }
+  Compare({segment.index, step.fraction}, sighting);
+  return sighting;
+}
+
+// By the belief over the whole route, of a robot that is thought to be at `point`.
+void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const {
+  if (!place_.where().held) return;
+  const bool here = std::abs(place_.where().along - place_.AlongOf(point)) <= kElsewhere;
+  sighting.elsewhere = !here && place_.where().agreed >= kEnoughAgreed;
+  sighting.recognised =
+      here && options_.method == ReplayMethod::kDefault && place_.agreed_now() >= kEnoughAgreed;
+}
+
+void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
+  Sighting sighting = SightOf(step, seen);
+  // Features that lie where odometry and the taught geometry have them outweigh it.
+  const bool elsewhere =
+      std::exchange(sighting.elsewhere, sighting.elsewhere && AsPrinted(options_.method));
+  Verdict verdict = confidence_.Judge(sighting, seen.driven);
+  if (AsPrinted(options_.method)) {  // which know no doubt of their own
+    Verdict by_place = place_trust_.Judge(place_.where());
+    if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
+  }
+  standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
+  const bool tracked = standing.trust == Trust::kSure && step.offset && step.agreeing > 0;
+  const RoutePoint point{follower_->segment().index, step.fraction};
+  place_.SetTracked(tracked ? std::optional(point) : std::nullopt, step.agreeing);
+  const bool astray = standing.trust == Trust::kBlind || standing.trust == Trust::kSeeking ||
+                      (elsewhere && standing.trust == Trust::kUnsure) ||
+                      confidence_.recognised_only();
+  if (astray && standing.state != ReplayState::kLost) LookAgain(step.fraction, elsewhere);
+}
+
+// Where the belief holds it to be, if that is somewhere else; otherwise about where it is thought
+// to be and at the next segment's start, by turns: what is near may be gone for good.
+void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
+  if (confidence_.unsure_frames() % kLookAgain_frames != 0) return;
+  const SegmentIndex index = follower_->segment().index;
+  const std::size_t next = index.value() + 1;
+  const bool ahead =
+      !elsewhere && route_.has(next) && confidence_.unsure_frames() / kLookAgain_frames % 2 == 0;
+  const RoutePoint point = elsewhere ? place_.point()
+                           : ahead   ? RoutePoint{route_.segments()[next].index, 0.0}
+                                     : RoutePoint{index, fraction};
+  const route::Segment& segment = route_.segment(point.segment);
+  if (segment.features.empty()) return;
+  const auto found = search_.Recover(*follower_, segment, point);
+  // What is ahead may be seen from afar: to go on from there, most of it must be.
+  const bool too_far = ahead && static_cast<double>(found.size()) <
+                                    kShareToSkip * static_cast<double>(segment.features.size());
+  if (found.empty() || too_far) return;
+  if (elsewhere) follower_->BeginAt(segment, point.fraction);
+  if (ahead) follower_->Begin(segment);
+  search_.TakeUpRecovered(found, *follower_, segment);
+}
+
+// Of a robot that has lost the segment's features, where the view as a whole is recognised.
+void FeatureFollower::SteerByWholeView(replay::FollowStep& step) const {
+  const ViewSteering by_views = SteerByViews(
+      place_, options_.speed_factor * follower_->segment().speed_mps(), options_.limits);
+  if (by_views.turn.features == 0) return;
+  step.turn_rad = step.vision_turn_rad = by_views.turn.turn_rad;
+  step.command = by_views.command;
+}
+
+}  // namespace trailcast::agent

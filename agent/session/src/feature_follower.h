@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "agent/session/confidence.h"
+#include "agent/session/place_finder.h"
+#include "agent/session/replay_method.h"
+#include "agent/session/replay_step.h"
+#include "agent/session/src/eyes.h"
+#include "agent/session/src/feature_search.h"
+#include "agent/session/src/known_route.h"
+#include "agent/session/src/place_keeper.h"
+#include "agent/session/src/place_trust.h"
+#include "agent/session/src/standing.h"
+#include "services/motion/motion.h"
+#include "services/replay/follower.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+// Follows by the features of one segment after the other: has a method of services/replay steer by
+// those that are tracked, judges how far it may be trusted, and seeks features where there are too
+// few, the segment ends, or the robot is elsewhere.
+class FeatureFollower {
+ public:
+  // `route`, `eyes` and `place` outlive it.
+  FeatureFollower(const ReplayMethodOptions& options, int scout_width_px, const KnownRoute& route,
+                  Eyes& eyes, PlaceKeeper& place);
+
+  // A segment that has just been added to the route.
+  void Learn(const route::Segment& segment);
+  // Before the first frame: where an earlier run has left the robot is looked for first.
+  void GoOnFrom(const LeftAt& left);
+
+  // How to steer by what is seen, where `place` holds the robot to be. `standing` is as the last
+  // frame left it, and becomes what this one says of the run.
+  [[nodiscard]] replay::FollowStep Step(const Seen& seen, Standing& standing);
+
+  // What is told of such a step; {}: that nothing is followed yet.
+  [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
+
+  // Of the segment being followed; nullptr before the first.
+  [[nodiscard]] const replay::Follower* follower() const { return follower_.get(); }
+
+ private:
+  // So far from where its features are, the belief holds the robot to be somewhere else.
+  static constexpr double kElsewhere = 2.0;
+
+  [[nodiscard]] bool by_odometry() const {
+    return eyes_.has_odometry() && UsesOdometry(options_.method);
+  }
+  // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
+  [[nodiscard]] bool BeginNext(Standing& standing);
+  [[nodiscard]] bool BeginWhereLeft(Standing& standing);
+  [[nodiscard]] bool BeginAnywhere(Standing& standing);
+  void Make(const route::Segment& first);
+  void Begin(const route::Segment& segment);
+  void EndSegment(Standing& standing);
+  [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
+
+  [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
+  [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
+  void Compare(const RoutePoint& point, Sighting& sighting) const;
+  void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
+  void LookAgain(double fraction, bool elsewhere);
+  void SteerByWholeView(replay::FollowStep& step) const;
+  // Share of the method's speed that is driven.
+  [[nodiscard]] double SpeedShare(const replay::FollowStep& step, Trust trust) const;
+
+  ReplayMethodOptions options_;
+  int scout_width_px_;
+  const KnownRoute& route_;
+  Eyes& eyes_;
+  PlaceKeeper& place_;
+  FeatureSearch search_;
+  Confidence confidence_;
+  PlaceTrust place_trust_;                      // of the printed methods
+  std::optional<PlaceFinder> place_finder_;     // until it has found the place
+  std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,145 @@
+// Where a segment begins to be followed, and where the last one ends.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "agent/session/src/feature_follower.h"
+
+namespace trailcast::agent {
+namespace {
+
+// What so many segments say of the scout's camera is enough; each costs a fraction of a
+// millisecond.
+constexpr std::size_t kMostLearnt = 200;
+constexpr double kFound_m = 0.3;
+// How much of a route may be left where a method says that it has arrived.
+constexpr double kEnd = 2.0;
+constexpr double kEndShare = 0.05;
+
+}  // namespace
+
+void FeatureFollower::Learn(const route::Segment& segment) {
+  if (follower_ && segment.index.value() < kMostLearnt) follower_->Learn(segment);
+}
+
+void FeatureFollower::GoOnFrom(const LeftAt& left) {
+  place_finder_.emplace(left);
+  search_.hand_over().KnowMagnification(left.magnification);
+  ConfidenceOptions confidence = confidence_.options();
+  confidence.not_found = "the place where it was left is not found";
+  confidence_ = Confidence(confidence);
+}
+
+void FeatureFollower::Make(const route::Segment& first) {
+  const double magnification = place_finder_
+                                   ? place_finder_->left().magnification
+                                   : static_cast<double>(search_.frame().width) / scout_width_px_;
+  follower_ = MakeFollower(options_, eyes_.has_odometry() && first.has_odometry, scout_width_px_,
+                           magnification, place_finder_.has_value());
+  const std::size_t known = std::min(route_.segments().size(), kMostLearnt);
+  for (std::size_t i = 0; i < known; ++i) follower_->Learn(route_.segments()[i]);
+}
+
+// Hand-over: the segment's stored features are found in this frame and followed from here.
+void FeatureFollower::Begin(const route::Segment& segment) {
+  if (!follower_) Make(segment);
+  follower_->Begin(segment);
+  if (follower_->turning()) {  // what it is to find is not in view yet
+    search_.Forget();
+  } else {
+    search_.HandOverTo(*follower_);
+  }
+}
+
+// Of a robot that stands, for want of a segment to follow.
+bool FeatureFollower::BeginNext(Standing& standing) {
+  if (place_finder_) return BeginWhereLeft(standing);
+  if (options_.anywhere && !follower_) return BeginAnywhere(standing);
+  const std::size_t next = follower_ ? follower_->segment().index.value() + 1 : 0;
+  if (route_.has(next)) {
+    Begin(route_.segments()[next]);
+    return true;
+  }
+  if (route_.complete() && follower_) standing.state = ReplayState::kArrived;
+  return false;
+}
+
+bool FeatureFollower::BeginWhereLeft(Standing& standing) {
+  const auto recognised_m =
+      place_.where().held ? std::optional(place_.where().along) : std::nullopt;
+  if (const auto found = place_finder_->Look(search_.frame(), route_.segments(),
+                                             search_.hand_over(), recognised_m)) {
+    const route::Segment& segment = route_.segment(found->segment);
+    Make(segment);
+    follower_->BeginAt(segment, found->fraction);
+    place_.StartAt(place_.AlongOf({found->segment, found->fraction}), kFound_m);
+    search_.TakeUpWhereLeft(found->seen, *follower_);
+    place_finder_.reset();
+    if (recognised_m && std::abs(*recognised_m - place_.where().along) < kElsewhere) {
+      confidence_.SetFound();
+    }
+    return true;
+  }
+  standing.state = ReplayState::kBlind;
+  const double left_m = place_finder_->left().along_m;
+  standing.reason =
+      fmt::format("looks whether it is where it was left, {:.1f} m along the route", left_m);
+  if (!place_finder_->given_up()) return false;
+  standing.state = ReplayState::kLost;
+  standing.trust = Trust::kLost;
+  standing.reason = fmt::format(
+      "not where it was left, {:.1f} m along the route, nor at the route's start: {} in view at "
+      "best. Put it back to either, or begin at the start all the same with --from-start",
+      left_m, place_finder_->MostSeen());
+  return false;
+}
+
+// The same, of one that may be anywhere on the route.
+bool FeatureFollower::BeginAnywhere(Standing& standing) {
+  Verdict verdict = place_trust_.Judge(place_.where());
+  const bool lost = verdict.trust == Trust::kLost;
+  standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
+              lost ? Trust::kLost : Trust::kSeeking,
+              "looks where on the route it is: " + verdict.reason};
+  const RoutePoint point = place_.point();
+  const route::Segment& segment = route_.segment(point.segment);
+  if (!place_.where().held || segment.features.empty()) return false;
+  Make(segment);
+  follower_->BeginAt(segment, point.fraction);
+  const auto found = search_.Recover(*follower_, segment, point);
+  if (found.empty()) {
+    follower_.reset();
+    return false;
+  }
+  search_.TakeUpRecovered(found, *follower_, segment);
+  return true;
+}
+
+bool FeatureFollower::IsElsewhereThanAtTheEnd() const {
+  const double left = place_.belief().length() - place_.where().along;
+  return place_.where().held && left > std::max(kEnd, kEndShare * place_.belief().length());
+}
+
+void FeatureFollower::EndSegment(Standing& standing) {
+  const std::size_t next = follower_->segment().index.value() + 1;
+  if (route_.has(next)) {
+    Begin(route_.segments()[next]);
+  } else if (route_.complete() && !IsElsewhereThanAtTheEnd()) {
+    standing.state = ReplayState::kArrived;
+    standing.reason = "arrived at the end of the route";
+  } else if (route_.complete()) {
+    standing = {
+        ReplayState::kLost, Trust::kLost,
+        fmt::format("the last segment is over, but what is seen is {:.1f} {} before its end",
+                    place_.belief().length() - place_.where().along,
+                    place_.metric() ? "m" : "s of teaching")};
+  } else {
+    standing.state = ReplayState::kWaiting;
+    standing.reason = fmt::format("waiting for segment {}: not received yet", next);
+  }
+}
+
+}  // namespace trailcast::agent

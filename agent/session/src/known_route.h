@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "services/base/ids.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+// A route as far as it has come.
+class KnownRoute {
+ public:
+  // `announced`: how many segments it is said to have.
+  explicit KnownRoute(std::size_t announced) : announced_(announced) {}
+
+  void Add(route::Segment segment) {
+    begin_m_.push_back(length_m());
+    segments_.push_back(std::move(segment));
+  }
+  void MarkComplete() { complete_ = true; }
+
+  [[nodiscard]] const std::vector<route::Segment>& segments() const { return segments_; }
+  [[nodiscard]] const route::Segment& segment(SegmentIndex index) const {
+    return segments_[index.value()];
+  }
+  [[nodiscard]] bool has(std::size_t index) const { return index < segments_.size(); }
+  [[nodiscard]] bool is_last(SegmentIndex index) const {
+    return complete_ && index.value() + 1 == segments_.size();
+  }
+  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] double begin_m(SegmentIndex index) const { return begin_m_[index.value()]; }
+  [[nodiscard]] double length_m() const {
+    return segments_.empty() ? 0.0 : begin_m_.back() + segments_.back().length_m;
+  }
+  // As a share of the route as it was announced, by segments.
+  [[nodiscard]] double ProgressAt(SegmentIndex segment, double fraction) const {
+    return (segment.value() + fraction) /
+           static_cast<double>(std::max(segments_.size(), announced_));
+  }
+
+ private:
+  std::size_t announced_;
+  std::vector<route::Segment> segments_;
+  std::vector<double> begin_m_;
+  bool complete_ = false;
+};
+
+}  // namespace trailcast::agent

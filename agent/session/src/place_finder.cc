@@ -1,0 +1,91 @@
+#include "agent/session/place_finder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace trailcast::agent {
+namespace {
+
+// Metres from where it was left. More of them ahead: what was noted may be a second old, and a
+// robot whose agent was killed rolls on for a while.
+constexpr std::array kAround_m = {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6};
+// It is there if it sees so many, and such a share, of the features that should be in its picture:
+// more than at a hand-over, where it is known to be near.
+constexpr std::size_t kLeastFeatures = 8;
+constexpr std::size_t kLeastFeaturesWhereRecognised = 5;
+constexpr double kRecognised_m = 2.0;
+constexpr double kLeastShare = 0.6;
+// A place from which everything looks so much larger or smaller than it should is another.
+constexpr double kOtherSize = 0.2;
+
+struct PlaceInRoute {
+  const route::Segment* segment = nullptr;
+  double fraction = 0.0;
+};
+
+// Nothing for a place that is not on the route, or not known yet.
+std::optional<PlaceInRoute> PlaceAt(std::span<const route::Segment> segments, double along_m) {
+  if (along_m < 0.0) return std::nullopt;
+  for (const route::Segment& segment : segments) {
+    if (along_m < segment.length_m) return PlaceInRoute{&segment, along_m / segment.length_m};
+    along_m -= segment.length_m;
+  }
+  return std::nullopt;
+}
+
+double Share(const vision::FindResult& seen) {
+  return static_cast<double>(seen.features.size()) / std::max(1, seen.in_picture);
+}
+
+bool IsThere(const vision::FindResult& seen, bool recognised) {
+  const std::size_t least = recognised ? kLeastFeaturesWhereRecognised : kLeastFeatures;
+  return seen.BeyondChance() && seen.features.size() >= least && Share(seen) >= kLeastShare;
+}
+
+}  // namespace
+
+double PlaceFinder::Likeness(const Found& found) const {
+  const double other_size = std::abs(std::log(found.seen.magnification / left_.magnification));
+  return Share(found.seen) * std::max(0.0, 1.0 - other_size / kOtherSize);
+}
+
+std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& frame,
+                                                    std::span<const route::Segment> segments,
+                                                    const HandOver& hand_over,
+                                                    std::optional<double> recognised_m) {
+  if (given_up()) return std::nullopt;
+  const bool at_start = turn_ == kAround_m.size();
+  const double along_m = at_start ? 0.0 : left_.along_m + kAround_m.at(turn_);
+  const auto place = PlaceAt(segments, along_m);
+  if (place) {
+    const bool grown = rounds_ > 0;  // where nothing was found as it was taught
+    Found found{
+        place->segment->index, place->fraction,
+        hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown)};
+    if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
+    // It is back at the start only if it is nowhere about the other place.
+    const bool likest = !likest_ || (!at_start && Likeness(found) > Likeness(*likest_));
+    const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
+    if (IsThere(found.seen, recognised) && Likeness(found) > 0.0 && likest)
+      likest_ = std::move(found);
+  }
+  if (!at_start) {
+    ++turn_;
+    return std::nullopt;
+  }
+  turn_ = 0;
+  ++rounds_;
+  return std::exchange(likest_, std::nullopt);
+}
+
+std::string PlaceFinder::MostSeen() const {
+  if (!most_seen_) return "nothing";
+  return fmt::format("{} of {} features of segment {}", most_seen_->seen.features.size(),
+                     most_seen_->seen.in_picture, most_seen_->segment.value());
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,56 @@
+#include "agent/session/src/recogniser.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::agent {
+
+std::vector<belief::ComparedView> Look::Compared() const {
+  std::vector<belief::ComparedView> compared;
+  compared.reserve(views.size());
+  for (const Recognised& each : views) {
+    compared.push_back({each.view, each.comparison.agreed(), std::log(each.comparison.scale)});
+  }
+  return compared;
+}
+
+const Look::Recognised* Look::Best() const {
+  const auto best =
+      std::max_element(views.begin(), views.end(), [](const Recognised& a, const Recognised& b) {
+        return a.comparison.likeness < b.comparison.likeness;
+      });
+  return best == views.end() ? nullptr : &*best;
+}
+
+std::vector<std::optional<double>> Recogniser::Learn(std::span<const route::KeyView> views) {
+  constexpr int kEnough = 8;
+  std::vector<std::optional<double>> growths;
+  growths.reserve(views.size());
+  for (const route::KeyView& view : views) {
+    keys_.push_back(view::Tabulate(view.features, scout_width_px_));
+    std::optional<double>& growth = growths.emplace_back();
+    if (keys_.size() < 2) continue;
+    const view::Comparison comparison = view::Compare(keys_[keys_.size() - 2], keys_.back());
+    if (comparison.agreed() >= kEnough) growth = std::log(comparison.scale);
+  }
+  return growths;
+}
+
+Look Recogniser::LookAt(const image::GrayImage& frame, std::span<const std::size_t> views) {
+  Look look;
+  look.width_px = frame.width;
+  look.seen = view::Tabulate(describer_.Describe(frame), frame.width);
+  look.views.reserve(views.size());
+  for (const std::size_t view : views) {
+    look.views.push_back({view, view::Compare(keys_[view], look.seen)});
+  }
+  return look;
+}
+
+vision::ViewFit Recogniser::FitOf(const Look& look, const view::Comparison& comparison) const {
+  const double half_width_px = 0.5 * look.width_px;
+  return {comparison.scale * look.width_px / scout_width_px_, half_width_px * comparison.shift_u,
+          half_width_px * comparison.shift_v};
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,156 @@
+#include "agent/session/replay_session.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "agent/session/src/eyes.h"
+#include "agent/session/src/feature_follower.h"
+#include "agent/session/src/known_route.h"
+#include "agent/session/src/place_keeper.h"
+#include "agent/session/src/standing.h"
+#include "agent/session/src/view_follower.h"
+
+namespace trailcast::agent {
+namespace {
+
+constexpr int kMostWithoutPicture_frames = 90;
+// How far from the route's start a robot may be that is put there, in the route's units.
+constexpr double kStart_sigma = 0.25;
+constexpr double kLeft_m = 0.5;  // and from where it was left
+
+}  // namespace
+
+// A picture's way: what is seen (eyes), where that is (place), how to steer and what is said of it
+// (by features, or by views).
+struct ReplaySession::State {
+  State(const ReplayMethodOptions& method, const route::RouteInfo& info)
+      : options(method),
+        route(info.segment_count),
+        place(info.image_width_px),
+        by_features(method, info.image_width_px, route, eyes, place),
+        by_views(method, route, place) {}
+
+  // Without odometry, in the route or on the robot, our own method goes by what is recognised.
+  [[nodiscard]] bool ByViews() const {
+    return options.method == ReplayMethod::kDefault &&
+           !(eyes.has_odometry() && route.segments().front().has_odometry);
+  }
+  [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
+  void StartPlace(int width_px);
+  void Locate(const Seen& seen);
+  [[nodiscard]] ReplayStep Follow(const Seen& seen);
+
+  ReplayMethodOptions options;
+  KnownRoute route;
+  Eyes eyes;
+  PlaceKeeper place;
+  FeatureFollower by_features;
+  ViewFollower by_views;
+  std::optional<LeftAt> left;
+  bool begun = false;  // a frame was seen while something of the route was known
+  Standing standing;
+  int frames_without_picture = 0;
+  ReplayStep last;
+};
+
+// A camera that gives nothing to look at: the robot stands, for a while.
+ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
+  if (standing.state == ReplayState::kArrived || standing.state == ReplayState::kLost) return last;
+  ReplayStep report = last;
+  const bool lost = ++frames_without_picture > kMostWithoutPicture_frames;
+  report.command = {};
+  report.state = lost ? ReplayState::kLost : ReplayState::kBlind;
+  report.trust = lost ? Trust::kLost : Trust::kBlind;
+  report.reason = why;
+  standing.trust = report.trust;
+  if (lost) {
+    standing.state = report.state;
+    last = report;
+  }
+  return report;
+}
+
+void ReplaySession::State::StartPlace(int width_px) {
+  begun = true;
+  if (left) {
+    place.KnowMagnification(left->magnification, width_px);
+    place.StartAt(left->along_m, kLeft_m);
+  } else if (options.anywhere) {
+    place.StartAnywhere();
+  } else {
+    place.StartAt(0.0, kStart_sigma);
+  }
+}
+
+// A robot that is sure of its features asks what is recognised of the route only now and then.
+void ReplaySession::State::Locate(const Seen& seen) {
+  if (!begun) StartPlace(seen.frame->width);
+  place.Move({seen.driven, seen.flow, seen.dt_s});
+  if (ByViews() || standing.trust != Trust::kSure || place.LookIsDue()) place.LookAt(*seen.frame);
+}
+
+ReplayStep ReplaySession::State::Follow(const Seen& seen) {
+  if (!ByViews()) return by_features.Report(by_features.Step(seen, standing), standing);
+  ReplayStep step = by_views.Step();
+  standing = {step.state, step.trust, step.reason};
+  eyes.tracker().Detect();  // whose flow tells whether the robot moves
+  return step;
+}
+
+ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route)
+    : state_(std::make_unique<State>(options, route)) {}
+
+ReplaySession::~ReplaySession() = default;
+ReplaySession::ReplaySession(ReplaySession&&) noexcept = default;
+ReplaySession& ReplaySession::operator=(ReplaySession&&) noexcept = default;
+
+Result<void> ReplaySession::AddSegment(route::Segment segment) {
+  State& s = *state_;
+  const std::size_t next = s.route.segments().size();
+  if (segment.index.value() != next) {
+    return Fail(ErrorCode::kInvalidArgument, "segment {} was given where {} comes next",
+                segment.index.value(), next);
+  }
+  s.by_features.Learn(segment);
+  s.place.Learn(segment);
+  s.route.Add(std::move(segment));
+  return {};
+}
+
+void ReplaySession::MarkComplete() { state_->route.MarkComplete(); }
+
+void ReplaySession::GoOnFrom(const LeftAt& left) {
+  state_->left = left;
+  state_->by_features.GoOnFrom(left);
+}
+
+double ReplaySession::known_m() const { return state_->route.length_m(); }
+
+Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
+  State& s = *state_;
+  auto seen = s.eyes.See(observation);
+  if (!seen) {
+    if (seen.error().code != ErrorCode::kInvalidArgument) return tl::unexpected(seen.error());
+    return s.StepWithoutPicture(seen.error().message);
+  }
+  s.frames_without_picture = 0;
+  if (!UsesOdometry(s.options.method)) seen->driven.reset();
+  if (s.standing.state == ReplayState::kArrived) return s.last;
+  if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
+  s.Locate(*seen);
+  s.last = s.Follow(*seen);
+  const belief::RouteBelief::Place& where = s.place.where();
+  const double length = std::max(1e-9, s.place.belief().length());
+  s.last.believed = {where.along / length, where.sigma / length, where.off_route};
+  return s.last;
+}
+
+std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
+  const replay::Follower* follower = state_->by_features.follower();
+  if (follower == nullptr) return {};
+  return replay::ViewFeatures(*follower, state_->eyes.tracker().Current(), step.decision.roll_rad);
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,39 @@
+#include "agent/session/replay_state.h"
+
+namespace trailcast::agent {
+
+const char* ToString(ReplayState state) {
+  switch (state) {
+    case ReplayState::kWaiting:
+      return "WAITING";
+    case ReplayState::kYielding:
+      return "YIELDING";
+    case ReplayState::kFollowing:
+      return "FOLLOWING";
+    case ReplayState::kBlind:
+      return "BLIND";
+    case ReplayState::kArrived:
+      return "ARRIVED";
+    case ReplayState::kLost:
+      return "LOST";
+  }
+  return "UNKNOWN";
+}
+
+ReplayState StateOf(Trust trust) {
+  switch (trust) {
+    case Trust::kSure:
+    case Trust::kUnsure:
+    case Trust::kDistant:
+      return ReplayState::kFollowing;
+    case Trust::kBlind:
+    case Trust::kCovered:
+    case Trust::kSeeking:
+      return ReplayState::kBlind;
+    case Trust::kLost:
+      break;
+  }
+  return ReplayState::kLost;
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "agent/session/confidence.h"
+#include "agent/session/replay_state.h"
+
+namespace trailcast::agent {
+
+// How a run stands, from one frame to the next.
+struct Standing {
+  ReplayState state = ReplayState::kWaiting;
+  Trust trust = Trust::kSeeking;
+  std::string reason;  // one line for people
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "services/base/result.h"
+#include "services/sim/core/camera.h"
+
+namespace trailcast::agent {
+
+// Reads a camera from TOML: width, height (pixels), model ("pinhole", "fisheye", "omni"), hfov_deg,
+// distortion, height_m, yaw_deg, pitch_deg, name. What is not given is as CameraModel has it;
+// the name is the file's. Unknown keys are errors that name those accepted.
+[[nodiscard]] Result<sim::CameraModel> ReadCameraFile(const std::filesystem::path& file);
+
+// A built-in camera's name, or a file ending in .toml.
+[[nodiscard]] Result<sim::CameraModel> CameraFromWord(const std::string& word);
+
+}  // namespace trailcast::agent

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/device/simulated_robot.h"
+
+namespace trailcast::agent {
+
+// A simulated robot in lockstep: the world's time passes only in Next. The scout is driven along
+// the path by an operator who sees where it is; a follower starts near the path's start (drawn by
+// the seed) and does as it is told.
+class SimulatedDevice final : public SimulatedRobot {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<SimulatedDevice>> Open(const SimulatedRun& run);
+  ~SimulatedDevice() override;
+
+  [[nodiscard]] Result<std::optional<Observation>> Next() override;
+  [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
+  [[nodiscard]] std::string camera() const override;
+  [[nodiscard]] std::optional<double> drive_progress() const override;
+
+  [[nodiscard]] Result<void> WriteTruth(const std::filesystem::path& file) const override;
+
+ private:
+  struct State;
+  explicit SimulatedDevice(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,102 @@
+#include "agent/simulated/camera_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include "services/program/toml.h"
+
+namespace trailcast::agent {
+namespace {
+
+using Field = std::variant<int*, double*, std::string*>;
+
+// Where each key's value goes. `model` is a word until it is parsed.
+std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model) {
+  return {{"name", &camera.name},
+          {"width", &camera.width},
+          {"height", &camera.height},
+          {"model", &model},
+          {"hfov_deg", &camera.horizontal_fov_deg},
+          {"distortion", &camera.distortion},
+          {"height_m", &camera.height_m},
+          {"yaw_deg", &camera.yaw_deg},
+          {"pitch_deg", &camera.pitch_deg}};
+}
+
+template <typename Number>
+bool Parse(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && stop == end;
+}
+
+bool Assign(const Field& field, const std::string& text) {
+  if (auto* const* number = std::get_if<int*>(&field)) return Parse(text, **number);
+  if (auto* const* real = std::get_if<double*>(&field)) {
+    return Parse(text, **real) && std::isfinite(**real);
+  }
+  *std::get<std::string*>(field) = text;
+  return true;
+}
+
+const char* Expected(const Field& field) {
+  if (std::holds_alternative<int*>(field)) return "a whole number";
+  return std::holds_alternative<double*>(field) ? "a number" : "a word";
+}
+
+Result<void> Set(const std::map<std::string, Field>& fields, const CLI::ConfigItem& item) {
+  const auto field = fields.find(item.fullname());
+  if (field == fields.end()) {
+    std::string accepted;
+    for (const auto& [key, unused] : fields) accepted += (accepted.empty() ? "" : ", ") + key;
+    return Fail(ErrorCode::kInvalidArgument, "unknown key '{}'; accepted are {}", item.fullname(),
+                accepted);
+  }
+  if (item.inputs.size() == 1 && Assign(field->second, item.inputs.front())) return {};
+  return Fail(ErrorCode::kInvalidArgument, "'{}' is '{}'; expected {}", field->first,
+              item.inputs.empty() ? "" : item.inputs.front(), Expected(field->second));
+}
+
+Result<sim::CameraModel> Parse(std::istream& stream, sim::CameraModel camera) {
+  std::string model;
+  const auto fields = Fields(camera, model);
+  for (const CLI::ConfigItem& item : program::Toml().from_config(stream)) {
+    if (item.name == "++" || item.name == "--") continue;  // a section's begin and end
+    if (auto set = Set(fields, item); !set) return tl::unexpected(set.error());
+  }
+  if (!model.empty()) {
+    auto parsed = sim::ParseLensModel(model);
+    if (!parsed) return tl::unexpected(parsed.error());
+    camera.model = *parsed;
+  }
+  if (auto valid = sim::Validate(camera); !valid) return tl::unexpected(valid.error());
+  return camera;
+}
+
+}  // namespace
+
+Result<sim::CameraModel> ReadCameraFile(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    return Fail(ErrorCode::kNotFound, "cannot read the camera file {}", file.string());
+  }
+  sim::CameraModel camera;
+  camera.name = file.stem().string();
+  auto parsed = Parse(stream, std::move(camera));
+  if (!parsed) return Wrap(parsed.error(), "camera file " + file.string());
+  return parsed;
+}
+
+Result<sim::CameraModel> CameraFromWord(const std::string& word) {
+  if (std::filesystem::path(word).extension() == ".toml") return ReadCameraFile(word);
+  auto camera = sim::FindCamera(word);
+  if (camera) return camera;
+  return Fail(camera.error().code, "{}, or a file ending in .toml", camera.error().message);
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,107 @@
+#include "agent/simulated/simulated_device.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "agent/simulated/camera_file.h"
+#include "services/base/text_file.h"
+#include "services/sim/core/judge.h"
+#include "services/sim/core/path.h"
+#include "services/sim/core/path_follow_driver.h"
+#include "services/sim/core/simulated_robot.h"
+#include "services/sim/places/place.h"
+
+namespace trailcast::agent {
+namespace {
+
+struct TruePose {
+  SensorTime stamp{};
+  motion::Pose2 pose;
+};
+
+}  // namespace
+
+struct SimulatedDevice::State {
+  std::string camera;
+  std::unique_ptr<sim::SimulatedRobot> robot;
+  std::optional<sim::PathFollowDriver> operator_;  // the scout's
+  sim::Polyline path;
+  double along_m = 0.0;  // the scout's place on it
+  bool stays_at_end = false;
+  motion::VelocityCommand command;
+  std::vector<TruePose> truth;
+
+  [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
+};
+
+SimulatedDevice::SimulatedDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SimulatedDevice::~SimulatedDevice() = default;
+
+Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRun& run) {
+  auto camera = CameraFromWord(run.camera);
+  if (!camera) return tl::unexpected(camera.error());
+  auto place = sim::OpenPlace(run.place);
+  if (!place) return tl::unexpected(place.error());
+  for (const std::string& warning : place->world->warnings()) spdlog::warn("{}", warning);
+  sim::SimulatedRobotOptions options;
+  options.camera = *camera;
+  options.start = sim::StartPose(place->path.points);
+  options.start_z_max_m = place->path.z_max_m;
+  if (run.drives_itself) options.disturbances = sim::Disturbances::ForScout();
+  options.disturbances.slip = place->slip;
+  options.seed = run.seed;
+  auto robot = sim::SimulatedRobot::Create(place->world, options);
+  if (!robot) return tl::unexpected(robot.error());
+  auto state = std::make_unique<State>();
+  state->stays_at_end = run.stays_at_end;
+  state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
+  state->robot = std::move(*robot);
+  state->path = std::move(place->path.points);
+  if (run.drives_itself) {
+    sim::DriverOptions driver;
+    driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
+    state->operator_.emplace(state->path, driver);
+  }
+  return std::unique_ptr<SimulatedDevice>(new SimulatedDevice(std::move(state)));
+}
+
+Result<std::optional<Observation>> SimulatedDevice::Next() {
+  State& s = *state_;
+  if (s.operator_ && !s.truth.empty()) {
+    s.command = s.operator_->Command(s.Pose());
+    if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
+  }
+  sim::Observation seen = s.robot->Step(s.command);
+  s.truth.push_back({seen.stamp, s.Pose()});
+  // Looked for near where it was: a loop passes some places twice.
+  s.along_m =
+      sim::Nearest(s.path, motion::Position(s.truth.back().pose), s.along_m - 1.0, s.along_m + 2.0)
+          .along_m;
+  return Observation{seen.stamp, std::move(seen.image), seen.odometry};
+}
+
+Result<void> SimulatedDevice::Drive(const motion::VelocityCommand& command) {
+  if (!state_->operator_) state_->command = command;
+  return {};
+}
+
+std::string SimulatedDevice::camera() const { return state_->camera; }
+
+std::optional<double> SimulatedDevice::drive_progress() const {
+  if (!state_->operator_) return std::nullopt;
+  return state_->along_m / sim::Length(state_->path);
+}
+
+Result<void> SimulatedDevice::WriteTruth(const std::filesystem::path& file) const {
+  std::string text = "t_s,x_m,y_m,heading_rad\n";
+  for (const TruePose& row : state_->truth) {
+    text += fmt::format("{:.4f},{:.4f},{:.4f},{:.5f}\n", Seconds(row.stamp), row.pose.x_m,
+                        row.pose.y_m, row.pose.heading_rad);
+  }
+  return WriteTextFile(file, text);
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,82 @@
+#include "services/base/number_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "services/base/csv_line.h"
+
+namespace trailcast {
+namespace {
+
+std::optional<double> Number(const std::string& text) {
+  const std::size_t from = text.find_first_not_of(" \t");
+  if (from == std::string::npos) return std::nullopt;
+  const char* const end = text.data() + text.find_last_not_of(" \t") + 1;
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(text.data() + from, end, value);
+  if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+// Where each of the columns is in the header; nothing if one is missing.
+std::optional<std::vector<std::size_t>> PlacesOf(const std::vector<std::string>& names,
+                                                 const std::vector<std::string>& columns,
+                                                 const std::vector<std::string>& optional) {
+  std::vector<std::size_t> places;
+  for (const std::vector<std::string>* each : {&columns, &optional}) {
+    for (const std::string& column : *each) {
+      const auto found = std::find(names.begin(), names.end(), column);
+      if (found != names.end()) places.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    if (each == &columns && places.size() != columns.size()) return std::nullopt;
+  }
+  return places;
+}
+
+}  // namespace
+
+Result<std::vector<NumberRow>> ReadNumbers(const std::filesystem::path& file,
+                                           const std::vector<std::string>& columns,
+                                           const std::vector<std::string>& optional) {
+  std::ifstream stream(file);
+  if (!stream) {
+    return Fail(ErrorCode::kNotFound, "cannot read {}: check that the file exists", file.string());
+  }
+  const std::vector<std::string> names = CsvHeader(stream);
+  const auto places = PlacesOf(names, columns, optional);
+  if (!places) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{}, line 1: expected a header with the columns {}; it has {}", file.string(),
+                fmt::join(columns, ","), fmt::join(names, ","));
+  }
+  std::vector<NumberRow> rows;
+  std::string line;
+  for (int number = 2; std::getline(stream, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const auto cells = CsvCells(line);
+    if (!cells || cells->size() != names.size()) {
+      return Fail(ErrorCode::kInvalidArgument, "{}, line {}: {} columns; expected the {} of '{}'",
+                  file.string(), number, cells ? cells->size() : 0, names.size(),
+                  fmt::join(names, ","));
+    }
+    NumberRow& row = rows.emplace_back(NumberRow{number, {}});
+    for (const std::size_t place : *places) {
+      const auto value = Number((*cells)[place]);
+      if (!value) {
+        return Fail(ErrorCode::kInvalidArgument,
+                    "{}, line {}: expected a number under '{}', not '{}'", file.string(), number,
+                    names[place], (*cells)[place]);
+      }
+      row.cells.push_back(*value);
+    }
+  }
+  return rows;
+}
+
+}  // namespace trailcast

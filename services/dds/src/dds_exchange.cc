@@ -1,0 +1,311 @@
+#include "services/dds/dds_exchange.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "services/dds/src/joined.h"
+#include "services/dds/src/stranger_watch.h"
+#include "services/dds/src/wire.h"
+#include "services/exchange/batches.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/topics.h"
+#include "services/security/author.h"
+
+namespace trailcast::dds {
+namespace {
+
+using exchange::Message;
+using Clock = std::chrono::steady_clock;
+
+// One Take returns at most so many samples of a topic, so that a flood does not starve the others.
+constexpr std::size_t kMaxSamplesPerTake = 1024;
+
+// How often the keys' folder is looked at, and who is there.
+constexpr auto kLookEvery = std::chrono::seconds(1);
+
+// So long a folder may be in the middle of being copied.
+constexpr auto kCopying = std::chrono::seconds(10);
+
+exchange::SegmentBatch::Trust TrustIn(security::Role role) {
+  using Trust = exchange::SegmentBatch::Trust;
+  if (role == security::Role::kFollower) return Trust::kProof;
+  return role == security::Role::kScout ? Trust::kOwnRoutes : Trust::kAll;
+}
+
+class DdsExchange : public exchange::RouteExchange {
+ public:
+  DdsExchange(const DdsOptions& options, exchange::TopicUse use)
+      : options_(options), use_(std::move(use)) {
+    if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
+  }
+  ~DdsExchange() override { SayGoodBye(); }
+  DdsExchange(const DdsExchange&) = delete;
+  DdsExchange& operator=(const DdsExchange&) = delete;
+
+  Result<void> Join();
+
+  Result<void> Publish(const Message& message) override;
+  std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
+  [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
+
+ private:
+  Result<void> Write(exchange::Topic topic, const Message& message);
+  void TakeFrom(exchange::Topic topic, std::vector<Message>& messages);
+  void NoteWhoIsHeard(const Message& message);
+  void SayGoodBye();
+
+  // With keys.
+  void KeepWatch();
+  void TakeUpNewKeys();
+  void ForgetWhoWasHeard();
+  void TellOnce(const std::string& line);
+  void LookForStrangers(Clock::time_point now);
+  const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
+  [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
+                                 Message& message);
+
+  DdsOptions options_;
+  exchange::TopicUse use_;
+  std::optional<Joined> joined_;
+  std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
+  std::uint64_t dropped_ = 0;
+
+  std::map<std::string, exchange::AgentGone> heard_;  // with keys: by instance, and not gone since
+  std::vector<Message> gone_;                         // to be told with the next Take
+  std::string keys_version_;
+  std::string unusable_version_;  // of files that changed, and cannot be used
+  Clock::time_point unusable_since_{};
+  std::string told_;  // last of the keys
+  Clock::time_point look_at_{};
+  StrangerWatch strangers_;
+};
+
+Result<void> DdsExchange::Join() {
+  joined_.reset();
+  auto joined = Joined::Open(options_, use_);
+  if (!joined) return tl::unexpected(joined.error());
+  joined_ = *std::move(joined);
+  return {};
+}
+
+Result<void> DdsExchange::Publish(const Message& message) {
+  const std::optional<exchange::Topic> topic = exchange::TopicOf(message);
+  if (!topic || !use_.Writes(*topic)) {
+    return Fail(ErrorCode::kInvalidArgument, "{} was not opened for writing",
+                topic ? exchange::NameOf(*topic) : "AgentGone is no topic and");
+  }
+  if (auto ok = exchange::CheckBounds(message); !ok) return ok;
+  if (!joined_) return Fail(ErrorCode::kUnavailable, "the keys cannot be used at present");
+  if (const auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
+    for (exchange::SegmentBatch& part : exchange::SplitBatch(*batch)) {
+      if (auto ok = Write(*topic, std::move(part)); !ok) return ok;
+    }
+    return {};
+  }
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    said_.insert_or_assign(exchange::InstanceOf(message), *status);
+  }
+  return Write(*topic, message);
+}
+
+Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
+  const auto writer = joined_->WriterOf(topic, options_);
+  if (!writer) return tl::unexpected(writer.error());
+  // Replies are an instance for each client, and clients that ask once come by the thousand: their
+  // instances would be kept for ever.
+  const bool last_word = topic == exchange::Topic::kCatalogReplies;
+  auto written = WithWire(message, [&](const void* sample) {
+    auto done = (*writer)->Write(sample);
+    return done && last_word ? (*writer)->Unregister(sample) : done;
+  });
+  if (!written) return Wrap(written.error(), exchange::NameOf(topic));
+  return {};
+}
+
+std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
+  if (options_.keys) KeepWatch();
+  std::vector<Message> messages = std::exchange(gone_, {});
+  if (!joined_) {
+    std::this_thread::sleep_for(max_wait);
+    return messages;
+  }
+  // A failed wait leaves nothing to take, and is tried again with the next call.
+  if (!joined_->wait_set.Wait(max_wait)) return messages;
+  for (const auto& [topic, reader] : joined_->readers) TakeFrom(topic, messages);
+  return messages;
+}
+
+void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages) {
+  struct Received {
+    dds_time_t sent_at;
+    Message message;
+  };
+  std::vector<Received> received;
+  const bool agents = topic == exchange::Topic::kAgents;
+  Reader& reader = joined_->readers.at(topic);
+  const auto keep = [&](const dds_sample_info_t& info, Result<Message> message) {
+    if (!message) {
+      ++dropped_;
+    } else if (IsAuthentic(reader, info.publication_handle, *message)) {
+      received.push_back({info.source_timestamp, *std::move(message)});
+    }
+  };
+  const auto taken =
+      reader.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+        if (info.valid_data) keep(info, FromWire(topic, sample));
+        const bool last_of_instance = info.sample_rank == 0;
+        if (agents && last_of_instance && info.instance_state != DDS_IST_ALIVE) {
+          keep(info, GoneFromWire(sample));
+        }
+      });
+  if (!taken) ++dropped_;
+  // Cyclone gives keyed samples key by key: back to the order in which they were sent.
+  if (TypeOf(topic).m_nkeys > 0) {
+    std::stable_sort(received.begin(), received.end(),
+                     [](const Received& a, const Received& b) { return a.sent_at < b.sent_at; });
+  }
+  for (Received& one : received) {
+    if (options_.keys && agents) NoteWhoIsHeard(one.message);
+    messages.push_back(std::move(one.message));
+  }
+}
+
+void DdsExchange::NoteWhoIsHeard(const Message& message) {
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    heard_.insert_or_assign(exchange::InstanceOf(message),
+                            exchange::AgentGone{status->agent, status->instance});
+  } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
+    std::erase_if(heard_, [&](const auto& each) { return each.second == *gone; });
+  }
+}
+
+void DdsExchange::SayGoodBye() {
+  if (!joined_) return;
+  auto& writers = joined_->writers;
+  if (const auto agents = writers.find(exchange::Topic::kAgents); agents != writers.end()) {
+    for (const auto& [instance, status] : said_) {
+      // Best effort: without it the others notice when the lease is over.
+      (void)WithWire(status, [&](const void* sample) { return agents->second.Dispose(sample); });
+    }
+  }
+  const auto deadline = Clock::now() + options_.close_timeout;
+  for (auto& [topic, writer] : writers) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    (void)writer.WaitForAcks(std::max(left, std::chrono::milliseconds(0)));
+  }
+}
+
+void DdsExchange::KeepWatch() {
+  const auto now = Clock::now();
+  if (now < look_at_) return;
+  look_at_ = now + kLookEvery;
+  TakeUpNewKeys();
+  if (joined_) LookForStrangers(now);
+}
+
+void DdsExchange::TakeUpNewKeys() {
+  const auto now = std::chrono::system_clock::now();
+  const std::string version = security::KeysVersion(options_.keys->folder);
+  if (version != keys_version_) {
+    auto keys = security::LoadMemberKeys(options_.keys->folder, now);
+    // While a folder is being copied its files do not belong together: the old keys go on.
+    if (keys && keys->name == options_.keys->name) {
+      options_.keys = *std::move(keys);
+      keys_version_ = version;
+      told_.clear();
+      SayGoodBye();
+      joined_.reset();
+      ForgetWhoWasHeard();
+    } else if (version != unusable_version_) {
+      unusable_version_ = version;
+      unusable_since_ = Clock::now();
+    } else if (Clock::now() >= unusable_since_ + kCopying) {
+      TellOnce("the keys' files changed and cannot be used, going on with the old ones: " +
+               (keys ? fmt::format("they are those of '{}'", keys->name) : keys.error().message));
+    }
+  }
+  if (joined_ && now < options_.keys->expires) return;
+  if (joined_) {
+    TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
+             ": nobody believes this program any more until they are renewed");
+  } else if (const auto joined = Join()) {
+    TellOnce("the keys' files changed: joined anew with them");
+  } else {
+    TellOnce("cannot join with the changed keys: " + joined.error().message);
+  }
+}
+
+// Who ends while this exchange joins anew would never be told gone: all are, until heard again.
+void DdsExchange::ForgetWhoWasHeard() {
+  for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
+  heard_.clear();
+}
+
+void DdsExchange::TellOnce(const std::string& line) {
+  if (line != told_ && options_.tell_of_stranger) options_.tell_of_stranger(line);
+  told_ = line;
+}
+
+void DdsExchange::LookForStrangers(Clock::time_point now) {
+  // What cannot be read now is there the next time.
+  (void)joined_->peers->Look(
+      {.seen = [&](const auto& participant,
+                   const auto& said) { strangers_.See(participant, said, now); },
+       .proven = [&](const auto& participant) { strangers_.Prove(participant, ""); },
+       .gone = [&](const auto& participant) { strangers_.Lose(participant); }});
+  for (const std::string& line : joined_->log->Take()) {
+    if (!strangers_.HandleWarning(line, now)) std::fprintf(stderr, "%s\n", line.c_str());
+  }
+  for (const std::string& line : strangers_.Tick(now)) {
+    if (options_.tell_of_stranger) options_.tell_of_stranger(line);
+  }
+}
+
+const security::Member* DdsExchange::SenderOf(const Reader& reader, dds_instance_handle_t writer) {
+  constexpr std::size_t kMostRemembered = 10'000;
+  auto& senders = joined_->senders;
+  if (const auto found = senders.find(writer); found != senders.end()) return &found->second;
+  const auto partition = reader.PartitionOf(writer);
+  const auto member = partition ? security::ParsePartition(*partition) : std::nullopt;
+  if (!member) return nullptr;
+  if (senders.size() >= kMostRemembered) senders.erase(senders.begin());
+  return &senders.emplace(writer, *member).first->second;
+}
+
+bool DdsExchange::IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
+                              Message& message) {
+  if (!options_.keys) return true;
+  const security::Member* sender = SenderOf(reader, writer);
+  // Nobody knows who wrote it any more: anybody could have.
+  if (sender == nullptr) return false;
+  const auto own = security::CheckAuthor(message, *sender, options_.keys->name_key);
+  if (!own) {
+    strangers_.HandleMisuse(fmt::format("{} {}", security::NameOf(sender->role), sender->id),
+                            own.error().message, Clock::now());
+    return false;
+  }
+  if (auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
+    batch->trust = TrustIn(sender->role);
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(const DdsOptions& options,
+                                                                 const exchange::TopicUse& use) {
+  if (!IsValidName(options.self.value())) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the agent's name is not 1 to 64 of letters, digits, '_', '.', '-'");
+  }
+  auto exchange = std::make_unique<DdsExchange>(options, use);
+  if (auto joined = exchange->Join(); !joined) return tl::unexpected(joined.error());
+  return exchange;
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,109 @@
+#include "services/dds/src/joined.h"
+
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "services/dds/src/domain_config.h"
+#include "services/dds/src/host_name.h"
+#include "services/dds/src/qos_table.h"
+#include "services/dds/src/wire.h"
+#include "services/exchange/topics.h"
+
+namespace trailcast::dds {
+namespace {
+
+Result<Joined> OpenDomain(const DdsOptions& options) {
+  // Read before any thread of ours exists; nobody writes to the environment.
+  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
+  const auto config = DomainConfig(options, uri == nullptr ? "" : uri);
+  if (!config) return tl::unexpected(config.error());
+  if (options.keys) HideHostName();
+  auto domain = Domain::Create(*config);
+  if (!domain) return tl::unexpected(domain.error());
+  std::unique_ptr<CycloneLog> log;
+  if (options.keys) log = std::make_unique<CycloneLog>(domain->id());
+  auto participant = Participant::Create(*domain, options.keys ? "" : options.self.value());
+  if (!participant) {
+    Error error = participant.error();
+    if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
+    return tl::unexpected(error);
+  }
+  std::optional<Peers> peers;
+  if (options.keys) {
+    auto created = Peers::Create(*participant);
+    if (!created) return tl::unexpected(created.error());
+    peers = *std::move(created);
+  }
+  auto wait_set = WaitSet::Create(*participant);
+  if (!wait_set) return tl::unexpected(wait_set.error());
+  return Joined{.domain = *std::move(domain),
+                .log = std::move(log),
+                .participant = *std::move(participant),
+                .peers = std::move(peers),
+                .wait_set = *std::move(wait_set)};
+}
+
+Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) {
+  if (const auto found = joined.topics.find(topic); found != joined.topics.end()) {
+    return &found->second;
+  }
+  auto made = dds::Topic::Create(joined.participant, TypeOf(topic), exchange::NameOf(topic));
+  if (!made) return tl::unexpected(made.error());
+  return &joined.topics.emplace(topic, *std::move(made)).first->second;
+}
+
+Result<void> Read(Joined& joined, exchange::Topic topic, const Qos& qos) {
+  const auto found = Find(joined, topic);
+  if (!found) return tl::unexpected(found.error());
+  auto reader = Reader::Create(joined.participant, **found, qos);
+  if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
+  if (auto ok = joined.wait_set.Attach(*reader); !ok) {
+    return Wrap(ok.error(), exchange::NameOf(topic));
+  }
+  joined.readers.emplace(topic, *std::move(reader));
+  return {};
+}
+
+Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchange::TopicUse& use) {
+  for (const exchange::Topic topic : use.write) {
+    if (auto writer = joined.WriterOf(topic, options); !writer) {
+      return tl::unexpected(writer.error());
+    }
+  }
+  const std::string everybody = options.keys ? "*" : "";
+  for (const exchange::Topic topic : use.read) {
+    const Qos qos = MakeQos(QosOf(topic), options.write_timeout, everybody);
+    if (auto read = Read(joined, topic, qos); !read) return read;
+  }
+  for (const exchange::Topic topic : use.overhear) {
+    const Qos qos = MakeOverhearingQos(QosOf(topic), everybody);
+    if (auto read = Read(joined, topic, qos); !read) return read;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use) {
+  auto joined = OpenDomain(options);
+  if (!joined) return joined;
+  if (auto opened = OpenTopics(*joined, options, use); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  return joined;
+}
+
+Result<Writer*> Joined::WriterOf(exchange::Topic topic, const DdsOptions& options) {
+  if (const auto found = writers.find(topic); found != writers.end()) return &found->second;
+  const auto found = Find(*this, topic);
+  if (!found) return tl::unexpected(found.error());
+  const std::string own = options.keys ? security::PartitionOf(options.keys->member) : "";
+  auto writer =
+      Writer::Create(participant, **found, MakeQos(QosOf(topic), options.write_timeout, own));
+  if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
+  return &writers.emplace(topic, *std::move(writer)).first->second;
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,72 @@
+#include "services/dds/src/qos_table.h"
+
+#include <array>
+
+namespace trailcast::dds {
+namespace {
+
+using T = exchange::Topic;
+using std::chrono::milliseconds;
+
+constexpr int kKeepAll = 0;
+constexpr milliseconds kForever{0};
+// Three missed heartbeats on a bad radio link, and still soon enough for people to notice.
+constexpr milliseconds kAgentLease{3000};
+
+// Requests and replies keep the last few per agent, so that a stalled reader never blocks who asks;
+// whoever gets no answer asks again. Segments keep all: a writer that outruns its readers waits.
+// clang-format off
+constexpr std::array kTable = {
+    // topic               transient-local  keep last  liveliness
+    TopicQos{T::kRoutes,          true,     1,         kForever},
+    TopicQos{T::kSegments,        false,    kKeepAll,  kForever},
+    TopicQos{T::kSegmentRequests, false,    16,        kForever},
+    TopicQos{T::kReceipts,        true,     1,         kForever},
+    TopicQos{T::kCatalogRequests, false,    16,        kForever},
+    TopicQos{T::kCatalogReplies,  false,    16,        kForever},
+    TopicQos{T::kAgents,          true,     1,         kAgentLease},
+    TopicQos{T::kRouteEdits,      false,    16,        kForever},
+};
+// clang-format on
+
+constexpr bool RowsAreInTopicOrder() {
+  for (std::size_t i = 0; i < kTable.size(); ++i) {
+    if (static_cast<std::size_t>(kTable[i].topic) != i) return false;
+  }
+  return true;
+}
+static_assert(RowsAreInTopicOrder());
+
+}  // namespace
+
+const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)]; }
+
+Qos MakeQos(const TopicQos& row, milliseconds write_timeout, const std::string& partition) {
+  const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
+  Qos qos = MakeQos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, nanoseconds(write_timeout));
+  const auto kind = row.keep_last == kKeepAll ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
+  dds_qset_history(qos.get(), kind, row.keep_last == kKeepAll ? 1 : row.keep_last);
+  if (row.transient_local) {
+    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+    // What late joiners get is decided by this one, not by the history.
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, row.keep_last,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  }
+  if (row.liveliness > kForever) {
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(row.liveliness));
+  }
+  dds_qset_writer_data_lifecycle(qos.get(), true);
+  if (!partition.empty()) dds_qset_partition1(qos.get(), partition.c_str());
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  return qos;
+}
+
+Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition) {
+  Qos qos = MakeQos(row, milliseconds{0}, partition);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+}  // namespace trailcast::dds

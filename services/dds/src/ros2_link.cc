@@ -1,0 +1,256 @@
+#include "services/dds/ros2_link.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+
+#include "services/dds/src/domain_config.h"
+#include "services/dds/src/entities.h"
+#include "services/dds/src/ros2_wire.h"
+
+namespace trailcast::dds {
+namespace {
+
+constexpr int kNewestFrames = 2;
+constexpr int kNewestPoses = 64;
+constexpr std::chrono::milliseconds kWriteTimeout{100};
+constexpr std::size_t kMaxSamplesPerTake = 256;
+// Our own messages are small; a camera's picture of 12 megapixels in colour is not.
+constexpr const char* kPictureSized =
+    "<CycloneDDS><Domain><Internal><MaxSampleSize>64MB</MaxSampleSize></Internal></Domain>"
+    "</CycloneDDS>";
+
+// ROS: tokens of letters, digits and '_', none beginning with a digit, none empty.
+bool IsRosName(const std::string& name) {
+  bool begins = true;
+  for (const char c : name.substr(1)) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (c == '/' ? begins : std::isalnum(letter) == 0 && c != '_') return false;
+    if (begins && std::isdigit(letter) != 0) return false;
+    begins = c == '/';
+  }
+  return name.size() > 1 && name.front() == '/' && !begins;
+}
+
+std::string Resolve(const std::string& robot, const std::string& topic) {
+  if (topic.starts_with('/')) return topic;
+  return (robot == "/" ? "" : robot) + "/" + topic;
+}
+
+// Sensors are heard from whoever offers at least best effort.
+Qos SensorQos(int keep_last) {
+  Qos qos = MakeQos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keep_last);
+  return qos;
+}
+
+Qos ReliableQos(int keep_last) {
+  Qos qos = MakeQos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(kWriteTimeout.count()));
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keep_last);
+  return qos;
+}
+
+// A participant of the robot's domain, for either end.
+struct Node {
+  Domain domain;
+  Participant participant;
+  std::vector<Topic> topics;
+  WaitSet wait_set;
+
+  static Result<Node> Open(const Ros2Options& options) {
+    if (auto valid = options.Validate(); !valid) return tl::unexpected(valid.error());
+    DdsOptions dds;
+    dds.domain_id = options.domain_id;
+    dds.discovery_tag = options.discovery_tag;
+    dds.network_interface = options.network_interface;
+    dds.extra_config_xml = kPictureSized;
+    const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
+    const auto config = DomainConfig(dds, uri == nullptr ? "" : uri);
+    if (!config) return tl::unexpected(config.error());
+    auto domain = Domain::Create(*config);
+    if (!domain) return tl::unexpected(domain.error());
+    auto participant = Participant::Create(*domain, "trailcast");
+    if (!participant) return tl::unexpected(participant.error());
+    auto wait_set = WaitSet::Create(*participant);
+    if (!wait_set) return tl::unexpected(wait_set.error());
+    return Node{*std::move(domain), *std::move(participant), {}, *std::move(wait_set)};
+  }
+
+  [[nodiscard]] Result<const Topic*> MakeTopic(const dds_topic_descriptor_t& type,
+                                               const std::string& name) {
+    auto topic = Topic::Create(participant, type, "rt" + name);
+    if (!topic) return tl::unexpected(topic.error());
+    return &topics.emplace_back(*std::move(topic));
+  }
+
+  [[nodiscard]] Result<Reader> Hear(const dds_topic_descriptor_t& type, const std::string& name,
+                                    const Qos& qos) {
+    auto topic = MakeTopic(type, name);
+    if (!topic) return tl::unexpected(topic.error());
+    auto reader = Reader::Create(participant, **topic, qos);
+    if (!reader) return Wrap(reader.error(), name);
+    if (auto attached = wait_set.Attach(*reader); !attached) return Wrap(attached.error(), name);
+    return reader;
+  }
+
+  [[nodiscard]] Result<Writer> Speak(const dds_topic_descriptor_t& type, const std::string& name,
+                                     const Qos& qos) {
+    auto topic = MakeTopic(type, name);
+    if (!topic) return tl::unexpected(topic.error());
+    auto writer = Writer::Create(participant, **topic, qos);
+    if (!writer) return Wrap(writer.error(), name);
+    return writer;
+  }
+};
+
+std::string Mismatch(const std::string& topic, const std::string& policy) {
+  return policy.empty() ? std::string() : fmt::format("{} ({})", topic, policy);
+}
+
+}  // namespace
+
+std::string Ros2Options::ImageTopic() const { return Resolve(robot, image); }
+std::string Ros2Options::OdometryTopic() const { return Resolve(robot, odometry); }
+std::string Ros2Options::CommandTopic() const { return Resolve(robot, command); }
+bool Ros2Options::image_is_compressed() const { return image.ends_with("/compressed"); }
+
+Result<void> Ros2Options::Validate() const {
+  std::vector<std::string> names{ImageTopic(), CommandTopic()};
+  if (!odometry.empty()) names.push_back(OdometryTopic());
+  for (const std::string& name : names) {
+    if (!IsRosName(name)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "'{}' is no ROS 2 topic: expected a name as /robot1/image_raw, of letters, "
+                  "digits and '_', no part beginning with a digit",
+                  name);
+    }
+  }
+  return {};
+}
+
+struct Ros2Driver::State {
+  Ros2Options options;
+  Node node;
+  Reader image;
+  std::optional<Reader> odometry;
+  Writer command;
+};
+
+Ros2Driver::Ros2Driver(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Ros2Driver::~Ros2Driver() = default;
+
+Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options) {
+  auto node = Node::Open(options);
+  if (!node) return tl::unexpected(node.error());
+  auto image = node->Hear(ImageType(options.image_is_compressed()), options.ImageTopic(),
+                          SensorQos(kNewestFrames));
+  if (!image) return tl::unexpected(image.error());
+  std::optional<Reader> odometry;
+  if (!options.odometry.empty()) {
+    auto reader = node->Hear(OdometryType(), options.OdometryTopic(), SensorQos(kNewestPoses));
+    if (!reader) return tl::unexpected(reader.error());
+    odometry = *std::move(reader);
+  }
+  auto command =
+      node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
+  if (!command) return tl::unexpected(command.error());
+  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(new State{
+      options, *std::move(node), *std::move(image), std::move(odometry), *std::move(command)})));
+}
+
+std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
+  std::vector<Ros2Sensed> sensed;
+  State& s = *state_;
+  // A failed wait or take leaves what is there to the next call.
+  if (!s.node.wait_set.Wait(max_wait)) return sensed;
+  if (s.odometry) {
+    (void)s.odometry->Take(kMaxSamplesPerTake,
+                           [&](const void* sample, const dds_sample_info_t& info) {
+                             if (!info.valid_data) return;
+                             if (auto pose = OdometryFromWire(sample)) sensed.emplace_back(*pose);
+                           });
+  }
+  (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      sensed.push_back(ImageFromWire(sample, s.options.image_is_compressed()));
+    }
+  });
+  return sensed;
+}
+
+Result<void> Ros2Driver::Publish(const Ros2Command& command) {
+  return WithRos2Wire(command, state_->options.command_type,
+                      [&](const void* sample) { return state_->command.Write(sample); });
+}
+
+Ros2Driver::Peers Ros2Driver::peers() const {
+  const State& s = *state_;
+  Peers peers;
+  peers.cameras = s.image.matched();
+  peers.bases = s.command.matched();
+  std::vector<std::string> mismatches{
+      Mismatch(s.options.ImageTopic(), s.image.refused_policy()),
+      Mismatch(s.options.CommandTopic(), s.command.refused_policy())};
+  if (s.odometry) {
+    peers.odometers = s.odometry->matched();
+    mismatches.push_back(Mismatch(s.options.OdometryTopic(), s.odometry->refused_policy()));
+  }
+  std::erase(mismatches, std::string());
+  peers.mismatch = fmt::format("{}", fmt::join(mismatches, ", "));
+  return peers;
+}
+
+struct Ros2Robot::State {
+  Ros2Options options;
+  Node node;
+  Reader command;
+  Writer image;
+  Writer odometry;
+};
+
+Ros2Robot::Ros2Robot(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Ros2Robot::~Ros2Robot() = default;
+
+Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
+  if (options.image_is_compressed() || options.odometry.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "a virtual robot publishes plain images, and odometry");
+  }
+  auto node = Node::Open(options);
+  if (!node) return tl::unexpected(node.error());
+  auto command =
+      node->Hear(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
+  if (!command) return tl::unexpected(command.error());
+  auto image = node->Speak(ImageType(false), options.ImageTopic(), ReliableQos(kNewestFrames));
+  if (!image) return tl::unexpected(image.error());
+  auto odometry = node->Speak(OdometryType(), options.OdometryTopic(), ReliableQos(kNewestPoses));
+  if (!odometry) return tl::unexpected(odometry.error());
+  return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(new State{
+      options, *std::move(node), *std::move(command), *std::move(image), *std::move(odometry)})));
+}
+
+Result<void> Ros2Robot::Publish(const Ros2Image& image) {
+  return WithRos2Wire(image, [&](const void* sample) { return state_->image.Write(sample); });
+}
+
+Result<void> Ros2Robot::Publish(const Ros2Odometry& odometry) {
+  return WithRos2Wire(odometry, [&](const void* sample) { return state_->odometry.Write(sample); });
+}
+
+std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {
+  std::optional<Ros2Command> latest;
+  State& s = *state_;
+  if (!s.node.wait_set.Wait(max_wait)) return latest;
+  (void)s.command.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+    if (!info.valid_data) return;
+    if (auto command = CommandFromWire(sample, s.options.command_type)) latest = command;
+  });
+  return latest;
+}
+
+bool Ros2Robot::watched() const { return state_->image.matched() > 0; }
+
+}  // namespace trailcast::dds

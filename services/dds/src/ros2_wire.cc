@@ -1,0 +1,149 @@
+#include "services/dds/src/ros2_wire.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "ros2.h"
+
+namespace trailcast::dds {
+namespace {
+
+// IDL strings are mutable in C; nobody writes to these.
+template <std::size_t N>
+char* Text(std::array<char, N>& text) {
+  return text.data();
+}
+
+builtin_interfaces_msg_dds__Time_ ToTime(SensorTime stamp) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(stamp);
+  return {static_cast<std::int32_t>(seconds.count()),
+          static_cast<std::uint32_t>((stamp - seconds).count())};
+}
+
+SensorTime FromTime(const builtin_interfaces_msg_dds__Time_& time) {
+  return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nanosec);
+}
+
+std::string FromText(const char* text) { return text == nullptr ? std::string() : text; }
+
+template <typename Sequence>
+std::vector<std::uint8_t> FromBytes(const Sequence& sequence) {
+  const std::span bytes(sequence._buffer, sequence._length);
+  return {bytes.begin(), bytes.end()};
+}
+
+geometry_msgs_msg_dds__Twist_ ToTwist(const motion::VelocityCommand& velocity) {
+  geometry_msgs_msg_dds__Twist_ twist{};
+  twist.linear.x = velocity.linear_mps;
+  twist.angular.z = velocity.angular_radps;
+  return twist;
+}
+
+std::optional<motion::VelocityCommand> FromTwist(const geometry_msgs_msg_dds__Twist_& twist) {
+  if (!std::isfinite(twist.linear.x) || !std::isfinite(twist.angular.z)) return std::nullopt;
+  return motion::VelocityCommand{twist.linear.x, twist.angular.z};
+}
+
+// The heading of a body of any attitude: where its x axis points, seen from above.
+std::optional<double> Heading(const geometry_msgs_msg_dds__Quaternion_& q) {
+  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!std::isfinite(squared) || squared < 1e-6) return std::nullopt;
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
+}
+
+}  // namespace
+
+const dds_topic_descriptor_t& ImageType(bool compressed) {
+  return compressed ? sensor_msgs_msg_dds__CompressedImage__desc : sensor_msgs_msg_dds__Image__desc;
+}
+
+const dds_topic_descriptor_t& OdometryType() { return nav_msgs_msg_dds__Odometry__desc; }
+
+const dds_topic_descriptor_t& CommandType(Ros2CommandType type) {
+  return type == Ros2CommandType::kTwist ? geometry_msgs_msg_dds__Twist__desc
+                                         : geometry_msgs_msg_dds__TwistStamped__desc;
+}
+
+Result<void> WithRos2Wire(const Ros2Image& image, const UseSample& use) {
+  std::array<char, 7> frame{"camera"};
+  std::string encoding = image.encoding;
+  sensor_msgs_msg_dds__Image_ wire{};
+  wire.header.stamp = ToTime(image.stamp);
+  wire.header.frame_id = Text(frame);
+  wire.height = image.height_px;
+  wire.width = image.width_px;
+  wire.encoding = encoding.data();
+  wire.is_bigendian = image.big_endian ? 1 : 0;
+  wire.step = image.step;
+  wire.data._length = static_cast<std::uint32_t>(image.data.size());
+  wire.data._maximum = wire.data._length;
+  wire.data._buffer = const_cast<std::uint8_t*>(image.data.data());  // only read
+  return use(&wire);
+}
+
+Result<void> WithRos2Wire(const Ros2Odometry& odometry, const UseSample& use) {
+  std::array<char, 5> frame{"odom"};
+  std::array<char, 10> body{"base_link"};
+  nav_msgs_msg_dds__Odometry_ wire{};
+  wire.header.stamp = ToTime(odometry.stamp);
+  wire.header.frame_id = Text(frame);
+  wire.child_frame_id = Text(body);
+  wire.pose.pose.position.x = odometry.pose.x_m;
+  wire.pose.pose.position.y = odometry.pose.y_m;
+  wire.pose.pose.orientation.z = std::sin(odometry.pose.heading_rad / 2.0);
+  wire.pose.pose.orientation.w = std::cos(odometry.pose.heading_rad / 2.0);
+  return use(&wire);
+}
+
+Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type, const UseSample& use) {
+  if (type == Ros2CommandType::kTwist) {
+    const auto wire = ToTwist(command.velocity);
+    return use(&wire);
+  }
+  std::array<char, 10> body{"base_link"};
+  geometry_msgs_msg_dds__TwistStamped_ wire{};
+  wire.header.stamp = ToTime(command.stamp);
+  wire.header.frame_id = Text(body);
+  wire.twist = ToTwist(command.velocity);
+  return use(&wire);
+}
+
+Ros2Sensed ImageFromWire(const void* sample, bool compressed) {
+  if (compressed) {
+    const auto& wire = *static_cast<const sensor_msgs_msg_dds__CompressedImage_*>(sample);
+    return Ros2CompressedImage{FromTime(wire.header.stamp), FromText(wire.format),
+                               FromBytes(wire.data)};
+  }
+  const auto& wire = *static_cast<const sensor_msgs_msg_dds__Image_*>(sample);
+  return Ros2Image{.stamp = FromTime(wire.header.stamp),
+                   .width_px = wire.width,
+                   .height_px = wire.height,
+                   .encoding = FromText(wire.encoding),
+                   .big_endian = wire.is_bigendian != 0,
+                   .step = wire.step,
+                   .data = FromBytes(wire.data)};
+}
+
+std::optional<Ros2Odometry> OdometryFromWire(const void* sample) {
+  const auto& wire = *static_cast<const nav_msgs_msg_dds__Odometry_*>(sample);
+  const auto& position = wire.pose.pose.position;
+  const auto heading_rad = Heading(wire.pose.pose.orientation);
+  if (!heading_rad || !std::isfinite(position.x) || !std::isfinite(position.y)) return std::nullopt;
+  return Ros2Odometry{FromTime(wire.header.stamp), {position.x, position.y, *heading_rad}};
+}
+
+std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type) {
+  if (type == Ros2CommandType::kTwist) {
+    const auto velocity = FromTwist(*static_cast<const geometry_msgs_msg_dds__Twist_*>(sample));
+    if (!velocity) return std::nullopt;
+    return Ros2Command{{}, *velocity};
+  }
+  const auto& wire = *static_cast<const geometry_msgs_msg_dds__TwistStamped_*>(sample);
+  const auto velocity = FromTwist(wire.twist);
+  if (!velocity) return std::nullopt;
+  return Ros2Command{FromTime(wire.header.stamp), *velocity};
+}
+
+}  // namespace trailcast::dds

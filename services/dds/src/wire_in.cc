@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include "services/dds/src/wire.h"
+#include "services/exchange/bounds.h"
+#include "trailcast.h"
+
+namespace trailcast::dds {
+namespace {
+
+using namespace exchange;  // every message type is used here
+using route::Digest;
+using route::RouteInfo;
+using route::RouteKey;
+using route::RouteState;
+
+constexpr float kSubpixels = 16.0F;
+
+// Values are copied as they are, sizes that CheckBounds refuses included; it comes afterwards.
+
+// Too long a text is cut just above what any bound allows.
+std::string Text(const char* text) {
+  constexpr std::size_t kAboveAnyBound = kMaxLineBytes + 1;
+  return text == nullptr ? std::string() : std::string(text, strnlen(text, kAboveAnyBound));
+}
+
+template <typename Sequence>
+auto Elements(const Sequence& sequence) {
+  return std::span(sequence._buffer, sequence._length);
+}
+
+template <typename Sequence>
+std::vector<SegmentIndex> Indices(const Sequence& sequence) {
+  std::vector<SegmentIndex> indices;
+  indices.reserve(sequence._length);
+  for (const std::uint32_t value : Elements(sequence)) indices.emplace_back(value);
+  return indices;
+}
+
+Digest ToDigest(const trailcast_wire_Sha256& wire) {
+  Digest digest{};
+  std::copy(std::begin(wire), std::end(wire), digest.begin());
+  return digest;
+}
+
+template <typename Sequence>
+std::vector<std::string> Texts(const Sequence& sequence) {
+  std::vector<std::string> texts;
+  for (const char* text : Elements(sequence)) texts.push_back(Text(text));
+  return texts;
+}
+
+std::optional<route::Place> From(const trailcast_wire_RoutePlace& wire) {
+  if (wire.frame == 0) return std::nullopt;
+  return route::Place{static_cast<route::Place::Frame>(wire.frame), wire.x, wire.y};
+}
+
+RouteKey From(const trailcast_wire_RouteKey& wire) {
+  return {.route = RouteId(Text(wire.route)), .revision = RevisionNumber(wire.revision)};
+}
+
+RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInfo& wire) {
+  return {.key = From(key),
+          .name = Text(wire.name),
+          .scout = AgentId(Text(wire.scout)),
+          .camera = Text(wire.camera),
+          .image_width_px = static_cast<int>(wire.image_width_px),
+          .image_height_px = static_cast<int>(wire.image_height_px),
+          .taught_unix_ms = wire.taught_unix_ms,
+          .state = static_cast<RouteState>(wire.state),
+          .segment_count = wire.segment_count,
+          .length_m = wire.length_m,
+          .bytes = wire.bytes,
+          .manifest_digest = ToDigest(wire.manifest_digest),
+          .tags = Texts(wire.tags),
+          .place = From(wire.place),
+          .description = Text(wire.description),
+          .standing = static_cast<route::Standing>(wire.standing),
+          .edition = wire.edition};
+}
+
+Message From(const trailcast_wire_RouteAnnouncement& wire) {
+  return RouteAnnouncement{.holder = AgentId(Text(wire.holder)), .info = From(wire.key, wire.info)};
+}
+
+Message From(const trailcast_wire_SegmentBatch& wire) {
+  SegmentBatch batch{.sender = AgentId(Text(wire.sender)), .pieces = {}};
+  batch.pieces.reserve(wire.pieces._length);
+  for (const trailcast_wire_SegmentPiece& piece : Elements(wire.pieces)) {
+    const auto bytes = Elements(piece.bytes);
+    batch.pieces.push_back({.key = From(piece.key),
+                            .index = SegmentIndex(piece.index),
+                            .digest = ToDigest(piece.digest),
+                            .bytes = route::Bytes(bytes.begin(), bytes.end())});
+  }
+  return batch;
+}
+
+Message From(const trailcast_wire_SegmentRequest& wire) {
+  return SegmentRequest{.requester = AgentId(Text(wire.requester)),
+                        .key = From(wire.key),
+                        .lacking = Indices(wire.lacking),
+                        .digests_only = wire.digests_only != 0};
+}
+
+Message From(const trailcast_wire_Receipt& wire) {
+  return Receipt{.server = AgentId(Text(wire.server)),
+                 .key = From(wire.key),
+                 .durable_prefix = wire.durable_prefix,
+                 .durable_beyond = Indices(wire.durable_beyond),
+                 .durable_state = static_cast<RouteState>(wire.durable_state),
+                 .refusal = static_cast<Refusal>(wire.refusal),
+                 .reason = Text(wire.reason)};
+}
+
+route::ViewFeature From(const trailcast_wire_ViewFeature& wire) {
+  route::ViewFeature feature;
+  std::copy(std::begin(wire.descriptor), std::end(wire.descriptor), feature.descriptor.begin());
+  feature.u_px = static_cast<float>(wire.u_sixteenth_px) / kSubpixels;
+  feature.v_px = static_cast<float>(wire.v_sixteenth_px) / kSubpixels;
+  return feature;
+}
+
+route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
+  route::RouteQuery query{.name = Text(wire.name),
+                          .name_prefix = Text(wire.name_prefix),
+                          .tags = Texts(wire.tags),
+                          .scout = Text(wire.scout),
+                          .camera_prefix = Text(wire.camera_prefix),
+                          .min_length_m = wire.min_length_m,
+                          .max_length_m = wire.max_length_m,
+                          .taught_from_unix_ms = wire.taught_from_unix_ms,
+                          .taught_until_unix_ms = wire.taught_until_unix_ms,
+                          .order = static_cast<route::RouteOrder>(wire.order),
+                          .page_size = wire.page_size,
+                          .cursor = Text(wire.cursor)};
+  if (wire.state != 0) query.state = static_cast<RouteState>(wire.state - 1);
+  if (wire.standing != 0) query.standing = static_cast<route::Standing>(wire.standing - 1);
+  if (const auto middle = From(wire.near)) query.near = {*middle, wire.radius_m};
+  for (const auto& feature : Elements(wire.view)) query.view.push_back(From(feature));
+  return query;
+}
+
+Message From(const trailcast_wire_CatalogRequest& wire) {
+  return CatalogRequest{
+      .client = AgentId(Text(wire.client)), .request = wire.request, .query = From(wire.query)};
+}
+
+Message From(const trailcast_wire_CatalogReply& wire) {
+  CatalogReply reply{.server = AgentId(Text(wire.server)),
+                     .client = AgentId(Text(wire.client)),
+                     .request = wire.request,
+                     .page = {.routes = {}, .total = wire.total, .next = Text(wire.next)},
+                     .similar_names = Texts(wire.similar_names),
+                     .error = Text(wire.error)};
+  for (const trailcast_wire_CatalogRoute& route : Elements(wire.routes)) {
+    reply.page.routes.push_back(From(route.key, route.info));
+  }
+  for (const trailcast_wire_FoundPlace& place : Elements(wire.places)) {
+    reply.places.push_back({From(place.key), SegmentIndex(place.segment), place.score});
+  }
+  for (const trailcast_wire_Holding& holding : Elements(wire.holdings)) {
+    reply.holdings.push_back({From(holding.key), AgentId(Text(holding.agent))});
+  }
+  reply.coverage = {wire.coverage.segments_indexed, wire.coverage.segments_stored,
+                    wire.coverage.routes_unseen};
+  return reply;
+}
+
+Message From(const trailcast_wire_AgentStatus& wire) {
+  AgentStatus status{.agent = AgentId(Text(wire.agent)),
+                     .instance = wire.instance,
+                     .role = static_cast<AgentRole>(wire.role),
+                     .mode = static_cast<AgentMode>(wire.mode),
+                     .route = Text(wire.route),
+                     .segment = wire.segment,
+                     .segments = wire.segments,
+                     .progress = wire.progress,
+                     .speed_mps = wire.speed_mps,
+                     .features = wire.features,
+                     .found_share = wire.found_share,
+                     .backlog = wire.backlog,
+                     .detail = Text(wire.detail)};
+  for (const trailcast_wire_RouteKey& key : Elements(wire.held)) status.held.push_back(From(key));
+  if (!Text(wire.on.route).empty()) {
+    status.place = PlaceOnRoute{From(wire.on), wire.along_m};
+  }
+  return status;
+}
+
+Message From(const trailcast_wire_RouteEditRequest& wire) {
+  return RouteEditRequest{.client = AgentId(Text(wire.client)),
+                          .request = wire.request,
+                          .edit = {.action = static_cast<route::EditAction>(wire.action),
+                                   .route = Text(wire.route),
+                                   .revision = wire.revision,
+                                   .text = Text(wire.text),
+                                   .tags = Texts(wire.tags)}};
+}
+
+Message Copy(Topic topic, const void* sample) {
+  switch (topic) {
+    case Topic::kRoutes:
+      return From(*static_cast<const trailcast_wire_RouteAnnouncement*>(sample));
+    case Topic::kSegments:
+      return From(*static_cast<const trailcast_wire_SegmentBatch*>(sample));
+    case Topic::kSegmentRequests:
+      return From(*static_cast<const trailcast_wire_SegmentRequest*>(sample));
+    case Topic::kReceipts:
+      return From(*static_cast<const trailcast_wire_Receipt*>(sample));
+    case Topic::kCatalogRequests:
+      return From(*static_cast<const trailcast_wire_CatalogRequest*>(sample));
+    case Topic::kCatalogReplies:
+      return From(*static_cast<const trailcast_wire_CatalogReply*>(sample));
+    case Topic::kRouteEdits:
+      return From(*static_cast<const trailcast_wire_RouteEditRequest*>(sample));
+    case Topic::kAgents:
+      break;
+  }
+  return From(*static_cast<const trailcast_wire_AgentStatus*>(sample));
+}
+
+}  // namespace
+
+Result<Message> FromWire(Topic topic, const void* sample) {
+  Message message = Copy(topic, sample);
+  if (auto ok = CheckBounds(message); !ok) return tl::unexpected(ok.error());
+  return message;
+}
+
+Result<AgentGone> GoneFromWire(const void* sample) {
+  const auto& wire = *static_cast<const trailcast_wire_AgentStatus*>(sample);
+  const AgentGone gone{.agent = AgentId(Text(wire.agent)), .instance = wire.instance};
+  if (auto ok = CheckBounds(gone); !ok) return tl::unexpected(ok.error());
+  return gone;
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include "services/dds/src/wire.h"
+#include "trailcast.h"
+
+namespace trailcast::dds {
+namespace {
+
+using namespace exchange;  // every message type is used here
+using route::RouteInfo;
+using route::RouteKey;
+
+// The C types know no const; dds_write only reads.
+char* Lend(const std::string& text) { return const_cast<char*>(text.c_str()); }
+
+template <typename Sequence, typename Element>
+void Lend(std::vector<Element>& elements, Sequence& sequence) {
+  sequence._buffer = elements.data();
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(elements.size());
+  sequence._release = false;
+}
+
+// Arrays of texts that a sample points to, kept until it was written.
+class TextArrays {
+ public:
+  template <typename Sequence>
+  void Lend(const std::vector<std::string>& texts, Sequence& sequence) {
+    std::vector<char*>& pointers = arrays_.emplace_back();
+    for (const std::string& text : texts) pointers.push_back(dds::Lend(text));
+    dds::Lend(pointers, sequence);
+  }
+
+ private:
+  std::deque<std::vector<char*>> arrays_;
+};
+
+std::vector<std::uint32_t> Values(const std::vector<SegmentIndex>& indices) {
+  std::vector<std::uint32_t> values;
+  values.reserve(indices.size());
+  for (const SegmentIndex index : indices) values.push_back(index.value());
+  return values;
+}
+
+trailcast_wire_RouteKey ToWire(const RouteKey& key) {
+  return {.route = Lend(key.route.value()), .revision = key.revision.value()};
+}
+
+trailcast_wire_RoutePlace ToWire(const std::optional<route::Place>& place) {
+  if (!place) return {};
+  return {.frame = static_cast<std::uint8_t>(place->frame), .x = place->x, .y = place->y};
+}
+
+trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
+  trailcast_wire_RouteInfo wire{};
+  wire.name = Lend(info.name);
+  wire.scout = Lend(info.scout.value());
+  wire.camera = Lend(info.camera);
+  wire.image_width_px = static_cast<std::uint32_t>(info.image_width_px);
+  wire.image_height_px = static_cast<std::uint32_t>(info.image_height_px);
+  wire.taught_unix_ms = info.taught_unix_ms;
+  wire.state = static_cast<std::uint8_t>(info.state);
+  wire.segment_count = info.segment_count;
+  wire.length_m = info.length_m;
+  wire.bytes = info.bytes;
+  std::copy(info.manifest_digest.begin(), info.manifest_digest.end(), wire.manifest_digest);
+  arrays.Lend(info.tags, wire.tags);
+  wire.place = ToWire(info.place);
+  wire.description = Lend(info.description);
+  wire.standing = static_cast<std::uint8_t>(info.standing);
+  wire.edition = info.edition;
+  return wire;
+}
+
+std::vector<trailcast_wire_ViewFeature> ToWire(const route::View& view) {
+  constexpr float kSubpixels = 16.0F;
+  std::vector<trailcast_wire_ViewFeature> features;
+  features.reserve(view.size());
+  for (const route::ViewFeature& feature : view) {
+    trailcast_wire_ViewFeature& wire = features.emplace_back();
+    std::copy(feature.descriptor.begin(), feature.descriptor.end(), wire.descriptor);
+    wire.u_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.u_px));
+    wire.v_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.v_px));
+  }
+  return features;
+}
+
+trailcast_wire_CatalogQuery ToWire(const route::RouteQuery& query, TextArrays& arrays) {
+  trailcast_wire_CatalogQuery wire{};
+  wire.name = Lend(query.name);
+  wire.name_prefix = Lend(query.name_prefix);
+  arrays.Lend(query.tags, wire.tags);
+  wire.scout = Lend(query.scout);
+  wire.camera_prefix = Lend(query.camera_prefix);
+  wire.min_length_m = query.min_length_m;
+  wire.max_length_m = query.max_length_m;
+  wire.taught_from_unix_ms = query.taught_from_unix_ms;
+  wire.taught_until_unix_ms = query.taught_until_unix_ms;
+  wire.state = query.state ? static_cast<std::uint8_t>(static_cast<int>(*query.state) + 1) : 0;
+  wire.standing =
+      query.standing ? static_cast<std::uint8_t>(static_cast<int>(*query.standing) + 1) : 0;
+  if (query.near) {
+    wire.near = ToWire(query.near->middle);
+    wire.radius_m = query.near->radius_m;
+  }
+  wire.order = static_cast<std::uint8_t>(query.order);
+  wire.page_size = query.page_size;
+  wire.cursor = Lend(query.cursor);
+  return wire;
+}
+
+Result<void> With(const RouteAnnouncement& message, const UseSample& use) {
+  TextArrays arrays;
+  const trailcast_wire_RouteAnnouncement sample{.holder = Lend(message.holder.value()),
+                                                .key = ToWire(message.info.key),
+                                                .info = ToWire(message.info, arrays)};
+  return use(&sample);
+}
+
+Result<void> With(const SegmentBatch& message, const UseSample& use) {
+  std::vector<trailcast_wire_SegmentPiece> pieces;
+  for (const route::SegmentPiece& piece : message.pieces) {
+    trailcast_wire_SegmentPiece wire{};
+    wire.key = ToWire(piece.key);
+    wire.index = piece.index.value();
+    std::copy(piece.digest.begin(), piece.digest.end(), wire.digest);
+    wire.bytes._buffer = const_cast<std::uint8_t*>(piece.bytes.data());
+    wire.bytes._length = wire.bytes._maximum = static_cast<std::uint32_t>(piece.bytes.size());
+    pieces.push_back(wire);
+  }
+  trailcast_wire_SegmentBatch sample{};
+  sample.sender = Lend(message.sender.value());
+  Lend(pieces, sample.pieces);
+  return use(&sample);
+}
+
+Result<void> With(const SegmentRequest& message, const UseSample& use) {
+  std::vector<std::uint32_t> lacking = Values(message.lacking);
+  trailcast_wire_SegmentRequest sample{};
+  sample.requester = Lend(message.requester.value());
+  sample.key = ToWire(message.key);
+  Lend(lacking, sample.lacking);
+  sample.digests_only = message.digests_only ? 1 : 0;
+  return use(&sample);
+}
+
+Result<void> With(const Receipt& message, const UseSample& use) {
+  std::vector<std::uint32_t> beyond = Values(message.durable_beyond);
+  trailcast_wire_Receipt sample{};
+  sample.server = Lend(message.server.value());
+  sample.key = ToWire(message.key);
+  sample.durable_prefix = message.durable_prefix;
+  Lend(beyond, sample.durable_beyond);
+  sample.durable_state = static_cast<std::uint8_t>(message.durable_state);
+  sample.refusal = static_cast<std::uint8_t>(message.refusal);
+  sample.reason = Lend(message.reason);
+  return use(&sample);
+}
+
+Result<void> With(const CatalogRequest& message, const UseSample& use) {
+  TextArrays arrays;
+  std::vector<trailcast_wire_ViewFeature> view = ToWire(message.query.view);
+  trailcast_wire_CatalogRequest sample{.client = Lend(message.client.value()),
+                                       .request = message.request,
+                                       .query = ToWire(message.query, arrays)};
+  Lend(view, sample.query.view);
+  return use(&sample);
+}
+
+Result<void> With(const CatalogReply& message, const UseSample& use) {
+  TextArrays arrays;
+  std::vector<trailcast_wire_CatalogRoute> routes;
+  for (const RouteInfo& info : message.page.routes) {
+    routes.push_back({.key = ToWire(info.key), .info = ToWire(info, arrays)});
+  }
+  trailcast_wire_CatalogReply sample{};
+  sample.server = Lend(message.server.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  Lend(routes, sample.routes);
+  sample.total = message.page.total;
+  sample.next = Lend(message.page.next);
+  arrays.Lend(message.similar_names, sample.similar_names);
+  sample.error = Lend(message.error);
+  std::vector<trailcast_wire_FoundPlace> places;
+  for (const route::FoundPlace& place : message.places) {
+    places.push_back({ToWire(place.key), place.segment.value(), place.score});
+  }
+  Lend(places, sample.places);
+  std::vector<trailcast_wire_Holding> holdings;
+  for (const Holding& holding : message.holdings) {
+    holdings.push_back({.key = ToWire(holding.key), .agent = Lend(holding.agent.value())});
+  }
+  Lend(holdings, sample.holdings);
+  sample.coverage = {message.coverage.segments_indexed, message.coverage.segments_stored,
+                     message.coverage.routes_unseen};
+  return use(&sample);
+}
+
+Result<void> With(const AgentStatus& message, const UseSample& use) {
+  trailcast_wire_AgentStatus sample{};
+  sample.agent = Lend(message.agent.value());
+  sample.instance = message.instance;
+  sample.role = static_cast<std::uint8_t>(message.role);
+  sample.mode = static_cast<std::uint8_t>(message.mode);
+  sample.route = Lend(message.route);
+  sample.segment = message.segment;
+  sample.segments = message.segments;
+  sample.progress = message.progress;
+  sample.speed_mps = message.speed_mps;
+  sample.features = message.features;
+  sample.found_share = message.found_share;
+  sample.backlog = message.backlog;
+  sample.detail = Lend(message.detail);
+  std::vector<trailcast_wire_RouteKey> held;
+  for (const RouteKey& key : message.held) held.push_back(ToWire(key));
+  Lend(held, sample.held);
+  const PlaceOnRoute place = message.place.value_or(PlaceOnRoute{});
+  sample.on = ToWire(place.key);
+  sample.along_m = place.along_m;
+  return use(&sample);
+}
+
+Result<void> With(const RouteEditRequest& message, const UseSample& use) {
+  TextArrays arrays;
+  trailcast_wire_RouteEditRequest sample{};
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  sample.action = static_cast<std::uint8_t>(message.edit.action);
+  sample.route = Lend(message.edit.route);
+  sample.revision = message.edit.revision;
+  sample.text = Lend(message.edit.text);
+  arrays.Lend(message.edit.tags, sample.tags);
+  return use(&sample);
+}
+
+Result<void> With(const AgentGone& message, const UseSample&) {
+  return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
+              message.agent.value());
+}
+
+}  // namespace
+
+const dds_topic_descriptor_t& TypeOf(Topic topic) {
+  static constexpr const dds_topic_descriptor_t* kTypes[] = {
+      &trailcast_wire_RouteAnnouncement_desc, &trailcast_wire_SegmentBatch_desc,
+      &trailcast_wire_SegmentRequest_desc,    &trailcast_wire_Receipt_desc,
+      &trailcast_wire_CatalogRequest_desc,    &trailcast_wire_CatalogReply_desc,
+      &trailcast_wire_AgentStatus_desc,       &trailcast_wire_RouteEditRequest_desc};
+  return *kTypes[static_cast<std::size_t>(topic)];
+}
+
+Result<void> WithWire(const Message& message, const UseSample& use) {
+  return std::visit([&](const auto& value) { return With(value, use); }, message);
+}
+
+}  // namespace trailcast::dds

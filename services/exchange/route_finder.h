@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+// Which revision of a route is meant: that of a number; or else the newest that is complete, though
+// another be active, to be held in advance; or else the one to follow.
+struct RevisionChoice {
+  std::uint32_t number = 0;  // 0: none in particular
+  bool newest = false;
+};
+
+// Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
+// one; where no operator, and no server, has said anything of a route, the newest that is complete,
+// otherwise the newest. Nothing if there is none.
+[[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
+    const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
+
+// Asks the catalog which route has a name, again and again until one has. No clock, no I/O.
+class RouteFinder {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::milliseconds kAskEvery{1000};
+  static constexpr std::size_t kMaxAnnounced = 64;
+
+  RouteFinder(AgentId self, std::string name, RevisionChoice which = {})
+      : self_(std::move(self)), name_(std::move(name)), which_(which) {}
+
+  void Handle(const exchange::Message& message);
+  [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
+
+  // From a catalog's reply.
+  [[nodiscard]] const std::optional<route::RouteInfo>& found() const { return found_; }
+  // Announced by whoever holds or teaches it: second to what a catalog says, which knows them all.
+  [[nodiscard]] std::optional<route::RouteInfo> announced() const {
+    return ChooseRoute(announced_, which_);
+  }
+
+  // A server's word that it has no route of this name, or none that may be followed.
+  struct Unknown {
+    AgentId server;
+    std::vector<std::string> similar_names;
+    bool others = false;  // there are revisions, and none of them is meant
+  };
+  [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
+  // A server's trouble in answering.
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  void Learn(const exchange::CatalogReply& reply);
+  void Learn(const exchange::RouteAnnouncement& announcement);
+
+  AgentId self_;
+  std::string name_;
+  RevisionChoice which_;
+  std::uint64_t asked_ = 0;
+  std::optional<Time> asked_at_;
+  std::optional<route::RouteInfo> found_;
+  std::vector<route::RouteInfo> announced_;  // the latest of each key, at most kMaxAnnounced
+  std::optional<Unknown> unknown_;
+  std::string error_;
+};
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,203 @@
+#include "services/exchange/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "services/exchange/src/field_bounds.h"
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::SegmentPiece;
+
+Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& indices,
+                          std::size_t max) {
+  if (auto ok = CheckCount(field, indices.size(), max); !ok) return ok;
+  for (const SegmentIndex index : indices) {
+    if (auto ok = CheckCount(field, index.value(), kMaxSegmentsPerRoute - 1); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> CheckOrdered(const std::vector<std::string>& tags) {
+  if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return {};
+  return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
+}
+
+constexpr double kMaxLength_m = 1e7;
+
+Result<void> CheckInfo(const RouteInfo& info) {
+  if (auto ok = CheckKey(info.key); !ok) return ok;
+  if (auto ok = CheckName("route name", info.name); !ok) return ok;
+  if (auto ok = CheckName("scout", info.scout.value()); !ok) return ok;
+  if (auto ok = CheckText("camera", info.camera, kMaxCameraBytes); !ok) return ok;
+  if (auto ok = CheckAmount("image width", info.image_width_px, kMaxImageSide_px); !ok) return ok;
+  if (auto ok = CheckAmount("image height", info.image_height_px, kMaxImageSide_px); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckState(info.state); !ok) return ok;
+  if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckStanding(info.standing); !ok) return ok;
+  if (auto ok = CheckText("description", info.description, route::kMaxDescriptionBytes); !ok)
+    return ok;
+  if (auto ok = CheckCount("bytes in a route", info.bytes, kMaxRouteBytes); !ok) return ok;
+  if (auto ok = CheckTags(info.tags); !ok) return ok;
+  if (auto ok = CheckOrdered(info.tags); !ok) return ok;
+  if (info.place) {
+    if (auto ok = CheckPlace(*info.place); !ok) return ok;
+  }
+  return CheckAmount("route length in metres", info.length_m, kMaxLength_m);
+}
+
+Result<void> CheckPiece(const SegmentPiece& piece) {
+  if (auto ok = CheckKey(piece.key); !ok) return ok;
+  if (auto ok = CheckCount("segment index", piece.index.value(), kMaxSegmentsPerRoute - 1); !ok) {
+    return ok;
+  }
+  if (piece.digest == route::Digest{}) {
+    return Fail(ErrorCode::kInvalidArgument, "segment {} of route {} has no digest",
+                piece.index.value(), piece.key.route.value());
+  }
+  return CheckCount("bytes in a segment", piece.bytes.size(), kMaxPieceBytes);
+}
+
+Result<void> Check(const RouteAnnouncement& message) {
+  if (auto ok = CheckName("holder", message.holder.value()); !ok) return ok;
+  return CheckInfo(message.info);
+}
+
+Result<void> Check(const SegmentBatch& message) {
+  if (auto ok = CheckName("sender", message.sender.value()); !ok) return ok;
+  if (message.pieces.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "segment batch without segments");
+  }
+  if (auto ok = CheckCount("segments in a batch", message.pieces.size(), kMaxPiecesPerBatch); !ok) {
+    return ok;
+  }
+  for (const SegmentPiece& piece : message.pieces) {
+    if (auto ok = CheckPiece(piece); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> Check(const SegmentRequest& message) {
+  if (auto ok = CheckName("requester", message.requester.value()); !ok) return ok;
+  if (auto ok = CheckKey(message.key); !ok) return ok;
+  return CheckIndices("lacking segments", message.lacking, kMaxIndicesPerRequest);
+}
+
+Result<void> Check(const Receipt& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckKey(message.key); !ok) return ok;
+  if (auto ok = CheckState(message.durable_state); !ok) return ok;
+  if (auto ok = CheckCount("durable prefix", message.durable_prefix, kMaxSegmentsPerRoute); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckCount("refusal", static_cast<std::uint8_t>(message.refusal),
+                           static_cast<std::uint8_t>(Refusal::kDeleted));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckText("reason", message.reason, kMaxLineBytes); !ok) return ok;
+  return CheckIndices("durable segments", message.durable_beyond, kMaxIndicesPerReceipt);
+}
+
+Result<void> Check(const CatalogRequest& message) {
+  // The query is for the server to judge: whoever asked wrongly is told so in the reply.
+  return CheckName("client", message.client.value());
+}
+
+Result<void> Check(const RouteEditRequest& message) {
+  return CheckName("client", message.client.value());
+}
+
+Result<void> CheckPlaces(const std::vector<route::FoundPlace>& places) {
+  if (auto ok = CheckCount("places in a reply", places.size(), kMaxPlacesPerReply); !ok) return ok;
+  for (const route::FoundPlace& place : places) {
+    if (auto ok = CheckKey(place.key); !ok) return ok;
+    if (auto ok = CheckCount("segment index", place.segment.value(), kMaxSegmentsPerRoute - 1);
+        !ok) {
+      return ok;
+    }
+    if (auto ok = CheckAmount("score", place.score, 1.0); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> Check(const CatalogReply& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  const route::RoutePage& page = message.page;
+  if (auto ok = CheckCount("routes in a reply", page.routes.size(), kMaxRoutesPerReply); !ok) {
+    return ok;
+  }
+  for (const RouteInfo& info : page.routes) {
+    if (auto ok = CheckInfo(info); !ok) return ok;
+  }
+  if (auto ok = CheckText("cursor", page.next, kMaxCursorBytes); !ok) return ok;
+  if (auto ok = CheckCount("similar names", message.similar_names.size(), kMaxSimilarNames); !ok) {
+    return ok;
+  }
+  for (const std::string& name : message.similar_names) {
+    if (auto ok = CheckName("similar name", name); !ok) return ok;
+  }
+  if (auto ok = CheckPlaces(message.places); !ok) return ok;
+  if (auto ok = CheckCount("holdings", message.holdings.size(), kMaxHoldingsPerReply); !ok) {
+    return ok;
+  }
+  for (const Holding& holding : message.holdings) {
+    if (auto ok = CheckKey(holding.key); !ok) return ok;
+    if (auto ok = CheckName("holder", holding.agent.value()); !ok) return ok;
+  }
+  return CheckText("error", message.error, kMaxLineBytes);
+}
+
+Result<void> Check(const AgentStatus& message) {
+  constexpr double kMaxSpeed_mps = 1000.0;
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (!message.route.empty()) {
+    if (auto ok = CheckName("route name", message.route); !ok) return ok;
+  }
+  if (auto ok = CheckCount("agent role", static_cast<std::uint8_t>(message.role),
+                           static_cast<std::uint8_t>(AgentRole::kOperator));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckCount("agent mode", static_cast<std::uint8_t>(message.mode),
+                           static_cast<std::uint8_t>(AgentMode::kFault));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckAmount("progress", message.progress, 1.0); !ok) return ok;
+  if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
+  if (auto ok =
+          CheckAmount("speed, forward or backward", std::abs(message.speed_mps), kMaxSpeed_mps);
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckCount("revisions held", message.held.size(), kMaxHeldTold); !ok) return ok;
+  for (const RouteKey& key : message.held) {
+    if (auto ok = CheckKey(key); !ok) return ok;
+  }
+  if (message.place) {
+    if (auto ok = CheckKey(message.place->key); !ok) return ok;
+    if (auto ok = CheckAmount("metres along the route", message.place->along_m, kMaxLength_m); !ok)
+      return ok;
+  }
+  return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
+Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
+
+}  // namespace
+
+Result<void> CheckBounds(const Message& message) {
+  return std::visit([](const auto& value) { return Check(value); }, message);
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,84 @@
+#include "services/exchange/src/field_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/exchange/bounds.h"
+#include "services/exchange/text.h"
+
+namespace trailcast::exchange {
+
+Result<void> CheckName(const char* field, const std::string& name) {
+  if (IsValidName(name)) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "{} \"{}\" is not a name: 1 to 64 of letters, digits, '_', '.', '-'", field,
+              PlainText(name, 80));
+}
+
+Result<void> CheckText(const char* field, const std::string& text, std::size_t max_bytes) {
+  if (IsPlainText(text, max_bytes)) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "{} is not one line of UTF-8 of at most {} bytes without control characters", field,
+              max_bytes);
+}
+
+Result<void> CheckCount(const char* field, std::uint64_t count, std::uint64_t max) {
+  if (count <= max) return {};
+  return Fail(ErrorCode::kInvalidArgument, "{} is {}, at most {} is accepted", field, count, max);
+}
+
+Result<void> CheckAmount(const char* field, double value, double max) {
+  if (value >= 0.0 && value <= max) return {};  // false for NaN
+  return Fail(ErrorCode::kInvalidArgument, "{} is {}, expected 0 to {}", field, value, max);
+}
+
+Result<void> CheckState(route::RouteState state) {
+  return CheckCount("route state", static_cast<std::uint8_t>(state),
+                    static_cast<std::uint8_t>(route::RouteState::kComplete));
+}
+
+Result<void> CheckStanding(route::Standing standing) {
+  return CheckCount("standing", static_cast<std::uint8_t>(standing),
+                    static_cast<std::uint8_t>(route::Standing::kDeleted));
+}
+
+Result<void> CheckKey(const route::RouteKey& key) {
+  const std::string& id = key.route.value();
+  const bool hex = std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+  });
+  if (id.size() != 32 || !hex) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route id \"{}\" is not 32 lower-case hexadecimal digits", PlainText(id, 80));
+  }
+  if (key.revision.value() == 0) {
+    return Fail(ErrorCode::kInvalidArgument, "revision of route {} is 0, they start at 1", id);
+  }
+  return {};
+}
+
+Result<void> CheckTags(const std::vector<std::string>& tags) {
+  if (auto ok = CheckCount("tags", tags.size(), route::kMaxTags); !ok) return ok;
+  for (const std::string& tag : tags) {
+    if (auto ok = CheckName("tag", tag); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> CheckPlace(const route::Place& place) {
+  constexpr double kMaxSite_m = 1e7;
+  const bool globe = place.frame == route::Place::Frame::kWgs84;
+  if (!globe && place.frame != route::Place::Frame::kSite) {
+    return Fail(ErrorCode::kInvalidArgument, "place frame is {}, expected 1 (site) or 2 (WGS 84)",
+                static_cast<int>(place.frame));
+  }
+  if (auto ok = CheckAmount(globe ? "longitude, east or west, in degrees" : "site x in metres",
+                            std::abs(place.x), globe ? 180.0 : kMaxSite_m);
+      !ok) {
+    return ok;
+  }
+  return CheckAmount(globe ? "latitude, north or south, in degrees" : "site y in metres",
+                     std::abs(place.y), globe ? 90.0 : kMaxSite_m);
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,74 @@
+#include "services/exchange/route_finder.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <variant>
+
+namespace trailcast::exchange {
+
+std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes,
+                                            const RevisionChoice& which) {
+  using route::Standing;
+  std::set<RouteId> spoken_of;
+  for (const route::RouteInfo& info : routes) {
+    if (info.edition > 0) spoken_of.insert(info.key.route);
+  }
+  const bool to_follow = which.number == 0 && !which.newest;
+  const auto is_meant = [&](const route::RouteInfo& info) {
+    if (info.standing == Standing::kDeleted) return false;
+    if (which.number != 0) return info.key.revision.value() == which.number;
+    if (which.newest) return info.standing != Standing::kRetired;
+    return info.standing == Standing::kActive || !spoken_of.contains(info.key.route);
+  };
+  const auto rank = [&](const route::RouteInfo& info) {
+    return std::make_tuple(to_follow && info.standing == Standing::kActive,
+                           info.state == route::RouteState::kComplete, info.taught_unix_ms,
+                           info.key);
+  };
+  const route::RouteInfo* best = nullptr;
+  for (const route::RouteInfo& info : routes) {
+    if (is_meant(info) && (best == nullptr || rank(*best) < rank(info))) best = &info;
+  }
+  return best == nullptr ? std::nullopt : std::optional(*best);
+}
+
+void RouteFinder::Handle(const exchange::Message& message) {
+  if (found_) return;
+  if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
+    Learn(*reply);
+  } else if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    Learn(*announcement);
+  }
+}
+
+void RouteFinder::Learn(const exchange::RouteAnnouncement& announcement) {
+  if (announcement.info.name != name_) return;
+  const auto known =
+      std::find_if(announced_.begin(), announced_.end(),
+                   [&](const route::RouteInfo& info) { return info.key == announcement.info.key; });
+  if (known != announced_.end()) {
+    *known = announcement.info;
+  } else if (announced_.size() < kMaxAnnounced) {
+    announced_.push_back(announcement.info);
+  }
+}
+
+void RouteFinder::Learn(const exchange::CatalogReply& reply) {
+  if (reply.client != self_ || reply.request == 0 || reply.request > asked_) return;
+  error_ = reply.error;
+  if (!reply.error.empty()) return;
+  std::vector<route::RouteInfo> named = reply.page.routes;
+  std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
+  found_ = ChooseRoute(named, which_);
+  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !named.empty()};
+}
+
+std::vector<exchange::Message> RouteFinder::Tick(Time now) {
+  if (found_ || (asked_at_ && now - *asked_at_ < kAskEvery)) return {};
+  asked_at_ = now;
+  ++asked_;
+  return {exchange::CatalogRequest{self_, asked_, {.name = name_}}};
+}
+
+}  // namespace trailcast::exchange

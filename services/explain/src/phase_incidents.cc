@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "services/explain/src/incidents.h"
+#include "services/explain/src/run_index.h"
+
+namespace trailcast::explain {
+namespace {
+
+using agent::FrameRow;
+using agent::Phase;
+using agent::RunEvent;
+using agent::RunLog;
+
+double WeightOf(Phase phase) {
+  switch (phase) {
+    case Phase::kLost:
+      return 100.0;
+    case Phase::kCovered:
+      return 60.0;
+    case Phase::kBlind:
+      return 50.0;
+    case Phase::kSeeking:
+    case Phase::kWaiting:
+      return 40.0;
+    case Phase::kDistant:
+      return 30.0;
+    case Phase::kUnsure:
+      return 20.0;
+    case Phase::kSure:
+    case Phase::kArrived:
+      break;
+  }
+  return 0.0;
+}
+
+// What the session said when the phase began.
+std::string ReasonAt(const RunLog& log, std::size_t row) {
+  for (const RunEvent& event : log.events) {
+    if (event.what == "phase" && event.frame == log.frames[row].frame) return event.text;
+  }
+  return "";
+}
+
+// What became of a segment's features from its beginning to a row: "12 of 34 were found at its
+// start, 4 left the picture, ...".
+std::string FateOfFeatures(const RunLog& log, std::size_t row) {
+  const auto stays = StaysOf(log);
+  const auto stay = std::find_if(stays.begin(), stays.end(), [&](const Stay& each) {
+    return each.first <= row && row < each.end;
+  });
+  if (stay == stays.end()) return "";
+  int left = 0;
+  int lost = 0;
+  for (std::size_t i = stay->first; i <= row; ++i) {
+    left += log.frames[i].left_picture;
+    lost += log.frames[i].not_returned;
+  }
+  std::vector<std::string> fates;
+  if (stay->begun != nullptr) {
+    fates.push_back(fmt::format("{} of {} were found at its start",
+                                stay->begun->fields.Find("found").value_or("?"),
+                                stay->begun->fields.Find("stored").value_or("?")));
+  }
+  if (left > 0) fates.push_back(fmt::format("{} left the picture", left));
+  if (lost > 0) fates.push_back(fmt::format("{} were lost in tracking", lost));
+  const FrameRow& now = log.frames[row];
+  if (now.rejected > 0) {
+    fates.push_back(fmt::format("{} disagree by {:.0f} px", now.rejected, now.rejected_by_px));
+  }
+  return fmt::format("{}", fmt::join(fates, ", "));
+}
+
+std::string SpeedText(const RunLog& log, const Spell& spell) {
+  double fastest_mps = 0.0;
+  for (std::size_t i = spell.first; i < spell.end; ++i) {
+    fastest_mps = std::max(fastest_mps, log.frames[i].linear_mps);
+  }
+  return fastest_mps > 0.0 ? fmt::format("at up to {:.2f} m/s", fastest_mps) : "standing";
+}
+
+const char* Meaning(Phase phase) {
+  switch (phase) {
+    case Phase::kSeeking:
+      return "looking for the route's start";
+    case Phase::kDistant:
+      return "only distant features, slowly on";
+    case Phase::kBlind:
+      return "blind, on by odometry";
+    case Phase::kCovered:
+      return "something covered the view";
+    default:
+      return ToString(phase);
+  }
+}
+
+// Of a stretch where it was not sure, but not lost: how long, and the least that it saw.
+std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
+  const bool by_distance = log.frames[spell.first].driven_m.has_value();
+  std::string text = Meaning(spell.phase);
+  text += by_distance ? fmt::format(" for {:.2f} m ({} frames, {})", driven_m,
+                                    spell.end - spell.first, SpeedText(log, spell))
+                      : fmt::format(" for {} frames", spell.end - spell.first);
+  if (spell.phase == Phase::kWaiting)
+    return fmt::format("{}: {}", text, ReasonAt(log, spell.first));
+  if (spell.phase == Phase::kDistant) {
+    double worst_m = 0.0;
+    for (std::size_t i = spell.first; i < spell.end; ++i) {
+      worst_m = std::max(worst_m, log.frames[i].left_sigma_m.value_or(0.0));
+    }
+    return fmt::format("{}: the place beside the path was known to {:.2f} m", text, worst_m);
+  }
+  const auto least = std::min_element(
+      log.frames.begin() + static_cast<std::ptrdiff_t>(spell.first),
+      log.frames.begin() + static_cast<std::ptrdiff_t>(spell.end),
+      [](const FrameRow& a, const FrameRow& b) { return a.agreeing < b.agreeing; });
+  return fmt::format("{}, down to {} of the segment's {} features: {}", text, least->agreeing,
+                     least->stored, FateOfFeatures(log, spell.first));
+}
+
+Incident OfSpell(const RunLog& log, const Spell& spell) {
+  const double frames = static_cast<double>(spell.end - spell.first);
+  const std::string kind = ToString(spell.phase);
+  if (spell.phase == Phase::kLost) {
+    return {kind, spell.first, spell.end - 1, WeightOf(spell.phase),
+            fmt::format("lost: {}", ReasonAt(log, spell.first))};
+  }
+  const double driven_m =
+      HasOdometry(log) ? PlaceOf(log.frames[spell.end - 1]) - PlaceOf(log.frames[spell.first])
+                       : 0.0;
+  const double weight = WeightOf(spell.phase) + std::min(15.0, 10.0 * driven_m + 0.05 * frames);
+  return {kind, spell.first, spell.end - 1, weight, TellSpell(log, spell, driven_m)};
+}
+
+}  // namespace
+
+std::vector<Incident> PhaseIncidents(const RunLog& log) {
+  std::vector<Incident> incidents;
+  for (const Spell& spell : SpellsOf(log)) {
+    if (WeightOf(spell.phase) > 0.0) incidents.push_back(OfSpell(log, spell));
+  }
+  return incidents;
+}
+
+}  // namespace trailcast::explain

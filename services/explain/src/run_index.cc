@@ -1,0 +1,65 @@
+#include "services/explain/src/run_index.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace trailcast::explain {
+
+using agent::FrameRow;
+using agent::RunEvent;
+using agent::RunLog;
+
+std::vector<Stay> StaysOf(const RunLog& log) {
+  std::vector<Stay> stays;
+  for (std::size_t i = 0; i < log.frames.size(); ++i) {
+    if (log.frames[i].phase == agent::Phase::kWaiting) continue;
+    const int segment = log.frames[i].segment;
+    if (stays.empty() || stays.back().segment != segment) stays.push_back({segment, i, i, nullptr});
+    stays.back().end = i + 1;
+  }
+  for (const RunEvent& event : log.events) {
+    if (event.what != "hand-over" && event.what != "recovered") continue;
+    const auto stay = std::find_if(stays.begin(), stays.end(), [&](const Stay& each) {
+      return log.frames[each.end - 1].frame >= event.frame &&
+             event.fields.Number("segment") == each.segment;
+    });
+    if (stay != stays.end() && stay->begun == nullptr) stay->begun = &event;
+  }
+  return stays;
+}
+
+std::vector<Spell> SpellsOf(const RunLog& log) {
+  std::vector<Spell> spells;
+  for (std::size_t i = 0; i < log.frames.size(); ++i) {
+    const agent::Phase phase = log.frames[i].phase;
+    if (spells.empty() || spells.back().phase != phase) spells.push_back({phase, i, i});
+    spells.back().end = i + 1;
+  }
+  return spells;
+}
+
+std::size_t RowOfFrame(const RunLog& log, int frame) {
+  const auto row =
+      std::lower_bound(log.frames.begin(), log.frames.end(), frame,
+                       [](const FrameRow& each, int number) { return each.frame < number; });
+  if (row == log.frames.end()) return log.frames.size() - 1;
+  return static_cast<std::size_t>(std::distance(log.frames.begin(), row));
+}
+
+bool HasOdometry(const RunLog& log) {
+  return !log.frames.empty() && log.frames.back().driven_m.has_value();
+}
+
+double PlaceOf(const FrameRow& row) {
+  return row.driven_m ? *row.driven_m : static_cast<double>(row.frame);
+}
+
+std::string PlaceText(const FrameRow& row) {
+  const std::string where = row.driven_m ? fmt::format("{:>7.2f} m", *row.driven_m)
+                                         : fmt::format("frame {:>5}", row.frame);
+  return fmt::format("{} {:>4.0f} %  segment {:<3}", where, 100.0 * row.progress, row.segment);
+}
+
+}  // namespace trailcast::explain

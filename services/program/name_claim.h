@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::program {
+
+// Keeps two running processes from using one name. A process that starts publishes its status
+// (kStarting) and listens for kListening; whoever was there before keeps the name, and of two that
+// start together the one with the smaller instance.
+class NameClaim {
+ public:
+  static constexpr std::chrono::milliseconds kListening{1000};
+
+  // `own` as published, with its instance.
+  explicit NameClaim(const exchange::AgentStatus& own)
+      : agent_(own.agent), instance_(own.instance) {}
+
+  // kConflict when `status` comes from another process that has the name and keeps it.
+  [[nodiscard]] Result<void> See(const exchange::AgentStatus& status) const;
+
+ private:
+  AgentId agent_;
+  std::uint64_t instance_;
+};
+
+// Random, never 0.
+[[nodiscard]] std::uint64_t MakeInstance();
+
+}  // namespace trailcast::program

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "services/exchange/route_exchange.h"
+#include "services/program/name_claim.h"
+
+namespace trailcast::program {
+
+// An agent as its peers see it: claims its name, publishes its status, and notes whether a server
+// is heard. Owned by the thread that owns the exchange.
+class Presence {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Handler = std::function<void(const exchange::Message&)>;
+  // What all agents together may say: every one of them hears every status.
+  static constexpr std::chrono::milliseconds kForEachAgent{10};
+
+  // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
+  // status is published every `interval` (less often in a swarm, so that each of its agents has
+  // kForEachAgent), and when the mode changes.
+  Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
+           std::chrono::milliseconds interval = std::chrono::milliseconds(200));
+
+  // Publishes kStarting and listens; everything heard goes to `handle` too. kConflict when another
+  // running process has the name. Ends early, without error, when `stop` says so.
+  [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
+
+  // Notes whether a server speaks, and how many agents there are; answers who claims the name.
+  void Handle(const exchange::Message& message);
+
+  // The status to be published from now on; agent, role and instance stay.
+  void Set(exchange::AgentStatus status);
+  [[nodiscard]] const exchange::AgentStatus& status() const { return status_; }
+  // Publishes when the interval has passed or the mode has changed.
+  void Tick(Clock::time_point now);
+  // Publishes now.
+  void Publish();
+
+  // A server that was heard and has not gone since.
+  [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
+
+ private:
+  // Who claims this one's name did not hear what it said before: tells whose the name is.
+  void AnswerClaim(const exchange::AgentStatus& status);
+
+  exchange::RouteExchange& exchange_;
+  exchange::AgentStatus status_;
+  NameClaim claim_;
+  std::chrono::milliseconds interval_;
+  std::optional<exchange::AgentMode> published_mode_;
+  Clock::time_point next_{};
+  std::optional<AgentId> server_;
+  std::set<AgentId> others_;  // heard, and not gone since
+};
+
+// Topics of a role, and the statuses of all agents, overheard where the role does not read them: a
+// process must see whether its name is taken.
+[[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
+
+}  // namespace trailcast::program

@@ -1,0 +1,126 @@
+#include "services/program/command_line.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "services/base/ids.h"
+#include "services/program/toml.h"
+#include "services/security/member_keys.h"
+
+#ifndef TRAILCAST_VERSION
+#error "TRAILCAST_VERSION comes from CMake"
+#endif
+
+namespace trailcast::program {
+namespace {
+
+// Keys a configuration file may hold for `app` itself.
+std::string Keys(const CLI::App& app) {
+  std::vector<std::string> keys;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_configurable() && !option->get_lnames().empty()) {
+      keys.push_back(option->get_lnames().front());
+    }
+  }
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+std::string AcceptedKeys(const CLI::App& app) {
+  std::string text = fmt::format("accepted keys: {}", Keys(app));
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    text += fmt::format("\n  in [{}]: {}", command->get_name(), Keys(*command));
+  }
+  return text;
+}
+
+// CLI11 looks for what is missing before it looks at what is too much; a misspelt option is both.
+std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
+  std::string message = error.what();
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (!unknown.empty()) return fmt::format("not understood: {}", fmt::join(unknown, " "));
+  if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;
+  const std::string prefix = "INI was not able to parse ";
+  if (message.rfind(prefix, 0) != 0) return message;
+  return fmt::format("the configuration file has a key '{}' that is not known; {}",
+                     message.substr(prefix.size()), AcceptedKeys(app));
+}
+
+}  // namespace
+
+void AddCommonOptions(CLI::App& app, CommonOptions& options) {
+  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), TRAILCAST_VERSION));
+  app.set_config("--config", "", "TOML file with any of these options; unknown keys are errors");
+  app.config_formatter(std::make_shared<Toml>());
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.option_defaults()->always_capture_default();
+  CLI::Option* name = app.add_option("--name", options.name,
+                                     "Name in the fleet, unique: letters, digits, '_', '.', '-'");
+  name->check(NameValidator())->envname("TRAILCAST_NAME");
+  app.add_option("--domain", options.domain, "DDS domain; only processes of one domain meet")
+      ->check(CLI::Range(0, 230))
+      ->envname("TRAILCAST_DOMAIN");
+  app.add_option("--dds-tag", options.dds_tag,
+                 "DDS domain tag: processes with other tags do not meet either")
+      ->envname("TRAILCAST_DDS_TAG");
+  app.add_option("--network-interface", options.network_interface,
+                 "Network interface for DDS, as 'lo' or 'wlan0'; empty: DDS chooses")
+      ->envname("TRAILCAST_NETWORK_INTERFACE");
+  app.add_option("--security", options.security,
+                 "Folder with this member's keys, as 'trailcast keys add' wrote it: speaks, "
+                 "encrypted, with members of its fleet only; empty: open to everybody")
+      ->envname("TRAILCAST_SECURITY");
+  app.final_callback([&options, name] {
+    if (options.security.empty() || name->count() > 0) return;
+    // Keys that are wrong are told of by who needs them, when it joins.
+    if (const auto in_keys = security::NameInKeys(options.security)) options.name = *in_keys;
+  });
+  app.add_option("--log-level", options.log_level, "What is told on stderr")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->envname("TRAILCAST_LOG_LEVEL");
+  app.add_option("--log-format", options.log_format,
+                 "Lines for people, or a JSON object a line for programs")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->envname("TRAILCAST_LOG_FORMAT");
+}
+
+std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& shown) {
+    return app.exit(shown);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "{}: {}\nTry '{} --help'.\n", app.get_name(), Explain(app, error),
+               app.get_name());
+    return kExitUsage;
+  }
+}
+
+CLI::Validator RevisionValidator() {
+  return {[](std::string& text) {
+            const bool digits = !text.empty() && text.size() <= 9 &&
+                                text.find_first_not_of("0123456789") == std::string::npos;
+            if (digits && text.find_first_not_of('0') != std::string::npos) return std::string();
+            return fmt::format("'{}' is no revision: expected a whole number from 1", text);
+          },
+          "REVISION"};
+}
+
+CLI::Validator NameValidator() {
+  return {[](std::string& name) {
+            if (IsValidName(name)) return std::string{};
+            return fmt::format("'{}' is no name: 1 to 64 of letters, digits, '_', '.' and '-'",
+                               name);
+          },
+          "NAME"};
+}
+
+int Complain(const CLI::App& app, const Error& error) {
+  fmt::print(stderr, "{}: {}\n", app.get_name(), error.message);
+  return kExitFailure;
+}
+
+}  // namespace trailcast::program

@@ -1,0 +1,46 @@
+#include <fmt/chrono.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "services/program/command_line.h"
+#include "services/program/json.h"
+
+namespace trailcast::program {
+namespace {
+
+std::string_view View(spdlog::string_view_t text) { return {text.data(), text.size()}; }
+
+// One JSON object a line, for what gathers logs.
+class JsonLines final : public spdlog::formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+    const auto milliseconds =
+        std::chrono::floor<std::chrono::milliseconds>(message.time.time_since_epoch());
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(milliseconds);
+    fmt::format_to(std::back_inserter(line),
+                   "{{\"time\": \"{:%Y-%m-%dT%H:%M:%S}.{:03}Z\", \"level\": {}, \"name\": {}, "
+                   "\"text\": {}}}\n",
+                   fmt::gmtime(std::chrono::system_clock::time_point(seconds)),
+                   (milliseconds - seconds).count(),
+                   JsonText(View(spdlog::level::to_string_view(message.level))),
+                   JsonText(View(message.logger_name)), JsonText(View(message.payload)));
+  }
+  [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<JsonLines>();
+  }
+};
+
+}  // namespace
+
+void SetUpLog(const CommonOptions& options) {
+  auto logger = spdlog::stderr_color_mt(options.name);
+  if (options.log_format == "json") {
+    logger->set_formatter(std::make_unique<JsonLines>());
+  } else {
+    logger->set_pattern("%H:%M:%S.%e %^%-5l%$ %n: %v");
+  }
+  logger->set_level(spdlog::level::from_str(options.log_level));
+  spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace trailcast::program

@@ -1,0 +1,64 @@
+#include "services/program/open_exchange.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "services/dds/dds_exchange.h"
+#include "services/program/heartbeat.h"
+#include "services/security/member_keys.h"
+
+namespace trailcast::program {
+namespace {
+
+constexpr std::chrono::hours kSoon{7 * 24};
+
+Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {
+  const auto now = std::chrono::system_clock::now();
+  auto keys = security::LoadMemberKeys(options.security, now);
+  if (!keys) return keys;
+  if (const std::string beyond = security::BeyondRights(keys->member.role, use); !beyond.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the keys in {} are of the role '{}', which does not allow this ({}): use the keys "
+                "of a member whose role does ('trailcast keys add --help')",
+                options.security, security::NameOf(keys->member.role), beyond);
+  }
+  if (security::WithoutProcess(options.name) != keys->name) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the keys in {} are those of '{}', not of '{}': leave --name out, or give the keys "
+                "of that member",
+                options.security, keys->name, options.name);
+  }
+  if (keys->expires < now + kSoon) {
+    spdlog::warn("the keys in {} expire on {}: 'trailcast keys renew {}' where the authority is",
+                 options.security, security::ToText(keys->expires), keys->name);
+  }
+  return keys;
+}
+
+bool IsAgent(const exchange::TopicUse& use) { return use.Writes(exchange::Topic::kAgents); }
+
+}  // namespace
+
+Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOptions& options,
+                                                              const exchange::TopicUse& use) {
+  dds::DdsOptions dds;
+  dds.domain_id = static_cast<std::uint32_t>(options.domain);
+  dds.discovery_tag = options.dds_tag;
+  dds.network_interface = options.network_interface;
+  dds.self = AgentId(options.name);
+  if (!options.security.empty()) {
+    auto keys = Keys(options, use);
+    if (!keys) return Wrap(keys.error(), "--security");
+    dds.keys = *std::move(keys);
+    // A command that is over in a moment has no log to watch.
+    if (IsAgent(use))
+      dds.tell_of_stranger = [](const std::string& line) { spdlog::warn("{}", line); };
+  }
+  auto opened = dds::OpenDdsExchange(dds, use);
+  if (!opened) return Wrap(opened.error(), "joining the network");
+  if (options.heartbeat.empty()) return opened;
+  return WithHeartbeat(*std::move(opened), options.heartbeat);
+}
+
+}  // namespace trailcast::program

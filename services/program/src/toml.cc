@@ -1,0 +1,39 @@
+#include "services/program/toml.h"
+
+#include <sstream>
+#include <string>
+
+namespace trailcast::program {
+namespace {
+
+// Up to the first '#' that stands in no quotes, and without the blanks before it.
+std::string WithoutComment(const std::string& line) {
+  char quote = 0;
+  std::size_t end = 0;
+  for (; end < line.size(); ++end) {
+    const char c = line[end];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      break;
+    }
+  }
+  const std::size_t last = line.find_last_not_of(" \t\r", end == 0 ? 0 : end - 1);
+  return end == 0 || last == std::string::npos ? "" : line.substr(0, last + 1);
+}
+
+}  // namespace
+
+std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
+  std::stringstream without_comments;
+  for (std::string line; std::getline(input, line);) {
+    without_comments << WithoutComment(line) << '\n';
+  }
+  CLI::ConfigTOML reader;
+  reader.comment('\0');  // what is left are no comments
+  return reader.from_config(without_comments);
+}
+
+}  // namespace trailcast::program

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "services/motion/motion.h"
+#include "services/sim/core/path.h"
+
+namespace trailcast::sim {
+
+struct DriverOptions {
+  double speed_mps = 0.4;       // on the straight
+  double slowest_share = 0.4;   // of it, in the sharpest turn
+  double turning_radps = 0.43;  // about 25 degrees a second, never more
+  double acceleration_mps2 = 0.4;
+  double look_ahead_m = 0.30;    // of the pure pursuit; shorter cuts corners less but weaves
+  double corner_radius_m = 0.6;  // way-points' corners are driven as arcs of this
+  double arrived_within_m = 0.015;
+};
+
+// The human operator who drives the scout along way-points: sees where the robot truly is, steers
+// by pure pursuit, slows down in turns, stops at the end.
+class PathFollowDriver {
+ public:
+  explicit PathFollowDriver(const Polyline& way_points, const DriverOptions& options = {});
+
+  // What the operator asks of the robot that stands at `true_pose` (world frame). {0, 0} once
+  // arrived.
+  [[nodiscard]] motion::VelocityCommand Command(const motion::Pose2& true_pose);
+  [[nodiscard]] bool arrived() const { return arrived_; }
+  // The path with its corners rounded: what is really driven.
+  [[nodiscard]] const Polyline& path() const { return path_; }
+
+ private:
+  void PlanSpeeds();
+
+  DriverOptions options_;
+  Polyline path_;
+  double length_m_;
+  std::vector<double> speeds_mps_;  // one a point of path_
+  double along_m_ = 0.0;
+  bool aligned_ = false;  // has turned on the spot to face the path
+  bool arrived_ = false;
+};
+
+}  // namespace trailcast::sim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "services/base/result.h"
+#include "services/sim/core/actor.h"
+#include "services/sim/places/place.h"
+
+namespace trailcast::sim {
+
+// Who moves at a place while the robot of that role drives along its path, drawn from the seed.
+// Times follow from the path and the place's speed, so that they meet where they should.
+
+// A pedestrian comes along the right-hand pavement, crosses over in front of the follower and
+// passes it; then a van drives by. While the scout teaches, there may be a stroller far off.
+[[nodiscard]] Result<Actors> RoadTraffic(const Place& place, Role role, std::uint64_t seed);
+
+// People on the pavement behind the parked cars: others when teaching than when following.
+[[nodiscard]] Result<Actors> PavementTraffic(const Place& place, Role role, std::uint64_t seed);
+
+// The place's own, or nobody.
+[[nodiscard]] Result<Actors> TrafficFor(const Place& place, Role role, std::uint64_t seed);
+
+// Somebody in a long coat who stands in the robot's way, somewhere on the middle third of the path.
+[[nodiscard]] Result<Actor> SomebodyInTheWay(const Place& place, std::uint64_t seed);
+
+}  // namespace trailcast::sim

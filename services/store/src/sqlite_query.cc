@@ -1,0 +1,155 @@
+// SqliteRouteStore's catalog: by what routes are found, and finding them.
+#include <algorithm>
+
+#include "services/store/sqlite_store.h"
+#include "services/store/src/query_sql.h"
+#include "services/store/src/rows.h"
+
+namespace trailcast::store {
+namespace {
+
+using route::RouteInfo;
+using route::RoutePage;
+using route::RouteQuery;
+
+// Bytes that other revisions' segments rely on go to the first of those.
+constexpr const char* kBequeath = R"(
+WITH leaving AS (
+  SELECT digest, bytes FROM segment WHERE route = ?1 AND revision = ?2 AND bytes IS NOT NULL)
+UPDATE segment AS heir SET bytes = (SELECT bytes FROM leaving WHERE digest = heir.digest)
+WHERE digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND revision = ?2)
+  AND rowid = (SELECT MIN(rowid) FROM segment WHERE digest = heir.digest
+               AND NOT (route = ?1 AND revision = ?2)) AND bytes IS NULL
+)";
+
+void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
+  statement.bind(parameter, static_cast<std::int64_t>(size));
+}
+
+// From parameter 1 on; the number of the next one.
+int BindValues(SQLite::Statement& statement, const SqlCondition& condition) {
+  int parameter = 1;
+  for (const SqlCondition::Value& value : condition.values()) {
+    std::visit([&](const auto& each) { statement.bind(parameter, each); }, value);
+    ++parameter;
+  }
+  return parameter;
+}
+
+}  // namespace
+
+std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
+  auto put =
+      compiled_.Take(fmt::format("INSERT OR REPLACE INTO {0} ({1}, id) VALUES "
+                                 "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
+                                 "(SELECT id FROM {0} WHERE route = ?1 AND revision = ?2))",
+                                 table, kRouteColumns));
+  BindRoute(*put, info);
+  put->exec();
+  return db_->getLastInsertRowid();
+}
+
+void SqliteRouteStore::ForgetPlaceAndTags(std::int64_t id) {
+  for (const char* table : {"route_tag", "route_place"}) {
+    auto forget = compiled_.Take(fmt::format("DELETE FROM {} WHERE id = ?", table));
+    forget->bind(1, id);
+    forget->exec();
+  }
+}
+
+void SqliteRouteStore::Bury(const RouteInfo& info) {
+  auto find = compiled_.Take("SELECT id FROM route WHERE route = ? AND revision = ?");
+  BindKey(*find, info.key);
+  if (find->executeStep()) ForgetPlaceAndTags(find->getColumn(0).getInt64());
+  find->reset();
+  for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND revision = ?",
+                              "DELETE FROM route WHERE route = ? AND revision = ?"}) {
+    auto part = compiled_.Take(parting);
+    BindKey(*part, info.key);
+    part->exec();
+  }
+  PutRow("tombstone", info);
+}
+
+void SqliteRouteStore::Put(const RouteInfo& info) {
+  const std::int64_t id = PutRow("route", info);
+  ForgetPlaceAndTags(id);
+  for (const std::string& tag : info.tags) {
+    auto add = compiled_.Take("INSERT INTO route_tag (tag, id) VALUES (?, ?)");
+    add->bind(1, tag);
+    add->bind(2, id);
+    add->exec();
+  }
+  if (!info.place) return;
+  const auto frame = static_cast<int>(info.place->frame);
+  auto add = compiled_.Take("INSERT INTO route_place VALUES (?1, ?2, ?2, ?3, ?3, ?4)");
+  add->bind(1, id);
+  add->bind(2, info.place->x);
+  add->bind(3, info.place->y);
+  add->bind(4, frame);
+  add->exec();
+}
+
+// Of a tag that many routes have, the first page is found soonest in the order asked for; of one
+// that few have, by sorting those few.
+std::string SqliteRouteStore::RareTag(const RouteQuery& query) {
+  constexpr int kFew = 5000;
+  for (const std::string& tag : query.tags) {
+    SQLite::Statement select(*db_, "SELECT 1 FROM route_tag WHERE tag = ? LIMIT 1 OFFSET ?");
+    select.bind(1, tag);
+    select.bind(2, kFew);
+    if (!select.executeStep()) return tag;
+  }
+  return "";
+}
+
+Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
+  return Guarded("searching routes", [&]() -> Result<RoutePage> {
+    SqlCondition match = MatchOf(query, RareTag(query));
+    if (auto started = StartAfterCursor(query, match); !started) {
+      return tl::unexpected(started.error());
+    }
+    const std::size_t wanted =
+        query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
+    SQLite::Statement select(*db_, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
+                                               match.FromWhere(), OrderBy(query.order)));
+    const int limit = BindValues(select, match);
+    BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
+    RoutePage page;
+    while (select.executeStep()) {
+      if (page.routes.size() == wanted) {
+        page.next = CursorAfter(query.order, page.routes.back());
+        break;
+      }
+      Result<RouteInfo> info = ReadRoute(select);
+      if (!info) return Wrap(info.error(), "route store " + file_.path().string());
+      page.routes.push_back(std::move(*info));
+    }
+    page.total = page.routes.size();
+    if (page.next.empty() && query.cursor.empty()) return page;
+    // However many have the tag: nothing is sorted here.
+    const SqlCondition all = MatchOf(query, query.tags.empty() ? "" : query.tags.front());
+    SQLite::Statement count(*db_, "SELECT COUNT(*)" + all.CountedFromWhere());
+    BindValues(count, all);
+    count.executeStep();
+    page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
+    return page;
+  });
+}
+
+Result<std::vector<std::string>> SqliteRouteStore::NamesNear(const std::string& name,
+                                                             std::size_t count) {
+  return Guarded("listing names", [&]() -> Result<std::vector<std::string>> {
+    std::vector<std::string> names;
+    for (const char* side : {">= ? ORDER BY name ASC", "< ? ORDER BY name DESC"}) {
+      SQLite::Statement select(
+          *db_, fmt::format("SELECT DISTINCT name FROM route WHERE name {} LIMIT ?", side));
+      select.bind(1, name);
+      BindSize(select, 2, count);
+      while (select.executeStep()) names.push_back(select.getColumn(0).getString());
+    }
+    return names;
+  });
+}
+
+}  // namespace trailcast::store

@@ -1,0 +1,253 @@
+#include "services/store/sqlite_store.h"
+
+#include "services/route/digest.h"
+#include "services/route/labels.h"
+#include "services/store/src/rows.h"
+
+namespace trailcast::store {
+namespace {
+
+constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, revision DESC";
+
+using route::RouteInfo;
+using route::RouteKey;
+using route::SegmentPiece;
+
+template <typename Item>
+Result<void> CheckAll(std::span<const Item> items, Result<void> (*check)(const Item&)) {
+  for (const Item& item : items) {
+    if (Result<void> possible = check(item); !possible) return possible;
+  }
+  return {};
+}
+
+}  // namespace
+
+template <typename Item>
+Result<void> SqliteRouteStore::StoreAll(const std::string& doing, std::span<const Item> items,
+                                        Result<void> (SqliteRouteStore::*store)(const Item&)) {
+  return Guarded(doing, [&]() -> Result<void> {
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const Item& item : items) {
+      if (Result<void> stored = (this->*store)(item); !stored) return stored;
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> SqliteRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
+  if (Result<void> possible = CheckAll(infos, &CheckRoute); !possible) return possible;
+  if (infos.empty()) return {};
+  return StoreAll(
+      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)), infos,
+      &SqliteRouteStore::PutNews);
+}
+
+Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
+  const Result<std::optional<RouteInfo>> known = FindRoute(info.key);
+  if (!known && known.error().code != ErrorCode::kCorrupt) return tl::unexpected(known.error());
+  RouteInfo after = info;
+  if (known && known->has_value()) {
+    Result<RouteInfo> merged = route::AfterNews(**known, info);
+    if (!merged) return Wrap(merged.error(), "route store " + file_.path().string());
+    if (*merged == **known) return {};
+    after = std::move(*merged);
+  }
+  after.standing == route::Standing::kDeleted ? Bury(after) : Put(after);
+  return {};
+}
+
+Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {
+  if (Result<void> whole = CheckAll(pieces, &CheckSegment); !whole) return whole;
+  if (pieces.empty()) return {};
+  return StoreAll(
+      fmt::format("storing {} segments of {}", pieces.size(), Describe(pieces.front().key)), pieces,
+      &SqliteRouteStore::Append);
+}
+
+bool SqliteRouteStore::IsBuried(const RouteKey& key) {
+  auto select = compiled_.Take("SELECT 1 FROM tombstone WHERE route = ? AND revision = ?");
+  BindKey(*select, key);
+  return select->executeStep();
+}
+
+Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
+  if (IsBuried(piece.key)) {
+    return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
+                file_.path().string(), Describe(piece.key));
+  }
+  const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
+  if (held) {
+    if (held->digest == piece.digest) return {};
+    return Fail(ErrorCode::kConflict,
+                "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
+                "two scouts may be teaching under one route id",
+                file_.path().string(), Describe(piece.key, piece.index), route::ToHex(held->digest),
+                route::ToHex(piece.digest));
+  }
+  if (held.error().code != ErrorCode::kNotFound && held.error().code != ErrorCode::kCorrupt) {
+    return tl::unexpected(held.error());
+  }
+  const auto content = FindContent(piece.digest);
+  if (!content) return tl::unexpected(content.error());
+  auto insert = compiled_.Take(
+      "INSERT INTO segment (route, revision, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
+      "ON CONFLICT DO UPDATE "
+      "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes");
+  const SegmentPiece relying{piece.key, piece.index, piece.digest, {}};
+  BindSegment(*insert, *content ? relying : piece);
+  insert->exec();
+  return {};
+}
+
+Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {
+  const std::string which = Describe(key, index);
+  return Guarded("reading " + which, [&]() -> Result<SegmentPiece> {
+    auto select = compiled_.Take(
+        "SELECT digest, seal, bytes FROM segment WHERE route = ? AND revision = ? AND number = ?");
+    BindKey(*select, key);
+    select->bind(3, index.value());
+    if (!select->executeStep()) {
+      return Fail(ErrorCode::kNotFound, "route store {} has no {}", file_.path().string(), which);
+    }
+    Result<SegmentPiece> piece = ReadSegmentRow(*select, key, index);
+    if (!piece) return Wrap(piece.error(), "route store " + file_.path().string());
+    if (piece->bytes.empty()) {
+      auto content = FindContent(piece->digest);
+      if (!content) return tl::unexpected(content.error());
+      if (*content) piece->bytes = std::move(**content);
+    }
+    if (Result<void> whole = route::CheckDigest(*piece); !whole) {
+      return Wrap(whole.error(), "route store " + file_.path().string());
+    }
+    return piece;
+  });
+}
+
+Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey& key) {
+  return Guarded(
+      "listing the segments of " + Describe(key), [&]() -> Result<std::vector<HeldSegment>> {
+        SQLite::Statement select(*db_,
+                                 "SELECT digest, seal, NULL, number FROM segment WHERE route = ? "
+                                 "AND revision = ? ORDER BY number");
+        BindKey(select, key);
+        std::vector<HeldSegment> held;
+        while (select.executeStep()) {
+          const SegmentIndex index(select.getColumn(3).getUInt());
+          const Result<SegmentPiece> named = ReadSegmentRow(select, key, index);
+          if (named) held.push_back({index, named->digest});
+        }
+        return held;
+      });
+}
+
+Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::Digest& digest) {
+  return Guarded("looking up a segment's bytes", [&]() -> Result<std::optional<route::Bytes>> {
+    auto select =
+        compiled_.Take("SELECT bytes FROM segment WHERE digest = ? AND bytes IS NOT NULL");
+    BindDigest(*select, 1, digest);
+    while (select->executeStep()) {
+      const SQLite::Column column = select->getColumn(0);
+      const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
+      const std::span whole(bytes, static_cast<std::size_t>(column.getBytes()));
+      if (route::Sha256(whole) == digest) return route::Bytes(whole.begin(), whole.end());
+    }
+    return std::nullopt;
+  });
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::SelectIndices(const RouteKey& key,
+                                                                  bool unreceipted) {
+  return Guarded(
+      "listing the segments of " + Describe(key), [&]() -> Result<std::vector<SegmentIndex>> {
+        SQLite::Statement select(*db_, fmt::format("SELECT number FROM segment WHERE route = ? AND "
+                                                   "revision = ? {} ORDER BY number",
+                                                   unreceipted ? "AND receipted = 0" : ""));
+        BindKey(select, key);
+        std::vector<SegmentIndex> indices;
+        while (select.executeStep()) {
+          indices.emplace_back(select.getColumn(0).getUInt());
+        }
+        return indices;
+      });
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::HeldSegments(const RouteKey& key) {
+  return SelectIndices(key, false);
+}
+
+Result<std::vector<SegmentIndex>> SqliteRouteStore::UnreceiptedSegments(const RouteKey& key) {
+  return SelectIndices(key, true);
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(
+    const std::string& table, const std::string& where,
+    const std::function<void(SQLite::Statement&)>& bind) {
+  return Guarded("looking up routes", [&]() -> Result<std::vector<RouteInfo>> {
+    auto select = compiled_.Take(fmt::format("SELECT {} FROM {} {}", kRouteColumns, table, where));
+    bind(*select);
+    std::vector<RouteInfo> routes;
+    while (select->executeStep()) {
+      Result<RouteInfo> info = ReadRoute(*select);
+      if (!info) return Wrap(info.error(), "route store " + file_.path().string());
+      routes.push_back(std::move(*info));
+    }
+    return routes;
+  });
+}
+
+Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key) {
+  for (const char* table : {"route", "tombstone"}) {
+    Result<std::vector<RouteInfo>> found =
+        SelectRoutes(table, "WHERE route = ? AND revision = ?",
+                     [&](SQLite::Statement& select) { BindKey(select, key); });
+    if (!found) return tl::unexpected(found.error());
+    if (!found->empty()) return std::move(found->front());
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::FindRevisions(const RouteId& route) {
+  return SelectRoutes("route", "WHERE route = ? ORDER BY revision",
+                      [&](SQLite::Statement& select) { select.bind(1, route.value()); });
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() {
+  return SelectRoutes("route", kNewestFirst, [](SQLite::Statement&) {});
+}
+
+Result<std::vector<RouteInfo>> SqliteRouteStore::FindRoutesByName(const std::string& name) {
+  return SelectRoutes("route", std::string("WHERE name = ? ") + kNewestFirst,
+                      [&](SQLite::Statement& select) { select.bind(1, name); });
+}
+
+Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
+                                             std::span<const SegmentIndex> indices) {
+  if (indices.empty()) return {};
+  return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    auto update = compiled_.Take(
+        "UPDATE segment SET receipted = 1 WHERE route = ? AND revision = ? AND number = ? AND "
+        "receipted = 0");
+    BindKey(*update, key);
+    for (const SegmentIndex index : indices) {
+      update->bind(3, index.value());
+      update->exec();
+      update->reset();
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<std::unique_ptr<RouteStore>> OpenSqliteStore(const std::filesystem::path& file,
+                                                    const SqliteOptions& options) {
+  Result<StoreFile> locked = StoreFile::Acquire(file);
+  if (!locked) return tl::unexpected(locked.error());
+  auto db = OpenDatabase(file, options);
+  if (!db) return tl::unexpected(db.error());
+  return std::make_unique<SqliteRouteStore>(std::move(*locked), std::move(*db));
+}
+
+}  // namespace trailcast::store

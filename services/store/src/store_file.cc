@@ -1,0 +1,124 @@
+#include "services/store/store_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+namespace trailcast::store {
+namespace {
+
+// https://www.sqlite.org/fileformat.html, "The Database Header": big-endian numbers.
+constexpr std::size_t kHeaderBytes = 100;
+constexpr std::string_view kMagic("SQLite format 3\0", 16);
+constexpr std::size_t kPageSizeAt = 16;
+constexpr std::size_t kChangeCounterAt = 24;
+constexpr std::size_t kPageCountAt = 28;
+constexpr std::size_t kUserVersionAt = 60;
+constexpr std::size_t kApplicationIdAt = 68;
+constexpr std::size_t kPageCountValidForAt = 92;
+using Header = std::array<std::uint8_t, kHeaderBytes>;
+
+std::uint32_t Number(const Header& header, std::size_t at, int bytes) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < bytes; ++i) value = value << 8U | header[at + static_cast<std::size_t>(i)];
+  return value;
+}
+
+std::string Reason(int error) { return std::generic_category().message(error); }
+
+bool HasContent(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::file_size(path, missing) > 0 && !missing;
+}
+
+// Bytes that the header promises; 0 when the header's count is not to be relied on.
+std::uint64_t PromisedBytes(const Header& header) {
+  if (Number(header, kChangeCounterAt, 4) != Number(header, kPageCountValidForAt, 4)) return 0;
+  const std::uint32_t raw = Number(header, kPageSizeAt, 2);
+  return std::uint64_t{Number(header, kPageCountAt, 4)} * (raw == 1 ? 65536U : raw);
+}
+
+}  // namespace
+
+Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Condition condition) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+    return Fail(ErrorCode::kCorrupt, "{} is no file (a folder or a device), expected a route store",
+                path.string());
+  }
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) {
+    const int error = errno;
+    return Fail(ErrorCode::kUnavailable,
+                "cannot open route store {}: {}; its folder must exist, and both be writable",
+                path.string(), Reason(error));
+  }
+  StoreFile file(path, descriptor);
+  if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());
+  if (condition == Condition::kDamaged) return file;
+  if (Result<void> fit = file.Inspect(); !fit) return tl::unexpected(fit.error());
+  return file;
+}
+
+// Closed after SQLite's own descriptors, since closing any of them drops SQLite's record locks.
+StoreFile::~StoreFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+Result<void> StoreFile::Lock() const {
+  int status = 0;
+  do {
+    status = flock(descriptor_, LOCK_EX | LOCK_NB);
+  } while (status != 0 && errno == EINTR);
+  if (status == 0) return {};
+  const int error = errno;
+  if (error == EWOULDBLOCK) {
+    return Fail(ErrorCode::kConflict,
+                "route store {} is open in another process; stop that one, or give this one a file "
+                "of its own",
+                path_.string());
+  }
+  return Fail(ErrorCode::kUnavailable, "cannot lock route store {}: {}", path_.string(),
+              Reason(error));
+}
+
+Result<void> StoreFile::Inspect() const {
+  struct stat status {};
+  if (fstat(descriptor_, &status) != 0) {
+    return Fail(ErrorCode::kUnavailable, "cannot read {}: {}", path_.string(), Reason(errno));
+  }
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size == 0) return {};  // new, or its making was interrupted
+  Header header{};
+  if (pread(descriptor_, header.data(), header.size(), 0) != static_cast<ssize_t>(header.size()) ||
+      !std::equal(kMagic.begin(), kMagic.end(), header.begin(),
+                  [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }) ||
+      Number(header, kApplicationIdAt, 4) != kApplicationId) {
+    return Fail(ErrorCode::kCorrupt,
+                "{} is not a route store; it was left untouched, give another file",
+                path_.string());
+  }
+  if (const std::uint32_t version = Number(header, kUserVersionAt, 4); version != kSchemaVersion) {
+    return Fail(
+        ErrorCode::kCorrupt,
+        "route store {} has version {}, this program reads {}; use the program that wrote it, "
+        "or give another file",
+        path_.string(), version, kSchemaVersion);
+  }
+  // With a log beside it the file may rightly be shorter: SQLite then decides when it recovers.
+  if (size < PromisedBytes(header) && !HasContent(path_.string() + "-wal")) {
+    return Fail(ErrorCode::kCorrupt,
+                "route store {} is cut short: {} bytes, expected {}; restore a copy, or move it "
+                "away to begin a new one",
+                path_.string(), size, PromisedBytes(header));
+  }
+  return {};
+}
+
+}  // namespace trailcast::store

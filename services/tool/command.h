@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "services/program/command_line.h"
+
+namespace trailcast::tool {
+
+// A subcommand of `trailcast`: what its flags are, and what it does once they are parsed. `Run`
+// returns the process's exit status.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int()> run;
+};
+
+// Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
+// it.
+[[nodiscard]] Command AddAlignCommand(CLI::App& parent);
+[[nodiscard]] Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
+[[nodiscard]] Command AddKeysCommand(CLI::App& parent);
+[[nodiscard]] Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddTrialCommand(CLI::App& parent);
+[[nodiscard]] Command AddFiguresCommand(CLI::App& parent);
+[[nodiscard]] Command AddExplainCommand(CLI::App& parent);
+[[nodiscard]] Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddWhereCommand(CLI::App& parent, const program::CommonOptions& common);
+
+}  // namespace trailcast::tool

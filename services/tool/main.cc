@@ -1,0 +1,57 @@
+#include <vector>
+
+#include "services/tool/command.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  trailcast demo                         # a scout teaches three robots with other cameras\n"
+    "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
+    "  trailcast align drive1/ drive2/ --out truth.csv   # where drive2's frames were taken\n"
+    "  trailcast judge drive1/ drive2/        # recordings taught and replayed, measured\n"
+    "  trailcast explain run.log              # what happened in a replay, and why\n"
+    "  trailcast routes                       # what the route server keeps\n"
+    "  trailcast export hall                  # a route as a file, hall.trailcast\n"
+    "  trailcast import hall.trailcast        # and to another route server\n"
+    "  trailcast where --frame now.png        # which routes show this, and where on them\n"
+    "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
+    "  trailcast doctor                       # is this machine fit to share routes?\n"
+    "  trailcast robot --sim indoor --ros2 /robot1   # a virtual robot for an agent\n"
+    "Each subcommand has its own --help.";
+
+int Run(int argc, char** argv) {
+  using trailcast::tool::Command;
+  CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
+               "trailcast");
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.fallthrough();
+  trailcast::program::CommonOptions common;
+  common.name = "operator";
+  trailcast::program::AddCommonOptions(app, common);
+  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
+                                      trailcast::tool::AddTrialCommand(app),
+                                      trailcast::tool::AddAlignCommand(app),
+                                      trailcast::tool::AddJudgeCommand(app),
+                                      trailcast::tool::AddFiguresCommand(app),
+                                      trailcast::tool::AddExplainCommand(app),
+                                      trailcast::tool::AddRoutesCommand(app, common),
+                                      trailcast::tool::AddExportCommand(app, common),
+                                      trailcast::tool::AddImportCommand(app, common),
+                                      trailcast::tool::AddWhereCommand(app, common),
+                                      trailcast::tool::AddKeysCommand(app),
+                                      trailcast::tool::AddDoctorCommand(app, common),
+                                      trailcast::tool::AddRobotCommand(app, common)};
+  if (const auto ended = trailcast::program::Parse(app, argc, argv)) return *ended;
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return trailcast::program::kExitUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return trailcast::program::RunMain("trailcast", [&] { return Run(argc, argv); });
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+#include "services/exchange/route_exchange.h"
+#include "services/tool/routes/route_study.h"
+
+namespace trailcast::tool {
+
+// Asks every server in reach for its routes, and gives the first reply. The question is repeated
+// until then, for a server that joins late. Errors: kUnavailable when no server answers within
+// `timeout` (and how to look further); what a server says it could not do.
+[[nodiscard]] Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange,
+                                                        const AgentId& client,
+                                                        const route::RouteQuery& query,
+                                                        std::chrono::milliseconds timeout);
+
+// Has the servers in reach change a route's labels; the first reply has the revisions that changed.
+// Errors as above.
+[[nodiscard]] Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange,
+                                                       const AgentId& client,
+                                                       const route::RouteEdit& edit,
+                                                       std::chrono::milliseconds timeout);
+
+// Page after page, until there are `limit` routes or no more. Each page may take `timeout`.
+[[nodiscard]] Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
+                                                          const AgentId& client,
+                                                          route::RouteQuery query,
+                                                          std::size_t limit,
+                                                          std::chrono::milliseconds timeout);
+
+// For people: one line a route, `now_unix_ms` for their ages.
+[[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
+                                      std::int64_t now_unix_ms);
+// For programs: an object, and an array of them, with what was found out of some besides.
+[[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
+[[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply,
+                                     const RouteStudies& studies = {});
+
+// "12 s", "5 min", "3 h", "2 d".
+[[nodiscard]] std::string Age(std::int64_t milliseconds);
+
+}  // namespace trailcast::tool

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "services/archive/route_file_writer.h"
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+#include "services/store/route_store.h"
+#include "services/tool/routes/transfer.h"
+
+namespace trailcast::tool {
+
+// Which of the routes of one name to export: the one that followers would take, or the revision
+// that is asked for, the newest if several routes have it. `reply` answers the catalog's question
+// for that name; `holder` is who answered, for messages. kNotFound, with what there is, when there
+// is none; kInvalidArgument for one that is still being taught.
+[[nodiscard]] Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
+                                                       const std::string& name,
+                                                       std::optional<std::uint32_t> revision,
+                                                       const std::string& holder);
+
+// Give all the route's segments to `writer`, which was made for it. Return the file's size.
+[[nodiscard]] Result<std::uint64_t> ExportFromStore(store::RouteStore& store,
+                                                    const route::RouteInfo& info,
+                                                    archive::RouteFileWriter writer);
+// All the route's segments, in order, each to `take`, whose errors end it. `peer` has a follower's
+// topics. kUnavailable when nothing new has come for the watch's timeout, or it was stopped;
+// kCorrupt when what servers hold is not what was announced.
+[[nodiscard]] Result<void> FetchInOrder(
+    OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
+    const std::function<Result<void>(const route::SegmentPiece&)>& take);
+// The same into a file.
+[[nodiscard]] Result<std::uint64_t> ExportFromServer(OperatorPeer& peer,
+                                                     const route::RouteInfo& info,
+                                                     archive::RouteFileWriter writer,
+                                                     const TransferWatch& watch);
+
+}  // namespace trailcast::tool

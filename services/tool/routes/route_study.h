@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/route/route.h"
+#include "services/tool/routes/transfer.h"
+#include "services/view/weak_places.h"
+
+namespace trailcast::tool {
+
+// What a route's segments say of it besides its catalog entry.
+struct RouteStudy {
+  std::vector<view::WeakPlace> weak_places;
+};
+using RouteStudies = std::map<route::RouteKey, RouteStudy>;
+
+// Fetches a complete route to look at it. Errors as FetchInOrder's; kCorrupt for a segment that
+// cannot be read.
+[[nodiscard]] Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
+                                            const TransferWatch& watch);
+
+// For people: where followers may be lost and why, a line a place; or that there is no such place.
+[[nodiscard]] std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study);
+// For programs: an array.
+[[nodiscard]] std::string WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study);
+
+}  // namespace trailcast::tool

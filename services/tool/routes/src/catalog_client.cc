@@ -1,0 +1,200 @@
+#include "services/tool/routes/catalog_client.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <random>
+#include <variant>
+
+#include "services/exchange/bounds.h"
+#include "services/program/json.h"
+#include "services/route/digest.h"
+#include "services/route/labels.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr auto kAskAgain = std::chrono::milliseconds(500);
+constexpr auto kTakeWait = std::chrono::milliseconds(100);
+
+double BytesPerMeter(const route::RouteInfo& info) {
+  return info.length_m > 0.0 ? static_cast<double>(info.bytes) / info.length_m : 0.0;
+}
+
+const char* StateName(const route::RouteInfo& info) {
+  const bool taught = info.state == route::RouteState::kComplete;
+  return taught || info.standing == route::Standing::kDeleted ? route::NameOf(info.standing)
+                                                              : "teaching";
+}
+
+std::vector<std::string> HoldersOf(const route::RouteKey& key,
+                                   const exchange::CatalogReply& reply) {
+  std::vector<std::string> holders;
+  for (const exchange::Holding& holding : reply.holdings) {
+    if (holding.key == key) holders.push_back(holding.agent.value());
+  }
+  return holders;
+}
+
+std::string Remarks(const route::RouteInfo& info, const std::vector<std::string>& holders) {
+  std::string remarks = holders.empty() ? "-" : fmt::format("{}", fmt::join(holders, ", "));
+  if (!info.tags.empty()) remarks += fmt::format("; {}", fmt::join(info.tags, " "));
+  if (!info.description.empty()) remarks += fmt::format("; \"{}\"", info.description);
+  return remarks;
+}
+
+std::string JsonTexts(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts)
+    list += (list.empty() ? "" : ", ") + program::JsonText(text);
+  return "[" + list + "]";
+}
+
+std::string JsonPlace(const std::optional<route::Place>& place) {
+  if (!place) return "null";
+  if (place->frame == route::Place::Frame::kWgs84) {
+    return fmt::format("{{\"latitude\": {}, \"longitude\": {}}}", place->y, place->x);
+  }
+  return fmt::format("{{\"site_x_m\": {}, \"site_y_m\": {}}}", place->x, place->y);
+}
+
+}  // namespace
+
+// `request` and `client` are those in the question.
+Result<exchange::CatalogReply> Ask(exchange::RouteExchange& exchange, const AgentId& client,
+                                   std::uint64_t request, const exchange::Message& question,
+                                   std::chrono::milliseconds timeout) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + timeout;
+  auto ask_at = Clock::now();
+  while (Clock::now() < deadline) {
+    if (Clock::now() >= ask_at) {
+      // A question that could not be handed over is asked again like one that was not answered.
+      const Result<void> asked = exchange.Publish(question);
+      if (!asked && asked.error().code != ErrorCode::kUnavailable) {
+        return tl::unexpected(asked.error());
+      }
+      ask_at = Clock::now() + kAskAgain;
+    }
+    for (exchange::Message& message : exchange.Take(kTakeWait)) {
+      auto* reply = std::get_if<exchange::CatalogReply>(&message);
+      if (reply == nullptr || reply->client != client || reply->request != request) {
+        continue;
+      }
+      if (!reply->error.empty()) {
+        return Fail(ErrorCode::kUnavailable, "server {}: {}", reply->server.value(), reply->error);
+      }
+      return std::move(*reply);
+    }
+  }
+  return Fail(
+      ErrorCode::kUnavailable,
+      "no route server answered within {:.1f} s: is trailcast-server running, with the same "
+      "domain, tag and network interface? With --security: are your keys valid, and not revoked?",
+      std::chrono::duration<double>(timeout).count());
+}
+
+Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
+                                          const route::RouteQuery& query,
+                                          std::chrono::milliseconds timeout) {
+  const std::uint64_t request = std::random_device()();
+  return Ask(exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
+}
+
+Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange, const AgentId& client,
+                                         const route::RouteEdit& edit,
+                                         std::chrono::milliseconds timeout) {
+  const std::uint64_t request = std::random_device()();
+  return Ask(exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
+}
+
+Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
+                                            const AgentId& client, route::RouteQuery query,
+                                            std::size_t limit, std::chrono::milliseconds timeout) {
+  std::vector<route::RouteInfo> routes;
+  std::vector<exchange::Holding> holdings;
+  while (true) {
+    query.page_size = static_cast<std::uint32_t>(
+        std::min<std::size_t>(limit - routes.size(), exchange::kMaxRoutesPerReply));
+    auto reply = AskCatalog(exchange, client, query, timeout);
+    if (!reply) return reply;
+    routes.insert(routes.end(), reply->page.routes.begin(), reply->page.routes.end());
+    holdings.insert(holdings.end(), reply->holdings.begin(), reply->holdings.end());
+    query.cursor = reply->page.next;
+    if (query.cursor.empty() || routes.size() >= limit) {
+      reply->page.routes = std::move(routes);
+      reply->holdings = std::move(holdings);
+      return reply;
+    }
+  }
+}
+
+std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_unix_ms) {
+  const std::vector<route::RouteInfo>& routes = reply.page.routes;
+  if (routes.empty()) return "no routes\n";
+  std::size_t name_width = 5;
+  std::size_t scout_width = 5;
+  std::size_t camera_width = 6;
+  for (const route::RouteInfo& info : routes) {
+    name_width = std::max(name_width, info.name.size());
+    scout_width = std::max(scout_width, info.scout.value().size());
+    camera_width = std::max(camera_width, info.camera.size());
+  }
+  std::string text = fmt::format(
+      "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n", "route",
+      name_width, "revision", "state", "segments", "metres", "kB", "B/m", "scout", scout_width,
+      "camera", camera_width, "age", "held by; tags, description");
+  for (const route::RouteInfo& info : routes) {
+    const bool taught_metres = info.length_m > 0.0;  // not without odometry
+    text += fmt::format(
+        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
+        info.name, name_width, info.key.revision.value(), StateName(info), info.segment_count,
+        taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
+        static_cast<double>(info.bytes) / 1000.0,
+        taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
+        scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
+        Remarks(info, HoldersOf(info.key, reply)));
+  }
+  return text;
+}
+
+std::string RouteJson(const route::RouteInfo& info) {
+  return fmt::format(
+      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
+      "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
+      "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
+      "\"place\": {}, \"description\": {}, \"edition\": {}}}",
+      program::JsonText(info.name), program::JsonText(info.key.route.value()),
+      info.key.revision.value(), StateName(info), info.segment_count, info.length_m, info.bytes,
+      BytesPerMeter(info), program::JsonText(info.scout.value()), program::JsonText(info.camera),
+      info.taught_unix_ms, route::ToHex(info.manifest_digest), JsonTexts(info.tags),
+      JsonPlace(info.place), program::JsonText(info.description), info.edition);
+}
+
+std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {
+  std::string text = "[";
+  for (const route::RouteInfo& info : reply.page.routes) {
+    std::string route = RouteJson(info);
+    route.pop_back();
+    text += fmt::format("{}{}, \"held_by\": {}", text.size() > 1 ? ",\n  " : "\n  ", route,
+                        JsonTexts(HoldersOf(info.key, reply)));
+    if (const auto study = studies.find(info.key); study != studies.end()) {
+      text += fmt::format(", \"weak\": {}", WeakPlacesJson(info, study->second));
+    }
+    text += "}";
+  }
+  return text + "\n]\n";
+}
+
+std::string Age(std::int64_t milliseconds) {
+  constexpr std::int64_t kMinute_s = 60;
+  constexpr std::int64_t kHour_s = 3600;
+  constexpr std::int64_t kDay_s = 86400;
+  const std::int64_t seconds = std::max<std::int64_t>(0, milliseconds / 1000);
+  if (seconds < 2 * kMinute_s) return fmt::format("{} s", seconds);
+  if (seconds < 2 * kHour_s) return fmt::format("{} min", seconds / kMinute_s);
+  if (seconds < 2 * kDay_s) return fmt::format("{} h", seconds / kHour_s);
+  return fmt::format("{} d", seconds / kDay_s);
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,78 @@
+#include "services/tool/routes/route_study.h"
+
+#include <fmt/format.h>
+
+#include "services/route/codec.h"
+#include "services/tool/routes/route_export.h"
+
+namespace trailcast::tool {
+namespace {
+
+const char* NameOf(view::Weakness why) {
+  switch (why) {
+    case view::Weakness::kBland:
+      return "bland";
+    case view::Weakness::kUnrelated:
+      return "unrelated";
+    case view::Weakness::kBare:
+      break;
+  }
+  return "bare";
+}
+
+std::string Explain(const view::WeakPlace& place) {
+  switch (place.why) {
+    case view::Weakness::kBland:
+      return fmt::format("little to recognise, {} features: dark, blank or out of focus?",
+                         place.features);
+    case view::Weakness::kUnrelated:
+      return fmt::format(
+          "views in a row with {} features in common: driven too fast for the frame rate?",
+          place.features);
+    case view::Weakness::kBare:
+      break;
+  }
+  return fmt::format("little to steer by, {} features: on by odometry", place.features);
+}
+
+const char* UnitOf(const route::RouteInfo& info) { return info.length_m > 0.0 ? "m" : "s"; }
+
+}  // namespace
+
+Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
+                              const TransferWatch& watch) {
+  view::WeakPlaceFinder finder(info.image_width_px);
+  const auto fetched =
+      FetchInOrder(peer, info, watch, [&](const route::SegmentPiece& piece) -> Result<void> {
+        const auto segment = route::Decode(piece.bytes);
+        if (!segment) return Wrap(segment.error(), fmt::format("segment {}", piece.index.value()));
+        finder.Add(*segment);
+        return {};
+      });
+  if (!fetched) return tl::unexpected(fetched.error());
+  return RouteStudy{finder.Places()};
+}
+
+std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study) {
+  const std::string route = fmt::format("'{}' revision {}", info.name, info.key.revision.value());
+  if (study.weak_places.empty()) return fmt::format("\n{}: no weak place\n", route);
+  std::string text = fmt::format("\n{}: weak where\n", route);
+  for (const view::WeakPlace& place : study.weak_places) {
+    text += fmt::format("  {:>8.1f} to {:>8.1f} {}  {}\n", place.begin, place.end, UnitOf(info),
+                        Explain(place));
+  }
+  return text;
+}
+
+std::string WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study) {
+  std::string text = "[";
+  for (const view::WeakPlace& place : study.weak_places) {
+    text += fmt::format(
+        "{}{{\"begin_{}\": {:.2f}, \"end_{}\": {:.2f}, \"why\": \"{}\", \"features\": {}}}",
+        text.size() > 1 ? ", " : "", UnitOf(info), place.begin, UnitOf(info), place.end,
+        NameOf(place.why), place.features);
+  }
+  return text + "]";
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,62 @@
+#include "services/tool/routes/route_summary.h"
+
+#include <fmt/chrono.h>
+#include <fmt/ranges.h>
+
+#include <ctime>
+
+#include "services/program/json.h"
+#include "services/route/digest.h"
+#include "services/tool/routes/catalog_client.h"
+
+namespace trailcast::tool {
+namespace {
+
+// Any number may be in a file; the calendar ends somewhere.
+std::string DateText(std::int64_t unix_ms) {
+  std::tm parts{};
+  const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
+  if (unix_ms <= 0 || gmtime_r(&seconds, &parts) == nullptr) return "at an unknown time";
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", parts);
+}
+
+std::string PlaceText(const route::Place& place) {
+  if (place.frame == route::Place::Frame::kWgs84) {
+    return fmt::format("{} N, {} E (WGS 84)", place.y, place.x);
+  }
+  return fmt::format("x {} m, y {} m (site)", place.x, place.y);
+}
+
+}  // namespace
+
+std::string LengthText(const route::RouteInfo& info) {
+  return info.length_m > 0.0 ? fmt::format("{:.1f} m", info.length_m) : "of unknown length";
+}
+
+std::string FileText(const std::string& path, const archive::RouteFile& file) {
+  const route::RouteInfo& info = file.info();
+  std::string text = fmt::format(
+      "{} is whole\n"
+      "  route     {} revision {}, id {}\n"
+      "  taught    {} by {} with {}, {} x {}\n"
+      "  size      {} segments, {}, {} bytes of {}\n"
+      "  manifest  {}\n",
+      path, info.name, info.key.revision.value(), info.key.route.value(),
+      DateText(info.taught_unix_ms), info.scout.value(), info.camera, info.image_width_px,
+      info.image_height_px, info.segment_count, LengthText(info), info.bytes, file.file_bytes(),
+      route::ToHex(info.manifest_digest));
+  if (!info.tags.empty()) text += fmt::format("  tags      {}\n", fmt::join(info.tags, " "));
+  if (info.place) text += fmt::format("  begins    {}\n", PlaceText(*info.place));
+  return text;
+}
+
+std::string FileJson(const std::string& path, const Result<archive::RouteFile>& file) {
+  if (!file) {
+    return fmt::format("{{\"file\": {}, \"whole\": false, \"error\": {}}}", program::JsonText(path),
+                       program::JsonText(file.error().message));
+  }
+  return fmt::format("{{\"file\": {}, \"whole\": true, \"file_bytes\": {}, \"route\": {}}}",
+                     program::JsonText(path), file->file_bytes(), RouteJson(file->info()));
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,46 @@
+#include "services/tool/routes/transfer.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "services/base/time.h"
+#include "services/program/open_exchange.h"
+#include "services/security/member.h"
+
+namespace trailcast::tool {
+
+Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
+                                    const exchange::TopicUse& use) {
+  program::CommonOptions network = common;
+  network.name = security::ProcessName(common.name, getpid());
+  auto exchange = program::OpenExchange(network, use);
+  if (!exchange) return tl::unexpected(exchange.error());
+  return OperatorPeer{AgentId(network.name), std::move(*exchange)};
+}
+
+std::string ProgressText(const std::string& doing, std::uint64_t done, std::uint64_t total,
+                         std::chrono::nanoseconds elapsed) {
+  const std::uint64_t some = std::min(done, total);
+  const double share = total > 0 ? static_cast<double>(some) / static_cast<double>(total) : 1.0;
+  std::string text = fmt::format("{}: {:.0f} % of {:.1f} MB", doing, 100.0 * share,
+                                 static_cast<double>(total) / 1e6);
+  if (share > 0.0) {
+    text += fmt::format(", about {:.0f} s left", Seconds(elapsed) * (1.0 - share) / share);
+  }
+  return text;
+}
+
+TransferProgress::TransferProgress(std::string doing, std::uint64_t total_bytes)
+    : doing_(std::move(doing)), total_bytes_(total_bytes), lines_(stderr) {}
+
+void TransferProgress::Show(std::uint64_t done_bytes) {
+  const auto elapsed = Clock::now() - began_;
+  if (elapsed < kGlance) return;
+  lines_.Show({ProgressText(doing_, done_bytes, total_bytes_, elapsed)});
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,62 @@
+#include "services/tool/routes/where_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace trailcast::tool {
+namespace {
+
+struct Found {
+  const route::FoundPlace& place;
+  const route::RouteInfo& route;
+};
+
+// As far as the reply is what it should be: a route for each place.
+std::vector<Found> PlacesIn(const exchange::CatalogReply& reply) {
+  std::vector<Found> found;
+  const std::size_t count = std::min(reply.places.size(), reply.page.routes.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    found.push_back({reply.places[i], reply.page.routes[i]});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string WhereText(const exchange::CatalogReply& reply) {
+  std::string text;
+  for (const auto& [place, route] : PlacesIn(reply)) {
+    text += fmt::format("route {} revision {}, segment {} of {}, score {:.2f}\n", route.name,
+                        place.key.revision.value(), place.segment.value(), route.segment_count,
+                        place.score);
+  }
+  const route::ViewCoverage& searched = reply.coverage;
+  if (text.empty()) {
+    text = fmt::format("none of the {} segments looks like this\n", searched.segments_indexed);
+  }
+  if (searched.segments_indexed < searched.segments_stored || searched.routes_unseen > 0) {
+    text +=
+        fmt::format("searched {} of {} segments, and none of {} further routes\n",
+                    searched.segments_indexed, searched.segments_stored, searched.routes_unseen);
+  }
+  return text;
+}
+
+std::string WhereJson(const exchange::CatalogReply& reply) {
+  std::string places;
+  for (const auto& [place, route] : PlacesIn(reply)) {
+    places += fmt::format(
+        "{}\n    {{\"name\": \"{}\", \"route\": \"{}\", \"revision\": {}, \"segment\": {}, "
+        "\"segments\": {}, \"score\": {:.3f}}}",
+        places.empty() ? "" : ",", route.name, place.key.route.value(), place.key.revision.value(),
+        place.segment.value(), route.segment_count, place.score);
+  }
+  const route::ViewCoverage& searched = reply.coverage;
+  return fmt::format(
+      "{{\n  \"places\": [{}],\n  \"segments_indexed\": {}, \"segments_stored\": {}, "
+      "\"routes_unseen\": {}\n}}\n",
+      places, searched.segments_indexed, searched.segments_stored, searched.routes_unseen);
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "services/exchange/route_exchange.h"
+#include "services/program/command_line.h"
+#include "services/program/live_lines.h"
+
+namespace trailcast::tool {
+
+// A member of the network for one command.
+struct OperatorPeer {
+  AgentId self;
+  std::unique_ptr<exchange::RouteExchange> exchange;
+};
+// Under a name of its own: two operators may be at work at the same time.
+[[nodiscard]] Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
+                                                  const exchange::TopicUse& use);
+
+// How a route's way to or from a server is watched.
+struct TransferWatch {
+  std::chrono::milliseconds timeout{10'000};  // without anything new
+  std::function<bool()> stop = [] { return false; };
+  std::function<void(std::uint64_t done_bytes)> progress = [](std::uint64_t) {};
+};
+
+// "fetching 'hall': 40 % of 1.2 MB, about 12 s left"; `elapsed` is how long `done` bytes took.
+[[nodiscard]] std::string ProgressText(const std::string& doing, std::uint64_t done,
+                                       std::uint64_t total, std::chrono::nanoseconds elapsed);
+
+// Shows a line of progress of what takes longer than a glance.
+class TransferProgress {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kGlance{2};
+
+  TransferProgress(std::string doing, std::uint64_t total_bytes);
+  void Show(std::uint64_t done_bytes);
+
+ private:
+  std::string doing_;
+  std::uint64_t total_bytes_;
+  Clock::time_point began_ = Clock::now();
+  program::LiveLines lines_;
+};
+
+}  // namespace trailcast::tool

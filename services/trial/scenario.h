@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::trial {
+
+// Table I of Chen & Birchfield 2009, metres, ten trials each.
+struct PaperFigures {
+  double accuracy_m = 0.0;
+  double repeatability_m = 0.0;
+  double largest_final_error_m = 0.0;
+};
+
+// Who teaches and who follows. A camera's name, or empty: the one that the command line says.
+struct CameraPair {
+  std::string scout;
+  std::string follower;
+};
+
+// One of the experiments that following is measured by. Each trial is run once for every pair of
+// cameras and for every push.
+struct Scenario {
+  std::string name;
+  std::string summary;
+  std::string place;  // a built-in place of services/sim
+  std::vector<CameraPair> cameras = {{}};
+  // The follower is shoved this far to the side, half way; its odometry does not notice.
+  std::vector<double> pushes_m = {0.0};
+  bool through_server = false;  // followers replay what a route server gives them
+  std::optional<double> gain;   // exposure of the follower against the scout's; drawn
+  // Others move about while the robots drive: the place's traffic, and somebody who stands in the
+  // follower's way for ten seconds.
+  bool traffic = false;
+  bool somebody_in_the_way = false;
+  std::optional<PaperFigures> paper;     // of the 2009 method
+  std::optional<PaperFigures> icra2006;  // of the first version
+};
+
+[[nodiscard]] const std::vector<Scenario>& Scenarios();
+// kNotFound lists the names there are.
+[[nodiscard]] Result<Scenario> FindScenario(const std::string& name);
+[[nodiscard]] std::vector<std::string> ScenarioNames();
+
+}  // namespace trailcast::trial

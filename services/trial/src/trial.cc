@@ -1,0 +1,234 @@
+#include "services/trial/trial.h"
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "services/sim/core/judge.h"
+#include "services/sim/core/random.h"
+#include "services/sim/core/simulated_robot.h"
+#include "services/trial/cpu_time.h"
+#include "services/trial/src/served_route.h"
+#include "services/trial/src/standstill_watch.h"
+#include "services/trial/src/trial_log.h"
+#include "services/trial/trial_teach.h"
+
+namespace trailcast::trial {
+namespace {
+
+using agent::ReplayState;
+using agent::ReplayStep;
+
+constexpr double kPatience = 4.0;  // times what teaching took: going round in circles
+constexpr double kPatience_s = 60.0;
+constexpr int kProgressEvery = 15;   // frames
+constexpr double kTeachShare = 0.4;  // of a trial's work
+
+Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
+                                                   const TrialCase& trial_case,
+                                                   const TrialSeeds& seeds) {
+  sim::SimulatedRobotOptions options;
+  options.camera = trial_case.follower_camera;
+  options.start = sim::StartPose(setup.path.points);
+  options.start_z_max_m = setup.path.z_max_m;
+  options.disturbances = setup.follower;
+  options.seed = seeds.follower;
+  if (setup.same_robot) options.robot_seed = seeds.scout;
+  auto actors = setup.actors(sim::Role::kFollower, seeds.follower);
+  if (!actors) return tl::unexpected(actors.error());
+  options.actors = std::move(*actors);
+  if (setup.sun_moves) {
+    options.lighting = sim::WithMovedSun(setup.world->lighting(), seeds.follower);
+  }
+  return options;
+}
+
+using SessionOpener = std::function<Result<agent::ReplaySession>()>;
+
+// A follower in closed loop, frame by frame, until it has ended one way or the other: lap after
+// lap, each with a session of its own, from where the one before has left the robot.
+class Replaying {
+ public:
+  Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
+            SessionOpener open_next, int laps, agent::Diagnosis diagnosis, double push_m)
+      : robot_(robot),
+        truth_(robot),
+        judge_(taught.path),
+        session_(std::move(session)),
+        open_next_(std::move(open_next)),
+        laps_(laps),
+        diagnosis_(std::move(diagnosis)),
+        push_at_m_(0.5 * taught.path.length_m()),
+        push_m_(push_m),
+        limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
+
+  // One frame. False when the replay is over; `state` and `reason` then say how.
+  Result<bool> Step() {
+    if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
+    sim::Observation seen = robot_.Step(last_.command);
+    const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
+    const double off_m = judge_.Observe(position_m);
+    const double began_ms = ThreadCpuMs();
+    const agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
+    auto step = session_.Observe(observation);
+    const double cpu_ms = ThreadCpuMs() - began_ms;
+    cpu_ms_ += cpu_ms;
+    ++frames_;
+    if (!step) return tl::unexpected(step.error());
+    last_ = std::move(*step);
+    diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, observation.image,
+                   session_, last_);
+    if (Ended(position_m, off_m, Seconds(seen.stamp))) return false;
+    if (last_.state == ReplayState::kArrived) return BeginLap();
+    return true;
+  }
+
+  // Of all laps.
+  [[nodiscard]] double progress() const {
+    return (static_cast<double>(lap_ends_m_.size()) + last_.progress) / laps_;
+  }
+  // Everything of the row that the replay decides.
+  void Fill(TrialRow& row) const {
+    row.verdict = judge_.verdict();
+    row.lap_ends_m = lap_ends_m_;
+    row.found_share = last_.found_share;
+    row.hand_overs = last_.hand_overs;
+    row.frames = frames_;
+    row.ms_per_frame = frames_ > 0 ? cpu_ms_ / frames_ : 0.0;
+    row.state = state_;
+    row.reason = reason_;
+    row.arrived = state_ == "arrived";
+  }
+  [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
+  [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
+
+ private:
+  void Push() {
+    diagnosis_.Note("pushed", fmt::format("{:.2f} m to the left, by the trial", push_m_));
+    truth_.Shove({0.0, push_m_, 0.0});
+    judge_.NotePush();
+    push_m_ = 0.0;
+  }
+  Result<bool> BeginLap() {
+    auto next = open_next_();
+    if (!next) return tl::unexpected(next.error());
+    session_ = std::move(*next);
+    diagnosis_.Note("lap", fmt::format("{} of {} begins", lap_ends_m_.size() + 1, laps_));
+    last_ = {};
+    return true;
+  }
+  [[nodiscard]] std::string Where() const {
+    const std::string lap = laps_ > 1 ? fmt::format("lap {}, ", lap_ends_m_.size() + 1) : "";
+    return fmt::format("at {}segment {}, {:.0f} % of the way", lap, last_.segment.value(),
+                       100.0 * last_.progress);
+  }
+  bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
+    if (last_.state == ReplayState::kArrived) {
+      const double error_m = judge_.verdict().final_error_m;
+      lap_ends_m_.push_back(error_m);
+      if (error_m <= kArrivalRadius_m) {
+        return static_cast<int>(lap_ends_m_.size()) == laps_ && End("arrived", "");
+      }
+      return End("misplaced", fmt::format("says it arrived {:.1f} m from the end", error_m));
+    }
+    if (last_.state == ReplayState::kLost) {
+      return End("lost", fmt::format("{}: {}", Where(), last_.reason));
+    }
+    if (off_m > kStrayLimit_m) {
+      return End("strayed", fmt::format("{}: over {:.0f} m off the path", Where(), kStrayLimit_m));
+    }
+    if (standstill_.Stuck(position_m, time_s)) {
+      return End("stuck",
+                 fmt::format("{}: no further for {:.0f} s{}{}", Where(), StandstillWatch::kBound_s,
+                             last_.reason.empty() ? "" : ": ", last_.reason));
+    }
+    if (time_s > limit_s_) {
+      return End("timeout", fmt::format("{}: still under way after {:.0f} s", Where(), limit_s_));
+    }
+    return false;
+  }
+  bool End(const char* state, std::string reason) {
+    state_ = state;
+    reason_ = std::move(reason);
+    return true;
+  }
+
+  sim::SimulatedRobot& robot_;
+  sim::Judge truth_;
+  PathJudge judge_;
+  agent::ReplaySession session_;
+  SessionOpener open_next_;
+  int laps_;
+  std::vector<double> lap_ends_m_;  // how far from the taught end each lap ended
+  agent::Diagnosis diagnosis_;
+  double push_at_m_;
+  double push_m_;  // 0: none, or done
+  double limit_s_;
+  StandstillWatch standstill_;
+  ReplayStep last_;  // a first Step of the robot with no command is a look at the start
+  double cpu_ms_ = 0.0;
+  int frames_ = 0;
+  std::string state_;
+  std::string reason_;
+};
+
+TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uint64_t seed,
+                  int trial, const Taught& taught, const TaughtRoute& route) {
+  TrialRow row;
+  row.scenario = setup.scenario;
+  row.method = agent::ToString(trial_case.method);
+  row.scout_camera = trial_case.scout_camera.name;
+  row.follower_camera = trial_case.follower_camera.name;
+  row.same_robot = setup.same_robot;
+  row.push_m = trial_case.push_m;
+  row.trial = trial;
+  row.seed = seed;
+  row.end_m = taught.path.end_m();
+  row.segments = static_cast<int>(route.pieces.size());
+  row.taught_m = taught.path.length_m();
+  row.bytes_per_m = static_cast<double>(route.info.bytes) / row.taught_m;
+  return row;
+}
+
+}  // namespace
+
+Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
+                              const TrialOptions& options, int trial, Teachings& teachings,
+                              const TrialProgress& on_progress) {
+  const std::uint64_t seed = SeedOf(options, trial);
+  const auto taught = teachings.Get(trial_case, trial,
+                                    [&](double share) { return on_progress(kTeachShare * share); });
+  if (!taught) return tl::unexpected(taught.error());
+  const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
+  const auto options_of_follower = FollowerOptions(setup, trial_case, SeedsOf(options, trial));
+  if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
+  const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
+  if (!robot) return Wrap(robot.error(), "the follower");
+  const Result<TaughtRoute> served =
+      trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);
+  if (!served) return tl::unexpected(served.error());
+  const auto open = [&] { return OpenSession(*served, {.method = trial_case.method}); };
+  auto session = open();
+  if (!session) return tl::unexpected(session.error());
+  auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  Replaying replaying(**robot, **taught, std::move(*session), open, setup.laps,
+                      std::move(*diagnosis), trial_case.push_m);
+  for (int frame = 0;; ++frame) {
+    const Result<bool> more = replaying.Step();
+    if (!more) return Wrap(more.error(), "the follower");
+    if (!*more) break;
+    const double share = kTeachShare + (1.0 - kTeachShare) * replaying.progress();
+    if (frame % kProgressEvery == 0 && !on_progress(share)) {
+      return Fail(ErrorCode::kUnavailable, "interrupted");
+    }
+  }
+  if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
+  TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, **taught, route), (*taught)->path,
+                       replaying.path()};
+  replaying.Fill(outcome.row);
+  return outcome;
+}
+
+}  // namespace trailcast::trial

@@ -1,0 +1,151 @@
+#include "services/trial/trial_setup.h"
+
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "agent/simulated/camera_file.h"
+#include "services/sim/places/traffic.h"
+#include "services/trial/scenario.h"
+
+namespace trailcast::trial {
+namespace {
+
+constexpr double kLapGap_m = 1.0;
+// Of segments for the printed methods: services/replay/README.md tells how it follows from the
+// paper's figures.
+constexpr double kPrintedSegment_m = 0.4;
+
+Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::string>& names) {
+  std::vector<agent::ReplayMethod> methods;
+  for (const std::string& name : names) {
+    const auto method = agent::FindReplayMethod(name);
+    if (!method) return tl::unexpected(method.error());
+    methods.push_back(*method);
+  }
+  return methods;
+}
+
+// Every method with every pair of cameras and every push.
+Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOptions& options) {
+  const auto methods = FindMethods(options.methods);
+  if (!methods) return tl::unexpected(methods.error());
+  std::vector<TrialCase> cases;
+  for (const agent::ReplayMethod method : *methods) {
+    for (const CameraPair& pair : scenario.cameras) {
+      auto scout = agent::CameraFromWord(pair.scout.empty() ? options.scout_camera : pair.scout);
+      if (!scout) return tl::unexpected(scout.error());
+      auto follower =
+          agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
+      if (!follower) return tl::unexpected(follower.error());
+      for (const double push_m : scenario.pushes_m) {
+        cases.push_back({method, *scout, *follower, push_m, scenario.through_server});
+      }
+    }
+  }
+  return cases;
+}
+
+Result<sim::Actors> DrawActors(const Scenario& scenario, const sim::Place& place, sim::Role role,
+                               std::uint64_t seed) {
+  sim::Actors actors;
+  if (scenario.traffic) {
+    auto traffic = sim::TrafficFor(place, role, seed);
+    if (!traffic) return traffic;
+    actors = std::move(*traffic);
+  }
+  if (scenario.somebody_in_the_way && role == sim::Role::kFollower) {
+    auto somebody = sim::SomebodyInTheWay(place, seed);
+    if (!somebody) return tl::unexpected(somebody.error());
+    actors.push_back(std::move(*somebody));
+  }
+  return actors;
+}
+
+// One robot has one camera, and where the paper measured nobody was about.
+Result<void> TakeSameRobot(Scenario& scenario, TrialSetup& setup) {
+  for (const TrialCase& each : setup.cases) {
+    if (each.scout_camera.name == each.follower_camera.name) continue;
+    return Fail(ErrorCode::kInvalidArgument,
+                "the same robot cannot teach with camera '{}' and follow with camera '{}'",
+                each.scout_camera.name, each.follower_camera.name);
+  }
+  scenario.traffic = false;
+  setup.same_robot = true;
+  setup.follower.gain_low = setup.follower.gain_high = 1.0;
+  return {};
+}
+
+// A world and a path of the user's own, or the scenario's place.
+Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, TrialSetup& setup) {
+  sim::PlaceOptions where = options.place;
+  if (where.world.empty()) where.world = scenario.place;
+  auto place = sim::OpenPlace(where);
+  if (!place) return tl::unexpected(place.error());
+  if (options.speed_mps > 0.0) place->speed_mps = options.speed_mps;
+  setup.world = place->world;
+  setup.path = place->path;
+  const double gap_m = (setup.path.points.back() - setup.path.points.front()).norm();
+  if (options.laps > 1 && gap_m > kLapGap_m) {
+    return Fail(
+        ErrorCode::kInvalidArgument,
+        "{} laps were asked for, but the path ends {:.1f} m from where it begins; laps need "
+        "one that comes back to within {:g} m",
+        options.laps, gap_m, kLapGap_m);
+  }
+  setup.laps = options.laps;
+  setup.speed_mps = place->speed_mps;
+  setup.follower.slip = place->slip;
+  setup.actors = [scenario, place = *place](sim::Role role, std::uint64_t seed) {
+    return DrawActors(scenario, place, role, seed);
+  };
+  setup.sun_moves =
+      options.place.world.empty() && !options.same_robot && setup.world->lighting().sun > 0.0F;
+  return {};
+}
+
+// The user's own world is a scenario without a name of its own.
+Result<Scenario> ScenarioOf(const TrialOptions& options) {
+  if (options.place.world.empty()) return FindScenario(options.scenario);
+  Scenario own;
+  own.name = std::filesystem::path(options.place.world).stem().string();
+  return own;
+}
+
+}  // namespace
+
+agent::TeachOptions TeachingFor(agent::ReplayMethod method) {
+  agent::TeachOptions options;
+  if (agent::AsPrinted(method)) {
+    options.recorder.longest_m = kPrintedSegment_m;
+    options.recorder.fewest_kept = std::numeric_limits<std::size_t>::max();
+    options.middle_features = 0;
+  }
+  return options;
+}
+
+Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
+  TrialSetup setup;
+  auto scenario = ScenarioOf(options);
+  if (!scenario) return tl::unexpected(scenario.error());
+  setup.scenario = scenario->name;
+  auto cases = MakeCases(*scenario, options);
+  if (!cases) return tl::unexpected(cases.error());
+  setup.cases = std::move(*cases);
+  if (options.same_robot) {
+    if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
+  }
+  if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
+  if (auto opened = OpenScene(*scenario, options, setup); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  return setup;
+}
+
+std::vector<std::string> CameraNames() {
+  std::vector<std::string> names;
+  for (const sim::CameraModel& each : sim::BuiltInCameras()) names.push_back(each.name);
+  return names;
+}
+
+}  // namespace trailcast::trial

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "services/sim/places/place.h"
+
+namespace trailcast::trial {
+
+// What `trailcast trial` is told. Either a built-in scenario, or a world and a path of one's own.
+struct TrialOptions {
+  std::string scenario = "indoor";
+  sim::PlaceOptions place;  // its world not empty: in place of the scenario
+
+  std::vector<std::string> methods = {"default"};
+  std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
+  std::string follower_camera = "webcam";  // the same; some scenarios have cameras of their own
+  double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
+  int trials = 10;                         // of each method and each of the scenario's cases
+  std::uint64_t seed = 1;                  // trial i of n is drawn from seed + i - 1 alone
+  // The robot that taught follows, with the same camera on the same mount and the same wheels, past
+  // nobody, under the sun of its teaching: how the paper measured.
+  bool same_robot = false;
+  int laps = 1;            // of a path that ends where it begins
+  std::string log_folder;  // one log a trial goes here; empty: none
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+}  // namespace trailcast::trial

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/trial/path_judge.h"
+#include "services/trial/scenario.h"
+
+namespace trailcast::trial {
+
+// One trial: who, under which conditions, and what truth says of it.
+struct TrialRow {
+  std::string scenario;
+  std::string method;
+  std::string scout_camera;
+  std::string follower_camera;
+  bool same_robot = false;  // the robot that taught followed
+  double push_m = 0.0;      // to the left, half way
+  int trial = 0;            // from 1
+  std::uint64_t seed = 0;   // `--trials 1 --seed <this>` repeats this trial alone
+  bool arrived = false;     // by itself, within 2 m, never more than 5 m off
+  PathVerdict verdict;
+  Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  // of the taught path
+  double found_share = 0.0;
+  int segments = 0;
+  double bytes_per_m = 0.0;
+  double ms_per_frame = 0.0;  // CPU time of the replay session; the one figure that varies by run
+  std::string state;          // arrived, lost, stuck, strayed, misplaced (arrived elsewhere)
+  double taught_m = 0.0;
+  int frames = 0;
+  int hand_overs = 0;
+  std::vector<double> lap_ends_m;  // how far from the taught end each lap ended
+  std::string reason;              // why it ended, if it did not arrive
+};
+
+// Over all trials; a failed one counts with the distance at which it ended.
+struct TrialSummary {
+  int trials = 0;
+  int arrived = 0;
+  double accuracy_m = 0.0;       // RMS distance of the final positions to the taught end
+  double repeatability_m = 0.0;  // RMS distance of the final positions to their mean
+  double largest_final_error_m = 0.0;
+  double mean_path_error_m = 0.0;
+  double p90_path_error_m = 0.0;  // the largest of all trials'
+  double max_path_error_m = 0.0;
+  double found_share = 0.0;
+  double segments = 0.0;
+  double bytes_per_m = 0.0;
+  double ms_per_frame = 0.0;
+};
+
+[[nodiscard]] TrialSummary Summarize(const std::vector<TrialRow>& rows);
+
+// What sets a trial's row apart from others of its scenario, besides the seed: method, cameras,
+// whether one robot did both, and push; and the rows of each, in the order of their first ones.
+[[nodiscard]] std::string CaseName(const TrialRow& row);
+[[nodiscard]] std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows);
+
+// What the paper says of a scenario and method that it has; the default is measured against the
+// later of the paper's two.
+[[nodiscard]] std::optional<PaperFigures> PaperFiguresFor(const TrialRow& row);
+
+// For people: one line a trial, then the summary with the paper's figures beside it where the
+// scenario is one of the paper's.
+[[nodiscard]] std::string TrialTable(const std::vector<TrialRow>& rows);
+
+// In Markdown, of any number of scenarios: the paper's Table I with ours beside it, as far as there
+// are rows of it, then every case with all its figures.
+[[nodiscard]] std::string TrialMarkdown(const std::vector<TrialRow>& rows);
+
+}  // namespace trailcast::trial

@@ -1,0 +1,253 @@
+#include "services/view/view_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "services/view/src/view_words.h"
+
+namespace trailcast::view {
+namespace {
+
+constexpr std::uint32_t kMostSlots = kWords - 1;  // the last is kNoEntry's
+// In place of a slot's route.
+constexpr std::uint32_t kDead = 0xFFFFFFFFU;
+constexpr std::uint32_t kFree = 0xFFFFFFFEU;
+constexpr std::size_t kBytesARoute = 192;  // a key, its text, a node of a map
+// Chunks of one word that are looked at: a word so common says next to nothing.
+constexpr int kMostChunks = 64;
+// Features of a view that vote, the first, which are the strongest: the time is theirs.
+constexpr std::size_t kMostVoters = 80;
+// Of a segment, the first: more than teaching keeps would only fill the memory.
+constexpr std::size_t kMostFeatures = 64;
+// Added to a segment's number of features where votes are weighed against it.
+constexpr std::uint32_t kUsualFeatures = 10;
+constexpr int kMostVotes = 0xFFFF;
+// Removed segments whose entries stay until so many of them are worth a walk over the tables. Few:
+// a small fleet's server shall not grow by what it no longer has.
+constexpr std::size_t kSweepFrom = 64;
+
+// What a segment is looked up by: the features of its key views, the strongest of each first; of
+// one that was taught before there were any, its own.
+std::vector<route::Descriptor> DescriptorsOf(const route::Segment& segment) {
+  std::vector<route::Descriptor> descriptors;
+  const auto add = [&](const route::Descriptor& descriptor) {
+    if (descriptors.size() < kMostFeatures && route::IsDescribed(descriptor)) {
+      descriptors.push_back(descriptor);
+    }
+  };
+  for (const route::Feature& feature : segment.features) add(feature.descriptor);
+  if (!descriptors.empty()) return descriptors;
+  std::size_t longest = 0;
+  for (const route::KeyView& view : segment.key_views) {
+    longest = std::max(longest, view.features.size());
+  }
+  for (std::size_t i = 0; i < longest; ++i) {
+    for (const route::KeyView& view : segment.key_views) {
+      if (i < view.features.size()) add(view.features[i].descriptor);
+    }
+  }
+  return descriptors;
+}
+
+}  // namespace
+
+ViewIndex::ViewIndex(const ViewIndexOptions& options)
+    : options_{std::min(options.most_segments, kMostSlots), options.most_bytes},
+      heads_(kTables * kWords) {}
+
+ViewIndex::Route& ViewIndex::RouteOf(const route::RouteKey& key) {
+  const auto [known, added] = routes_.try_emplace(key);
+  Route& route = known->second;
+  if (!added) return route;
+  if (free_numbers_.empty()) {
+    free_numbers_.push_back(static_cast<std::uint32_t>(keys_.size()));
+    keys_.push_back(nullptr);
+  }
+  route.number = free_numbers_.back();
+  free_numbers_.pop_back();
+  keys_[route.number] = &known->first;
+  return route;
+}
+
+std::optional<std::uint32_t> ViewIndex::TakeSlot() {
+  if (full()) return std::nullopt;
+  if (free_slots_.empty() && slots_.size() >= options_.most_segments) Sweep();
+  if (free_slots_.empty()) {
+    slots_.emplace_back();
+    tallies_.emplace_back();
+    return static_cast<std::uint32_t>(slots_.size() - 1);
+  }
+  const std::uint32_t slot = free_slots_.back();
+  free_slots_.pop_back();
+  return slot;
+}
+
+std::uint32_t ViewIndex::TakeChunk(std::uint32_t next) {
+  Chunk fresh{};
+  fresh.entries.fill(kNoEntry);
+  fresh.next = next;
+  if (free_chunks_.empty()) {
+    free_chunks_.push_back(chunk_count_++);
+    if (blocks_.size() * kChunksABlock < chunk_count_) {
+      blocks_.push_back(std::make_unique<Block>());
+    }
+  }
+  const std::uint32_t chunk = free_chunks_.back();
+  free_chunks_.pop_back();
+  ChunkAt(chunk) = fresh;
+  return chunk;
+}
+
+void ViewIndex::Insert(std::uint32_t word, std::uint32_t entry) {
+  std::uint32_t& head = heads_[word];
+  if (head == 0 || ChunkAt(head).entries.back() != kNoEntry) head = TakeChunk(head);
+  auto& entries = ChunkAt(head).entries;
+  *std::find(entries.begin(), entries.end(), kNoEntry) = entry;
+}
+
+bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
+  if (Holds({key, segment.index})) return true;
+  const std::optional<std::uint32_t> slot = TakeSlot();
+  if (!slot) return false;
+  Route& route = RouteOf(key);
+  auto& held = route.segments;
+  const std::uint32_t number = segment.index.value();
+  held.insert(std::upper_bound(held.begin(), held.end(), number), number);
+  const std::vector<route::Descriptor> descriptors = DescriptorsOf(segment);
+  slots_[*slot] = {route.number, number, static_cast<std::uint32_t>(descriptors.size())};
+  for (const route::Descriptor& descriptor : descriptors) {
+    const auto where = WhereIs(descriptor);
+    for (std::uint32_t table = 0; table < kTables; ++table) {
+      Insert(table * kWords + where[table].word, *slot << kCheckBits | where[table].check);
+    }
+  }
+  return true;
+}
+
+void ViewIndex::Remove(const route::RouteKey& key) {
+  const auto known = routes_.find(key);
+  if (known == routes_.end()) return;
+  for (Slot& slot : slots_) {
+    if (slot.route != known->second.number) continue;
+    slot.route = kDead;
+    ++dead_;
+  }
+  free_numbers_.push_back(known->second.number);
+  routes_.erase(known);
+  if (dead_ > std::max(kSweepFrom, slots_.size() / 4) || full()) Sweep();
+}
+
+// Takes the removed segments' entries out of the tables.
+void ViewIndex::Sweep() {
+  for (std::uint32_t word = 0; word < heads_.size(); ++word) {
+    if (heads_[word] != 0) SweepWord(word);
+  }
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot].route != kDead) continue;
+    slots_[slot].route = kFree;
+    free_slots_.push_back(slot);
+  }
+  dead_ = 0;
+}
+
+void ViewIndex::SweepWord(std::uint32_t word) {
+  std::vector<std::uint32_t> alive;
+  for (std::uint32_t chunk = std::exchange(heads_[word], 0); chunk != 0;
+       chunk = ChunkAt(chunk).next) {
+    free_chunks_.push_back(chunk);
+    for (const std::uint32_t entry : ChunkAt(chunk).entries) {
+      if (entry != kNoEntry && slots_[entry >> kCheckBits].route != kDead) alive.push_back(entry);
+    }
+  }
+  for (const std::uint32_t entry : alive) Insert(word, entry);
+}
+
+// The slots of the features that look like this one, into `alike_`.
+void ViewIndex::FindAlike(const route::Descriptor& descriptor) {
+  constexpr std::size_t kAhead = 8;  // chains fetched into the cache before they are walked
+  alike_.clear();
+  const auto where = WhereIs(descriptor);
+  const std::vector<std::uint32_t>& flips = Flips();
+  std::vector<std::uint32_t>& chains = chains_;
+  for (std::uint32_t table = 0; table < kTables; ++table) {
+    chains.clear();
+    for (const std::uint32_t flip : flips) {
+      const std::uint32_t head = heads_[table * kWords + (where[table].word ^ flip)];
+      if (head != 0) chains.push_back(head);
+    }
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+      if (i + kAhead < chains.size()) __builtin_prefetch(&ChunkAt(chains[i + kAhead]));
+      FindAlike(chains[i], where[table].check);
+    }
+  }
+}
+
+void ViewIndex::FindAlike(std::uint32_t chunk, std::uint32_t check) {
+  const auto& few = FewFlips();
+  for (int looked_at = 0; chunk != 0 && looked_at < kMostChunks; ++looked_at) {
+    for (const std::uint32_t entry : ChunkAt(chunk).entries) {
+      if (entry == kNoEntry) break;
+      if (few[(entry ^ check) & kCheckMask]) alike_.push_back(entry >> kCheckBits);
+    }
+    chunk = ChunkAt(chunk).next;
+  }
+}
+
+// Each segment with such a feature gets a vote, the greater the fewer there are.
+void ViewIndex::Vote(std::uint8_t number) {
+  constexpr double kFine = 64.0;
+  constexpr std::size_t kAFew = 1000;  // with fewer segments than that all features count
+  const double rare =
+      static_cast<double>(std::max(size(), kAFew)) / static_cast<double>(alike_.size() + 1);
+  if (rare <= 1.0) return;
+  const auto vote = static_cast<std::uint16_t>(kFine * std::log(rare));
+  for (const std::uint32_t slot : alike_) {
+    Tally& tally = tallies_[slot];
+    if (tally.voter == number) continue;
+    tally.voter = number;
+    tally.votes = static_cast<std::uint16_t>(std::min(tally.votes + vote, kMostVotes));
+  }
+}
+
+std::vector<ViewIndex::Place> ViewIndex::Candidates(std::span<const route::ViewFeature> view,
+                                                    std::size_t most) {
+  std::fill(tallies_.begin(), tallies_.end(), Tally{});
+  std::uint8_t number = 0;
+  for (const route::ViewFeature& feature : view.first(std::min(view.size(), kMostVoters))) {
+    if (!route::IsDescribed(feature.descriptor)) continue;
+    FindAlike(feature.descriptor);
+    Vote(++number);
+  }
+  // Votes by chance grow with the number of features.
+  std::vector<std::pair<float, std::uint32_t>> voted;
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    if (tallies_[slot].votes == 0 || slots_[slot].route >= kFree) continue;
+    const auto features = static_cast<float>(slots_[slot].features + kUsualFeatures);
+    voted.emplace_back(-static_cast<float>(tallies_[slot].votes) / std::sqrt(features), slot);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(std::min(most, voted.size()));
+  std::partial_sort(voted.begin(), voted.begin() + count, voted.end());
+  voted.resize(static_cast<std::size_t>(count));
+  std::vector<Place> places;
+  places.reserve(voted.size());
+  for (const auto& [rank, slot] : voted) {
+    places.push_back({*keys_[slots_[slot].route], SegmentIndex(slots_[slot].segment)});
+  }
+  return places;
+}
+
+bool ViewIndex::Holds(const Place& place) const {
+  const auto known = routes_.find(place.key);
+  if (known == routes_.end()) return false;
+  const auto& held = known->second.segments;
+  return std::binary_search(held.begin(), held.end(), place.segment.value());
+}
+
+std::size_t ViewIndex::bytes() const {
+  return heads_.size() * sizeof(heads_[0]) + chunk_count_ * sizeof(Chunk) +
+         slots_.capacity() * sizeof(Slot) + tallies_.capacity() * sizeof(Tally) +
+         size() * sizeof(std::uint32_t) + routes_.size() * kBytesARoute;
+}
+
+}  // namespace trailcast::view

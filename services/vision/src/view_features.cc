@@ -1,0 +1,87 @@
+#include "services/vision/view_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "services/route/view.h"
+#include "services/view/view_table.h"
+#include "services/vision/donut.h"
+#include "services/vision/src/frame.h"
+
+namespace trailcast::vision {
+namespace {
+
+constexpr int kOrbPatch_px = 31;
+constexpr int kOrbEdge_px = 17;
+constexpr int kSmallestSide_px = 40;  // of the picture looked at: ORB's patch has 31
+
+// The picture at the size at which all are looked at.
+cv::Mat AtCommonSize(const cv::Mat& frame, int pixels) {
+  const double shrink = std::sqrt(pixels / static_cast<double>(frame.total()));
+  const cv::Size size(cvRound(frame.cols * shrink), cvRound(frame.rows * shrink));
+  if (std::min(size.width, size.height) < kSmallestSide_px) return {};
+  if (size == frame.size()) return frame;
+  cv::Mat resized;
+  cv::resize(frame, resized, size, 0, 0, shrink < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return resized;
+}
+
+}  // namespace
+
+struct ViewDescriber::State {
+  ViewFeatureOptions options;
+  cv::Ptr<cv::ORB> orb;
+};
+
+ViewDescriber::ViewDescriber(const ViewFeatureOptions& options)
+    : state_(std::make_unique<State>()) {
+  state_->options = options;
+  state_->orb =
+      cv::ORB::create(options.most_features, options.level_step, options.levels, kOrbEdge_px, 0, 2,
+                      cv::ORB::HARRIS_SCORE, kOrbPatch_px, options.least_contrast_grey);
+}
+ViewDescriber::~ViewDescriber() = default;
+ViewDescriber::ViewDescriber(ViewDescriber&&) noexcept = default;
+ViewDescriber& ViewDescriber::operator=(ViewDescriber&&) noexcept = default;
+
+route::View ViewDescriber::Describe(const image::GrayImage& frame) {
+  if (frame.empty()) return {};
+  const cv::Mat picture = AtCommonSize(View(frame), state_->options.pixels);
+  if (picture.empty()) return {};
+  std::vector<cv::KeyPoint> corners;
+  const auto surround = DarkSurround(picture);
+  state_->orb->detect(picture, corners, surround ? FieldOfView(picture) : cv::Mat());
+  for (cv::KeyPoint& corner : corners) corner.angle = 0.0F;
+  cv::Mat descriptors;
+  state_->orb->compute(picture, corners, descriptors);  // changes their order
+  std::vector<std::size_t> strongest(corners.size());
+  std::iota(strongest.begin(), strongest.end(), 0U);
+  std::stable_sort(strongest.begin(), strongest.end(), [&](std::size_t a, std::size_t b) {
+    return corners[a].response > corners[b].response;
+  });
+  const cv::Point2f centre = Centre(picture.size());
+  const float frame_px = static_cast<float>(frame.width) / static_cast<float>(picture.cols);
+  route::View view(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const cv::KeyPoint& corner = corners[strongest[i]];
+    const std::uint8_t* bytes = descriptors.ptr<std::uint8_t>(static_cast<int>(strongest[i]));
+    std::copy_n(bytes, view[i].descriptor.size(), view[i].descriptor.begin());
+    view[i].u_px = frame_px * (corner.pt.x - centre.x);
+    view[i].v_px = frame_px * (corner.pt.y - centre.y);
+    view[i].size_px =
+        frame_px * std::pow(state_->options.level_step, static_cast<float>(corner.octave));
+  }
+  return view;
+}
+
+route::View DescribeForQuery(const image::GrayImage& frame) {
+  DonutUnroller unroller;
+  ViewDescriber describer;
+  return view::Spread(describer.Describe(unroller.Unroll(frame)), route::kMaxViewFeatures);
+}
+
+}  // namespace trailcast::vision

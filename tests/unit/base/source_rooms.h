@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// The sources of libraries and programs, read as text: which room each line is in, what it
+// includes.
+namespace trailcast {
+
+struct Include {
+  std::string room;   // "services/vision", "agent/link", "route_server"
+  std::string where;  // file:line
+  std::string header;
+  bool quoted = false;
+};
+
+struct SourceLine {
+  std::string room;
+  std::string where;
+  std::string text;
+};
+
+// Of a file or header, by its path from the root.
+inline std::string RoomOf(const std::string& path) {
+  const std::size_t top = path.find('/');
+  if (top == std::string::npos || path.starts_with("route_server/")) return path.substr(0, top);
+  const std::size_t second = path.find('/', top + 1);
+  return path.substr(0, second == std::string::npos ? top : second);
+}
+
+inline std::vector<SourceLine> ReadSources() {
+  const std::filesystem::path root(TRAILCAST_SOURCE_DIR);
+  std::vector<SourceLine> lines;
+  for (const char* top : {"services", "agent", "route_server"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / top)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cc" && extension != ".c") continue;
+      const std::filesystem::path path = entry.path().lexically_relative(root);
+      const std::string room = RoomOf(path.string());
+      std::ifstream in(entry.path());
+      std::string text;
+      for (int number = 1; std::getline(in, text); ++number) {
+        lines.push_back({room, path.string() + ":" + std::to_string(number), text});
+      }
+    }
+  }
+  return lines;
+}
+
+inline std::vector<Include> FindIncludes(const std::vector<SourceLine>& lines) {
+  const auto after = [](const std::string& text, std::string_view word) -> std::string {
+    const std::size_t start = text.find_first_not_of(" \t");
+    if (start == std::string::npos || !text.substr(start).starts_with(word)) return "";
+    return text.substr(start + word.size());
+  };
+  std::vector<Include> includes;
+  for (const SourceLine& line : lines) {
+    const std::string rest = after(after(line.text, "#"), "include");
+    const std::size_t open = rest.find_first_of("<\"");
+    if (open == std::string::npos) continue;
+    const bool quoted = rest[open] == '"';
+    const std::size_t close = rest.find(quoted ? '"' : '>', open + 1);
+    includes.push_back({line.room, line.where, rest.substr(open + 1, close - open - 1), quoted});
+  }
+  return includes;
+}
+
+}  // namespace trailcast

@@ -1,0 +1,87 @@
+#include "agent/device/odometry_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class OdometryFileTest : public testing::Test {
+ protected:
+  Result<OdometryFile> Read(const std::string& text) {
+    std::ofstream(folder_ / "odo.csv") << text;
+    return OdometryFile::Read(folder_ / "odo.csv");
+  }
+  std::string ErrorOf(const std::string& text) {
+    const auto read = Read(text);
+    return read ? "no error" : read.error().message;
+  }
+  test::TempDir folder_;
+};
+
+TEST_F(OdometryFileTest, HeadingsInDegreesAreRefused) {
+  const std::string header = "t_s,x_m,y_m,heading_rad\n";
+  EXPECT_THAT(ErrorOf(header + "0,0,0,0\n0.05,0,0,1.4\n"),
+              AllOf(HasSubstr("line 3"), HasSubstr("degrees")));
+  EXPECT_EQ(ErrorOf(header + "0,0,0,3.14\n0.05,0,0,-3.13\n"), "no error") << "across pi";
+  EXPECT_EQ(ErrorOf(header + "0,0,0,0\n0.05,0,0,0.1\n"), "no error");
+}
+
+TEST_F(OdometryFileTest, AMarkAtTheFilesBeginningIsNoPartOfItsHeader) {
+  EXPECT_EQ(ErrorOf("\xEF\xBB\xBFt_s,x_m,y_m,heading_rad\n0,0,0,0\n"), "no error");
+}
+
+TEST_F(OdometryFileTest, InterpolatesBetweenRows) {
+  const auto odometry = Read("t_s,x_m,y_m,heading_rad\n0,0,0,0\n1,2,-4,0.5\n");
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  const auto pose = odometry->At(FromSeconds(0.25));
+  ASSERT_TRUE(pose);
+  EXPECT_DOUBLE_EQ(pose->x_m, 0.5);
+  EXPECT_DOUBLE_EQ(pose->y_m, -1.0);
+  EXPECT_DOUBLE_EQ(pose->heading_rad, 0.125);
+}
+
+TEST_F(OdometryFileTest, TurnsTheShortWayAcrossPi) {
+  const auto odometry = Read("t_s,x_m,y_m,heading_rad\r\n0,0,0,3.1\r\n1,0,0,-3.1\r\n");
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  EXPECT_NEAR(std::abs(odometry->At(FromSeconds(0.5))->heading_rad), std::numbers::pi, 1e-9);
+}
+
+TEST_F(OdometryFileTest, HoldsTheEndsForHalfASecondAndFailsBeyond) {
+  const auto odometry = Read("t_s,x_m,y_m,heading_rad,note\n0.1,1,0,0,ok\n1,2,0,0,ok\n");
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  EXPECT_DOUBLE_EQ(odometry->At(FromSeconds(0.0))->x_m, 1.0);
+  EXPECT_DOUBLE_EQ(odometry->At(FromSeconds(1.4))->x_m, 2.0);
+  const auto beyond = odometry->At(FromSeconds(1.6));
+  ASSERT_FALSE(beyond);
+  EXPECT_THAT(beyond.error().message, AllOf(HasSubstr("1.60 s"), HasSubstr("--rate")));
+}
+
+TEST_F(OdometryFileTest, NamesTheLineThatIsWrong) {
+  const std::string header = "t_s,x_m,y_m,heading_rad\n";
+  EXPECT_THAT(ErrorOf("x,y\n0,0\n"), AllOf(HasSubstr("line 1"), HasSubstr("t_s,x_m")));
+  EXPECT_THAT(ErrorOf(header), HasSubstr("no odometry"));
+  EXPECT_THAT(ErrorOf(header + "0,0,0,0\n1,2,3\n"), HasSubstr("line 3"));
+  EXPECT_THAT(ErrorOf(header + "0,0,0,0\n1,2,three,4\n"), HasSubstr("line 3"));
+  EXPECT_THAT(ErrorOf(header + "0,0,0,nan\n"), HasSubstr("line 2"));
+  EXPECT_THAT(ErrorOf(header + "1,0,0,0\n1,0,0,0\n"),
+              AllOf(HasSubstr("line 3"), HasSubstr("does not come after")));
+}
+
+TEST_F(OdometryFileTest, SaysWhichFileIsMissing) {
+  const auto read = OdometryFile::Read(folder_ / "none.csv");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(read.error().message, HasSubstr("none.csv"));
+}
+
+}  // namespace
+}  // namespace trailcast::agent

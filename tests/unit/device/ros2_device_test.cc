@@ -1,0 +1,376 @@
+// A ROS 2 robot on the loopback interface, of which the test says what it senses, and when.
+#include "agent/device/ros2_device.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <thread>
+
+#include "tests/support/unique_tag.h"
+#include "tests/support/walk_frames.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr milliseconds kFrame{33};
+const motion::VelocityCommand kAhead{0.4, 0.1};
+const motion::VelocityCommand kStand{};
+
+class Ros2DeviceTest : public testing::Test {
+ protected:
+  Ros2DeviceTest() {
+    run_.topics.robot = "/robot1";
+    run_.topics.discovery_tag = test::UniqueTag();
+    run_.topics.network_interface = "lo";
+    run_.patience = milliseconds(1500);
+  }
+
+  void Open() {
+    device_ = Ros2Device::Open(run_).value();
+    dds::Ros2Options topics = run_.topics;
+    if (topics.odometry.empty()) topics.odometry = "odom";  // which the device does not hear
+    robot_ = dds::Ros2Robot::Open(topics).value();
+    device_->OnTrouble([this](const std::string& what) { told_.push_back(what); });
+    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    while (!robot_->watched() && steady_clock::now() < deadline)
+      (void)robot_->Take(milliseconds(5));
+    ASSERT_TRUE(robot_->watched());
+  }
+
+  void Say(bool with_odometry = true) {
+    if (with_odometry) {
+      ASSERT_TRUE(robot_->Publish(dds::Ros2Odometry{stamp_ - odometry_lag_, pose_}));
+    }
+    const image::GrayImage picture = test::WalkFrame(frame_);
+    const dds::Ros2Image image{.stamp = stamp_,
+                               .width_px = static_cast<std::uint32_t>(picture.width),
+                               .height_px = static_cast<std::uint32_t>(picture.height),
+                               .encoding = "mono8",
+                               .step = static_cast<std::uint32_t>(picture.width),
+                               .data = picture.pixels};
+    ASSERT_TRUE(robot_->Publish(image));
+  }
+  // A frame later and further.
+  void GoOn(double metres = 0.01) {
+    stamp_ += kFrame;
+    pose_.x_m += metres;
+    ++frame_;
+  }
+  // Says it again until the device has it: samples to a reader that is just being matched get lost.
+  Result<std::optional<Observation>> SayUntilSeen(bool with_odometry = true) {
+    auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+    while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say(with_odometry);
+    return next.get();
+  }
+  // At thirty frames a second.
+  void ExpectFramesAtFullRate() {
+    auto next = std::async(std::launch::async, [this] {
+      Result<std::optional<Observation>> seen = device_->Next();
+      for (int i = 0; seen && i < 5; ++i) seen = device_->Next();
+      return seen;
+    });
+    while (next.wait_for(kFrame) != std::future_status::ready) {
+      GoOn();
+      Say();
+    }
+    const auto seen = next.get();
+    ASSERT_TRUE(seen) << seen.error().message;
+    EXPECT_TRUE((*seen)->odometry);
+  }
+  // Until the robot is told that; false if it is not.
+  bool Told(const motion::VelocityCommand& command, milliseconds bound = milliseconds(5000)) {
+    const auto deadline = steady_clock::now() + bound;
+    while (steady_clock::now() < deadline) {
+      const auto heard = robot_->Take(milliseconds(5));
+      if (heard) latest_ = *heard;
+      if (heard && heard->velocity == command) return true;
+    }
+    return false;
+  }
+
+  Ros2Run run_;
+  std::unique_ptr<Ros2Device> device_;
+  std::unique_ptr<dds::Ros2Robot> robot_;
+  std::vector<std::string> told_;
+  dds::Ros2Command latest_;
+  SensorTime stamp_ = std::chrono::seconds(1'700'000'000) + milliseconds(250);
+  std::chrono::nanoseconds odometry_lag_{0};
+  motion::Pose2 pose_{3.0, -2.0, 2.5};
+  int frame_ = 0;
+};
+
+TEST_F(Ros2DeviceTest, GivesWhatTheRobotSees) {
+  Open();
+  const auto seen = SayUntilSeen();
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_EQ((*seen)->stamp, stamp_);
+  EXPECT_EQ((*seen)->image.pixels, test::WalkFrame(0).pixels);
+  ASSERT_TRUE((*seen)->odometry);
+  EXPECT_NEAR((*seen)->odometry->x_m, 3.0, 1e-9);
+  EXPECT_NEAR((*seen)->odometry->y_m, -2.0, 1e-9);
+  EXPECT_NEAR((*seen)->odometry->heading_rad, 2.5, 1e-9);
+  EXPECT_EQ(device_->camera(), "camera 160x120");
+}
+
+TEST_F(Ros2DeviceTest, GivesEachFrameOnceHoweverOftenItIsSaid) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  for (int i = 0; i < 5; ++i) {
+    Say();
+    EXPECT_EQ(next.wait_for(milliseconds(10)), std::future_status::timeout);
+  }
+  GoOn();
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say();
+  EXPECT_EQ(next.get().value()->stamp, stamp_);
+}
+
+TEST_F(Ros2DeviceTest, InLockstepAnswersWithTheFramesStamp) {
+  run_.lockstep = true;
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  EXPECT_EQ(latest_.stamp, stamp_);
+}
+
+// Which brakes at what is old by its own clock.
+TEST_F(Ros2DeviceTest, StampsCommandsByTheBasesClock) {
+  odometry_lag_ = std::chrono::hours(1);
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  EXPECT_EQ(latest_.stamp, stamp_ - odometry_lag_);
+}
+
+TEST_F(Ros2DeviceTest, TakesTheNewestOdometryWhereItLagsBehindAFastCamera) {
+  odometry_lag_ = milliseconds(100);
+  Open();
+  ExpectFramesAtFullRate();
+}
+
+TEST_F(Ros2DeviceTest, TakesTheNewestOdometryOfAnotherClock) {
+  odometry_lag_ = std::chrono::hours(1);
+  Open();
+  ExpectFramesAtFullRate();
+}
+
+TEST_F(Ros2DeviceTest, OdometryWhoseStampsStandStillIsNone) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] {
+    // The first ones come before it is noticed.
+    Result<std::optional<Observation>> seen = device_->Next();
+    while (seen) seen = device_->Next();
+    return seen.error().message;
+  });
+  const SensorTime stands = stamp_;
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    odometry_lag_ = stamp_ - stands;
+    Say();
+  }
+  EXPECT_THAT(next.get(), HasSubstr("no odometry for 0.3 s: it comes, but its stamps do not"));
+}
+
+TEST_F(Ros2DeviceTest, ARobotWithoutOdometryIsDrivenByVisionAlone) {
+  run_.topics.odometry = "";
+  run_.still_at_end = milliseconds(100);
+  const auto refused = Ros2Device::Open(run_);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("of which there is none"));
+  run_.still_at_end = milliseconds(0);
+  Open();
+  const auto seen = SayUntilSeen(false);
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_FALSE((*seen)->odometry);
+  ASSERT_TRUE(device_->Drive(kAhead));
+  EXPECT_TRUE(Told(kAhead));
+}
+
+TEST_F(Ros2DeviceTest, ADamagedPictureIsLeftOut) {
+  run_.topics.odometry = "";
+  Open();
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    ASSERT_TRUE(robot_->Publish(dds::Ros2Image{.stamp = stamp_,
+                                               .width_px = 160,
+                                               .height_px = 120,
+                                               .encoding = "mono8",
+                                               .step = 160,
+                                               .data = {1, 2, 3}}));
+  }
+  const auto seen = next.get();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message, HasSubstr("no picture could be read for 1.5 s"));
+}
+
+TEST_F(Ros2DeviceTest, WhatAnOldPictureLedToIsNotDone) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  ASSERT_TRUE(Told(kStand));  // the loop that drives hangs
+  ASSERT_TRUE(device_->Drive(kAhead));
+  EXPECT_FALSE(Told(kAhead, milliseconds(200)));
+}
+
+TEST_F(Ros2DeviceTest, DrivesABaseThatListensToTwist) {
+  run_.topics.command_type = dds::Ros2CommandType::kTwist;
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  EXPECT_TRUE(Told(kAhead));
+}
+
+TEST_F(Ros2DeviceTest, StopsTheRobotWhenNobodyDrivesOnWithIt) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  const auto began = steady_clock::now();
+  EXPECT_TRUE(Told(kStand)) << "Next and Drive are not called again";
+  EXPECT_GT(steady_clock::now() - began, run_.sensor_timeout / 2);
+}
+
+TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_TRUE(Told(kStand));
+  const SensorTime silent = stamp_;
+  // Stamps go on: on a busy machine odometry that is only repeated would count as standing still.
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    Say();
+  }
+  const auto seen = next.get();
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_GT((*seen)->stamp, silent);
+  ASSERT_EQ(told_.size(), 2U);
+  EXPECT_THAT(told_.front(), AllOf(HasSubstr("camera /robot1/image_raw"), HasSubstr("no picture")));
+  EXPECT_EQ(told_.back(), "");
+}
+
+TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  const auto seen = device_->Next();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message,
+              AllOf(HasSubstr("camera /robot1/image_raw: no picture for 0.3 s"),
+                    HasSubstr("not within 1.5 s")));
+}
+
+TEST_F(Ros2DeviceTest, WaitsForASilentRobotOnlyUntilItIsToldToEnd) {
+  std::atomic<bool> stop = false;
+  run_.patience = std::chrono::seconds(60);
+  run_.stop = [&] { return stop.load(); };
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_EQ(next.wait_for(milliseconds(100)), std::future_status::timeout);
+  stop = true;
+  ASSERT_EQ(next.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  const auto end = next.get();
+  ASSERT_TRUE(end) << end.error().message;
+  EXPECT_FALSE(*end);
+}
+
+TEST_F(Ros2DeviceTest, SaysWhoIsMissingWhenThereIsNoRobot) {
+  run_.patience = milliseconds(300);
+  device_ = Ros2Device::Open(run_).value();
+  const auto seen = device_->Next();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message,
+              AllOf(HasSubstr("nobody publishes /robot1/image_raw"), HasSubstr("ROS domain 0")));
+}
+
+TEST_F(Ros2DeviceTest, NeedsOdometryUnlessToldThatThereIsNone) {
+  run_.patience = milliseconds(500);
+  Open();
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    Say(false);
+    GoOn();
+  }
+  const auto seen = next.get();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message, HasSubstr("no odometry came on /robot1/odom"));
+}
+
+TEST_F(Ros2DeviceTest, InLockstepAnswersEachFrameOnceMoreWhenItIsSaidAgain) {
+  run_.lockstep = true;
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  Say();
+  EXPECT_TRUE(Told(kAhead));
+  EXPECT_EQ(latest_.stamp, stamp_);
+}
+
+TEST_F(Ros2DeviceTest, InLockstepAnswersAlsoWhileTeaching) {
+  run_.lockstep = true;
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  EXPECT_TRUE(Told(kStand));
+  EXPECT_EQ(latest_.stamp, stamp_);
+  GoOn();
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say();
+  EXPECT_TRUE(next.get());
+}
+
+TEST_F(Ros2DeviceTest, ADriveIsOverWhenTheRobotStandsAfterItHasMoved) {
+  run_.still_at_end = milliseconds(150);
+  Open();
+  for (int i = 0; i < 10; ++i) {
+    const auto seen = SayUntilSeen();
+    ASSERT_TRUE(seen) << seen.error().message;
+    ASSERT_TRUE(seen->has_value()) << "it has not moved yet";
+    GoOn(0.0);
+  }
+  GoOn(1.0);
+  int standing = 0;
+  for (; standing < 20; ++standing) {
+    const auto seen = SayUntilSeen();
+    ASSERT_TRUE(seen) << seen.error().message;
+    if (!seen->has_value()) break;
+    GoOn(0.0);
+  }
+  EXPECT_EQ(standing, 5);
+}
+
+TEST_F(Ros2DeviceTest, ARobotWhoseClockGoesBackIsNotTheSameDriveAnyMore) {
+  Open();
+  ASSERT_TRUE(SayUntilSeen());
+  stamp_ -= std::chrono::seconds(100);
+  ++frame_;
+  const auto seen = SayUntilSeen();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message, HasSubstr("clock went back"));
+}
+
+TEST_F(Ros2DeviceTest, RefusesNamesThatAreNoTopics) {
+  for (const char* robot : {"robot1", "/robot 1", "/1robot", "/robot1/", "//robot1"}) {
+    run_.topics.robot = robot;
+    EXPECT_FALSE(Ros2Device::Open(run_)) << robot;
+  }
+  run_.topics.robot = "/";
+  EXPECT_TRUE(Ros2Device::Open(run_));
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,139 @@
+#include "services/exchange/route_finder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::exchange {
+namespace {
+
+using route::RouteInfo;
+using route::RouteState;
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::SizeIs;
+
+const AgentId kSelf("follower");
+const AgentId kServer("server");
+
+RouteInfo Info(const std::string& name, std::uint32_t revision, std::int64_t taught,
+               RouteState state) {
+  RouteInfo info;
+  info.key = {RouteId(std::string(32, 'a')), RevisionNumber(revision)};
+  info.name = name;
+  info.taught_unix_ms = taught;
+  info.state = state;
+  return info;
+}
+
+class RouteFinderTest : public testing::Test {
+ protected:
+  // Asks, and returns the request's number.
+  std::uint64_t Ask(milliseconds at) {
+    const auto messages = finder_.Tick(start_ + at);
+    return messages.empty() ? 0 : std::get<CatalogRequest>(messages.front()).request;
+  }
+  RouteFinder finder_{kSelf, "hall"};
+  RouteFinder::Time start_{};
+};
+
+TEST_F(RouteFinderTest, AsksForTheNameAgainEachSecondUntilItIsFound) {
+  const auto first = finder_.Tick(start_);
+  ASSERT_THAT(first, SizeIs(1));
+  EXPECT_EQ(std::get<CatalogRequest>(first.front()), (CatalogRequest{kSelf, 1, {.name = "hall"}}));
+  EXPECT_EQ(Ask(milliseconds(500)), 0U);
+  EXPECT_EQ(Ask(milliseconds(1000)), 2U);
+  const auto info = Info("hall", 1, 5, RouteState::kComplete);
+  finder_.Handle(CatalogReply{kServer, kSelf, 2, {.routes = {info}}, {}, ""});
+  EXPECT_EQ(finder_.found(), info);
+  EXPECT_EQ(Ask(milliseconds(9000)), 0U);
+}
+
+TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer,
+                              kSelf,
+                              1,
+                              {.routes = {Info("hall", 3, 30, RouteState::kTeaching),
+                                          Info("hall", 2, 20, RouteState::kComplete),
+                                          Info("hall", 1, 10, RouteState::kComplete)}},
+                              {},
+                              ""});
+  EXPECT_EQ(finder_.found()->key.revision.value(), 2U);
+}
+
+TEST_F(RouteFinderTest, TellsThatTheServerDoesNotKnowTheRouteAndWhichItKnows) {
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {}, {"hall2", "mall"}, ""});
+  ASSERT_TRUE(finder_.unknown());
+  EXPECT_EQ(finder_.unknown()->server, kServer);
+  EXPECT_THAT(finder_.unknown()->similar_names, ElementsAre("hall2", "mall"));
+  EXPECT_FALSE(finder_.found());
+  EXPECT_EQ(Ask(milliseconds(1000)), 2U) << "it may still be taught";
+}
+
+TEST_F(RouteFinderTest, IgnoresRepliesToOthersAndToNothing) {
+  const auto info = Info("hall", 1, 5, RouteState::kComplete);
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {info}}, {}, ""});
+  Ask(milliseconds(0));
+  finder_.Handle(CatalogReply{kServer, AgentId("other"), 1, {.routes = {info}}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 7, {.routes = {info}}, {}, ""});
+  EXPECT_FALSE(finder_.found());
+}
+
+TEST_F(RouteFinderTest, KeepsTheLatestAnnouncementOfTheNameAlone) {
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), Info("mall", 1, 5, RouteState::kTeaching)});
+  EXPECT_FALSE(finder_.announced());
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), Info("hall", 1, 5, RouteState::kTeaching)});
+  auto grown = Info("hall", 1, 5, RouteState::kTeaching);
+  grown.segment_count = 4;
+  finder_.Handle(RouteAnnouncement{AgentId("scout"), grown});
+  EXPECT_EQ(finder_.announced(), grown);
+}
+
+TEST(ChooseRouteTest, HasNothingToChooseFromNothing) { EXPECT_FALSE(ChooseRoute({})); }
+
+}  // namespace
+RouteInfo Standing(RouteInfo info, route::Standing standing) {
+  info.standing = standing;
+  info.edition = 1;
+  return info;
+}
+
+TEST(ChooseRoute, TakesTheActiveRevisionThoughThereAreNewerOnes) {
+  const auto old = Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kActive);
+  EXPECT_EQ(ChooseRoute({Info("hall", 3, 30, RouteState::kTeaching), old,
+                         Info("hall", 2, 20, RouteState::kComplete)}),
+            old);
+}
+
+TEST(ChooseRoute, TakesNothingOfARouteWhoseOperatorActivatedNone) {
+  const auto retired =
+      Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kRetired);
+  EXPECT_EQ(ChooseRoute({retired, Info("hall", 2, 20, RouteState::kComplete)}), std::nullopt);
+}
+
+TEST(ChooseRoute, TakesTheRevisionThatIsNamedOrTheNewestToBeHeldInAdvance) {
+  const auto old = Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kActive);
+  const auto retired =
+      Standing(Info("hall", 4, 40, RouteState::kComplete), route::Standing::kRetired);
+  const auto deleted =
+      Standing(Info("hall", 5, 50, RouteState::kComplete), route::Standing::kDeleted);
+  const auto staged = Info("hall", 2, 20, RouteState::kComplete);
+  const std::vector<RouteInfo> all{Info("hall", 3, 30, RouteState::kTeaching), old, staged, retired,
+                                   deleted};
+  EXPECT_EQ(ChooseRoute(all, {.newest = true}), staged);
+  EXPECT_EQ(ChooseRoute(all, {.number = 4}), retired);
+  EXPECT_EQ(ChooseRoute(all, {.number = 5}), std::nullopt);
+}
+
+TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
+  Ask(milliseconds(0));
+  const auto retired =
+      Standing(Info("hall", 1, 10, RouteState::kComplete), route::Standing::kRetired);
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {retired}}, {}, ""});
+  EXPECT_FALSE(finder_.found());
+  ASSERT_TRUE(finder_.unknown());
+  EXPECT_TRUE(finder_.unknown()->others);
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,139 @@
+#include "agent/link/outbox.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/route/digest.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using exchange::Receipt;
+using route::RouteState;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+const AgentId kScout("scout");
+const route::RouteKey kKey{RouteId(std::string(32, '1')), RevisionNumber(1)};
+
+route::Segment SegmentNumber(std::uint32_t index) {
+  route::Segment segment;
+  segment.index = SegmentIndex(index);
+  segment.has_odometry = true;
+  segment.length_m = 2.0;
+  segment.duration_s = 4.0;
+  route::Feature feature;
+  feature.track = {{0.0F, 1.0F, 2.0F}, {1.0F, 3.0F, 4.0F}};
+  segment.features.push_back(feature);
+  return segment;
+}
+
+class OutboxTest : public testing::Test {
+ protected:
+  OutboxTest() { Restart(); }
+  // As after a crash: nothing but the file is left.
+  void Restart() {
+    outbox_.reset();
+    store_.reset();
+    store_ = *store::OpenSqliteStore(folder_ / "scout.db");
+    outbox_.emplace(kScout, *store_);
+  }
+  void Teach(std::uint32_t segments) {
+    route::RouteInfo info;
+    info.key = kKey;
+    info.name = "hall";
+    info.scout = kScout;
+    info.image_width_px = 320;
+    info.image_height_px = 240;
+    ASSERT_TRUE(outbox_->Begin(info));
+    for (std::uint32_t i = 0; i < segments; ++i) ASSERT_TRUE(outbox_->Add(kKey, SegmentNumber(i)));
+  }
+  void Confirm(std::uint32_t prefix, RouteState state) {
+    outbox_->Handle(Receipt{AgentId("server"), kKey, prefix, {}, state}, {});
+    ASSERT_TRUE(outbox_->SaveReceipts());
+  }
+  route::RouteInfo Stored() { return **store_->FindRoute(kKey); }
+
+  test::TempDir folder_;
+  std::unique_ptr<store::RouteStore> store_;
+  std::optional<Outbox> outbox_;
+};
+
+TEST_F(OutboxTest, HasASegmentOnDiskBeforeItIsSent) {
+  Teach(2);
+  EXPECT_THAT(*store_->HeldSegments(kKey), SizeIs(2));
+  EXPECT_EQ(Stored().segment_count, 2U);
+  EXPECT_EQ(Stored().state, RouteState::kTeaching);
+  std::size_t sent = 0;
+  for (const auto& message : outbox_->Tick({})) {
+    const auto* batch = std::get_if<exchange::SegmentBatch>(&message);
+    if (batch != nullptr) sent += batch->pieces.size();
+  }
+  EXPECT_EQ(sent, 2U);
+}
+
+TEST_F(OutboxTest, IsEmptyOnceAServerHasEverything) {
+  Teach(3);
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  EXPECT_EQ(outbox_->unreceipted(), 3U);
+  Confirm(3, RouteState::kComplete);
+  EXPECT_EQ(outbox_->unreceipted(), 0U);
+  EXPECT_TRUE(outbox_->AllReceipted());
+  Restart();
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
+}
+
+TEST_F(OutboxTest, TakesUpWhatAnEarlierRunCouldNotDeliver) {
+  Teach(3);
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  Confirm(1, RouteState::kTeaching);
+  Restart();
+  const auto notes = outbox_->LoadBacklog();
+  ASSERT_TRUE(notes) << notes.error().message;
+  EXPECT_THAT(*notes, ElementsAre(HasSubstr("2 of 3 segments have no receipt")));
+  EXPECT_EQ(outbox_->unreceipted(), 2U);
+}
+
+TEST_F(OutboxTest, EndsARouteWhoseTeachingWasCutOff) {
+  Teach(3);
+  Restart();
+  const auto notes = outbox_->LoadBacklog();
+  ASSERT_TRUE(notes) << notes.error().message;
+  EXPECT_THAT(*notes, ElementsAre(HasSubstr("cut off")));
+  const route::RouteInfo info = Stored();
+  EXPECT_EQ(info.state, RouteState::kComplete);
+  EXPECT_EQ(info.segment_count, 3U);
+  EXPECT_DOUBLE_EQ(info.length_m, 6.0);
+  std::vector<route::Digest> digests;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    digests.push_back(store_->ReadSegment(kKey, SegmentIndex(i))->digest);
+  }
+  EXPECT_EQ(info.manifest_digest, route::ManifestDigest(digests));
+}
+
+TEST_F(OutboxTest, ComesBackToARouteOfWhichOnlyTheEndIsUnconfirmed) {
+  Teach(2);
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  Confirm(2, RouteState::kTeaching);  // all segments, but not that they are all
+  EXPECT_FALSE(outbox_->AllReceipted());
+  Restart();
+  EXPECT_THAT(*outbox_->LoadBacklog(), SizeIs(1));
+  Confirm(2, RouteState::kComplete);
+  EXPECT_TRUE(outbox_->AllReceipted());
+  Restart();
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
+}
+
+TEST_F(OutboxTest, LeavesAnotherAgentsUnfinishedRouteAlone) {
+  Teach(2);
+  outbox_.emplace(AgentId("scout2"), *store_);
+  EXPECT_THAT(*outbox_->LoadBacklog(), ElementsAre(HasSubstr("--name scout")));
+  EXPECT_EQ(outbox_->unreceipted(), 0U);
+  EXPECT_EQ(Stored().state, RouteState::kTeaching);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,76 @@
+#include "services/plot/plan_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace trailcast::plot {
+namespace {
+
+int CountNear(const image::RgbImage& picture, image::Color color) {
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
+    int difference = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      difference += std::abs(static_cast<int>(picture.pixels[i + c]) - color[c]);
+    }
+    count += difference < 30 ? 1 : 0;
+  }
+  return count;
+}
+
+Plan TwoPaths() {
+  Plan plan;
+  plan.title = "two paths";
+  plan.paths.push_back({"taught", PathColor(0), {{0.0, 0.0}, {8.0, 0.0}}, true, false});
+  plan.paths.push_back({"replayed", PathColor(1), {{0.0, 0.5}, {8.0, 0.5}}, false, false});
+  return plan;
+}
+
+TEST(AreaAround, HoldsEveryPathWithAMarginAroundIt) {
+  const PlanArea area = AreaAround(TwoPaths().paths, 1.0);
+  EXPECT_DOUBLE_EQ(area.min_m.x(), -1.0);
+  EXPECT_DOUBLE_EQ(area.max_m.x(), 9.0);
+  EXPECT_DOUBLE_EQ(area.min_m.y(), -1.0);
+  EXPECT_DOUBLE_EQ(area.max_m.y(), 1.5);
+}
+
+TEST(AreaAround, NoPathsGiveAnAreaThatCanStillBeDrawn) {
+  const PlanArea area = AreaAround({}, 1.0);
+  EXPECT_GT(area.size_m().x(), 0.0);
+  EXPECT_GT(area.size_m().y(), 0.0);
+}
+
+TEST(DrawPlan, ShowsEachPathInItsColour) {
+  const Plan plan = TwoPaths();
+  const image::RgbImage picture = DrawPlan(plan).Render();
+  // The replayed path is 8 m of 10 m wide: hundreds of pixels long, two wide.
+  EXPECT_GT(CountNear(picture, plan.paths[1].color), 700);
+  Plan without = plan;
+  without.paths[1].points_m.clear();
+  EXPECT_LT(CountNear(DrawPlan(without).Render(), plan.paths[1].color), 200);
+}
+
+TEST(DrawPlan, BothAxesHaveTheSameScale) {
+  Plan plan;
+  plan.paths.push_back({"", PathColor(0), {{0.0, 0.0}, {18.0, 0.0}}, true, false});
+  const image::RgbImage flat = DrawPlan(plan).Render();
+  plan.paths.push_back({"", PathColor(1), {{0.0, 0.0}, {0.0, 18.0}}, false, false});
+  const image::RgbImage square = DrawPlan(plan).Render();
+  EXPECT_EQ(flat.width, square.width);
+  // 20 m wide both; 2 m high against 20 m high.
+  EXPECT_NEAR(square.height - flat.height, 0.9 * 900.0, 3.0);
+}
+
+TEST(DrawPlan, LaysTheWorldUnderThePaths) {
+  Plan plan = TwoPaths();
+  Backdrop backdrop;
+  backdrop.area = {{-1.0, -1.0}, {9.0, 3.0}};
+  backdrop.picture = {1, 1, {10, 200, 10}};
+  plan.backdrop = backdrop;
+  EXPECT_GT(CountNear(DrawPlan(plan).Render(), {10, 200, 10}), 200000);
+}
+
+}  // namespace
+}  // namespace trailcast::plot

@@ -1,0 +1,150 @@
+#include "services/program/presence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+#include <thread>
+
+#include "services/exchange/in_process_exchange.h"
+
+namespace trailcast::program {
+namespace {
+
+using exchange::AgentMode;
+using exchange::AgentStatus;
+using testing::HasSubstr;
+
+AgentStatus Status(const std::string& name, std::uint64_t instance, AgentMode mode) {
+  AgentStatus status;
+  status.agent = AgentId(name);
+  status.instance = instance;
+  status.mode = mode;
+  return status;
+}
+
+TEST(NameClaimTest, YieldsToWhoeverHasTheName) {
+  const NameClaim claim(Status("scout", 5, AgentMode::kStarting));
+  const auto seen = claim.See(Status("scout", 9, AgentMode::kTeaching));
+  ASSERT_FALSE(seen);
+  EXPECT_EQ(seen.error().code, ErrorCode::kConflict);
+  EXPECT_THAT(seen.error().message, HasSubstr("agent name 'scout' is already used"));
+  EXPECT_THAT(seen.error().message, HasSubstr("0000000000000009"));
+}
+
+TEST(NameClaimTest, IsNotDisturbedByOthersItselfOrTheEnded) {
+  const NameClaim claim(Status("scout", 5, AgentMode::kStarting));
+  EXPECT_TRUE(claim.See(Status("scout2", 9, AgentMode::kTeaching)));
+  EXPECT_TRUE(claim.See(Status("scout", 5, AgentMode::kTeaching)));
+  EXPECT_TRUE(claim.See(Status("scout", 9, AgentMode::kStopped)));
+}
+
+TEST(NameClaimTest, LetsOneOfTwoThatStartTogetherHaveTheName) {
+  const NameClaim small(Status("scout", 5, AgentMode::kStarting));
+  const NameClaim large(Status("scout", 9, AgentMode::kStarting));
+  EXPECT_TRUE(small.See(Status("scout", 9, AgentMode::kStarting)));
+  EXPECT_FALSE(large.See(Status("scout", 5, AgentMode::kStarting)));
+}
+
+class PresenceTest : public testing::Test {
+ protected:
+  std::unique_ptr<exchange::RouteExchange> Open() {
+    return bus_.Open(WithAgents(exchange::ScoutTopics()));
+  }
+  static Result<void> Claim(Presence& presence) {
+    return presence.Claim([](const exchange::Message&) {}, [] { return false; });
+  }
+  exchange::InProcessBus bus_;
+};
+
+TEST_F(PresenceTest, RefusesANameThatARunningAgentHas) {
+  const auto first_end = Open();
+  Presence first(*first_end, Status("scout", 0, AgentMode::kStarting));
+  ASSERT_TRUE(Claim(first));
+  first.Set(Status("", 0, AgentMode::kTeaching));
+  first.Publish();
+  // It did not hear that: the running one tells it.
+  const auto second_end = Open();
+  Presence second(*second_end, Status("scout", 0, AgentMode::kStarting));
+  auto claimed = std::async(std::launch::async, [&] { return Claim(second).has_value(); });
+  while (claimed.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    for (const auto& message : first_end->Take(std::chrono::milliseconds(20))) {
+      first.Handle(message);
+    }
+  }
+  EXPECT_FALSE(claimed.get());
+}
+
+TEST_F(PresenceTest, LetsExactlyOneOfTwoStartTogether) {
+  const auto first_end = Open();
+  const auto second_end = Open();
+  Presence first(*first_end, Status("scout", 0, AgentMode::kStarting));
+  Presence second(*second_end, Status("scout", 0, AgentMode::kStarting));
+  Result<void> first_result;
+  std::thread other([&] { first_result = Claim(first); });
+  const auto second_result = Claim(second);
+  other.join();
+  EXPECT_NE(first_result.has_value(), second_result.has_value());
+}
+
+TEST_F(PresenceTest, KnowsTheServerUntilItIsGone) {
+  const auto end = Open();
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
+  auto server = Status("server", 3, AgentMode::kWaiting);
+  presence.Handle(server);
+  EXPECT_FALSE(presence.server()) << "an operator is no server";
+  server.role = exchange::AgentRole::kServer;
+  presence.Handle(server);
+  EXPECT_EQ(presence.server(), AgentId("server"));
+  presence.Handle(exchange::AgentGone{AgentId("server"), 3});
+  EXPECT_FALSE(presence.server());
+}
+
+TEST_F(PresenceTest, PublishesAChangeOfModeAtOnceAndTheRestAtIntervals) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting), std::chrono::hours(1));
+  const auto now = Presence::Clock::now();
+  presence.Publish();
+  auto status = presence.status();
+  status.features = 7;
+  presence.Set(status);
+  presence.Tick(now);
+  EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
+  status.mode = AgentMode::kTeaching;
+  presence.Set(status);
+  presence.Tick(now);
+  const auto heard = peer->Take(std::chrono::milliseconds(0));
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_EQ(std::get<AgentStatus>(heard.front()).features, 7U);
+  presence.Tick(now + std::chrono::hours(2));
+  EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
+}
+
+TEST_F(PresenceTest, PublishesLessOftenTheMoreAgentsThereAre) {
+  constexpr int kAgents = 100;
+  constexpr auto kSlower = kAgents * Presence::kForEachAgent;
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting), std::chrono::milliseconds(200));
+  const auto publishes_after = [&](std::chrono::milliseconds passed) {
+    presence.Publish();
+    const auto published = Presence::Clock::now();
+    (void)peer->Take(std::chrono::milliseconds(0));
+    presence.Tick(published + passed);
+    return !peer->Take(std::chrono::milliseconds(0)).empty();
+  };
+  EXPECT_TRUE(publishes_after(std::chrono::milliseconds(200)));
+  for (int i = 0; i < kAgents; ++i) {
+    presence.Handle(Status(fmt::format("agent-{}", i), 3, AgentMode::kWaiting));
+  }
+  EXPECT_FALSE(publishes_after(kSlower / 2));
+  EXPECT_TRUE(publishes_after(kSlower));
+  for (int i = 0; i < kAgents; ++i) {
+    presence.Handle(exchange::AgentGone{AgentId(fmt::format("agent-{}", i)), 3});
+  }
+  EXPECT_TRUE(publishes_after(std::chrono::milliseconds(200)));
+}
+
+}  // namespace
+}  // namespace trailcast::program

@@ -1,0 +1,39 @@
+#include "agent/session/src/place_trust.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::agent {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr belief::RouteBelief::Place kHeld{10.0, 0.1, 0.99, 0.01, 20, true};
+constexpr belief::RouteBelief::Place kNotHeld{10.0, 0.1, 0.2, 0.8, 3, false};
+
+TEST(PlaceTrust, FollowsWhileThePlaceIsHeld) {
+  PlaceTrust trust;
+  EXPECT_EQ(trust.Judge(kHeld).trust, Trust::kSure);
+  EXPECT_TRUE(trust.ever_sure());
+}
+
+TEST(PlaceTrust, ARobotThatHasNotFoundTheRouteSeeksAndIsThenLost) {
+  PlaceTrust trust({.limit_frames = 10});
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(trust.Judge(kNotHeld).trust, Trust::kSeeking);
+  const Verdict verdict = trust.Judge(kNotHeld);
+  EXPECT_EQ(verdict.trust, Trust::kLost);
+  EXPECT_THAT(verdict.reason, HasSubstr("the route is not recognised for 11 frames"));
+  EXPECT_THAT(verdict.reason, HasSubstr("off the route with 80 %"));
+}
+
+TEST(PlaceTrust, ALostRobotIsFoundAgain) {
+  PlaceTrust trust({.limit_frames = 10});
+  EXPECT_EQ(trust.Judge(kHeld).trust, Trust::kSure);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(trust.Judge(kNotHeld).trust, Trust::kBlind);
+  EXPECT_EQ(trust.Judge(kNotHeld).trust, Trust::kLost);
+  EXPECT_EQ(trust.Judge(kHeld).trust, Trust::kSure);
+  EXPECT_EQ(trust.Judge(kNotHeld).trust, Trust::kBlind);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,48 @@
+#include "agent/session/src/recogniser.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/painted_wall.h"
+
+namespace trailcast::agent {
+namespace {
+
+std::vector<route::KeyView> ViewsOf(const std::vector<unsigned>& walls) {
+  vision::ViewDescriber describer;
+  std::vector<route::KeyView> views;
+  for (const unsigned wall : walls) {
+    views.push_back(
+        {0.0, view::Spread(describer.Describe(test::PaintedWall(wall).Photograph({})), 40)});
+  }
+  return views;
+}
+
+TEST(Recogniser, TellsWhichViewsAreSeenAndHowTheyMapOntoThePicture) {
+  Recogniser recogniser(320);
+  recogniser.Learn(ViewsOf({5, 6}));
+  recogniser.Learn(ViewsOf({7}));
+  const image::GrayImage frame =
+      test::PaintedWall(7).Photograph({.scale = 1.2, .du_px = 10.0, .noise_grey = 2.0});
+  const Look look = recogniser.LookAt(frame, std::vector<std::size_t>{0, 2});
+  ASSERT_EQ(look.Compared().size(), 2U);
+  EXPECT_LT(look.Compared()[0].agreed, 7);
+  EXPECT_GE(look.Compared()[1].agreed, 10);
+  ASSERT_NE(look.Best(), nullptr);
+  EXPECT_EQ(look.Best()->view, 2U);
+  const vision::ViewFit fit = recogniser.FitOf(look, look.Best()->comparison);
+  EXPECT_NEAR(fit.scale, 1.2, 0.04);
+  EXPECT_NEAR(fit.du_px, 10.0, 3.0);
+}
+
+TEST(Recogniser, NothingToCompareIsNothingSeen) {
+  Recogniser recogniser(320);
+  const Look look = recogniser.LookAt(test::PaintedWall(7).Photograph({}), {});
+  EXPECT_TRUE(look.Compared().empty());
+  EXPECT_EQ(look.Best(), nullptr);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

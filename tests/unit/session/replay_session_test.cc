@@ -1,0 +1,207 @@
+#include "agent/session/replay_session.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "agent/session/teach_session.h"
+#include "tests/support/walk_frames.h"
+
+namespace trailcast::agent {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kFrames = 60;
+constexpr double kFrames_hz = 20.0;
+constexpr double kStep_m = 0.02;
+
+SensorTime StampOf(int frame) { return FromSeconds(frame / kFrames_hz); }
+
+std::optional<motion::Pose2> PoseAt(int frame, bool odometry) {
+  if (!odometry) return std::nullopt;
+  return motion::Pose2{kStep_m * frame, 0.0, 0.0};
+}
+
+const std::vector<image::GrayImage>& Walk() {
+  static const std::vector<image::GrayImage> walk = [] {
+    std::vector<image::GrayImage> frames;
+    for (int i = 0; i < kFrames; ++i) frames.push_back(test::WalkFrame(i));
+    return frames;
+  }();
+  return walk;
+}
+
+std::vector<route::Segment> Taught(bool odometry) {
+  TeachSession session;
+  std::vector<route::Segment> segments;
+  const auto keep = [&](std::optional<route::Segment> segment) {
+    if (segment) segments.push_back(std::move(*segment));
+  };
+  for (int i = 0; i < kFrames; ++i) {
+    auto step =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry)});
+    EXPECT_TRUE(step);
+    keep(std::move(step->finished));
+  }
+  keep(session.Finish());
+  return segments;
+}
+
+ReplaySession SessionOn(const std::vector<route::Segment>& segments,
+                        const ReplayMethodOptions& options = {}) {
+  route::RouteInfo info;
+  info.image_width_px = Walk().front().width;
+  info.image_height_px = Walk().front().height;
+  ReplaySession session(options, info);
+  for (const route::Segment& segment : segments) EXPECT_TRUE(session.AddSegment(segment));
+  session.MarkComplete();
+  return session;
+}
+
+bool Stands(const ReplayStep& step) {
+  return step.command.linear_mps == 0.0 && step.command.angular_radps == 0.0;
+}
+
+image::GrayImage Noise(unsigned seed) {
+  image::GrayImage picture = Walk().front();
+  std::mt19937 random(seed);
+  for (std::uint8_t& pixel : picture.pixels) pixel = static_cast<std::uint8_t>(random());
+  return picture;
+}
+
+class ReplaySessionTest : public testing::TestWithParam<bool> {
+ protected:
+  [[nodiscard]] static bool odometry() { return GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Odometry, ReplaySessionTest, testing::Bool(),
+                         [](const auto& param) { return param.param ? "With" : "Without"; });
+
+TEST_P(ReplaySessionTest, WhatWasTaughtIsFollowedInEveryFrame) {
+  ReplaySession session = SessionOn(Taught(odometry()));
+  for (int i = 0; i < kFrames; ++i) {
+    const auto step =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry())});
+    ASSERT_TRUE(step);
+    EXPECT_TRUE(step->state == ReplayState::kFollowing || step->state == ReplayState::kArrived)
+        << "frame " << i << ": " << ToString(step->state) << ", " << step->reason;
+    EXPECT_NEAR(step->believed->place, i / (kFrames - 1.0), 0.15) << i;
+  }
+}
+
+TEST_P(ReplaySessionTest, BeginsAnywhereIfToldSo) {
+  constexpr int kFirst = 30;
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(odometry()), options);
+  std::optional<int> found_at;
+  for (int i = kFirst; i < kFrames && !found_at; ++i) {
+    const auto step =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry())});
+    ASSERT_TRUE(step);
+    if (step->state != ReplayState::kFollowing) {
+      EXPECT_TRUE(Stands(*step)) << step->reason;
+      continue;
+    }
+    found_at = i;
+    EXPECT_NEAR(step->believed->place, i / (kFrames - 1.0), 0.15);
+  }
+  ASSERT_TRUE(found_at);
+  EXPECT_LE(*found_at, kFirst + 15);
+}
+
+TEST_P(ReplaySessionTest, NothingOfTheRouteInViewIsNeverFollowed) {
+  ReplaySession session = SessionOn(Taught(odometry()));
+  ReplayStep last;
+  for (int i = 0; i < 120; ++i) {
+    const auto step =
+        session.Observe({StampOf(i), Noise(static_cast<unsigned>(i) + 1U), PoseAt(0, odometry())});
+    ASSERT_TRUE(step);
+    EXPECT_NE(step->state, ReplayState::kFollowing) << i;
+    EXPECT_TRUE(Stands(*step)) << i;
+    last = *step;
+  }
+  EXPECT_EQ(last.state, ReplayState::kLost);
+  EXPECT_NE(last.reason, "");
+}
+
+TEST_P(ReplaySessionTest, APictureOfAnotherSizeStopsTheRobotAndEndsNothing) {
+  ReplaySession session = SessionOn(Taught(odometry()));
+  for (int i = 0; i < 30; ++i) {
+    const bool other = i >= 10 && i < 15;
+    const auto step = session.Observe(
+        {StampOf(i), other ? test::WalkFrame(i, 80, 60) : Walk()[static_cast<std::size_t>(i)],
+         PoseAt(i, odometry())});
+    ASSERT_TRUE(step) << step.error().message;
+    if (!other) continue;
+    EXPECT_EQ(step->state, ReplayState::kBlind);
+    EXPECT_TRUE(Stands(*step));
+    EXPECT_THAT(step->reason, HasSubstr("80x60"));
+  }
+  const auto after = session.Observe({StampOf(30), Walk()[30], PoseAt(30, odometry())});
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->state, ReplayState::kFollowing) << after->reason;
+}
+
+TEST_P(ReplaySessionTest, ACameraThatGivesNoPicturesAtAllIsLost) {
+  ReplaySession session = SessionOn(Taught(odometry()));
+  ReplayStep last;
+  for (int i = 0; i < 100; ++i) {
+    const auto step = session.Observe({StampOf(i), {}, PoseAt(0, odometry())});
+    ASSERT_TRUE(step);
+    last = *step;
+  }
+  EXPECT_EQ(last.state, ReplayState::kLost);
+  EXPECT_THAT(last.reason, HasSubstr("empty frame"));
+}
+
+// Segments come one by one; where the robot is on the route does not depend on how many have.
+TEST_P(ReplaySessionTest, ProgressIsOfTheWholeRouteAlsoWhileItComes) {
+  std::vector<route::Segment> segments = Taught(odometry());
+  ASSERT_GE(segments.size(), 1U);
+  route::RouteInfo info;
+  info.image_width_px = Walk().front().width;
+  info.image_height_px = Walk().front().height;
+  info.segment_count = 20;
+  ReplaySession session({}, info);
+  ASSERT_TRUE(session.AddSegment(segments.front()));
+  const auto step = session.Observe({StampOf(0), Walk().front(), PoseAt(0, odometry())});
+  ASSERT_TRUE(step);
+  EXPECT_LE(step->progress, 1.0 / 20.0);
+  for (int i = 1; i < 10; ++i) {
+    const auto next =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry())});
+    ASSERT_TRUE(next);
+    EXPECT_LE(next->progress, 1.0 / 20.0);
+  }
+}
+
+// It may as well be at the beginning of a lap: it has not come there.
+TEST(ReplaySessionByViews, ARobotThatWasPutAtTheEndIsNotDrivenPastIt) {
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(false), options);
+  ReplayStep last;
+  double commanded_m = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const int frame = kFrames - 2 + i % 2;  // of a camera that shakes
+    const auto step =
+        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(frame)], std::nullopt});
+    ASSERT_TRUE(step);
+    EXPECT_NE(step->state, ReplayState::kArrived);
+    commanded_m += step->command.linear_mps / kFrames_hz;
+    last = *step;
+  }
+  EXPECT_LT(commanded_m, 0.1);
+  EXPECT_EQ(last.state, ReplayState::kLost);
+  EXPECT_THAT(last.reason, HasSubstr("looks like the route's end"));
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,67 @@
+#include "agent/simulated/camera_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CameraFileTest : public testing::Test {
+ protected:
+  Result<sim::CameraModel> Read(const std::string& text) {
+    std::ofstream(folder_ / "mine.toml") << text;
+    return CameraFromWord((folder_ / "mine.toml").string());
+  }
+  std::string ErrorOf(const std::string& text) {
+    const auto read = Read(text);
+    return read ? "no error" : read.error().message;
+  }
+  test::TempDir folder_;
+};
+
+TEST_F(CameraFileTest, ReadsEveryKey) {
+  const auto camera = Read(
+      "# a fisheye on a pole\nwidth = 480\nheight=360\nmodel = \"fisheye\"\nhfov_deg = 170.5\n"
+      "distortion = 0.1\nheight_m = 1.2\nyaw_deg = -3\npitch_deg = 4\n");
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_EQ(camera->name, "mine");
+  EXPECT_EQ(camera->width, 480);
+  EXPECT_EQ(camera->height, 360);
+  EXPECT_EQ(camera->model, sim::LensModel::kFisheye);
+  EXPECT_DOUBLE_EQ(camera->horizontal_fov_deg, 170.5);
+  EXPECT_DOUBLE_EQ(camera->distortion, 0.1);
+  EXPECT_DOUBLE_EQ(camera->height_m, 1.2);
+  EXPECT_DOUBLE_EQ(camera->yaw_deg, -3.0);
+  EXPECT_DOUBLE_EQ(camera->pitch_deg, 4.0);
+}
+
+TEST_F(CameraFileTest, NamesAnUnknownKeyAndThoseAccepted) {
+  EXPECT_THAT(ErrorOf("width = 320\nfocal = 3\n"),
+              AllOf(HasSubstr("'focal'"), HasSubstr("hfov_deg"), HasSubstr("mine.toml")));
+  EXPECT_THAT(ErrorOf("[lens]\nwidth = 320\n"), HasSubstr("'lens.width'"));
+}
+
+TEST_F(CameraFileTest, RefusesValuesThatAreNone) {
+  EXPECT_THAT(ErrorOf("width = wide\n"), AllOf(HasSubstr("'width'"), HasSubstr("whole number")));
+  EXPECT_THAT(ErrorOf("hfov_deg = nan\n"), HasSubstr("'hfov_deg'"));
+  EXPECT_THAT(ErrorOf("model = \"telescope\"\n"), HasSubstr("telescope"));
+  EXPECT_THAT(ErrorOf("width = -5\n"), HasSubstr("mine.toml"));
+}
+
+TEST_F(CameraFileTest, KnowsTheBuiltInCamerasByName) {
+  EXPECT_EQ(CameraFromWord("wide")->width, 320);
+  const auto unknown = CameraFromWord("kodak");
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message,
+              AllOf(HasSubstr("kodak"), HasSubstr("webcam"), HasSubstr(".toml")));
+}
+
+}  // namespace
+}  // namespace trailcast::agent
