@@ -40,7 +40,8 @@ struct ViewFitResult {
   int inliers = 0;           // 0: no fit found, `fit` is then the identity
 };
 
-// RANSAC over pairs of pairs, then least squares over the inliers. Repeatable for equal input.
+// RANSAC over pairs of pairs, then least squares over the inliers, as far as the scale stays within
+// bounds. Repeatable for equal input.
 [[nodiscard]] ViewFitResult FitView(const std::vector<ViewPair>& pairs,
                                     const ViewFitOptions& options = {});
 

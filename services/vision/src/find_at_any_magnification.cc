@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,9 @@ constexpr double kCloserRadius = 0.27;  // of the first one's
 constexpr double kCloserAgreement = 0.6;
 constexpr double kCloserCorrelation = 0.75;
 
-// The fit from the taught places to those found.
-ViewFit FitTo(const FindResult& found, std::span<const route::Feature> sought, double s) {
+// The fit from the taught places to those found, if there is one.
+std::optional<ViewFit> FitTo(const FindResult& found, std::span<const route::Feature> sought,
+                             double s) {
   std::vector<ViewPair> pairs;
   pairs.reserve(found.features.size());
   for (const route::TrackedFeature& feature : found.features) {
@@ -30,7 +32,8 @@ ViewFit FitTo(const FindResult& found, std::span<const route::Feature> sought, d
   options.max_scale = found.magnification * kStep * kStep;
   options.tolerance_u_px *= found.magnification;
   options.tolerance_v_px *= found.magnification;
-  return FitView(pairs, options).fit;
+  const ViewFitResult fitted = FitView(pairs, options);
+  return fitted.inliers > 0 ? std::optional(fitted.fit) : std::nullopt;
 }
 
 }  // namespace
@@ -49,8 +52,9 @@ FindResult FeatureFinder::FindAtAnyMagnification(const image::GrayImage& frame,
     const FindResult coarse = FindNear(
         frame, sought, TaughtPlaces(sought, s, {magnification, 0.0, 0.0}), magnification, radius);
     if (coarse.features.size() < kFewestToFit) continue;
-    const ViewFit fit = FitTo(coarse, sought, s);
-    FindResult found = closer.FindNear(frame, sought, TaughtPlaces(sought, s, fit), fit.scale,
+    const std::optional<ViewFit> fit = FitTo(coarse, sought, s);
+    if (!fit) continue;
+    FindResult found = closer.FindNear(frame, sought, TaughtPlaces(sought, s, *fit), fit->scale,
                                        {kCloserRadius * radius.u_px, kCloserRadius * radius.v_px});
     if (found.BeyondChance() && found.AboveChance() > best.AboveChance()) best = std::move(found);
   }

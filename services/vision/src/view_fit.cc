@@ -25,6 +25,10 @@ bool Belongs(const ViewPair& pair, const ViewFit& fit, const ViewFitOptions& opt
          std::abs(pair.v_px - fit.MapV(pair.scout_v_px)) <= options.tolerance_v_px;
 }
 
+bool IsWithin(const ViewFit& fit, const ViewFitOptions& options) {
+  return fit.scale >= options.min_scale && fit.scale <= options.max_scale;  // false for NaN
+}
+
 ViewFit LeastSquares(const std::vector<ViewPair>& pairs, const std::vector<bool>& use) {
   double n = 0;
   ViewPair mean;
@@ -61,7 +65,7 @@ ViewFitResult FitView(const std::vector<ViewPair>& pairs, const ViewFitOptions& 
     const std::size_t a = random() % pairs.size();
     const std::size_t b = random() % pairs.size();
     const auto fit = FitTwo(pairs[a], pairs[b]);
-    if (!fit || fit->scale < options.min_scale || fit->scale > options.max_scale) continue;
+    if (!fit || !IsWithin(*fit, options)) continue;
     std::vector<bool> inlier(pairs.size());
     int inliers = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -70,7 +74,10 @@ ViewFitResult FitView(const std::vector<ViewPair>& pairs, const ViewFitOptions& 
     }
     if (inliers > best.inliers) best = {*fit, std::move(inlier), inliers};
   }
-  if (best.inliers >= 2) best.fit = LeastSquares(pairs, best.inlier);
+  if (best.inliers < 2) return best;
+  // Pairs that lie close together for their tolerance may pull the scale anywhere, below zero too.
+  const ViewFit refined = LeastSquares(pairs, best.inlier);
+  if (IsWithin(refined, options)) best.fit = refined;
   return best;
 }
 

@@ -43,6 +43,14 @@ TEST(ViewFit, ScalesOutOfBoundsAreNotConsidered) {
   EXPECT_EQ(FitView(Pairs({8.0, 0.0, 0.0}, 20, 0), {.tolerance_u_px = 1.0}).inliers, 0);
 }
 
+TEST(ViewFit, PairsCloseTogetherDoNotPullTheScaleOutOfBounds) {
+  // Only the first two are of a scale within bounds; least squares over all four gives 0.33.
+  const std::vector<ViewPair> pairs{{0, 0, 0, 0}, {8.1, 0, 8.1, 0}, {-8, 0, 1, 0}, {16, 0, 7, 0}};
+  const ViewFitResult result = FitView(pairs, {.min_scale = 0.5, .max_scale = 2.0});
+  EXPECT_EQ(result.inliers, 4);
+  EXPECT_NEAR(result.fit.scale, 1.0, 1e-9);
+}
+
 TEST(ViewFit, OnePairTellsNothing) {
   EXPECT_EQ(FitView(Pairs({1.0, 0.0, 0.0}, 1, 0)).inliers, 0);
   EXPECT_EQ(FitView({}).inliers, 0);
