@@ -44,6 +44,13 @@ Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& opti
   return program::OpenExchange(options.common, program::WithAgents(use));
 }
 
+// With keys only scouts may say what routes there are.
+exchange::TopicUse FollowersTopics(const CommandOptions& options) {
+  exchange::TopicUse use = exchange::FollowerTopics();
+  if (options.common.security.empty()) use.write_rarely.push_back(exchange::Topic::kRoutes);
+  return use;
+}
+
 ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& teach) {
   ScoutLinkOptions link;
   link.agent = AgentId(options.common.name);
@@ -216,7 +223,7 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
   auto exchange =
-      program::OpenExchange(options.common, program::WithAgents(exchange::FollowerTopics()));
+      program::OpenExchange(options.common, program::WithAgents(FollowersTopics(options)));
   if (!exchange) return tl::unexpected(exchange.error());
   FollowerLinkOptions link;
   link.agent = AgentId(options.common.name);
@@ -238,7 +245,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, exchange::FollowerTopics());
+  auto exchange = Join(options, FollowersTopics(options));
   if (!exchange) return tl::unexpected(exchange.error());
   const auto outcome = Replay(*opened->device, MakeFollowerOptions(options, replay),
                               std::move(*store), std::move(*exchange));

@@ -91,7 +91,7 @@ Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store:
     return tl::unexpected(all.error());
   }
   link.Close(AgentMode::kArrived, fmt::format("holds revision {} of '{}'",
-                                              link.route()->key.revision.value(), options.route));
+                                              link.route()->revision.value(), options.route));
   Summary summary;
   summary.AddRoute(*link.route());
   return summary;

@@ -7,6 +7,7 @@
 
 #include "agent/device/standstill.h"
 #include "agent/session/teach_session.h"
+#include "services/route/labels.h"
 
 namespace trailcast::agent {
 namespace {
@@ -133,6 +134,20 @@ Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
   return summary;
 }
 
+// Which revision robots follow from now on.
+void TellStanding(const ScoutLink::Outcome& outcome) {
+  if (!outcome.standing) return;
+  const route::RouteInfo& route = *outcome.route;
+  if (*outcome.standing == route::Standing::kActive) {
+    spdlog::info("robots follow {} from now on", route::Describe(route));
+  } else if (*outcome.standing == route::Standing::kStaged) {
+    spdlog::info(
+        "{} is staged: robots go on with the active one until 'trailcast routes activate {} "
+        "--revision {}'",
+        route::Describe(route), route.name, route.revision.value());
+  }
+}
+
 Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_file) {
   return {ErrorCode::kUnavailable,
           fmt::format("{} segments not receipted, kept in {}: send them with 'trailcast-agent "
@@ -146,7 +161,9 @@ Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_f
 Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome, bool sent,
                    const ScoutOptions& options) {
   if (!driven && outcome.route) {
-    return Fail(driven.error().code, "{} (the {} segments taught before are kept in {})",
+    return Fail(driven.error().code,
+                "{} (the {} segments taught before are kept in {}, cut off: no robot follows them "
+                "unless an operator activates them)",
                 driven.error().message, outcome.route->segment_count, options.link.store_file);
   }
   if (!driven) return driven;
@@ -154,7 +171,13 @@ Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome
     return Fail(ErrorCode::kInvalidArgument,
                 "nothing was taught: no segment had enough features or was long enough");
   }
-  if (sent && !outcome.all_receipted) {
+  if (outcome.standing == route::Standing::kDeleted) {
+    return Fail(ErrorCode::kConflict,
+                "{} was deleted by an operator while it was taught: no robot follows it; this "
+                "agent's copy stays in {}",
+                route::Describe(*outcome.route), options.link.store_file);
+  }
+  if (sent && !outcome.delivered) {
     return tl::unexpected(NotReceipted(outcome, options.link.store_file));
   }
   return {};
@@ -181,7 +204,7 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
   spdlog::info("teaching route '{}' with camera {}", options.route, device.camera());
   Drive drive;
   const auto driven = TeachLoop(device, std::move(**first), options, link, drive);
-  auto outcome = link.Finish();
+  auto outcome = link.Finish(/*cut_off=*/!driven);
   if (!outcome) return tl::unexpected(outcome.error());
   const auto judged = Judge(driven, *outcome, send, options);
   using exchange::AgentMode;
@@ -204,6 +227,7 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
         "units than metres?",
         1e-3 * outcome->route->bytes / outcome->route->length_m);
   }
+  TellStanding(*outcome);
   return Summarize(*outcome, drive);
 }
 
@@ -216,8 +240,8 @@ Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
   auto outcome = link.Finish();
   if (!outcome) return tl::unexpected(outcome.error());
   using exchange::AgentMode;
-  link.Close(outcome->all_receipted ? AgentMode::kArrived : AgentMode::kFault, "");
-  if (!outcome->all_receipted) {
+  link.Close(outcome->delivered ? AgentMode::kArrived : AgentMode::kFault, "");
+  if (!outcome->delivered) {
     return tl::unexpected(NotReceipted(*outcome, options.store_file));
   }
   Summary summary;

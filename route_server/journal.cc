@@ -1,5 +1,7 @@
 #include "route_server/journal.h"
 
+#include "services/route/labels.h"
+
 #include <fmt/format.h>
 
 #include <variant>
@@ -33,7 +35,7 @@ Journal::Known& Journal::KnownOf(const route::RouteKey& key) {
 std::string Journal::NameOf(const route::RouteKey& key) const {
   const auto known = routes_.find(key);
   if (known == routes_.end() || known->second.name.empty()) return key.route.value();
-  return fmt::format("'{}' revision {}", known->second.name, key.revision.value());
+  return fmt::format("'{}' revision {}", known->second.name, known->second.revision);
 }
 
 std::optional<std::string> Journal::Received(const exchange::Message& message) {
@@ -57,6 +59,7 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
     Known& known = KnownOf(announcement->info.key);
     known.name = announcement->info.name;
     known.scout = announcement->info.scout.value();
+    known.revision = route::RevisionText(announcement->info);
   }
   if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
     if (!reply->error.empty()) {
@@ -79,6 +82,7 @@ std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announ
   Known& known = KnownOf(info.key);
   known.name = info.name;
   known.scout = info.scout.value();
+  known.revision = route::RevisionText(info);
   if (!is_new) return std::nullopt;
   return fmt::format("scout '{}' {} route {} with camera {}: {} segments so far", known.scout,
                      info.state == route::RouteState::kComplete ? "offers" : "teaches",

@@ -21,6 +21,7 @@ class Journal {
   struct Known {
     std::string name;
     std::string scout;
+    std::string revision;
     std::uint32_t told_durable = 0;  // segments receipted, when that was last told
   };
   [[nodiscard]] std::string NameOf(const route::RouteKey& key) const;

@@ -57,8 +57,8 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "one; older ones are deleted; 0: all")
       ->envname("TRAILCAST_KEEP_REVISIONS");
   app.add_option("--keep-days", options.keep_days,
-                 "Delete revisions that are not active so many days after they were taught; 0: "
-                 "never")
+                 "Delete revisions that are not active so many days after the last of them was "
+                 "stored here; 0: never")
       ->check(CLI::Range(0, 36500))
       ->envname("TRAILCAST_KEEP_DAYS");
 }

@@ -29,9 +29,10 @@ class Outbox {
   [[nodiscard]] Result<void> Begin(const route::RouteInfo& info);
   // The route's next segment: on disk when this returns, sent afterwards.
   [[nodiscard]] Result<void> Add(const route::RouteKey& key, const route::Segment& segment);
-  // No segment will follow.
-  [[nodiscard]] Result<void> Complete(const route::RouteKey& key);
+  // No segment will follow; `cut_off`: though more were meant to.
+  [[nodiscard]] Result<void> Complete(const route::RouteKey& key, bool cut_off = false);
 
+  // What a server lacks that the store has is offered again, though it was confirmed once.
   void Handle(const exchange::Message& message, Time now);
   // What is to be published.
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
@@ -41,27 +42,43 @@ class Outbox {
   [[nodiscard]] Result<void> SaveReceipts();
 
   [[nodiscard]] const route::RouteInfo& info(const route::RouteKey& key) const;
-  // Segments without a receipt, over all routes.
+  // Segments without a receipt, over all routes that were not deleted.
   [[nodiscard]] std::size_t unreceipted() const;
-  // Why a server takes nothing of a route, one line for people; of several the first.
+  // Why a server takes nothing of a route, or what it holds in its stead, one line for people; of
+  // several the first.
   [[nodiscard]] std::optional<std::string> refusal() const;
-  // Every route is complete and confirmed, or was deleted by an operator.
+  // Every route is complete and confirmed.
   [[nodiscard]] bool AllReceipted() const;
+  // Nothing is left to be sent: all is confirmed, or was deleted by an operator.
+  [[nodiscard]] bool Done() const;
+  // What an operator deleted, so that no server takes it.
+  [[nodiscard]] std::vector<route::RouteInfo> deleted() const;
+  // What a server says that the route is to operators; nothing while none has spoken.
+  [[nodiscard]] std::optional<route::Standing> standing(const route::RouteKey& key) const;
 
  private:
   struct Sending {
     exchange::RouteSender sender;
     std::optional<route::RouteBuilder> teaching;
-    std::set<SegmentIndex> confirmed;  // not yet written down
+    std::set<SegmentIndex> confirmed{};  // not yet written down
+    bool laid_aside = false;             // a server deleted it: offered no more by later runs
   };
 
-  Result<std::string> TakeUp(route::RouteInfo info);
-  void Emplace(const route::RouteInfo& info, const std::vector<SegmentIndex>& receipted,
+  // Whose receipts count: those noted in the store; or none of them, for a server that has it not.
+  enum class Receipts : std::uint8_t { kNoted, kNone };
+  Result<std::string> TakeUp(route::RouteInfo info, Receipts receipts);
+  // A server asks who has a route of which all was receipted once.
+  void OfferAgain(const exchange::SegmentRequest& request);
+  [[nodiscard]] Result<void> EndCutOff(route::RouteInfo& info,
+                                       const std::vector<store::HeldSegment>& held);
+  void Emplace(const route::RouteInfo& info, exchange::SegmentDigests held,
+               const std::vector<SegmentIndex>& receipted,
                std::optional<route::RouteBuilder> teaching);
 
   AgentId self_;
   store::RouteStore& store_;
   std::map<route::RouteKey, Sending> sending_;
+  std::set<AgentId> servers_;  // heard of
 };
 
 }  // namespace trailcast::agent

@@ -44,8 +44,8 @@ class ScoutLink {
   // Claims the name and takes up what earlier runs left. Before Start.
   [[nodiscard]] Result<void> Open();
   // Starts the thread. `route` is what is to be taught (none: only the backlog is delivered); it
-  // begins with its first segment. Its id is that of the newest route of this name in the store,
-  // with the next revision.
+  // begins with its first segment. Its route is the newest of this name in the store, its teaching
+  // a new one.
   [[nodiscard]] Result<void> Start(std::optional<route::RouteInfo> route);
 
   // From the control loop. False: the disk does not keep up, or failed; see Finish.
@@ -57,12 +57,14 @@ class ScoutLink {
   struct Outcome {
     std::optional<route::RouteInfo> route;  // as it is on disk; nothing if no segment was taught
     std::size_t unreceipted = 0;
-    bool all_receipted = false;
+    bool delivered = false;  // nothing is left to be sent
+    // What a server says that the route is to operators; nothing if none has.
+    std::optional<route::Standing> standing;
     std::optional<std::string> refusal;  // why a server takes nothing, if one said so
   };
-  // No segment will follow: completes the route, waits for receipts, ends the thread. The error is
-  // the store's, if it failed.
-  [[nodiscard]] Result<Outcome> Finish();
+  // No segment will follow: completes the route, waits for receipts, ends the thread. `cut_off`:
+  // what failed on the way kept it from its end. The error is the store's, if it failed.
+  [[nodiscard]] Result<Outcome> Finish(bool cut_off = false);
   // The last status peers see. After Finish.
   void Close(exchange::AgentMode mode, const std::string& detail);
 
@@ -74,6 +76,7 @@ class ScoutLink {
   [[nodiscard]] Result<void> Trade();
   [[nodiscard]] Result<void> Deliver();
   [[nodiscard]] Result<void> TellHeld();
+  [[nodiscard]] bool HasAsked() const;
   void HearServer();
   void HearRefusal();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
@@ -87,6 +90,7 @@ class ScoutLink {
   std::optional<route::RouteKey> key_;  // of the route taught, once it has a segment
   std::chrono::steady_clock::time_point opened_{};
   std::optional<AgentId> told_server_;
+  std::optional<std::chrono::steady_clock::time_point> server_heard_at_;
   std::optional<std::string> told_refusal_;
   std::vector<route::RouteKey> held_revisions_;
   bool told_no_server_ = false;
@@ -96,6 +100,7 @@ class ScoutLink {
   TeachingNow latest_;
   Bell bell_;
   std::atomic<bool> ending_{false};
+  std::atomic<bool> cut_off_{false};
   std::atomic<bool> failed_{false};
   std::optional<Error> error_;  // written by the thread, read after it ended
   std::thread thread_;

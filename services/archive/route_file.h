@@ -30,6 +30,8 @@ class RouteFile {
   // kComplete, within the bounds of what is accepted from a peer.
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
   [[nodiscard]] std::uint64_t file_bytes() const { return source_->size(); }
+  // Of its segments, in order.
+  [[nodiscard]] std::vector<route::Digest> digests() const;
   // kNotFound beyond the route's end; kCorrupt if the file was changed since it was opened.
   [[nodiscard]] Result<route::SegmentPiece> ReadSegment(SegmentIndex index) const;
 

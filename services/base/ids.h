@@ -24,6 +24,11 @@ class Id {
 
 // Given once when teaching begins, never reused: 32 lower-case hexadecimal digits.
 using RouteId = Id<struct RouteIdTag, std::string>;
+// One teaching of a route, drawn at random when it begins, so that no two robots make the same: 1 to
+// 2^63 - 1.
+using TeachingId = Id<struct TeachingIdTag, std::uint64_t>;
+// What people call a teaching by: 1, 2, .. in the order in which teachings of the route arrived at
+// the server. 0: none was given yet.
 using RevisionNumber = Id<struct RevisionNumberTag, std::uint32_t>;
 // Position of a segment in its route, from 0.
 using SegmentIndex = Id<struct SegmentIndexTag, std::uint32_t>;
@@ -32,6 +37,8 @@ using AgentId = Id<struct AgentIdTag, std::string>;
 
 // 32 hexadecimal digits from the system's random source.
 [[nodiscard]] RouteId MakeRouteId();
+// From the system's random source.
+[[nodiscard]] TeachingId MakeTeachingId();
 
 // True for names made of 1 to 64 of [A-Za-z0-9_.-]: agents, routes and servers are named so.
 [[nodiscard]] bool IsValidName(const std::string& name);

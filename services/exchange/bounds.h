@@ -9,13 +9,14 @@
 namespace trailcast::exchange {
 
 // What is accepted from a peer, and therefore published. Also in idl/README.md.
-inline constexpr std::size_t kMaxPieceBytes = 1U << 20U;        // = route::kMaxSegmentBytes
-inline constexpr std::size_t kMaxPiecesPerBatch = 4096;         // what one Publish may carry
-inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;  // 200 km at 2 m
+inline constexpr std::size_t kMaxPieceBytes = 1U << 20U;          // = route::kMaxSegmentBytes
+inline constexpr std::uint64_t kMaxTeaching = (1ULL << 63U) - 1;  // a database's largest number
+inline constexpr std::size_t kMaxPiecesPerBatch = 4096;           // what one Publish may carry
+inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;    // 200 km at 2 m
 inline constexpr std::uint64_t kMaxRouteBytes =
     kMaxSegmentsPerRoute * std::uint64_t{kMaxPieceBytes};
 inline constexpr std::size_t kMaxIndicesPerRequest = 1024;
-inline constexpr std::size_t kMaxIndicesPerReceipt = 4096;
+inline constexpr std::size_t kMaxSegmentsPerReceipt = 1024;
 inline constexpr std::size_t kMaxRoutesPerReply = 1000;
 inline constexpr std::size_t kMaxSimilarNames = 16;
 inline constexpr std::size_t kMaxHeldTold = 64;  // by one agent

@@ -13,9 +13,6 @@
 
 namespace trailcast::exchange {
 
-// For people: "route 00ff.. revision 1".
-[[nodiscard]] std::string Describe(const route::RouteKey& key);
-
 // What a server knows of one route: what is durable, what was announced, what follows from the two.
 class KeptRoute {
  public:
@@ -74,7 +71,7 @@ class KeptRoute {
     return holds_any() || complete() || deleted() || !full_.empty();
   }
   [[nodiscard]] bool holds_any() const { return !held_.empty(); }
-  [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key) const;
+  [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key);
 
   WantList want;
   // What the keeper has to do for this route.
@@ -94,13 +91,18 @@ class KeptRoute {
   // Of the route's first `count` segments those that are not held, from `ask_at` on.
   void WantMissing(std::uint32_t count, Time ask_at);
   void AdvancePrefix();
+  // ChainDigest of the prefix.
+  [[nodiscard]] const route::Digest& PrefixDigest();
 
   std::optional<route::RouteInfo> stored_;
   std::optional<route::RouteInfo> claim_;
   SegmentDigests held_;
   SegmentDigests damaged_;
   std::uint32_t prefix_ = 0;  // all below are held
-  std::string full_;          // why the store takes nothing; empty: it does
+  // ChainDigest of the first `chained_` segments, kept so that each is hashed in once.
+  std::uint32_t chained_ = 0;
+  route::Digest chain_{};
+  std::string full_;  // why the store takes nothing; empty: it does
 };
 
 }  // namespace trailcast::exchange

@@ -60,14 +60,27 @@ enum class Refusal : std::uint8_t {
   kDeleted = 2,  // an operator deleted the revision
 };
 
-// trailcast/receipts: "of this route, these are on my disk": all below durable_prefix, and beyond.
+// A segment's bytes, named.
+struct NamedSegment {
+  SegmentIndex index;
+  route::Digest digest{};
+  bool operator==(const NamedSegment&) const = default;
+};
+
+// trailcast/receipts: "of this teaching, these bytes are on my disk": of all segments below
+// durable_prefix, and of some beyond. Whoever hears it compares digests: other bytes under the same
+// name are none of its own.
 struct Receipt {
   AgentId server{};
   route::RouteKey key{};
   std::uint32_t durable_prefix = 0;
-  std::vector<SegmentIndex> durable_beyond{};
+  route::Digest prefix_digest{};  // route::ChainDigest of these; zero of none
+  std::vector<NamedSegment> durable_beyond{};
   // kComplete: the route's final RouteInfo is on disk too and its manifest digest was found right.
   route::RouteState durable_state = route::RouteState::kTeaching;
+  // What the server calls it; never less than its scout did. 0: it is not stored there yet.
+  RevisionNumber revision{};
+  route::Standing standing = route::Standing::kStaged;
   Refusal refusal = Refusal::kNone;
   std::string reason{};  // for people, with a refusal
   bool operator==(const Receipt&) const = default;

@@ -18,7 +18,7 @@ struct RevisionChoice {
 
 // Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
 // one; where no operator, and no server, has said anything of a route, the newest that is complete,
-// otherwise the newest. Nothing if there is none.
+// otherwise the newest, but none whose teaching was cut off. Nothing if there is none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
 

@@ -13,6 +13,7 @@
 #include "services/exchange/integrity.h"
 #include "services/exchange/kept_route.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/missing_routes.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::exchange {
@@ -110,6 +111,8 @@ class RouteKeeper {
   void TakeFromOthers(const route::SegmentPiece& named, Time now);
   void TellDigests(const route::RouteKey& key, const KeptRoute& kept,
                    const std::vector<SegmentIndex>& indices);
+  // Nothing more of it is to be had.
+  [[nodiscard]] bool IsSettled(const route::RouteKey& key);
   void HandleCatalogRequest(const CatalogRequest& request);
   void HandleEdit(const RouteEditRequest& request, Time now);
   // Carries the edit out, unless some server did: its answer, to be read by TakeUpEdit.
@@ -165,6 +168,7 @@ class RouteKeeper {
   std::vector<std::pair<route::RouteKey, SegmentIndex>> appended_;  // that nobody was told of yet
   std::vector<Message> replies_;  // to the catalog's clients; digests
   AnswerQueue answers_;
+  MissingRoutes missing_;
   std::vector<Note> notes_;
   std::map<std::string, Time> noted_at_;
   KeeperCounters counters_;

@@ -10,6 +10,7 @@
 #include "services/base/result.h"
 #include "services/exchange/answer_queue.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/segment_digests.h"
 
 namespace trailcast::exchange {
 
@@ -31,8 +32,8 @@ class RouteSender {
   // Reads from the owner's store.
   using ReadPiece = std::function<Result<route::SegmentPiece>(SegmentIndex)>;
 
-  // `receipted`: from the store after a restart; empty for a new route.
-  RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
+  // `held` and `receipted` are from the store after a restart, and empty for a new route.
+  RouteSender(AgentId self, route::RouteInfo info, ReadPiece read, SegmentDigests held,
               const std::vector<SegmentIndex>& receipted, RouteSenderOptions options = {});
 
   // A segment was taught and stored; `info` counts it. Streamed at the next Tick, without its bytes
@@ -44,6 +45,8 @@ class RouteSender {
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
 
+  // With the number that a server gave it, if it did since the last call: for RouteStore::PutRoute.
+  [[nodiscard]] std::optional<route::RouteInfo> TakeNumbered();
   // Receipted since the last call: for RouteStore::MarkReceipted.
   [[nodiscard]] std::vector<SegmentIndex> TakeNewlyReceipted();
   // Pieces that were to be sent but could not be read, since the last call.
@@ -51,25 +54,39 @@ class RouteSender {
 
   // Segments that no server has confirmed, rising.
   [[nodiscard]] const std::set<SegmentIndex>& Unreceipted() const { return unreceipted_; }
-  // The route is complete, and a server has all of it on disk: segments and final info; or an
-  // operator deleted the revision, so that nobody wants it.
+  // The route is complete, and a server has all of it on disk: segments and final info.
   [[nodiscard]] bool AllReceipted() const;
+  // Nothing is left to be sent: all is receipted, or an operator deleted the revision.
+  [[nodiscard]] bool Done() const { return AllReceipted() || deleted(); }
   // The last receipt, if it was a refusal.
   [[nodiscard]] const std::optional<Receipt>& refused() const { return refused_; }
+  // An operator deleted the revision: nobody wants it.
+  [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
+  // What the revision is to operators, as the last receipt has it.
+  [[nodiscard]] const std::optional<route::Standing>& standing() const { return standing_; }
+  // A server whose receipt names other bytes under this teaching than those held here; nothing of
+  // these counts as receipted by it.
+  [[nodiscard]] const std::optional<AgentId>& contradicted_by() const { return contradicted_by_; }
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
 
  private:
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleReceipt(const Receipt& receipt);
   void MarkReceipted(SegmentIndex index);
-  [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
+  // ChainDigest of the first `count` segments; nothing while one of them is not known here.
+  [[nodiscard]] std::optional<route::Digest> PrefixDigest(std::uint32_t count);
 
   AgentId self_;
   route::RouteInfo info_;
   ReadPiece read_;
   RouteSenderOptions options_;
 
+  SegmentDigests digests_;
+  std::vector<route::Digest> chain_{route::Digest{}};  // [i]: ChainDigest of the first i segments
   std::set<SegmentIndex> unreceipted_;
+  std::optional<AgentId> contradicted_by_;
+  bool numbered_ = false;
+  std::optional<route::Standing> standing_;
   bool complete_receipted_ = false;
   std::optional<Receipt> refused_;
   std::vector<SegmentIndex> newly_receipted_;

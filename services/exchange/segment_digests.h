@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,14 @@ class SegmentDigests {
     SegmentIndex index;
     route::Digest digest;
   };
+
+  SegmentDigests() = default;
+  // Of segments 0, 1, .. in order.
+  explicit SegmentDigests(const std::vector<route::Digest>& digests) {
+    for (const route::Digest& digest : digests) {
+      Put(SegmentIndex(static_cast<std::uint32_t>(entries_.size())), digest);
+    }
+  }
 
   [[nodiscard]] const route::Digest* Find(SegmentIndex index) const {
     const auto at = From(index);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,8 +30,11 @@ class SpareHolder {
   // Reads from the owner's store; what fails is not sent.
   using ReadPiece =
       std::function<Result<route::SegmentPiece>(const route::RouteKey&, SegmentIndex)>;
+  using ReadInfo = std::function<Result<std::optional<route::RouteInfo>>(const route::RouteKey&)>;
 
-  SpareHolder(AgentId self, ReadPiece read, SpareHolderOptions options = {});
+  // With `read_info` it also answers a server that asks who has a route that it lacks.
+  SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info = {},
+              SpareHolderOptions options = {});
 
   // The revisions that the owner has all of.
   void Hold(const std::vector<route::RouteKey>& revisions);
@@ -46,12 +50,14 @@ class SpareHolder {
 
   AgentId self_;
   ReadPiece read_;
+  ReadInfo read_info_;
   SpareHolderOptions options_;
   std::chrono::milliseconds patience_;
   std::set<route::RouteKey> held_;
   std::set<std::pair<AgentId, std::uint64_t>> servers_;  // present, and their instances
   std::set<std::pair<AgentId, Place>> asked_once_;
   std::map<Place, Time> to_answer_;  // and when, unless somebody else does
+  std::map<route::RouteKey, Time> to_announce_;
 };
 
 }  // namespace trailcast::exchange

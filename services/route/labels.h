@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "services/base/result.h"
 #include "services/route/route.h"
 
@@ -8,14 +10,26 @@ namespace trailcast::route {
 // "staged", "active", "retired", "deleted".
 [[nodiscard]] const char* NameOf(Standing standing);
 
-// The labels of `info` become those of `from`: name, tags, description, standing and edition.
+// "teaching 1f of route 0123..", for messages where no more is known.
+[[nodiscard]] std::string Describe(const RouteKey& key);
+// "route 'hall' revision 2", for people.
+[[nodiscard]] std::string Describe(const RouteInfo& info);
+// Its number, or "-" while it has none.
+[[nodiscard]] std::string RevisionText(const RouteInfo& info);
+
+// The labels of `info` become those of `from`: name, revision, tags,
+// description, standing and edition.
 void TakeLabels(RouteInfo& info, const RouteInfo& from);
+
+// Whether those of `info` count: the later edition; of one edition, in which servers may each have
+// numbered and activated it, the greater number and standing, so that all who hear of both agree.
+[[nodiscard]] bool HasLaterLabels(const RouteInfo& info, const RouteInfo& than);
 
 // Whether two infos are of the same teaching: equal but for their labels.
 [[nodiscard]] bool SameTeaching(const RouteInfo& a, const RouteInfo& b);
 
 // What is known of a revision once `news` of it arrived; announcements overtake each other. Of what
-// was taught the longer counts, of the labels the later edition; what is deleted stays deleted.
+// was taught the longer counts, of the labels the later ones; what is deleted stays deleted.
 // kConflict when a complete revision would change. Both have the same key.
 [[nodiscard]] Result<RouteInfo> AfterNews(const RouteInfo& known, const RouteInfo& news);
 

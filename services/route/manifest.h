@@ -16,8 +16,11 @@ class RouteBuilder {
   // Encodes and hashes the next segment and counts it in. Its index must be the number of segments
   // so far, and the route not complete.
   [[nodiscard]] SegmentPiece Add(const Segment& segment);
-  // No more segments will come.
-  void Complete() { info_.state = RouteState::kComplete; }
+  // No more segments will come; `cut_off`: though whoever teaches did not mean to end here.
+  void Complete(bool cut_off = false) {
+    info_.state = RouteState::kComplete;
+    info_.cut_off = cut_off;
+  }
 
   [[nodiscard]] const RouteInfo& info() const { return info_; }
 

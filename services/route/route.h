@@ -69,10 +69,11 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
-// A route's two-part identity. A revision is immutable once complete.
+// One teaching of a route: who teaches a known route again makes another teaching of the same
+// route. Immutable once complete.
 struct RouteKey {
   RouteId route;
-  RevisionNumber revision{1};
+  TeachingId teaching{1};
 
   // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads a defaulted <=>
   auto operator<=>(const RouteKey&) const = default;
@@ -112,10 +113,13 @@ inline constexpr std::size_t kMaxTags = 16;
 inline constexpr std::size_t kMaxDescriptionBytes = 256;
 
 // What is known of a route without its segments: announced by the scout, kept in the catalog. What
-// operators may change afterwards are its labels (labels.h): name, tags, description and standing.
+// operators may change afterwards are its labels (labels.h): name, revision, tags, description and
+// standing.
 struct RouteInfo {
   RouteKey key;
-  std::string name;        // what people call it; IsValidName
+  std::string name;  // what people call it; IsValidName
+  // What people call this teaching by. The scout's own count until a server numbers it.
+  RevisionNumber revision{};
   AgentId scout;           // who taught it
   std::string camera;      // the scout's camera, for people ("webcam 320x240"); at most 128 bytes
   int image_width_px = 0;  // of the scout's frames
@@ -127,6 +131,8 @@ struct RouteInfo {
   std::uint64_t bytes = 0;          // sum of their encoded sizes
   // SHA-256 over the digests of segments 0..segment_count-1 put one after the other.
   Digest manifest_digest{};
+  // Complete, and yet not what was meant: the scout's process, camera or robot failed on the way.
+  bool cut_off = false;
   std::vector<std::string> tags{};  // IsValidName each, rising, none twice, at most kMaxTags
   std::optional<Place> place{};     // given when teaching
   std::string description{};        // for people: one line, at most kMaxDescriptionBytes

@@ -24,6 +24,13 @@ struct HeldSegment {
   route::Digest digest{};
 };
 
+struct KnownTeaching {
+  TeachingId teaching;
+  RevisionNumber revision;
+  // When a segment of it, or its end, was last stored here, by this machine's clock.
+  std::int64_t grown_unix_ms = 0;
+};
+
 // Durable routes: their infos and their segments' bytes. One process opens a file for writing,
 // several may share a database; not thread-safe. Every read of a segment checks its digest. Errors
 // name the file or database.
@@ -71,9 +78,11 @@ class RouteStore {
   // Tombstones included.
   [[nodiscard]] virtual Result<std::optional<route::RouteInfo>> FindRoute(
       const route::RouteKey& key) = 0;
-  // All revisions of a route, rising.
+  // All teachings of a route that were not deleted, by revision.
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRevisions(
       const RouteId& route) = 0;
+  // All that were ever stored of it, the deleted ones too.
+  [[nodiscard]] virtual Result<std::vector<KnownTeaching>> FindTeachings(const RouteId& route) = 0;
   // Newest first (taught_unix_ms, then key).
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> ListRoutes() = 0;
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesByName(

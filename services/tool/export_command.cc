@@ -96,7 +96,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const ExportO
   const route::RouteInfo& info = exported->info;
   const std::string out = options.out.empty() ? info.name + ".trailcast" : options.out.string();
   fmt::print("{}: route '{}' revision {}, {} segments, {}, {} bytes\n", out, info.name,
-             info.key.revision.value(), info.segment_count, LengthText(info), exported->bytes);
+             info.revision.value(), info.segment_count, LengthText(info), exported->bytes);
   return program::kExitOk;
 }
 

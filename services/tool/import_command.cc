@@ -65,7 +65,7 @@ bool ImportAll(const CLI::App& app, const ImportOptions& options, const ImportOn
     if (imported) {
       const route::RouteInfo& info = file->info();
       fmt::print("{}: route '{}' revision {} ({} segments, {}) {} {}\n", path.string(), info.name,
-                 info.key.revision.value(), info.segment_count, LengthText(info),
+                 info.revision.value(), info.segment_count, LengthText(info),
                  imported->was_there ? "was there already:" : "is there now:", imported->holder);
       std::fflush(stdout);
       continue;

@@ -19,7 +19,7 @@ using route::RouteEdit;
 
 void Tell(const std::vector<route::RouteInfo>& changed) {
   for (const route::RouteInfo& info : changed) {
-    std::fputs(fmt::format("{} revision {}: {}{}{}\n", info.name, info.key.revision.value(),
+    std::fputs(fmt::format("{} revision {}: {}{}{}\n", info.name, info.revision.value(),
                            route::NameOf(info.standing), info.tags.empty() ? "" : ", tags ",
                            fmt::join(info.tags, " "))
                    .c_str(),

@@ -17,7 +17,7 @@ route::RouteInfo RouteNumber(std::uint32_t n) {
   std::mt19937 random(n);
   std::uniform_real_distribution<double> metres(0.0, kSite_m);
   route::RouteInfo info;
-  info.key = {RouteId(fmt::format("{:08x}{:024x}", random(), n)), RevisionNumber(n % 10 + 1)};
+  info.key = {RouteId(fmt::format("{:08x}{:024x}", random(), n)), TeachingId(n % 10 + 1)};
   info.name = fmt::format("aisle-{}", n / 10);
   info.scout = AgentId(fmt::format("scout-{}", n % 200));
   info.camera = "webcam 320x240";

@@ -37,7 +37,7 @@ class PlayedScout {
                 [this](SegmentIndex index) -> Result<route::SegmentPiece> {
                   return pieces_.at(index.value());
                 },
-                {}) {}
+                {}, {}) {}
   PlayedScout(const PlayedScout&) = delete;
   PlayedScout& operator=(const PlayedScout&) = delete;
 

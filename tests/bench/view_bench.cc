@@ -48,7 +48,7 @@ double Share(std::vector<double> values, double share) {
 }
 
 route::RouteKey KeyOf(std::uint32_t number) {
-  return {RouteId(fmt::format("{:032x}", number)), RevisionNumber(1)};
+  return {RouteId(fmt::format("{:032x}", number)), TeachingId(1)};
 }
 
 void Put(store::RouteStore& store, std::uint32_t number, const std::string& name,

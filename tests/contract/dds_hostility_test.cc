@@ -32,9 +32,7 @@ class Stranger {
       : domain_(Domain::Create(DomainConfig(test::LoopbackOptions(tag), "").value()).value()),
         participant_(Participant::Create(domain_, "stranger").value()),
         topic_(Topic::Create(participant_, TypeOf(topic), exchange::NameOf(topic)).value()),
-        writer_(Writer::Create(participant_, topic_,
-                               MakeQos(QosOf(topic), std::chrono::milliseconds(1000)))
-                    .value()) {}
+        writer_(Writer::Create(participant_, topic_, MakeQos(QosOf(topic))).value()) {}
 
   void Write(const void* sample) {
     const auto written = writer_.Write(sample);
@@ -86,7 +84,7 @@ TEST_F(DdsHostilityTest, AnnouncementsOutOfBoundsAreDroppedAndCounted) {
   using Sample = trailcast_wire_RouteAnnouncement;
   Sample good{};
   good.holder = Raw("server-1");
-  good.key = {.route = route_id_, .revision = 1};
+  good.key = {.route = route_id_, .teaching = 1};
   good.info.name = Raw("corridor");
   good.info.scout = Raw("scout-1");
   good.info.camera = Raw("webcam");
@@ -105,7 +103,7 @@ TEST_F(DdsHostilityTest, AnnouncementsOutOfBoundsAreDroppedAndCounted) {
       with([](Sample& s) { s.info.camera = Raw("\x1B]0;owned\x07"); }),
       with([](Sample& s) { s.info.camera = const_cast<char*>(long_text.c_str()); }),
       with([](Sample& s) { s.key.route = Raw("short"); }),
-      with([](Sample& s) { s.key.revision = 0; }),
+      with([](Sample& s) { s.key.teaching = 0; }),
       with([](Sample& s) { s.info.state = 7; }),
       with([](Sample& s) { s.info.segment_count = ~0U; }),
       with([](Sample& s) { s.info.image_width_px = ~0U; }),
@@ -119,7 +117,7 @@ TEST_F(DdsHostilityTest, SegmentsOutOfBoundsAreDroppedAndCounted) {
   static std::array<std::uint8_t, 8> few{1, 2, 3};
   static std::vector<std::uint8_t> many(exchange::kMaxPieceBytes + 1);
   Piece whole{};
-  whole.key = {.route = route_id_, .revision = 1};
+  whole.key = {.route = route_id_, .teaching = 1};
   whole.digest[0] = 1;
   whole.bytes._buffer = few.data();
   whole.bytes._length = whole.bytes._maximum = few.size();

@@ -90,9 +90,11 @@ TEST_P(RouteExchangeContract, CarriesTheLongestRequest) {
 }
 
 TEST_P(RouteExchangeContract, CarriesTheLongestReceipt) {
-  const auto beyond = test::Indices(2, 2 + kMaxIndicesPerReceipt);
-  ExpectRoundTrip(Receipt{AgentId("s"), KeyNumber(1), 1, beyond, RouteState::kComplete},
-                  Topic::kReceipts);
+  Receipt receipt = test::ReceiptFor(AgentId("s"), KeyNumber(1), test::PiecesOf(KeyNumber(1), 2), 1,
+                                     test::Indices(2, 2 + kMaxSegmentsPerReceipt));
+  receipt.revision = RevisionNumber(7);
+  receipt.standing = route::Standing::kRetired;
+  ExpectRoundTrip(receipt, Topic::kReceipts);
 }
 
 TEST_P(RouteExchangeContract, CarriesCatalogRequests) {
@@ -223,7 +225,8 @@ TEST_P(RouteExchangeContract, GivesALateJoinerTheLatestPerKey) {
   const RouteAnnouncement other{AgentId("s"),
                                 test::InfoOf(KeyNumber(2), {}, RouteState::kTeaching)};
   const RouteAnnouncement elsewhere{AgentId("t"), old.info};
-  const Receipt receipt{AgentId("s"), KeyNumber(1), 3, {}, RouteState::kComplete};
+  const Receipt receipt =
+      test::ReceiptFor(AgentId("s"), KeyNumber(1), pieces, 3, {}, RouteState::kComplete);
   for (const Message& message : std::vector<Message>{old, other, elsewhere, latest, receipt,
                                                      Status("s", 1), Status("s", 2)}) {
     ASSERT_TRUE(writer->Publish(message));
@@ -317,7 +320,7 @@ TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
       bad_number,
       SegmentBatch{AgentId("a"), {}},
       SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
-      SegmentRequest{AgentId("a"), {RouteId("short"), RevisionNumber(1)}, {}},
+      SegmentRequest{AgentId("a"), {RouteId("short"), TeachingId(1)}, {}},
       CatalogRequest{AgentId("not a name"), 0, {}}};
   for (const Message& message : refused) {
     const auto result = writer->Publish(message);

@@ -44,7 +44,13 @@ void Swarm::StartScout() {
     if (!open) receipted.emplace_back(i);
   }
   const auto read = [this](SegmentIndex index) { return scout_store_.ReadSegment(key_, index); };
-  sender_ = std::make_unique<exchange::RouteSender>(AgentId("scout-1"), Info(), read, receipted);
+  const auto stored = scout_store_.SegmentDigests(key_).value();
+  exchange::SegmentDigests held;
+  for (const auto& segment : stored) {
+    held.Put(segment.index, segment.digest);
+  }
+  sender_ = std::make_unique<exchange::RouteSender>(AgentId("scout-1"), Info(), read,
+                                                    std::move(held), receipted);
 }
 
 void Swarm::StartServer() {

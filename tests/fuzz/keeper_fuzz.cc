@@ -65,8 +65,9 @@ class Server {
     for (std::uint32_t i = 0; i < receipt.durable_prefix; ++i) {
       Require(Holds(receipt.key, SegmentIndex(i)), "a receipt's prefix is stored");
     }
-    for (const SegmentIndex index : receipt.durable_beyond) {
+    for (const auto& [index, digest] : receipt.durable_beyond) {
       Require(Holds(receipt.key, index), "a receipt's further segments are stored");
+      Require(store_.ReadSegment(receipt.key, index)->digest == digest, "and are these bytes");
     }
     if (receipt.durable_state != route::RouteState::kComplete) return;
     const auto info = store_.FindRoute(receipt.key).value();

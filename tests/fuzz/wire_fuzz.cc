@@ -46,11 +46,15 @@ class Samples {
     Fill(wire.key);
     wire.durable_prefix = Number();
     wire.durable_beyond._length = Count();
-    wire.durable_beyond._buffer = Numbers(wire.durable_beyond._length);
+    wire.durable_beyond._buffer =
+        Many<trailcast_wire_NamedSegment>(named_, wire.durable_beyond._length);
+    wire.revision = Number();
+    wire.standing = Octet();
     wire.durable_state = Octet();
     wire.refusal = Octet();
     wire.reason = Text();
   }
+  void Fill(trailcast_wire_NamedSegment& wire) { wire.index = Number(); }
   void Fill(trailcast_wire_FoundPlace& wire) {
     Fill(wire.key);
     wire.segment = Number();
@@ -134,7 +138,7 @@ class Samples {
  private:
   void Fill(trailcast_wire_RouteKey& wire) {
     wire.route = input_.ConsumeBool() ? Keep(std::string(32, 'a')) : Text();
-    wire.revision = Number();
+    wire.teaching = input_.ConsumeIntegral<std::uint64_t>();
   }
   void Fill(trailcast_wire_RoutePlace& wire) {
     wire.frame = Octet();
@@ -225,6 +229,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_CatalogRoute>> routes_;
   std::deque<std::vector<trailcast_wire_FoundPlace>> places_;
   std::deque<std::vector<trailcast_wire_Holding>> holdings_;
+  std::deque<std::vector<trailcast_wire_NamedSegment>> named_;
   std::deque<std::vector<trailcast_wire_RouteKey>> keys_;
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
 };

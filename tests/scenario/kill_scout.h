@@ -74,7 +74,7 @@ class KillScout {
     const auto read = [this](SegmentIndex index) -> Result<route::SegmentPiece> {
       return TaughtPiece(number_, index.value());
     };
-    exchange::RouteSender sender(options.self, Info(route::RouteState::kTeaching), read, {});
+    exchange::RouteSender sender(options.self, Info(route::RouteState::kTeaching), read, {}, {});
     auto teach_at = Clock::now();
     bool finished = false;
     while (!give_up_ && !delivered_) {

@@ -188,7 +188,7 @@ TEST_F(SharedStore, AnEditThatBothHearIsCarriedOutOnce) {
   auto store = store::OpenPostgresStore(url_).value();
   for (std::uint32_t revision = 1; revision <= kRevisions; ++revision) {
     auto piece = TaughtPiece(1, 0);
-    piece.key.revision = RevisionNumber(revision);
+    piece.key.teaching = TeachingId(revision);
     auto info = InfoOf(piece.key, {&piece, 1}, route::RouteState::kComplete);
     info.manifest_digest = route::ManifestDigest({&piece.digest, 1});
     ASSERT_TRUE(store->AppendSegments({&piece, 1}));
@@ -205,7 +205,7 @@ TEST_F(SharedStore, AnEditThatBothHearIsCarriedOutOnce) {
     edit({"routes", "rollback", "corridor"});
     const auto active = store->QueryRoutes({.standing = route::Standing::kActive}).value();
     ASSERT_EQ(active.total, 1U);
-    EXPECT_EQ(active.routes.front().key.revision.value(), 2U);
+    EXPECT_EQ(active.routes.front().key.teaching.value(), 2U);
   }
   const std::string logs = Logs();
   std::size_t told = 0;

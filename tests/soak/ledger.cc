@@ -15,7 +15,7 @@ void Ledger::Note(const exchange::Receipt& receipt) {
   for (std::uint32_t i = 0; i < receipt.durable_prefix; ++i) {
     NoteSegment(receipt.key, SegmentIndex(i));
   }
-  for (const SegmentIndex index : receipt.durable_beyond) NoteSegment(receipt.key, index);
+  for (const auto& segment : receipt.durable_beyond) NoteSegment(receipt.key, segment.index);
 }
 
 void Ledger::NoteTaught(const route::RouteKey& key, std::vector<route::SegmentPiece> pieces) {

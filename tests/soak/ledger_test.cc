@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/pieces.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 
@@ -24,11 +25,8 @@ class LedgerTest : public testing::Test {
     ASSERT_TRUE(store_->AppendSegments(std::span(taught_.pieces).first(segments)));
   }
   [[nodiscard]] exchange::Receipt Receipt(std::uint32_t prefix,
-                                          std::vector<SegmentIndex> beyond = {}) const {
-    return {.server = AgentId("server"),
-            .key = taught_.info.key,
-            .durable_prefix = prefix,
-            .durable_beyond = std::move(beyond)};
+                                          const std::vector<SegmentIndex>& beyond = {}) const {
+    return test::ReceiptFor(AgentId("server"), taught_.info.key, taught_.pieces, prefix, beyond);
   }
 
   test::TempDir folder_;

@@ -18,6 +18,7 @@ class MemoryStore : public store::RouteStore {
  public:
   bool full = false;
   std::set<std::pair<route::RouteKey, SegmentIndex>> damaged;  // read as kCorrupt until replaced
+  std::map<route::RouteKey, std::int64_t> grown_unix_ms;  // as tests set it
   int commits = 0;        // AppendSegments that stored something
   int route_commits = 0;  // PutRoutes that did
 
@@ -98,6 +99,14 @@ class MemoryStore : public store::RouteStore {
 
   Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override {
     return Living([&](const route::RouteInfo& info) { return info.key.route == route; });
+  }
+
+  Result<std::vector<store::KnownTeaching>> FindTeachings(const RouteId& route) override {
+    std::vector<store::KnownTeaching> known;
+    for (const auto& [key, info] : routes_) {
+      if (key.route == route) known.push_back({key.teaching, info.revision, grown_unix_ms[key]});
+    }
+    return known;
   }
 
   Result<std::vector<route::RouteInfo>> ListRoutes() override {

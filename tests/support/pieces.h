@@ -6,6 +6,7 @@
 
 #include "services/exchange/integrity.h"
 #include "services/exchange/messages.h"
+#include "services/route/digest.h"
 #include "services/route/route.h"
 
 namespace trailcast::test {
@@ -39,8 +40,8 @@ namespace trailcast::test {
   return {.check_piece = check, .manifest = ToyManifest};
 }
 
-[[nodiscard]] inline route::RouteKey KeyNumber(unsigned number, std::uint32_t revision = 1) {
-  return {RouteId(fmt::format("{:032x}", number)), RevisionNumber(revision)};
+[[nodiscard]] inline route::RouteKey KeyNumber(unsigned number, std::uint64_t teaching = 1) {
+  return {RouteId(fmt::format("{:032x}", number)), TeachingId(teaching)};
 }
 
 [[nodiscard]] inline route::SegmentPiece PieceOf(const route::RouteKey& key, std::uint32_t index,
@@ -62,22 +63,25 @@ namespace trailcast::test {
   return pieces;
 }
 
-// What a scout announces of these pieces; they are segments 0, 1, 2, ...
+// What a scout announces of these pieces; they are segments 0, 1, 2, ... Its revision has the
+// number of its teaching.
 [[nodiscard]] inline route::RouteInfo InfoOf(const route::RouteKey& key,
                                              std::span<const route::SegmentPiece> pieces,
                                              route::RouteState state) {
-  route::RouteInfo info{.key = key,
-                        .name = "corridor",
-                        .scout = AgentId("scout-1"),
-                        .camera = "webcam 320x240",
-                        .image_width_px = 320,
-                        .image_height_px = 240,
-                        .taught_unix_ms = 1'700'000'000'000,
-                        .state = state,
-                        .segment_count = static_cast<std::uint32_t>(pieces.size()),
-                        .length_m = 2.0 * static_cast<double>(pieces.size()),
-                        .bytes = 0,
-                        .manifest_digest = {}};
+  route::RouteInfo info{
+      .key = key,
+      .name = "corridor",
+      .revision = RevisionNumber(static_cast<std::uint32_t>(key.teaching.value())),
+      .scout = AgentId("scout-1"),
+      .camera = "webcam 320x240",
+      .image_width_px = 320,
+      .image_height_px = 240,
+      .taught_unix_ms = 1'700'000'000'000,
+      .state = state,
+      .segment_count = static_cast<std::uint32_t>(pieces.size()),
+      .length_m = 2.0 * static_cast<double>(pieces.size()),
+      .bytes = 0,
+      .manifest_digest = {}};
   std::vector<route::Digest> digests;
   for (const route::SegmentPiece& piece : pieces) {
     info.bytes += piece.bytes.size();
@@ -85,6 +89,24 @@ namespace trailcast::test {
   }
   info.manifest_digest = ToyManifest(digests);
   return info;
+}
+
+// A server's that has the first `prefix` of these pieces, and those `beyond`.
+[[nodiscard]] inline exchange::Receipt ReceiptFor(
+    const AgentId& server, const route::RouteKey& key, std::span<const route::SegmentPiece> pieces,
+    std::uint32_t prefix, const std::vector<SegmentIndex>& beyond = {},
+    route::RouteState state = route::RouteState::kTeaching) {
+  exchange::Receipt receipt{.server = server, .key = key, .durable_prefix = prefix};
+  for (std::uint32_t i = 0; i < prefix; ++i) {
+    receipt.prefix_digest = route::ChainDigest(receipt.prefix_digest, pieces[i].digest);
+  }
+  for (const SegmentIndex index : beyond) {
+    const bool is_there = index.value() < pieces.size();
+    receipt.durable_beyond.push_back(
+        {index, is_there ? pieces[index.value()].digest : ToyDigest({})});
+  }
+  receipt.durable_state = state;
+  return receipt;
 }
 
 [[nodiscard]] inline std::vector<SegmentIndex> Indices(std::uint32_t first, std::uint32_t end) {

@@ -17,8 +17,9 @@ struct TaughtRoute {
 [[nodiscard]] inline TaughtRoute TeachSamples(std::uint32_t segments, int features = 1,
                                               const std::string& name = "hall") {
   route::RouteInfo info;
-  info.key = {RouteId("00112233445566778899aabbccddeeff"), RevisionNumber(2)};
+  info.key = {RouteId("00112233445566778899aabbccddeeff"), TeachingId(2)};
   info.name = name;
+  info.revision = RevisionNumber(2);
   info.scout = AgentId("scout-1");
   info.camera = "webcam 320x240";
   info.image_width_px = 320;

@@ -69,7 +69,7 @@ std::string RunRecorder::Begin(const RunFacts& facts) const {
   const route::RouteInfo& route = facts.route;
   Fields header;
   header.Add("route", route.name);
-  header.Add("revision", std::to_string(route.key.revision.value()));
+  header.Add("revision", std::to_string(route.revision.value()));
   header.Add("segments", std::to_string(route.segment_count));
   header.Add("length_m", fmt::format("{:.2f}", route.length_m));
   header.Add("scout", route.scout.value());

@@ -36,10 +36,12 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
       store_(std::move(store)),
       exchange_(std::move(exchange)),
       finder_(options_.agent, options_.route, options_.revision),
-      spare_(options_.agent,
-             [this](const route::RouteKey& key, SegmentIndex index) {
-               return store_->ReadSegment(key, index);
-             }),
+      spare_(
+          options_.agent,
+          [this](const route::RouteKey& key, SegmentIndex index) {
+            return store_->ReadSegment(key, index);
+          },
+          [this](const route::RouteKey& key) { return store_->FindRoute(key); }),
       place_note_(options_.place_file),
       neighbours_(options_.agent) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
@@ -52,6 +54,7 @@ Result<void> FollowerLink::Start() {
     const auto handle = [this](const exchange::Message& message) {
       finder_.Handle(message);
       neighbours_.Handle(message, steady_clock::now());
+      spare_.Handle(message, steady_clock::now());
     };
     if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
   }
@@ -206,7 +209,7 @@ Result<void> FollowerLink::StoreArrived() {
     return Fail(ErrorCode::kNotFound,
                 "revision {} of route '{}' was deleted by an operator: {} of its {} segments are "
                 "here",
-                route_->key.revision.value(), route_->name, progress.held, progress.known);
+                route_->revision.value(), route_->name, progress.held, progress.known);
   }
   waiting_for_ = progress.state == exchange::FetchState::kWaiting
                      ? "nobody who holds the route is heard"

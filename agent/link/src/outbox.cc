@@ -1,18 +1,21 @@
 #include "agent/link/outbox.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "services/route/digest.h"
+#include "services/route/labels.h"
 
 namespace trailcast::agent {
 namespace {
 
 // Segments 0..n-1 that are held without a gap.
-std::uint32_t PrefixLength(const std::vector<SegmentIndex>& held) {
+std::uint32_t PrefixLength(const std::vector<store::HeldSegment>& held) {
   std::uint32_t length = 0;
-  while (length < held.size() && held[length].value() == length) ++length;
+  while (length < held.size() && held[length].index.value() == length) ++length;
   return length;
 }
 
@@ -21,13 +24,6 @@ std::vector<SegmentIndex> Without(const std::vector<SegmentIndex>& all,
   std::vector<SegmentIndex> rest;
   std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
   return rest;
-}
-
-// Grows `info` by one segment.
-void Count(route::RouteInfo& info, const route::Segment& segment, std::size_t bytes) {
-  ++info.segment_count;
-  info.length_m += segment.length_m;
-  info.bytes += bytes;
 }
 
 }  // namespace
@@ -39,7 +35,8 @@ Result<std::vector<std::string>> Outbox::LoadBacklog() {
   for (route::RouteInfo& info : *routes) {
     auto unreceipted = store_.UnreceiptedSegments(info.key);
     if (!unreceipted) return tl::unexpected(unreceipted.error());
-    if (unreceipted->empty() || sending_.contains(info.key)) continue;
+    const bool unwanted = info.standing == route::Standing::kRetired;
+    if (unreceipted->empty() || unwanted || sending_.contains(info.key)) continue;
     if (info.state == route::RouteState::kTeaching && info.scout != self_) {
       notes.push_back(
           fmt::format("route '{}' was left unfinished by agent '{}' and is not sent: run with "
@@ -47,58 +44,87 @@ Result<std::vector<std::string>> Outbox::LoadBacklog() {
                       info.name, info.scout.value(), info.scout.value()));
       continue;
     }
-    auto note = TakeUp(std::move(info));
+    auto note = TakeUp(std::move(info), Receipts::kNoted);
     if (!note) return tl::unexpected(note.error());
     notes.push_back(std::move(*note));
   }
   return notes;
 }
 
-Result<std::string> Outbox::TakeUp(route::RouteInfo info) {
-  auto held = store_.HeldSegments(info.key);
+Result<std::string> Outbox::TakeUp(route::RouteInfo info, Receipts receipts) {
+  auto held = store_.SegmentDigests(info.key);
   auto unreceipted = store_.UnreceiptedSegments(info.key);
   if (!held) return tl::unexpected(held.error());
   if (!unreceipted) return tl::unexpected(unreceipted.error());
   const bool cut_off = info.state == route::RouteState::kTeaching;
-  const std::uint32_t count = cut_off ? PrefixLength(*held) : info.segment_count;
-  // A crash may come between a segment and the info that counts it: count anew.
-  route::RouteInfo counted = info;
-  counted.segment_count = 0;
-  counted.length_m = 0.0;
-  counted.bytes = 0;
-  std::vector<route::Digest> digests;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    auto piece = store_.ReadSegment(info.key, SegmentIndex(i));
-    if (!piece) return tl::unexpected(piece.error());
-    auto segment = route::Open(*piece);
-    if (!segment) return tl::unexpected(segment.error());
-    Count(counted, *segment, piece->bytes.size());
-    digests.push_back(piece->digest);
-  }
   if (cut_off) {
-    info = counted;
-    info.manifest_digest = route::ManifestDigest(digests);
-    info.state = route::RouteState::kComplete;
-    if (auto put = store_.PutRoute(info); !put) return tl::unexpected(put.error());
+    if (auto ended = EndCutOff(info, *held); !ended) return tl::unexpected(ended.error());
   }
-  Emplace(info, Without(*held, *unreceipted), std::nullopt);
-  return fmt::format("route '{}' from an earlier run: {} of {} segments have no receipt{}",
-                     info.name, unreceipted->size(), info.segment_count,
-                     cut_off ? "; its teaching was cut off and it ends there" : "");
+  exchange::SegmentDigests digests;
+  std::vector<SegmentIndex> indices;
+  for (const store::HeldSegment& segment : *held) {
+    digests.Put(segment.index, segment.digest);
+    indices.push_back(segment.index);
+  }
+  const std::size_t damaged =
+      info.segment_count - std::min<std::size_t>(info.segment_count, indices.size());
+  const bool noted = receipts == Receipts::kNoted;
+  Emplace(info, std::move(digests),
+          noted ? Without(indices, *unreceipted) : std::vector<SegmentIndex>(), std::nullopt);
+  return fmt::format(
+      "{} from an earlier run: {} of {} segments have no receipt{}{}", route::Describe(info),
+      unreceipted->size(), info.segment_count,
+      cut_off ? "; its teaching was cut off, it ends there, and no robot follows it unless an "
+                "operator activates it"
+              : "",
+      damaged > 0 ? fmt::format("; {} are damaged on the disk and cannot be sent", damaged) : "");
 }
 
-void Outbox::Emplace(const route::RouteInfo& info, const std::vector<SegmentIndex>& receipted,
+// A crash may come between a segment and the info that counts it: counted anew. A segment that
+// cannot be read counts with what the others have in the mean, and is asked of whoever has it.
+Result<void> Outbox::EndCutOff(route::RouteInfo& info,
+                               const std::vector<store::HeldSegment>& held) {
+  const std::uint32_t count = PrefixLength(held);
+  std::vector<route::Digest> digests;
+  std::uint32_t whole = 0;
+  info.length_m = 0.0;
+  info.bytes = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    digests.push_back(held[i].digest);
+    auto piece = store_.ReadSegment(info.key, SegmentIndex(i));
+    auto segment = piece ? route::Open(*piece) : tl::unexpected(piece.error());
+    if (!segment && segment.error().code != ErrorCode::kCorrupt) {
+      return tl::unexpected(segment.error());
+    }
+    if (!segment) continue;
+    ++whole;
+    info.length_m += segment->length_m;
+    info.bytes += piece->bytes.size();
+  }
+  if (whole > 0) {
+    info.length_m *= static_cast<double>(count) / whole;
+    info.bytes = info.bytes * count / whole;
+  }
+  info.segment_count = count;
+  info.manifest_digest = route::ManifestDigest(digests);
+  info.state = route::RouteState::kComplete;
+  info.cut_off = true;
+  return store_.PutRoute(info);
+}
+
+void Outbox::Emplace(const route::RouteInfo& info, exchange::SegmentDigests held,
+                     const std::vector<SegmentIndex>& receipted,
                      std::optional<route::RouteBuilder> teaching) {
   auto read = [this, key = info.key](SegmentIndex index) { return store_.ReadSegment(key, index); };
-  exchange::RouteSender sender(self_, info, std::move(read), receipted);
-  sending_.emplace(info.key, Sending{std::move(sender), std::move(teaching), {}});
+  exchange::RouteSender sender(self_, info, std::move(read), std::move(held), receipted);
+  sending_.emplace(info.key, Sending{std::move(sender), std::move(teaching)});
 }
 
 Result<void> Outbox::Begin(const route::RouteInfo& info) {
   route::RouteBuilder teaching(info);
   const route::RouteInfo empty = teaching.info();
   if (auto put = store_.PutRoute(empty); !put) return put;
-  Emplace(empty, {}, std::move(teaching));
+  Emplace(empty, {}, {}, std::move(teaching));
   return {};
 }
 
@@ -114,22 +140,47 @@ Result<void> Outbox::Add(const route::RouteKey& key, const route::Segment& segme
   return {};
 }
 
-Result<void> Outbox::Complete(const route::RouteKey& key) {
+Result<void> Outbox::Complete(const route::RouteKey& key, bool cut_off) {
   Sending& sending = sending_.at(key);
-  sending.teaching->Complete();
+  sending.teaching->Complete(cut_off);
   if (auto put = store_.PutRoute(sending.teaching->info()); !put) return put;
   sending.sender.Update(sending.teaching->info());
   return {};
 }
 
 void Outbox::Handle(const exchange::Message& message, Time now) {
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    if (status->role == exchange::AgentRole::kServer) servers_.insert(status->agent);
+  }
+  if (const auto* request = std::get_if<exchange::SegmentRequest>(&message)) OfferAgain(*request);
   for (auto& [key, sending] : sending_) sending.sender.Handle(message, now);
+}
+
+void Outbox::OfferAgain(const exchange::SegmentRequest& request) {
+  if (!request.lacking.empty() || !servers_.contains(request.requester)) return;
+  if (sending_.contains(request.key)) return;
+  auto info = store_.FindRoute(request.key);
+  if (!info || !*info || (*info)->state != route::RouteState::kComplete) return;
+  if ((*info)->standing == route::Standing::kRetired) return;
+  const std::string which = route::Describe(**info);
+  if (auto taken = TakeUp(std::move(**info), Receipts::kNone); !taken) {
+    spdlog::warn("cannot offer {} to '{}': {}", which, request.requester.value(),
+                 taken.error().message);
+  } else {
+    spdlog::info("server '{}' lacks {}, which this agent holds: sending it again",
+                 request.requester.value(), which);
+  }
 }
 
 std::vector<exchange::Message> Outbox::Tick(Time now) {
   std::vector<exchange::Message> messages;
-  for (auto& [key, sending] : sending_) {
-    auto due = sending.sender.Tick(now);
+  // Earlier revisions first: a server activates a route's first complete one.
+  std::vector<exchange::RouteSender*> senders;
+  for (auto& [key, sending] : sending_) senders.push_back(&sending.sender);
+  std::sort(senders.begin(), senders.end(),
+            [](const auto* a, const auto* b) { return a->info().revision < b->info().revision; });
+  for (exchange::RouteSender* sender : senders) {
+    auto due = sender->Tick(now);
     std::move(due.begin(), due.end(), std::back_inserter(messages));
   }
   return messages;
@@ -146,6 +197,14 @@ std::vector<Error> Outbox::TakeReadErrors() {
 
 Result<void> Outbox::SaveReceipts() {
   for (auto& [key, sending] : sending_) {
+    if (const auto numbered = sending.sender.TakeNumbered()) {
+      if (auto put = store_.PutRoute(*numbered); !put) return put;
+    }
+    if (sending.sender.deleted() && !std::exchange(sending.laid_aside, true)) {
+      route::RouteInfo kept = sending.sender.info();
+      kept.standing = route::Standing::kRetired;
+      if (auto put = store_.PutRoute(kept); !put) return put;
+    }
     for (const SegmentIndex index : sending.sender.TakeNewlyReceipted()) {
       sending.confirmed.insert(index);
     }
@@ -167,19 +226,44 @@ const route::RouteInfo& Outbox::info(const route::RouteKey& key) const {
 
 std::size_t Outbox::unreceipted() const {
   std::size_t count = 0;
-  for (const auto& [key, sending] : sending_) count += sending.sender.Unreceipted().size();
+  for (const auto& [key, sending] : sending_) {
+    if (!sending.sender.deleted()) count += sending.sender.Unreceipted().size();
+  }
   return count;
 }
 
 std::optional<std::string> Outbox::refusal() const {
   for (const auto& [key, sending] : sending_) {
-    const auto& refused = sending.sender.refused();
-    if (!refused) continue;
-    return fmt::format("server '{}' takes nothing of route '{}' revision {}: {}",
-                       refused->server.value(), sending.sender.info().name, key.revision.value(),
-                       refused->reason);
+    const std::string which = route::Describe(sending.sender.info());
+    if (const auto& refused = sending.sender.refused()) {
+      return fmt::format("server '{}' takes nothing of {}: {}", refused->server.value(), which,
+                         refused->reason);
+    }
+    if (const auto& server = sending.sender.contradicted_by()) {
+      return fmt::format(
+          "server '{}' holds other segments under the identity of {} (was this robot's store "
+          "copied, or put back from a backup?): nothing of it counts as receipted there",
+          server->value(), which);
+    }
   }
   return std::nullopt;
+}
+
+std::vector<route::RouteInfo> Outbox::deleted() const {
+  std::vector<route::RouteInfo> deleted;
+  for (const auto& [key, sending] : sending_) {
+    if (sending.sender.deleted()) deleted.push_back(sending.sender.info());
+  }
+  return deleted;
+}
+
+std::optional<route::Standing> Outbox::standing(const route::RouteKey& key) const {
+  return sending_.at(key).sender.standing();
+}
+
+bool Outbox::Done() const {
+  return std::all_of(sending_.begin(), sending_.end(),
+                     [](const auto& entry) { return entry.second.sender.Done(); });
 }
 
 bool Outbox::AllReceipted() const {

@@ -22,7 +22,7 @@ constexpr double kMostMagnification = 100.0;
 bool IsGood(const NotedPlace& place) {
   const double along_m = place.left.along_m;
   const double magnification = place.left.magnification;
-  return place.key.route.value().size() == 32 && place.key.revision.value() > 0 && along_m >= 0.0 &&
+  return place.key.route.value().size() == 32 && place.key.teaching.value() > 0 && along_m >= 0.0 &&
          along_m <= kLongest_m && magnification > 1.0 / kMostMagnification &&
          magnification < kMostMagnification;
 }
@@ -32,19 +32,19 @@ std::optional<NotedPlace> Parse(const std::string& text) {
   std::istringstream lines(text);
   std::string first;
   std::string route;
-  std::uint32_t revision = 0;
+  std::uint64_t teaching = 0;
   NotedPlace place;
   std::getline(lines, first);
   const auto named = [&](const char* name, auto& value) {
     std::string word;
     return static_cast<bool>(lines >> word >> value) && word == name;
   };
-  const bool whole = first == kFirstLine && named("route", route) && named("revision", revision) &&
+  const bool whole = first == kFirstLine && named("route", route) && named("teaching", teaching) &&
                      named("along_m", place.left.along_m) &&
                      named("magnification", place.left.magnification) &&
                      named("unix_ms", place.unix_ms);
   if (!whole) return std::nullopt;
-  place.key = {RouteId(route), RevisionNumber(revision)};
+  place.key = {RouteId(route), TeachingId(teaching)};
   return IsGood(place) ? std::optional(place) : std::nullopt;
 }
 
@@ -64,8 +64,8 @@ Result<std::optional<NotedPlace>> PlaceNote::Read() const {
 
 Result<void> PlaceNote::Write(const NotedPlace& place) const {
   const std::string text =
-      fmt::format("{}\nroute {}\nrevision {}\nalong_m {:.3f}\nmagnification {:.5f}\nunix_ms {}\n",
-                  kFirstLine, place.key.route.value(), place.key.revision.value(),
+      fmt::format("{}\nroute {}\nteaching {}\nalong_m {:.3f}\nmagnification {:.5f}\nunix_ms {}\n",
+                  kFirstLine, place.key.route.value(), place.key.teaching.value(),
                   place.left.along_m, place.left.magnification, place.unix_ms);
   std::filesystem::path fresh = file_;
   fresh += ".new";

@@ -9,6 +9,7 @@
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
+#include "services/exchange/revision_numbers.h"
 #include "services/exchange/text.h"
 
 namespace trailcast::agent {
@@ -20,6 +21,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kWait{20};
 // A server answers well within this; who hears none by then is told so.
 constexpr milliseconds kServerPatience{3000};
+constexpr milliseconds kServerAsksWithin{1500};
 
 exchange::AgentStatus ScoutStatus(const AgentId& agent) {
   exchange::AgentStatus status;
@@ -62,18 +64,18 @@ Result<void> ScoutLink::Assign(route::RouteInfo& route) {
   auto earlier = store_->FindRoutesByName(route.name);
   if (!earlier) return tl::unexpected(earlier.error());
   if (earlier->empty()) {
-    route.key = {MakeRouteId(), RevisionNumber(1)};
+    route.key = {MakeRouteId(), MakeTeachingId()};
+    route.revision = RevisionNumber(1);
     return {};
   }
-  route.key = earlier->front().key;
-  for (const route::RouteInfo& info : *earlier) {
-    if (info.key.route == route.key.route) {
-      route.key.revision = std::max(route.key.revision, info.key.revision);
-    }
-  }
-  route.key.revision = RevisionNumber(route.key.revision.value() + 1);
-  spdlog::info("route '{}' is known here: teaching its revision {}", route.name,
-               route.key.revision.value());
+  route.key = {earlier->front().key.route, MakeTeachingId()};
+  std::vector<route::RouteInfo> one{route};
+  if (auto numbered = exchange::GiveNumbers(*store_, one); !numbered) return numbered;
+  route.revision = one.front().revision;
+  spdlog::info(
+      "route '{}' is known here: teaching it again, as revision {} unless a server numbers "
+      "it otherwise",
+      route.name, route.revision.value());
   return {};
 }
 
@@ -98,15 +100,17 @@ void ScoutLink::Report(const TeachingNow& now) {
   [[maybe_unused]] const bool put = reports_.TryPut(TeachingNow(now));
 }
 
-Result<ScoutLink::Outcome> ScoutLink::Finish() {
+Result<ScoutLink::Outcome> ScoutLink::Finish(bool cut_off) {
+  cut_off_ = cut_off;
   ending_ = true;
   bell_.Ring();
   if (thread_.joinable()) thread_.join();
   if (error_) return tl::unexpected(*error_);
   Outcome outcome;
   if (key_) outcome.route = outbox_.info(*key_);
+  if (key_) outcome.standing = outbox_.standing(*key_);
   outcome.unreceipted = outbox_.unreceipted();
-  outcome.all_receipted = outbox_.AllReceipted();
+  outcome.delivered = outbox_.Done();
   outcome.refusal = outbox_.refusal();
   return outcome;
 }
@@ -121,7 +125,7 @@ void ScoutLink::Run() {
   Result<void> result;
   while (result && !ending_.load()) result = Step();
   if (result) result = StoreOffered();
-  if (result && key_) result = outbox_.Complete(*key_);
+  if (result && key_) result = outbox_.Complete(*key_, cut_off_);
   if (result) result = TellHeld();
   if (result && exchange_) result = Deliver();
   if (!result) {
@@ -183,11 +187,11 @@ Result<void> ScoutLink::Trade() {
 
 Result<void> ScoutLink::Deliver() {
   const auto began = steady_clock::now();
-  if (!outbox_.AllReceipted()) {
+  if (!outbox_.Done()) {
     spdlog::info("waiting for a server's receipts of {} segments (at most {:.0f} s)",
                  outbox_.unreceipted(), Seconds(options_.delivery_timeout));
   }
-  while (!outbox_.AllReceipted()) {
+  while (!outbox_.Done() || !HasAsked()) {
     const auto bound = options_.stop() ? std::min(options_.delivery_timeout_when_stopped,
                                                   options_.delivery_timeout)
                                        : options_.delivery_timeout;
@@ -201,11 +205,21 @@ Result<void> ScoutLink::Deliver() {
   return {};
 }
 
+// A server that lacks what was receipted once asks soon for what this agent says that it holds; who
+// teaches has been there long enough.
+bool ScoutLink::HasAsked() const {
+  if (planned_) return true;
+  const auto now = steady_clock::now();
+  return server_heard_at_ ? now - *server_heard_at_ > kServerAsksWithin
+                          : now - opened_ > kServerPatience;
+}
+
 void ScoutLink::HearServer() {
   const auto& server = presence_->server();
   if (server && server != told_server_) {
     spdlog::info("server '{}' is there", server->value());
     told_server_ = server;
+    server_heard_at_ = steady_clock::now();
   } else if (!server && told_server_) {
     spdlog::warn("server '{}' is gone: segments are kept in {} until one confirms them",
                  told_server_->value(), options_.store_file);

@@ -196,6 +196,12 @@ Result<RouteFile> RouteFile::Open(std::span<const std::uint8_t> bytes) {
   return Check(FromMemory(bytes));
 }
 
+std::vector<route::Digest> RouteFile::digests() const {
+  std::vector<route::Digest> digests;
+  for (const Entry& entry : segments_) digests.push_back(entry.digest);
+  return digests;
+}
+
 Result<route::SegmentPiece> RouteFile::ReadSegment(SegmentIndex index) const {
   if (index.value() >= segments_.size()) {
     return Fail(ErrorCode::kNotFound, "{} has {} segments, and no segment {}", source_->name(),

@@ -24,7 +24,7 @@ Result<void> CheckExportable(const route::RouteInfo& info) {
     return Fail(ErrorCode::kInvalidArgument,
                 "route '{}' revision {} is still being taught ({} segments so far), and only "
                 "complete routes are exported",
-                info.name, info.key.revision.value(), info.segment_count);
+                info.name, info.revision.value(), info.segment_count);
   }
   return CheckInfo(info);
 }

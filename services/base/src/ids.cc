@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace trailcast {
@@ -12,6 +13,12 @@ RouteId MakeRouteId() {
   std::string digits;
   for (int i = 0; i < 4; ++i) digits += fmt::format("{:08x}", random());
   return RouteId(digits);
+}
+
+TeachingId MakeTeachingId() {
+  std::random_device random;
+  std::uniform_int_distribution<std::uint64_t> any(1, std::numeric_limits<std::int64_t>::max());
+  return TeachingId(any(random));
 }
 
 bool IsValidName(const std::string& name) {

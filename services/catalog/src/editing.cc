@@ -48,8 +48,8 @@ Result<std::vector<RouteInfo*>> Addressed(const RouteEdit& edit, Revisions& revi
   std::vector<RouteInfo*> addressed;
   std::vector<std::uint32_t> there;
   for (RouteInfo& info : revisions) {
-    there.push_back(info.key.revision.value());
-    if (edit.revision == 0 || info.key.revision.value() == edit.revision) {
+    there.push_back(info.revision.value());
+    if (edit.revision == 0 || info.revision.value() == edit.revision) {
       addressed.push_back(&info);
     }
   }
@@ -60,13 +60,15 @@ Result<std::vector<RouteInfo*>> Addressed(const RouteEdit& edit, Revisions& revi
 
 bool IsActive(const RouteInfo& info) { return info.standing == Standing::kActive; }
 
-// The newest below `end` that can be followed to its end, if any; retired ones only by number.
+// The newest below `end` that can be followed to its end, if any; retired ones, and those whose
+// teaching was cut off, only by number.
 RouteInfo* NewestComplete(Revisions& revisions, std::uint32_t end) {
   RouteInfo* newest = nullptr;
   for (RouteInfo& info : revisions) {
     const bool usable =
-        info.state == route::RouteState::kComplete && info.standing != Standing::kRetired;
-    if (usable && info.key.revision.value() < end) newest = &info;
+        info.state == route::RouteState::kComplete && !info.cut_off &&
+        info.standing != Standing::kRetired;
+    if (usable && info.revision.value() < end) newest = &info;
   }
   return newest;
 }
@@ -85,13 +87,14 @@ Result<void> Activate(const RouteEdit& edit, Revisions& revisions) {
     if (!addressed) return tl::unexpected(addressed.error());
     chosen = addressed->front();
   }
-  const bool retired =
+  const bool by_number =
       chosen == nullptr && std::any_of(revisions.begin(), revisions.end(), [](const auto& info) {
-        return info.standing == Standing::kRetired;
+        return info.standing == Standing::kRetired || info.cut_off;
       });
-  if (retired) {
+  if (by_number) {
     return Fail(ErrorCode::kConflict,
-                "route '{}' has retired revisions only: say which to take back with its number",
+                "route '{}' has only revisions that are retired or whose teaching was cut off: say "
+                "which to take with its number",
                 edit.route);
   }
   if (chosen == nullptr || chosen->state != route::RouteState::kComplete) {
@@ -109,11 +112,11 @@ Result<void> RollBack(const RouteEdit& edit, Revisions& revisions) {
     return Fail(ErrorCode::kConflict, "route '{}' has no active revision: activate one",
                 edit.route);
   }
-  RouteInfo* earlier = NewestComplete(revisions, active->key.revision.value());
+  RouteInfo* earlier = NewestComplete(revisions, active->revision.value());
   if (earlier == nullptr) {
     return Fail(ErrorCode::kConflict,
                 "route '{}' has no complete revision before {}, the active one", edit.route,
-                active->key.revision.value());
+                active->revision.value());
   }
   MakeActive(*earlier, revisions);
   return {};
@@ -138,7 +141,7 @@ Result<void> ChangeTags(const RouteEdit& edit, RouteInfo& info) {
   }
   if (tags.size() > route::kMaxTags) {
     return Fail(ErrorCode::kInvalidArgument, "revision {} would have {} tags, at most {} are kept",
-                info.key.revision.value(), tags.size(), route::kMaxTags);
+                info.revision.value(), tags.size(), route::kMaxTags);
   }
   info.tags.assign(tags.begin(), tags.end());
   return {};

@@ -1,5 +1,6 @@
 #include "services/catalog/retention.h"
 
+#include <map>
 #include <set>
 
 namespace trailcast::catalog {
@@ -8,7 +9,6 @@ namespace {
 using route::RouteInfo;
 
 constexpr std::uint32_t kPage = 100;
-constexpr std::int64_t kClockUnset_unix_ms = 1'577'836'800'000;  // 2020-01-01
 
 }  // namespace
 
@@ -28,12 +28,21 @@ Result<std::vector<RouteInfo>> Retention::Next(std::chrono::system_clock::time_p
     if (!seen.insert(info.key.route).second) continue;
     const auto revisions = store_.FindRevisions(info.key.route);
     if (!revisions) return tl::unexpected(revisions.error());
-    for (RouteInfo& each : Outdated(*revisions, now_unix_ms)) outdated.push_back(std::move(each));
+    const auto known = store_.FindTeachings(info.key.route);
+    if (!known) return tl::unexpected(known.error());
+    std::map<TeachingId, std::int64_t> grown_unix_ms;
+    for (const store::KnownTeaching& each : *known) {
+      grown_unix_ms[each.teaching] = each.grown_unix_ms;
+    }
+    for (RouteInfo& each : Outdated(*revisions, grown_unix_ms, now_unix_ms)) {
+      outdated.push_back(std::move(each));
+    }
   }
   return outdated;
 }
 
 std::vector<RouteInfo> Retention::Outdated(const std::vector<RouteInfo>& revisions,
+                                           const std::map<TeachingId, std::int64_t>& grown_unix_ms,
                                            std::int64_t now_unix_ms) const {
   const std::int64_t keep_ms = std::chrono::milliseconds(policy_.keep_for).count();
   std::vector<RouteInfo> outdated;
@@ -42,8 +51,9 @@ std::vector<RouteInfo> Retention::Outdated(const std::vector<RouteInfo>& revisio
     if (info->standing == route::Standing::kActive) continue;
     const bool complete = info->state == route::RouteState::kComplete;
     const bool too_many = policy_.keep_revisions > 0 && complete && newer >= policy_.keep_revisions;
-    const bool too_old = keep_ms > 0 && info->taught_unix_ms >= kClockUnset_unix_ms &&
-                         info->taught_unix_ms < now_unix_ms - keep_ms;
+    const auto grown = grown_unix_ms.find(info->key.teaching);
+    const bool too_old = keep_ms > 0 && grown != grown_unix_ms.end() &&
+                         grown->second < now_unix_ms - keep_ms;
     if (complete) ++newer;
     if (!too_many && !too_old) continue;
     outdated.push_back(*info);

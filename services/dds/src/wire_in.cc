@@ -46,6 +46,16 @@ Digest ToDigest(const trailcast_wire_Sha256& wire) {
 }
 
 template <typename Sequence>
+std::vector<NamedSegment> Named(const Sequence& sequence) {
+  std::vector<NamedSegment> segments;
+  segments.reserve(sequence._length);
+  for (const auto& wire : Elements(sequence)) {
+    segments.push_back({SegmentIndex(wire.index), ToDigest(wire.digest)});
+  }
+  return segments;
+}
+
+template <typename Sequence>
 std::vector<std::string> Texts(const Sequence& sequence) {
   std::vector<std::string> texts;
   for (const char* text : Elements(sequence)) texts.push_back(Text(text));
@@ -58,12 +68,13 @@ std::optional<route::Place> From(const trailcast_wire_RoutePlace& wire) {
 }
 
 RouteKey From(const trailcast_wire_RouteKey& wire) {
-  return {.route = RouteId(Text(wire.route)), .revision = RevisionNumber(wire.revision)};
+  return {.route = RouteId(Text(wire.route)), .teaching = TeachingId(wire.teaching)};
 }
 
 RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInfo& wire) {
   return {.key = From(key),
           .name = Text(wire.name),
+          .revision = RevisionNumber(wire.revision),
           .scout = AgentId(Text(wire.scout)),
           .camera = Text(wire.camera),
           .image_width_px = static_cast<int>(wire.image_width_px),
@@ -74,6 +85,7 @@ RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInf
           .length_m = wire.length_m,
           .bytes = wire.bytes,
           .manifest_digest = ToDigest(wire.manifest_digest),
+          .cut_off = wire.cut_off != 0,
           .tags = Texts(wire.tags),
           .place = From(wire.place),
           .description = Text(wire.description),
@@ -109,8 +121,11 @@ Message From(const trailcast_wire_Receipt& wire) {
   return Receipt{.server = AgentId(Text(wire.server)),
                  .key = From(wire.key),
                  .durable_prefix = wire.durable_prefix,
-                 .durable_beyond = Indices(wire.durable_beyond),
+                 .prefix_digest = ToDigest(wire.prefix_digest),
+                 .durable_beyond = Named(wire.durable_beyond),
                  .durable_state = static_cast<RouteState>(wire.durable_state),
+                 .revision = RevisionNumber(wire.revision),
+                 .standing = static_cast<route::Standing>(wire.standing),
                  .refusal = static_cast<Refusal>(wire.refusal),
                  .reason = Text(wire.reason)};
 }

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> Values(const std::vector<SegmentIndex>& indices) {
 }
 
 trailcast_wire_RouteKey ToWire(const RouteKey& key) {
-  return {.route = Lend(key.route.value()), .revision = key.revision.value()};
+  return {.route = Lend(key.route.value()), .teaching = key.teaching.value()};
 }
 
 trailcast_wire_RoutePlace ToWire(const std::optional<route::Place>& place) {
@@ -70,6 +70,8 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   wire.place = ToWire(info.place);
   wire.description = Lend(info.description);
   wire.standing = static_cast<std::uint8_t>(info.standing);
+  wire.cut_off = info.cut_off ? 1 : 0;
+  wire.revision = info.revision.value();
   wire.edition = info.edition;
   return wire;
 }
@@ -147,13 +149,22 @@ Result<void> With(const SegmentRequest& message, const UseSample& use) {
 }
 
 Result<void> With(const Receipt& message, const UseSample& use) {
-  std::vector<std::uint32_t> beyond = Values(message.durable_beyond);
+  std::vector<trailcast_wire_NamedSegment> beyond;
+  beyond.reserve(message.durable_beyond.size());
+  for (const NamedSegment& segment : message.durable_beyond) {
+    trailcast_wire_NamedSegment& wire = beyond.emplace_back();
+    wire.index = segment.index.value();
+    std::copy(segment.digest.begin(), segment.digest.end(), wire.digest);
+  }
   trailcast_wire_Receipt sample{};
   sample.server = Lend(message.server.value());
   sample.key = ToWire(message.key);
   sample.durable_prefix = message.durable_prefix;
+  std::copy(message.prefix_digest.begin(), message.prefix_digest.end(), sample.prefix_digest);
   Lend(beyond, sample.durable_beyond);
   sample.durable_state = static_cast<std::uint8_t>(message.durable_state);
+  sample.revision = message.revision.value();
+  sample.standing = static_cast<std::uint8_t>(message.standing);
   sample.refusal = static_cast<std::uint8_t>(message.refusal);
   sample.reason = Lend(message.reason);
   return use(&sample);

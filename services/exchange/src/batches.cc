@@ -5,7 +5,7 @@
 namespace trailcast::exchange {
 
 std::size_t WireSize(const route::SegmentPiece& piece) {
-  constexpr std::size_t kFixed = 64;  // digest, index, revision, lengths, alignment
+  constexpr std::size_t kFixed = 64;  // digest, index, teaching, lengths, alignment
   return kFixed + piece.key.route.value().size() + piece.bytes.size();
 }
 

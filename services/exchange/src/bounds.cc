@@ -13,11 +13,15 @@ using route::RouteInfo;
 using route::RouteKey;
 using route::SegmentPiece;
 
+Result<void> CheckIndex(SegmentIndex index) {
+  return CheckCount("segment index", index.value(), kMaxSegmentsPerRoute - 1);
+}
+
 Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& indices,
                           std::size_t max) {
   if (auto ok = CheckCount(field, indices.size(), max); !ok) return ok;
   for (const SegmentIndex index : indices) {
-    if (auto ok = CheckCount(field, index.value(), kMaxSegmentsPerRoute - 1); !ok) return ok;
+    if (auto ok = CheckIndex(index); !ok) return ok;
   }
   return {};
 }
@@ -56,9 +60,7 @@ Result<void> CheckInfo(const RouteInfo& info) {
 
 Result<void> CheckPiece(const SegmentPiece& piece) {
   if (auto ok = CheckKey(piece.key); !ok) return ok;
-  if (auto ok = CheckCount("segment index", piece.index.value(), kMaxSegmentsPerRoute - 1); !ok) {
-    return ok;
-  }
+  if (auto ok = CheckIndex(piece.index); !ok) return ok;
   if (piece.digest == route::Digest{}) {
     return Fail(ErrorCode::kInvalidArgument, "segment {} of route {} has no digest",
                 piece.index.value(), piece.key.route.value());
@@ -95,6 +97,7 @@ Result<void> Check(const Receipt& message) {
   if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
   if (auto ok = CheckKey(message.key); !ok) return ok;
   if (auto ok = CheckState(message.durable_state); !ok) return ok;
+  if (auto ok = CheckStanding(message.standing); !ok) return ok;
   if (auto ok = CheckCount("durable prefix", message.durable_prefix, kMaxSegmentsPerRoute); !ok) {
     return ok;
   }
@@ -104,7 +107,15 @@ Result<void> Check(const Receipt& message) {
     return ok;
   }
   if (auto ok = CheckText("reason", message.reason, kMaxLineBytes); !ok) return ok;
-  return CheckIndices("durable segments", message.durable_beyond, kMaxIndicesPerReceipt);
+  if (auto ok =
+          CheckCount("durable segments", message.durable_beyond.size(), kMaxSegmentsPerReceipt);
+      !ok) {
+    return ok;
+  }
+  for (const NamedSegment& segment : message.durable_beyond) {
+    if (auto ok = CheckIndex(segment.index); !ok) return ok;
+  }
+  return {};
 }
 
 Result<void> Check(const CatalogRequest& message) {
@@ -120,10 +131,7 @@ Result<void> CheckPlaces(const std::vector<route::FoundPlace>& places) {
   if (auto ok = CheckCount("places in a reply", places.size(), kMaxPlacesPerReply); !ok) return ok;
   for (const route::FoundPlace& place : places) {
     if (auto ok = CheckKey(place.key); !ok) return ok;
-    if (auto ok = CheckCount("segment index", place.segment.value(), kMaxSegmentsPerRoute - 1);
-        !ok) {
-      return ok;
-    }
+    if (auto ok = CheckIndex(place.segment); !ok) return ok;
     if (auto ok = CheckAmount("score", place.score, 1.0); !ok) return ok;
   }
   return {};

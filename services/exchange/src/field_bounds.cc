@@ -51,8 +51,9 @@ Result<void> CheckKey(const route::RouteKey& key) {
     return Fail(ErrorCode::kInvalidArgument,
                 "route id \"{}\" is not 32 lower-case hexadecimal digits", PlainText(id, 80));
   }
-  if (key.revision.value() == 0) {
-    return Fail(ErrorCode::kInvalidArgument, "revision of route {} is 0, they start at 1", id);
+  if (key.teaching.value() == 0 || key.teaching.value() > kMaxTeaching) {
+    return Fail(ErrorCode::kInvalidArgument, "a teaching of route {} is named {}, expected 1 to {}",
+                id, key.teaching.value(), kMaxTeaching);
   }
   return {};
 }

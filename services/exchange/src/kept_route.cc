@@ -4,16 +4,13 @@
 
 #include "services/base/result.h"
 #include "services/exchange/bounds.h"
+#include "services/route/digest.h"
 #include "services/route/labels.h"
 
 namespace trailcast::exchange {
 
 using route::RouteInfo;
 using route::RouteState;
-
-std::string Describe(const route::RouteKey& key) {
-  return fmt::format("route {} revision {}", key.route.value(), key.revision.value());
-}
 
 KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::HeldSegment>& held,
                      WantList::Options want_options)
@@ -39,13 +36,13 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
   const bool was_complete = claim_ && claim_->state == RouteState::kComplete;
   const bool completes = info.state == RouteState::kComplete && !was_complete;
   const bool grows = !was_complete && (!claim_ || info.segment_count > claim_->segment_count);
-  const bool relabels = claim_ && info.edition > claim_->edition;
+  const bool relabels = claim_ && route::HasLaterLabels(info, *claim_);
   if (!completes && !grows) {
     if (relabels) route::TakeLabels(*claim_, info);
     return relabels ? ClaimResult::kNews : ClaimResult::kOldNews;
   }
   RouteInfo claim = info;
-  if (claim_ && claim_->edition > info.edition) route::TakeLabels(claim, *claim_);
+  if (claim_ && route::HasLaterLabels(*claim_, info)) route::TakeLabels(claim, *claim_);
   claim_ = std::move(claim);
   WantMissing(info.segment_count, ask_at);
   return ClaimResult::kNews;
@@ -135,12 +132,26 @@ void KeptRoute::ForgetClaim() {
   want.Clear();
 }
 
-Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key) const {
+const route::Digest& KeptRoute::PrefixDigest() {
+  if (chained_ > prefix_) {
+    chained_ = 0;
+    chain_ = {};
+  }
+  for (; chained_ < prefix_; ++chained_) {
+    chain_ = route::ChainDigest(chain_, *held_.Find(SegmentIndex(chained_)));
+  }
+  return chain_;
+}
+
+Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key) {
   Receipt receipt{.server = server,
                   .key = key,
                   .durable_prefix = prefix_,
+                  .prefix_digest = PrefixDigest(),
                   .durable_beyond = {},
                   .durable_state = complete() ? RouteState::kComplete : RouteState::kTeaching,
+                  .revision = stored_ ? stored_->revision : RevisionNumber(),
+                  .standing = stored_ ? stored_->standing : route::Standing::kStaged,
                   .refusal = Refusal::kNone,
                   .reason = full_};
   if (deleted()) {
@@ -152,8 +163,8 @@ Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key
   }
   const auto& held = held_.entries();
   for (auto at = held_.From(SegmentIndex(prefix_)); at != held.end(); ++at) {
-    if (receipt.durable_beyond.size() == kMaxIndicesPerReceipt) break;
-    receipt.durable_beyond.push_back(at->index);
+    if (receipt.durable_beyond.size() == kMaxSegmentsPerReceipt) break;
+    receipt.durable_beyond.push_back({at->index, at->digest});
   }
   return receipt;
 }

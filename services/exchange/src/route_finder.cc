@@ -17,14 +17,15 @@ std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>&
   const bool to_follow = which.number == 0 && !which.newest;
   const auto is_meant = [&](const route::RouteInfo& info) {
     if (info.standing == Standing::kDeleted) return false;
-    if (which.number != 0) return info.key.revision.value() == which.number;
+    if (which.number != 0) return info.revision.value() == which.number;
     if (which.newest) return info.standing != Standing::kRetired;
-    return info.standing == Standing::kActive || !spoken_of.contains(info.key.route);
+    const bool unsaid = !spoken_of.contains(info.key.route) && !info.cut_off;
+    return info.standing == Standing::kActive || unsaid;
   };
   const auto rank = [&](const route::RouteInfo& info) {
     return std::make_tuple(to_follow && info.standing == Standing::kActive,
-                           info.state == route::RouteState::kComplete, info.taught_unix_ms,
-                           info.key);
+                           info.state == route::RouteState::kComplete, info.revision,
+                           info.taught_unix_ms, info.key);
   };
   const route::RouteInfo* best = nullptr;
   for (const route::RouteInfo& info : routes) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/exchange/batches.h"
+#include "services/route/labels.h"
 
 namespace trailcast::exchange {
 using route::RouteInfo;
@@ -46,7 +47,16 @@ void RouteKeeper::Handle(const Message& message, Time now) {
     HandleCatalogRequest(*catalog_request);
   } else if (const auto* edit = std::get_if<RouteEditRequest>(&message)) {
     HandleEdit(*edit, now);
+  } else if (const auto* status = std::get_if<AgentStatus>(&message)) {
+    missing_.Hear(*status);
   }
+}
+
+bool RouteKeeper::IsSettled(const route::RouteKey& key) {
+  const auto info = store_.FindRoute(key);
+  if (!info) return true;  // the store's trouble is told elsewhere
+  return *info && ((*info)->state == route::RouteState::kComplete ||
+                   (*info)->standing == route::Standing::kDeleted);
 }
 
 void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time now) {
@@ -178,6 +188,10 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
       out.emplace_back(
           SegmentRequest{.requester = self_, .key = key, .lacking = std::move(lacking)});
     }
+  }
+  for (const route::RouteKey& key :
+       missing_.Due(now, [&](const route::RouteKey& held) { return IsSettled(held); })) {
+    out.emplace_back(SegmentRequest{.requester = self_, .key = key});
   }
   SendAnswers(now, out);
   return out;

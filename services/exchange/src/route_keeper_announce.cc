@@ -3,7 +3,9 @@
 #include <set>
 #include <utility>
 
+#include "services/exchange/revision_numbers.h"
 #include "services/exchange/route_keeper.h"
+#include "services/route/labels.h"
 
 namespace trailcast::exchange {
 
@@ -18,9 +20,9 @@ bool RouteKeeper::ManifestIsRight(const RouteInfo& info, const KeptRoute& kept, 
   }
   if (integrity_.manifest(digests) == info.manifest_digest) return true;
   Refuse({ErrorCode::kConflict,
-          fmt::format("{} \"{}\" was announced complete, but its {} segments held here are not "
-                      "those of its manifest; teach it again as a new revision",
-                      Describe(info.key), info.name, info.segment_count)},
+          fmt::format("{} was announced complete, but its {} segments held here are not those of "
+                      "its manifest; teach it again",
+                      Describe(info), info.segment_count)},
          info.key, now);
   return false;
 }
@@ -50,9 +52,12 @@ void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
 }
 
 Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
+  std::sort(completing.begin(), completing.end(),
+            [](const RouteInfo& a, const RouteInfo& b) { return a.revision < b.revision; });
   std::set<RouteId> activated;
   for (RouteInfo& info : completing) {
-    if (info.standing != route::Standing::kStaged || activated.contains(info.key.route)) continue;
+    const bool staged = info.standing == route::Standing::kStaged;
+    if (!staged || info.cut_off || activated.contains(info.key.route)) continue;
     const auto revisions = store_.FindRevisions(info.key.route);
     if (!revisions) return tl::unexpected(revisions.error());
     const bool edited = std::any_of(
@@ -84,12 +89,18 @@ std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
 }
 
 Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing) {
-  if (!completing) return store_.PutRoutes(infos);
-  // Two servers must not each activate another revision.
+  const bool some_new = std::any_of(infos.begin(), infos.end(), [&](const RouteInfo& info) {
+    return !routes_.at(info.key).stored();
+  });
+  if (!completing && !some_new) return store_.PutRoutes(infos);
+  // Two servers must not each give the same number, nor activate another revision.
   return store_.Exclusively([&]() -> Result<void> {
-    std::vector<RouteInfo> activated(infos.begin(), infos.end());
-    if (auto chosen = ActivateFirst(activated); !chosen) return chosen;
-    return store_.PutRoutes(activated);
+    std::vector<RouteInfo> labelled(infos.begin(), infos.end());
+    if (auto numbered = GiveNumbers(store_, labelled); !numbered) return numbered;
+    if (completing) {
+      if (auto chosen = ActivateFirst(labelled); !chosen) return chosen;
+    }
+    return store_.PutRoutes(labelled);
   });
 }
 
@@ -134,7 +145,8 @@ void RouteKeeper::TellComplete(const RouteKey& key, Time now) {
   kept.receipt_due = true;
   kept.receipt_at.reset();
   AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
-          fmt::format("{} \"{}\" is complete: {} segments, {:.1f} m", Describe(key), info.name,
+          fmt::format("{} is complete{}: {} segments, {:.1f} m", Describe(info),
+                      info.cut_off ? " as far as it was taught before its scout ended" : "",
                       info.segment_count, info.length_m),
           now);
 }

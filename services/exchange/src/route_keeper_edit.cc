@@ -21,7 +21,7 @@ constexpr std::string_view kChanged = "changed";
 std::string ToText(const std::vector<RouteInfo>& changed) {
   std::string text(kChanged);
   for (const RouteInfo& info : changed) {
-    text += fmt::format(" {} {}", info.key.route.value(), info.key.revision.value());
+    text += fmt::format(" {} {}", info.key.route.value(), info.key.teaching.value());
   }
   return text;
 }
@@ -29,9 +29,9 @@ std::string ToText(const std::vector<RouteInfo>& changed) {
 std::vector<RouteKey> KeysIn(const std::string& answer) {
   std::istringstream words(answer.substr(kChanged.size()));
   std::vector<RouteKey> keys;
-  std::uint32_t revision = 0;
-  for (std::string route; words >> route >> revision;) {
-    keys.push_back({RouteId(route), RevisionNumber(revision)});
+  std::uint64_t teaching = 0;
+  for (std::string route; words >> route >> teaching;) {
+    keys.push_back({RouteId(route), TeachingId(teaching)});
   }
   return keys;
 }

@@ -7,6 +7,7 @@
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_keeper.h"
 #include "services/exchange/text.h"
+#include "services/route/labels.h"
 
 namespace trailcast::exchange {
 

@@ -5,15 +5,17 @@
 
 #include "services/exchange/batches.h"
 #include "services/exchange/bounds.h"
+#include "services/route/digest.h"
 
 namespace trailcast::exchange {
 
-RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
+RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read, SegmentDigests held,
                          const std::vector<SegmentIndex>& receipted, RouteSenderOptions options)
     : self_(std::move(self)),
       info_(std::move(info)),
       read_(std::move(read)),
       options_(options),
+      digests_(std::move(held)),
       answers_(options.answers) {
   for (std::uint32_t i = 0; i < info_.segment_count; ++i) unreceipted_.insert(SegmentIndex(i));
   for (const SegmentIndex index : receipted) unreceipted_.erase(index);
@@ -22,16 +24,14 @@ RouteSender::RouteSender(AgentId self, route::RouteInfo info, ReadPiece read,
 void RouteSender::Add(route::SegmentPiece piece, route::RouteInfo info) {
   assert(piece.key == info_.key && piece.index.value() < info.segment_count);
   unreceipted_.insert(piece.index);
-  if (deleted()) {
-    MarkReceipted(piece.index);
-  } else {
-    to_stream_.push_back(std::move(piece));
-  }
+  digests_.Put(piece.index, piece.digest);
+  if (!deleted()) to_stream_.push_back(std::move(piece));
   Update(std::move(info));
 }
 
 void RouteSender::Update(route::RouteInfo info) {
   assert(info.key == info_.key && info.segment_count >= info_.segment_count);
+  info.revision = std::max(info.revision, info_.revision);
   info_ = std::move(info);
   changed_ = true;
 }
@@ -39,6 +39,10 @@ void RouteSender::Update(route::RouteInfo info) {
 void RouteSender::Handle(const Message& message, Time now) {
   if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
   if (const auto* receipt = std::get_if<Receipt>(&message)) HandleReceipt(*receipt);
+}
+
+std::optional<route::RouteInfo> RouteSender::TakeNumbered() {
+  return std::exchange(numbered_, false) ? std::optional(info_) : std::nullopt;
 }
 
 void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
@@ -59,18 +63,43 @@ void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
 
 void RouteSender::HandleReceipt(const Receipt& receipt) {
   if (receipt.key != info_.key || deleted()) return;
+  standing_ = receipt.standing;
   refused_.reset();
   if (receipt.refusal != Refusal::kNone) refused_ = receipt;
   if (deleted()) {
     to_stream_.clear();
-    while (!unreceipted_.empty()) MarkReceipted(*unreceipted_.begin());
     return;
+  }
+  const bool known_here = receipt.durable_prefix <= info_.segment_count;
+  const auto prefix = known_here ? PrefixDigest(receipt.durable_prefix) : std::nullopt;
+  if (prefix != receipt.prefix_digest) {
+    contradicted_by_ = receipt.server;
+    return;
+  }
+  contradicted_by_.reset();
+  if (receipt.revision > info_.revision) {
+    info_.revision = receipt.revision;
+    numbered_ = true;
   }
   while (!unreceipted_.empty() && unreceipted_.begin()->value() < receipt.durable_prefix) {
     MarkReceipted(*unreceipted_.begin());
   }
-  for (const SegmentIndex index : receipt.durable_beyond) MarkReceipted(index);
-  if (receipt.durable_state == route::RouteState::kComplete) complete_receipted_ = true;
+  for (const NamedSegment& segment : receipt.durable_beyond) {
+    const route::Digest* digest = digests_.Find(segment.index);
+    if (digest != nullptr && *digest == segment.digest) MarkReceipted(segment.index);
+  }
+  const bool all = receipt.durable_prefix == info_.segment_count;
+  if (all && receipt.durable_state == route::RouteState::kComplete) complete_receipted_ = true;
+}
+
+std::optional<route::Digest> RouteSender::PrefixDigest(std::uint32_t count) {
+  while (chain_.size() <= count) {
+    const route::Digest* next =
+        digests_.Find(SegmentIndex(static_cast<std::uint32_t>(chain_.size() - 1)));
+    if (next == nullptr) return std::nullopt;
+    chain_.push_back(route::ChainDigest(chain_.back(), *next));
+  }
+  return chain_[count];
 }
 
 void RouteSender::MarkReceipted(SegmentIndex index) {
@@ -90,8 +119,7 @@ std::vector<Message> RouteSender::Tick(Time now) {
   // Segments before the announcement that counts them, so that few are asked for needlessly.
   std::vector<Message> messages;
   for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
-  const bool again =
-      !AllReceipted() && announced_at_ && now >= *announced_at_ + options_.announce_every;
+  const bool again = !Done() && announced_at_ && now >= *announced_at_ + options_.announce_every;
   if (changed_ || again) {
     messages.emplace_back(RouteAnnouncement{.holder = self_, .info = info_});
     changed_ = false;
@@ -107,8 +135,7 @@ std::vector<SegmentIndex> RouteSender::TakeNewlyReceipted() {
 std::vector<Error> RouteSender::TakeReadErrors() { return std::exchange(read_errors_, {}); }
 
 bool RouteSender::AllReceipted() const {
-  return info_.state == route::RouteState::kComplete && (complete_receipted_ || deleted()) &&
-         unreceipted_.empty();
+  return info_.state == route::RouteState::kComplete && complete_receipted_ && unreceipted_.empty();
 }
 
 }  // namespace trailcast::exchange

@@ -13,8 +13,12 @@ constexpr std::size_t kMostRemembered = 100'000;
 
 }  // namespace
 
-SpareHolder::SpareHolder(AgentId self, ReadPiece read, SpareHolderOptions options)
-    : self_(std::move(self)), read_(std::move(read)), options_(options) {
+SpareHolder::SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info,
+                         SpareHolderOptions options)
+    : self_(std::move(self)),
+      read_(std::move(read)),
+      read_info_(std::move(read_info)),
+      options_(options) {
   const std::size_t share = std::hash<std::string_view>()(self_.value()) % 1024;
   patience_ = options_.patience + options_.patience * static_cast<int>(share) / 1024;
 }
@@ -29,6 +33,9 @@ void SpareHolder::Handle(const Message& message, Time now) {
     for (const route::SegmentPiece& piece : batch->pieces) {
       if (!piece.bytes.empty()) to_answer_.erase({piece.key, piece.index});
     }
+  }
+  if (const auto* news = std::get_if<RouteAnnouncement>(&message)) {
+    if (news->info.state == route::RouteState::kComplete) to_announce_.erase(news->info.key);
   }
   if (const auto* status = std::get_if<AgentStatus>(&message)) HandleStatus(*status);
   if (const auto* gone = std::get_if<AgentGone>(&message)) {
@@ -51,6 +58,9 @@ void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
     return server.first == request.requester;
   });
   if (!servers_.empty() && !of_server) return;
+  if (request.lacking.empty() && of_server && read_info_) {
+    to_announce_.try_emplace(request.key, now + patience_);
+  }
   if (asked_once_.size() > kMostRemembered) asked_once_.clear();
   for (const SegmentIndex index : request.lacking) {
     const Place place{request.key, index};
@@ -76,6 +86,16 @@ std::vector<Message> SpareHolder::Tick(Time now) {
     at = to_answer_.erase(at);
   }
   std::vector<Message> messages;
+  for (auto at = to_announce_.begin(); at != to_announce_.end();) {
+    if (now < at->second) {
+      ++at;
+      continue;
+    }
+    if (const auto info = read_info_(at->first); info && *info) {
+      messages.emplace_back(RouteAnnouncement{.holder = self_, .info = **info});
+    }
+    at = to_announce_.erase(at);
+  }
   if (batch.pieces.empty()) return messages;
   for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
   return messages;

@@ -1,5 +1,7 @@
 #include "services/exchange/topics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -83,7 +85,7 @@ const char* NameOf(Topic topic) {
 
 std::string InstanceOf(const Message& message) {
   const auto key_text = [](const route::RouteKey& key) {
-    return key.route.value() + "/" + std::to_string(key.revision.value());
+    return key.route.value() + "/" + fmt::format("{:x}", key.teaching.value());
   };
   if (const auto* route = std::get_if<RouteAnnouncement>(&message)) {
     return "routes/" + route->holder.value() + "/" + key_text(route->info.key);

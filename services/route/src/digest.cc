@@ -2,9 +2,11 @@
 
 #include <openssl/evp.h>
 
+#include <array>
 #include <new>
 
 #include "services/route/codec.h"
+#include "services/route/labels.h"
 
 namespace trailcast::route {
 
@@ -54,6 +56,10 @@ Digest ManifestDigest(std::span<const Digest> digests) {
   return Sha256({reinterpret_cast<const std::uint8_t*>(digests.data()), digests.size_bytes()});
 }
 
+Digest ChainDigest(const Digest& before, const Digest& next) {
+  return ManifestDigest(std::array{before, next});
+}
+
 std::string ToHex(const Digest& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
 
 SegmentPiece MakePiece(const RouteKey& key, const Segment& segment) {
@@ -66,16 +72,16 @@ Result<void> CheckDigest(const SegmentPiece& piece) {
   const Digest actual = Sha256(piece.bytes);
   if (actual == piece.digest) return {};
   return Fail(ErrorCode::kCorrupt,
-              "segment {} of route {} revision {}: its {} bytes have digest {:.12}.., expected "
-              "{:.12}..; fetch it again",
-              piece.index.value(), piece.key.route.value(), piece.key.revision.value(),
-              piece.bytes.size(), ToHex(actual), ToHex(piece.digest));
+              "segment {} of {}: its {} bytes have digest {:.12}.., expected {:.12}..; fetch it "
+              "again",
+              piece.index.value(), Describe(piece.key), piece.bytes.size(), ToHex(actual),
+              ToHex(piece.digest));
 }
 
 Result<Segment> Open(const SegmentPiece& piece) {
   if (Result<void> whole = CheckDigest(piece); !whole) return tl::unexpected(whole.error());
-  const std::string which = fmt::format("segment {} of route {} revision {}", piece.index.value(),
-                                        piece.key.route.value(), piece.key.revision.value());
+  const std::string which =
+      fmt::format("segment {} of {}", piece.index.value(), Describe(piece.key));
   Result<Segment> segment = Decode(piece.bytes);
   if (!segment) return Wrap(segment.error(), which);
   if (segment->index != piece.index) {

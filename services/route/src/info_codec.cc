@@ -25,7 +25,12 @@ Place ReadPlace(const format::v1::Place& in) {
 Bytes EncodeInfo(const RouteInfo& info) {
   format::v1::Route out;
   out.set_route(info.key.route.value());
-  out.set_revision(info.key.revision.value());
+  // Left out where the number says it, as in files of before.
+  if (info.key.teaching.value() != info.revision.value()) {
+    out.set_teaching(info.key.teaching.value());
+  }
+  out.set_revision(info.revision.value());
+  out.set_cut_off(info.cut_off);
   out.set_name(info.name);
   out.set_scout(info.scout.value());
   out.set_camera(info.camera);
@@ -64,7 +69,11 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
     return Fail(ErrorCode::kCorrupt, "a route's manifest digest has {} bytes, expected {}",
                 in.manifest_digest().size(), info.manifest_digest.size());
   }
-  info.key = {RouteId(in.route()), RevisionNumber(in.revision())};
+  // Before teachings had an identity of their own, a revision's number was it.
+  const std::uint64_t teaching = in.teaching() == 0 ? in.revision() : in.teaching();
+  info.key = {RouteId(in.route()), TeachingId(teaching)};
+  info.revision = RevisionNumber(in.revision());
+  info.cut_off = in.cut_off();
   info.name = in.name();
   info.scout = AgentId(in.scout());
   info.camera = in.camera();

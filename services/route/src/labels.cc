@@ -1,5 +1,7 @@
 #include "services/route/labels.h"
 
+#include <tuple>
+
 namespace trailcast::route {
 namespace {
 
@@ -26,12 +28,32 @@ const char* NameOf(Standing standing) {
   return "unknown";
 }
 
+std::string Describe(const RouteKey& key) {
+  return fmt::format("teaching {:x} of route {}", key.teaching.value(), key.route.value());
+}
+
+std::string Describe(const RouteInfo& info) {
+  return fmt::format("route '{}' revision {}", info.name, RevisionText(info));
+}
+
+std::string RevisionText(const RouteInfo& info) {
+  return info.revision.value() == 0 ? "-" : std::to_string(info.revision.value());
+}
+
 void TakeLabels(RouteInfo& info, const RouteInfo& from) {
   info.name = from.name;
+  info.revision = from.revision;
   info.tags = from.tags;
   info.description = from.description;
   info.standing = from.standing;
   info.edition = from.edition;
+}
+
+bool HasLaterLabels(const RouteInfo& info, const RouteInfo& than) {
+  const auto rank = [](const RouteInfo& each) {
+    return std::tie(each.edition, each.revision, each.standing);
+  };
+  return rank(than) < rank(info);
 }
 
 bool SameTeaching(const RouteInfo& a, const RouteInfo& b) {
@@ -43,18 +65,21 @@ bool SameTeaching(const RouteInfo& a, const RouteInfo& b) {
 Result<RouteInfo> AfterNews(const RouteInfo& known, const RouteInfo& news) {
   if (known.standing == Standing::kDeleted) return known;
   RouteInfo labelled = known;
-  if (news.edition > known.edition) TakeLabels(labelled, news);
+  if (HasLaterLabels(news, known)) TakeLabels(labelled, news);
   if (labelled.standing == Standing::kDeleted || IsOldNews(news, known)) return labelled;
   if (known.state == RouteState::kComplete) {
-    const bool same = news.edition == known.edition ? news == known : SameTeaching(news, known);
+    // What servers change by themselves is settled above.
+    RouteInfo told = news;
+    told.revision = known.revision;
+    told.standing = known.standing;
+    const bool same = news.edition == known.edition ? told == known : SameTeaching(news, known);
     if (same) return labelled;
     return Fail(ErrorCode::kConflict,
-                "route {} revision {} is complete with {} segments and cannot change; teach it "
-                "again as a new revision",
-                known.key.route.value(), known.key.revision.value(), known.segment_count);
+                "{} is complete with {} segments and cannot change; teach it again",
+                Describe(known), known.segment_count);
   }
   RouteInfo after = news;
-  if (news.edition < known.edition) TakeLabels(after, known);
+  if (HasLaterLabels(known, news)) TakeLabels(after, known);
   return after;
 }
 

@@ -9,6 +9,7 @@ namespace trailcast::route {
 
 RouteBuilder::RouteBuilder(RouteInfo info) : info_(std::move(info)) {
   info_.state = RouteState::kTeaching;
+  info_.cut_off = false;
   info_.segment_count = 0;
   info_.length_m = 0.0;
   info_.bytes = 0;

@@ -56,6 +56,9 @@ class ReadOnlyStore final : public RouteStore {
   Result<std::vector<RouteInfo>> FindRevisions(const RouteId& route) override {
     return store_->FindRevisions(route);
   }
+  Result<std::vector<KnownTeaching>> FindTeachings(const RouteId& route) override {
+    return store_->FindTeachings(route);
+  }
   Result<std::vector<RouteInfo>> ListRoutes() override { return store_->ListRoutes(); }
   Result<std::vector<RouteInfo>> FindRoutesByName(const std::string& name) override {
     return store_->FindRoutesByName(name);

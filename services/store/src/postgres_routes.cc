@@ -16,14 +16,14 @@ using route::RouteQuery;
 using Transaction = pqxx::transaction_base;
 using Infos = std::map<RouteKey, RouteInfo>;
 
-constexpr std::size_t kColumns = 21;  // kRouteColumns
-constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, revision DESC";
+constexpr std::size_t kColumns = kRouteColumnCount + 1;  // grown_unix_ms
+constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, teaching DESC";
 
 std::string SelectFrom(const std::string& table) {
   return fmt::format("SELECT {} FROM {} ", kRouteColumns, table);
 }
 
-// "route = excluded.route, revision = excluded.revision, .."
+// "route = excluded.route, teaching = excluded.teaching, .."
 std::string AllFromExcluded() {
   std::string assignments;
   std::string columns = kRouteColumns;
@@ -43,7 +43,7 @@ Infos FindKnown(Transaction& transaction, const std::set<RouteKey>& keys) {
   ForSome(keys, [&](auto begin, auto end) {
     PostgresValues values;
     std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
-    const std::string where = "WHERE (route, revision) IN (" + values.Rows(2) + ") ";
+    const std::string where = "WHERE (route, teaching) IN (" + values.Rows(2) + ") ";
     const pqxx::result rows = values.Execute(
         transaction, SelectFrom("route") + where + "UNION ALL " + SelectFrom("tombstone") + where);
     for (const pqxx::row& row : rows) {
@@ -57,11 +57,15 @@ using Some = Infos::const_iterator;
 
 pqxx::result PutRows(Transaction& transaction, const std::string& table, Some begin, Some end) {
   PostgresValues values;
-  for (Some each = begin; each != end; ++each) values.AddRoute(each->second);
+  const std::int64_t now_unix_ms = NowUnixMs();
+  for (Some each = begin; each != end; ++each) values.AddRoute(each->second, now_unix_ms);
   return values.Execute(
       transaction,
-      fmt::format("INSERT INTO {} ({}) VALUES {} ON CONFLICT (route, revision) DO UPDATE SET {} "
-                  "RETURNING route, revision, id",
+      fmt::format("INSERT INTO {0} ({1}, grown_unix_ms) VALUES {2} "
+                  "ON CONFLICT (route, teaching) DO UPDATE SET {3}, grown_unix_ms = CASE "
+                  "WHEN {0}.segment_count = excluded.segment_count AND {0}.state = excluded.state "
+                  "THEN {0}.grown_unix_ms ELSE excluded.grown_unix_ms END "
+                  "RETURNING route, teaching, id",
                   table, kRouteColumns, values.Rows(kColumns), AllFromExcluded()));
 }
 
@@ -90,7 +94,7 @@ void PutLiving(Transaction& transaction, const Infos& infos) {
 // Contents that no other revision has go too.
 void DeleteSegments(Transaction& transaction, const PostgresValues& keys) {
   const pqxx::result digests =
-      keys.Execute(transaction, "DELETE FROM segment WHERE (route, revision) IN (" + keys.Rows(2) +
+      keys.Execute(transaction, "DELETE FROM segment WHERE (route, teaching) IN (" + keys.Rows(2) +
                                     ") RETURNING digest");
   ForSome(digests, [&](auto begin, auto end) {
     PostgresValues values;
@@ -110,7 +114,7 @@ void Bury(Transaction& transaction, const Infos& infos) {
     PostgresValues keys;
     for (Some each = begin; each != end; ++each) keys.Add(each->first);
     (void)keys.Execute(transaction,
-                       "DELETE FROM route WHERE (route, revision) IN (" + keys.Rows(2) + ")");
+                       "DELETE FROM route WHERE (route, teaching) IN (" + keys.Rows(2) + ")");
     DeleteSegments(transaction, keys);
     (void)PutRows(transaction, "tombstone", begin, end);
   });
@@ -175,7 +179,7 @@ Result<std::vector<RouteInfo>> PostgresRouteStore::SelectRoutes(const PostgresVa
 Result<std::optional<RouteInfo>> PostgresRouteStore::FindRoute(const RouteKey& key) {
   PostgresValues values;
   values.Add(key);
-  const std::string where = "WHERE route = $1 AND revision = $2 ";
+  const std::string where = "WHERE route = $1 AND teaching = $2 ";
   auto found = SelectRoutes(
       values, SelectFrom("route") + where + "UNION ALL " + SelectFrom("tombstone") + where);
   if (!found) return tl::unexpected(found.error());
@@ -186,7 +190,25 @@ Result<std::optional<RouteInfo>> PostgresRouteStore::FindRoute(const RouteKey& k
 Result<std::vector<RouteInfo>> PostgresRouteStore::FindRevisions(const RouteId& route) {
   PostgresValues values;
   values.Add(route.value());
-  return SelectRoutes(values, SelectFrom("route") + "WHERE route = ? ORDER BY revision");
+  return SelectRoutes(values, SelectFrom("route") + "WHERE route = ? ORDER BY revision, teaching");
+}
+
+Result<std::vector<KnownTeaching>> PostgresRouteStore::FindTeachings(const RouteId& route) {
+  return session_->Run(
+      Kind::kRead, "listing the teachings of a route",
+      [&](Transaction& transaction) -> Result<std::vector<KnownTeaching>> {
+        PostgresValues values;
+        values.Add(route.value());
+        std::vector<KnownTeaching> known;
+        for (const pqxx::row& row : values.Execute(
+                 transaction,
+                 "SELECT teaching, revision, grown_unix_ms FROM route WHERE route = $1 UNION ALL "
+                 "SELECT teaching, revision, grown_unix_ms FROM tombstone WHERE route = $1")) {
+          known.push_back({TeachingId(row[0].as<std::uint64_t>()),
+                           RevisionNumber(row[1].as<std::uint32_t>()), row[2].as<std::int64_t>()});
+        }
+        return known;
+      });
 }
 
 Result<std::vector<RouteInfo>> PostgresRouteStore::ListRoutes() {

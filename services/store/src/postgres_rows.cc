@@ -53,7 +53,7 @@ void PostgresValues::AddBytes(const std::uint8_t* bytes, std::size_t size) {
 
 void PostgresValues::Add(const route::RouteKey& key) {
   Add(key.route.value());
-  Add(std::int64_t{key.revision.value()});
+  Add(static_cast<std::int64_t>(key.teaching.value()));
 }
 
 void PostgresValues::Add(const std::vector<SqlCondition::Value>& values) {
@@ -62,7 +62,7 @@ void PostgresValues::Add(const std::vector<SqlCondition::Value>& values) {
   }
 }
 
-void PostgresValues::AddRoute(const route::RouteInfo& info) {
+void PostgresValues::AddRoute(const route::RouteInfo& info, std::int64_t grown_unix_ms) {
   Add(info.key);
   Add(info.name);
   Add(info.scout.value());
@@ -87,6 +87,9 @@ void PostgresValues::AddRoute(const route::RouteInfo& info) {
   Add(info.description);
   Add(static_cast<std::int64_t>(info.standing));
   Add(std::int64_t{info.edition});
+  Add(std::int64_t{info.revision.value()});
+  Add(std::string(info.cut_off ? "true" : "false"));
+  Add(grown_unix_ms);
 }
 
 void PostgresValues::AddSegment(const route::SegmentPiece& piece) {
@@ -122,7 +125,7 @@ pqxx::result PostgresValues::Execute(pqxx::transaction_base& transaction,
 }
 
 route::RouteKey ReadKey(const pqxx::row& row) {
-  return {RouteId(row[0].as<std::string>()), RevisionNumber(row[1].as<std::uint32_t>())};
+  return {RouteId(row[0].as<std::string>()), TeachingId(row[1].as<std::uint64_t>())};
 }
 
 Result<route::RouteInfo> ReadRoute(const pqxx::row& row) {
@@ -145,6 +148,8 @@ Result<route::RouteInfo> ReadRoute(const pqxx::row& row) {
   info.description = row[18].as<std::string>();
   info.standing = static_cast<route::Standing>(row[19].as<int>());
   info.edition = row[20].as<std::uint32_t>();
+  info.revision = RevisionNumber(row[21].as<std::uint32_t>());
+  info.cut_off = row[22].as<bool>();
   info.manifest_digest = manifest.value_or(route::Digest{});
   if (!manifest || seal != Seal(info)) return DamagedRoute(info);
   return info;

@@ -25,8 +25,9 @@ class PostgresValues {
   void AddNull() { values_.emplace_back(std::nullopt); }
   void Add(const route::RouteKey& key);  // two
   void Add(const std::vector<SqlCondition::Value>& values);
-  void AddRoute(const route::RouteInfo& info);        // in the order of kRouteColumns
-  void AddSegment(const route::SegmentPiece& piece);  // route, revision, number, digest, seal
+  // In the order of kRouteColumns, then when it last grew.
+  void AddRoute(const route::RouteInfo& info, std::int64_t grown_unix_ms);
+  void AddSegment(const route::SegmentPiece& piece);  // route, teaching, number, digest, seal
 
   [[nodiscard]] bool empty() const { return values_.empty(); }
   // "($1,$2),($3,$4)" for rows of two.

@@ -38,9 +38,9 @@ void InsertSegments(pqxx::transaction_base& transaction, const Pieces& pieces) {
     PostgresValues values;
     for (auto each = begin; each != end; ++each) values.AddSegment(*each->second);
     (void)values.Execute(transaction,
-                         "INSERT INTO segment (route, revision, number, digest, seal) VALUES " +
+                         "INSERT INTO segment (route, teaching, number, digest, seal) VALUES " +
                              values.Rows(5) +
-                             " ON CONFLICT (route, revision, number) DO UPDATE "
+                             " ON CONFLICT (route, teaching, number) DO UPDATE "
                              "SET digest = excluded.digest, seal = excluded.seal");
   });
 }
@@ -52,10 +52,10 @@ void PostgresRouteStore::Lock(Transaction& transaction, const Keys& keys) {
     PostgresValues values;
     std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
     const std::string rows = values.Rows(2);
-    (void)values.Execute(transaction, "INSERT INTO revision (route, revision) VALUES " + rows +
+    (void)values.Execute(transaction, "INSERT INTO teaching (route, teaching) VALUES " + rows +
                                           " ON CONFLICT DO NOTHING");
-    (void)values.Execute(transaction, "SELECT FROM revision WHERE (route, revision) IN (" + rows +
-                                          ") ORDER BY route, revision FOR UPDATE");
+    (void)values.Execute(transaction, "SELECT FROM teaching WHERE (route, teaching) IN (" + rows +
+                                          ") ORDER BY route, teaching FOR UPDATE");
   });
 }
 
@@ -94,7 +94,7 @@ Result<void> PostgresRouteStore::RefuseBuried(Transaction& transaction, const Ke
     PostgresValues values;
     std::for_each(begin, end, [&](const RouteKey& key) { values.Add(key); });
     const pqxx::result rows = values.Execute(
-        transaction, "SELECT route, revision FROM tombstone WHERE (route, revision) IN (" +
+        transaction, "SELECT route, teaching FROM tombstone WHERE (route, teaching) IN (" +
                          values.Rows(2) + ") LIMIT 1");
     if (!rows.empty()) buried = ReadKey(rows[0]);
   });
@@ -114,8 +114,8 @@ PostgresRouteStore::Digests PostgresRouteStore::FindHeld(Transaction& transactio
     }
     const pqxx::result rows = values.Execute(
         transaction,
-        "SELECT route, revision, number, digest, seal, bytes FROM segment LEFT JOIN content USING "
-        "(digest) WHERE (route, revision, number) IN (" +
+        "SELECT route, teaching, number, digest, seal, bytes FROM segment LEFT JOIN content USING "
+        "(digest) WHERE (route, teaching, number) IN (" +
             values.Rows(3) + ")");
     for (const pqxx::row& row : rows) {
       const RouteKey key = ReadKey(row);
@@ -147,7 +147,7 @@ Result<SegmentPiece> PostgresRouteStore::ReadSegment(const RouteKey& key, Segmen
         const pqxx::result rows = values.Execute(
             transaction,
             "SELECT digest, seal, bytes FROM segment LEFT JOIN content USING (digest) WHERE "
-            "route = ? AND revision = ? AND number = ?");
+            "route = ? AND teaching = ? AND number = ?");
         if (rows.empty()) {
           return Fail(ErrorCode::kNotFound, "route store {} has no {}", session_->name(), which);
         }
@@ -166,7 +166,7 @@ Result<std::vector<HeldSegment>> PostgresRouteStore::SegmentDigests(const RouteK
                          for (const pqxx::row& row : values.Execute(
                                   transaction,
                                   "SELECT number, digest, seal FROM segment WHERE route = ? AND "
-                                  "revision = ? ORDER BY number")) {
+                                  "teaching = ? ORDER BY number")) {
                            const SegmentIndex index(row[0].as<std::uint32_t>());
                            if (const auto digest = ReadSegmentDigest(row, key, index)) {
                              held.push_back({index, *digest});
@@ -201,7 +201,7 @@ Result<std::vector<SegmentIndex>> PostgresRouteStore::SelectIndices(const RouteK
         for (const pqxx::row& row : values.Execute(
                  transaction,
                  fmt::format(
-                     "SELECT number FROM segment WHERE route = ? AND revision = ? {} ORDER BY "
+                     "SELECT number FROM segment WHERE route = ? AND teaching = ? {} ORDER BY "
                      "number",
                      unreceipted ? "AND NOT receipted" : ""))) {
           indices.emplace_back(row[0].as<std::uint32_t>());
@@ -232,7 +232,7 @@ Result<void> PostgresRouteStore::MarkReceipted(const RouteKey& key,
                            (void)values.Execute(
                                transaction,
                                "UPDATE segment SET receipted = true WHERE NOT receipted AND "
-                               "(route, revision, number) IN (" +
+                               "(route, teaching, number) IN (" +
                                    values.Rows(3) + ")");
                          });
                          return {};

@@ -49,8 +49,8 @@ Result<std::vector<std::string>> PostgresRouteStore::Verify() {
       [](Transaction& transaction) -> Result<std::vector<RouteKey>> {
         std::vector<RouteKey> listed;
         for (const pqxx::row& row : transaction.exec(
-                 "SELECT route, revision FROM route UNION SELECT route, revision FROM tombstone "
-                 "UNION SELECT route, revision FROM segment ORDER BY 1, 2")) {
+                 "SELECT route, teaching FROM route UNION SELECT route, teaching FROM tombstone "
+                 "UNION SELECT route, teaching FROM segment ORDER BY 1, 2")) {
           listed.push_back(ReadKey(row));
         }
         return listed;

@@ -167,20 +167,20 @@ Result<void> StartAfterCursor(const RouteQuery& query, SqlCondition& condition) 
   const std::vector<std::string_view> parts = Split(query.cursor, '/');
   const bool ours = parts.size() == 4 && parts[0] == std::string_view(&sorting.letter, 1);
   const auto value = ours ? ValueIn(query.order, parts[1]) : std::nullopt;
-  const auto revision = ours ? Parse<std::uint32_t>(parts[3]) : std::nullopt;
-  if (!value || !revision) {
+  const auto teaching = ours ? Parse<std::uint64_t>(parts[3]) : std::nullopt;
+  if (!value || !teaching) {
     return Fail(ErrorCode::kInvalidArgument,
                 "cursor is not that of a page in this order; ask for the first page without one");
   }
   condition.And(
-      fmt::format("({}, route, revision) {} (?, ?, ?)", sorting.column, sorting.rising ? ">" : "<"),
-      {*value, std::string(parts[2]), std::int64_t{*revision}});
+      fmt::format("({}, route, teaching) {} (?, ?, ?)", sorting.column, sorting.rising ? ">" : "<"),
+      {*value, std::string(parts[2]), static_cast<std::int64_t>(*teaching)});
   return {};
 }
 
 std::string OrderBy(RouteOrder order) {
   const Sorting& sorting = SortingOf(order);
-  return fmt::format(" ORDER BY {0} {1}, route {1}, revision {1}", sorting.column,
+  return fmt::format(" ORDER BY {0} {1}, route {1}, teaching {1}", sorting.column,
                      sorting.rising ? "ASC" : "DESC");
 }
 
@@ -195,7 +195,7 @@ std::string CursorAfter(RouteOrder order, const RouteInfo& last) {
     value = fmt::format("{}", last.length_m);  // the shortest text that reads back the same
   }
   return fmt::format("{}/{}/{}/{}", sorting.letter, value, last.key.route.value(),
-                     last.key.revision.value());
+                     last.key.teaching.value());
 }
 
 }  // namespace trailcast::store

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -27,12 +28,10 @@ tl::unexpected<Error> Refuse(const route::RouteInfo& info, std::string_view fiel
               field, expected);
 }
 
-}  // namespace
-
-route::Digest Seal(const route::RouteInfo& info) {
+std::string SealedBefore5(const route::RouteInfo& info) {
   std::string text = fmt::format(
       "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{:a}\n{}\n{}\n", info.key.route.value(),
-      info.key.revision.value(), info.name, info.scout.value(), info.camera, info.image_width_px,
+      info.key.teaching.value(), info.name, info.scout.value(), info.camera, info.image_width_px,
       info.image_height_px, info.taught_unix_ms, static_cast<int>(info.state), info.segment_count,
       info.length_m, info.bytes, route::ToHex(info.manifest_digest));
   for (const std::string& tag : info.tags) text += fmt::format("tag {}\n", tag);
@@ -40,12 +39,28 @@ route::Digest Seal(const route::RouteInfo& info) {
     text += fmt::format("place {} {:a} {:a}\n", static_cast<int>(info.place->frame), info.place->x,
                         info.place->y);
   }
-  return Sha256(text);
+  return text;
+}
+
+}  // namespace
+
+route::Digest SealBefore5(const route::RouteInfo& info) { return Sha256(SealedBefore5(info)); }
+
+route::Digest Seal(const route::RouteInfo& info) {
+  return Sha256(SealedBefore5(info) +
+                fmt::format("labels {} {} {} {}\n{}\n", info.revision.value(), info.cut_off,
+                            static_cast<int>(info.standing), info.edition, info.description));
 }
 
 route::Digest Seal(const route::SegmentPiece& piece) {
-  return Sha256(fmt::format("{}\n{}\n{}\n{}\n", piece.key.route.value(), piece.key.revision.value(),
+  return Sha256(fmt::format("{}\n{}\n{}\n{}\n", piece.key.route.value(), piece.key.teaching.value(),
                             piece.index.value(), route::ToHex(piece.digest)));
+}
+
+std::int64_t NowUnixMs() {
+  using std::chrono::milliseconds;
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<milliseconds>(since_epoch).count();
 }
 
 // As text they are one column; route_tag, by which routes are found, is made from it.
@@ -58,10 +73,6 @@ std::vector<std::string> SplitTags(const std::string& joined) {
   std::istringstream words(joined);
   for (std::string tag; words >> tag;) tags.push_back(tag);
   return tags;
-}
-
-std::string Describe(const route::RouteKey& key) {
-  return fmt::format("route {} revision {}", key.route.value(), key.revision.value());
 }
 
 std::string Describe(const route::RouteKey& key, SegmentIndex index) {

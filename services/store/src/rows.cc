@@ -32,7 +32,44 @@ route::Bytes ReadBytes(const SQLite::Column& column) {
   return bytes == nullptr ? route::Bytes() : route::Bytes(bytes, bytes + column.getBytes());
 }
 
+// The row, if it fits the seal that it has.
+Result<route::RouteInfo> ReadSealed(const SQLite::Statement& statement,
+                                    route::Digest (*seal_of)(const route::RouteInfo&)) {
+  route::RouteInfo info;
+  info.key.route = RouteId(statement.getColumn(0).getString());
+  info.key.teaching = TeachingOf(statement.getColumn(1));
+  info.name = statement.getColumn(2).getString();
+  info.scout = AgentId(statement.getColumn(3).getString());
+  info.camera = statement.getColumn(4).getString();
+  info.image_width_px = statement.getColumn(5).getInt();
+  info.image_height_px = statement.getColumn(6).getInt();
+  info.taught_unix_ms = statement.getColumn(7).getInt64();
+  info.state = statement.getColumn(8).getInt() == 0 ? route::RouteState::kTeaching
+                                                    : route::RouteState::kComplete;
+  info.segment_count = statement.getColumn(9).getUInt();
+  info.length_m = statement.getColumn(10).getDouble();
+  info.bytes = static_cast<std::uint64_t>(statement.getColumn(11).getInt64());
+  const Result<route::Digest> manifest = ReadDigest(statement.getColumn(12));
+  const Result<route::Digest> seal = ReadDigest(statement.getColumn(13));
+  info.tags = SplitTags(statement.getColumn(14).getString());
+  info.place = ReadPlace(statement, 15);
+  info.description = statement.getColumn(18).getString();
+  info.standing = static_cast<route::Standing>(statement.getColumn(19).getInt());
+  info.edition = statement.getColumn(20).getUInt();
+  info.revision = RevisionNumber(statement.getColumn(21).getUInt());
+  info.cut_off = statement.getColumn(22).getInt() != 0;
+  if (manifest) info.manifest_digest = *manifest;
+  if (!manifest || !seal || *seal != seal_of(info)) {
+    return DamagedRoute(info);
+  }
+  return info;
+}
+
 }  // namespace
+
+TeachingId TeachingOf(const SQLite::Column& column) {
+  return TeachingId(static_cast<std::uint64_t>(column.getInt64()));
+}
 
 void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest& digest) {
   statement.bind(parameter, digest.data(), static_cast<int>(digest.size()));
@@ -40,7 +77,7 @@ void BindDigest(SQLite::Statement& statement, int parameter, const route::Digest
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
   statement.bind(1, key.route.value());
-  statement.bind(2, key.revision.value());
+  statement.bind(2, static_cast<std::int64_t>(key.teaching.value()));
 }
 
 void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info) {
@@ -61,6 +98,8 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info) {
   statement.bind(19, info.description);
   statement.bind(20, static_cast<int>(info.standing));
   statement.bind(21, info.edition);
+  statement.bind(22, info.revision.value());
+  statement.bind(23, info.cut_off ? 1 : 0);
   if (!info.place) return;  // NULLs
   statement.bind(16, static_cast<int>(info.place->frame));
   statement.bind(17, info.place->x);
@@ -68,32 +107,11 @@ void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info) {
 }
 
 Result<route::RouteInfo> ReadRoute(const SQLite::Statement& statement) {
-  route::RouteInfo info;
-  info.key.route = RouteId(statement.getColumn(0).getString());
-  info.key.revision = RevisionNumber(statement.getColumn(1).getUInt());
-  info.name = statement.getColumn(2).getString();
-  info.scout = AgentId(statement.getColumn(3).getString());
-  info.camera = statement.getColumn(4).getString();
-  info.image_width_px = statement.getColumn(5).getInt();
-  info.image_height_px = statement.getColumn(6).getInt();
-  info.taught_unix_ms = statement.getColumn(7).getInt64();
-  info.state = statement.getColumn(8).getInt() == 0 ? route::RouteState::kTeaching
-                                                    : route::RouteState::kComplete;
-  info.segment_count = statement.getColumn(9).getUInt();
-  info.length_m = statement.getColumn(10).getDouble();
-  info.bytes = static_cast<std::uint64_t>(statement.getColumn(11).getInt64());
-  const Result<route::Digest> manifest = ReadDigest(statement.getColumn(12));
-  const Result<route::Digest> seal = ReadDigest(statement.getColumn(13));
-  info.tags = SplitTags(statement.getColumn(14).getString());
-  info.place = ReadPlace(statement, 15);
-  info.description = statement.getColumn(18).getString();
-  info.standing = static_cast<route::Standing>(statement.getColumn(19).getInt());
-  info.edition = statement.getColumn(20).getUInt();
-  if (manifest) info.manifest_digest = *manifest;
-  if (!manifest || !seal || *seal != Seal(info)) {
-    return DamagedRoute(info);
-  }
-  return info;
+  return ReadSealed(statement, &Seal);
+}
+
+Result<route::RouteInfo> ReadRouteOf4(const SQLite::Statement& statement) {
+  return ReadSealed(statement, &SealBefore5);
 }
 
 void BindSegment(SQLite::Statement& statement, const route::SegmentPiece& piece) {

@@ -12,7 +12,10 @@ namespace trailcast::store {
 void BindRoute(SQLite::Statement& statement, const route::RouteInfo& info);
 // The statement's current row. kCorrupt if it fails its seal.
 [[nodiscard]] Result<route::RouteInfo> ReadRoute(const SQLite::Statement& statement);
+// The same of a row that has the seal of version 4.
+[[nodiscard]] Result<route::RouteInfo> ReadRouteOf4(const SQLite::Statement& statement);
 
+[[nodiscard]] TeachingId TeachingOf(const SQLite::Column& column);
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key);  // parameters 1 and 2
 
 // Columns of table `segment` that ReadSegmentRow reads.

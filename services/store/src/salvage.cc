@@ -123,12 +123,12 @@ class Salvaging {
 
   Result<void> SaveSegments() {
     const std::string columns =
-        std::string(kSegmentContent) + ", route, revision, number, receipted";
+        std::string(kSegmentContent) + ", route, teaching, number, receipted";
     RowWalk rows(damaged_, "segment", columns.c_str());
     while (const SQLite::Statement* row = rows.Next()) {
       auto piece = Readable([&]() -> Result<route::SegmentPiece> {
         const route::RouteKey key{RouteId(row->getColumn(3).getString()),
-                                  RevisionNumber(row->getColumn(4).getUInt())};
+                                  TeachingOf(row->getColumn(4))};
         return ReadSegmentRow(*row, key, SegmentIndex(row->getColumn(5).getUInt()));
       });
       if (!piece) continue;

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include "services/store/src/sqlite_tables.h"
 #include "services/store/store_file.h"
 
 namespace trailcast::store {
@@ -13,81 +14,6 @@ constexpr int kPageBytes = 4096;
 // Set before the first use of the log, which then needs no file of shared memory (a full disk under
 // one would kill the process).
 constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
-
-// What is known of a revision. `seal` is a digest of what a row says (rows.cc): SQLite itself does
-// not notice a changed byte.
-constexpr const char* kRouteRow = R"(
-  route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
-  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
-  name TEXT NOT NULL CHECK (length(name) BETWEEN 1 AND 64),
-  scout TEXT NOT NULL CHECK (length(scout) <= 64),
-  camera TEXT NOT NULL CHECK (length(CAST(camera AS BLOB)) <= 128),
-  image_width_px INTEGER NOT NULL CHECK (image_width_px BETWEEN 0 AND 65536),
-  image_height_px INTEGER NOT NULL CHECK (image_height_px BETWEEN 0 AND 65536),
-  taught_unix_ms INTEGER NOT NULL,
-  state INTEGER NOT NULL CHECK (state IN (0, 1)),
-  segment_count INTEGER NOT NULL CHECK (segment_count BETWEEN 0 AND 4294967295),
-  length_m REAL NOT NULL,
-  bytes INTEGER NOT NULL CHECK (bytes >= 0),
-  manifest_digest BLOB NOT NULL CHECK (length(manifest_digest) = 32),
-  seal BLOB NOT NULL CHECK (length(seal) = 32),
-  tags TEXT NOT NULL,
-  place_frame INTEGER CHECK (place_frame IN (1, 2)),
-  place_east REAL,
-  place_north REAL,
-  description TEXT NOT NULL DEFAULT '',
-  standing INTEGER NOT NULL DEFAULT 0 CHECK (standing BETWEEN 0 AND 3),
-  edition INTEGER NOT NULL DEFAULT 0 CHECK (edition BETWEEN 0 AND 4294967295),
-  UNIQUE (route, revision)
-)";
-
-constexpr const char* kRouteIndices = R"(
-CREATE INDEX route_by_name ON route (name, route, revision);
-CREATE INDEX route_by_time ON route (taught_unix_ms, route, revision);
-CREATE INDEX route_by_length ON route (length_m, route, revision);
-CREATE INDEX route_by_scout ON route (scout);
-)";
-
-// Segments may arrive before their route does, so neither table refers to the other.
-constexpr const char* kOtherTables = R"(
-CREATE TABLE route_tag (
-  tag TEXT NOT NULL,
-  id INTEGER NOT NULL,
-  PRIMARY KEY (tag, id)
-) STRICT, WITHOUT ROWID;
-CREATE INDEX route_tag_by_id ON route_tag (id);
-CREATE VIRTUAL TABLE route_place USING rtree(
-  id, east_low, east_high, north_low, north_high, +frame INTEGER);
-)";
-
-// Of segments that are alike, whichever route's they are, one has the bytes; in the others they are
-// NULL. A table of bytes apart would be simpler to read, and a damaged page of names would cost
-// thirty segments instead of one.
-constexpr const char* kSegmentTable = R"(
-CREATE TABLE segment (
-  route TEXT NOT NULL CHECK (length(route) BETWEEN 1 AND 64),
-  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 4294967295),
-  number INTEGER NOT NULL CHECK (number BETWEEN 0 AND 4294967295),
-  receipted INTEGER NOT NULL DEFAULT 0 CHECK (receipted IN (0, 1)),
-  digest BLOB NOT NULL CHECK (length(digest) = 32),
-  seal BLOB NOT NULL CHECK (length(seal) = 32),
-  bytes BLOB CHECK (length(bytes) <= 1048576),
-  PRIMARY KEY (route, revision, number)
-) STRICT;
-CREATE INDEX segment_unreceipted ON segment (route, revision, number) WHERE receipted = 0;
-CREATE INDEX segment_by_digest ON segment (digest);
-)";
-
-// Table `route` is what is offered and searched; deleted revisions are apart, so that searching
-// costs nothing for them.
-void CreateTables(SQLite::Database& db) {
-  for (const char* table : {"route", "tombstone"}) {
-    db.exec(fmt::format("CREATE TABLE {} (id INTEGER PRIMARY KEY,{}) STRICT", table, kRouteRow));
-  }
-  db.exec(kRouteIndices);
-  db.exec(kOtherTables);
-  db.exec(kSegmentTable);
-}
 
 // All in one transaction with the marks in the header: an interrupted making leaves an empty file.
 void MakeStore(SQLite::Database& db) {
@@ -170,6 +96,7 @@ Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::pa
     sqlite3_extended_result_codes(db->getHandle(), 1);
     db->exec(kExclusive);
     if (db->execAndGet("PRAGMA page_count").getInt64() == 0) MakeStore(*db);
+    if (db->execAndGet("PRAGMA user_version").getUInt() == 4) BringUpFrom4(*db);
     CheckTables(*db);
     Configure(*db, options);
     return db;

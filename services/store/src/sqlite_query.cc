@@ -15,11 +15,11 @@ using route::RouteQuery;
 // Bytes that other revisions' segments rely on go to the first of those.
 constexpr const char* kBequeath = R"(
 WITH leaving AS (
-  SELECT digest, bytes FROM segment WHERE route = ?1 AND revision = ?2 AND bytes IS NOT NULL)
+  SELECT digest, bytes FROM segment WHERE route = ?1 AND teaching = ?2 AND bytes IS NOT NULL)
 UPDATE segment AS heir SET bytes = (SELECT bytes FROM leaving WHERE digest = heir.digest)
-WHERE digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND revision = ?2)
+WHERE digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND teaching = ?2)
   AND rowid = (SELECT MIN(rowid) FROM segment WHERE digest = heir.digest
-               AND NOT (route = ?1 AND revision = ?2)) AND bytes IS NULL
+               AND NOT (route = ?1 AND teaching = ?2)) AND bytes IS NULL
 )";
 
 void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
@@ -40,11 +40,14 @@ int BindValues(SQLite::Statement& statement, const SqlCondition& condition) {
 
 std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
   auto put =
-      compiled_.Take(fmt::format("INSERT OR REPLACE INTO {0} ({1}, id) VALUES "
-                                 "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
-                                 "(SELECT id FROM {0} WHERE route = ?1 AND revision = ?2))",
+      compiled_.Take(fmt::format("INSERT OR REPLACE INTO {0} ({1}, id, grown_unix_ms) VALUES "
+                                 "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
+                                 "(SELECT id FROM {0} WHERE route = ?1 AND teaching = ?2),"
+                                 "coalesce((SELECT grown_unix_ms FROM {0} WHERE route = ?1 AND "
+                                 "teaching = ?2 AND state = ?9 AND segment_count = ?10), ?24))",
                                  table, kRouteColumns));
   BindRoute(*put, info);
+  put->bind(24, NowUnixMs());
   put->exec();
   return db_->getLastInsertRowid();
 }
@@ -58,12 +61,12 @@ void SqliteRouteStore::ForgetPlaceAndTags(std::int64_t id) {
 }
 
 void SqliteRouteStore::Bury(const RouteInfo& info) {
-  auto find = compiled_.Take("SELECT id FROM route WHERE route = ? AND revision = ?");
+  auto find = compiled_.Take("SELECT id FROM route WHERE route = ? AND teaching = ?");
   BindKey(*find, info.key);
   if (find->executeStep()) ForgetPlaceAndTags(find->getColumn(0).getInt64());
   find->reset();
-  for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND revision = ?",
-                              "DELETE FROM route WHERE route = ? AND revision = ?"}) {
+  for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND teaching = ?",
+                              "DELETE FROM route WHERE route = ? AND teaching = ?"}) {
     auto part = compiled_.Take(parting);
     BindKey(*part, info.key);
     part->exec();

@@ -7,7 +7,7 @@
 namespace trailcast::store {
 namespace {
 
-constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, revision DESC";
+constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, teaching DESC";
 
 using route::RouteInfo;
 using route::RouteKey;
@@ -67,7 +67,7 @@ Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> piec
 }
 
 bool SqliteRouteStore::IsBuried(const RouteKey& key) {
-  auto select = compiled_.Take("SELECT 1 FROM tombstone WHERE route = ? AND revision = ?");
+  auto select = compiled_.Take("SELECT 1 FROM tombstone WHERE route = ? AND teaching = ?");
   BindKey(*select, key);
   return select->executeStep();
 }
@@ -92,7 +92,7 @@ Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   const auto content = FindContent(piece.digest);
   if (!content) return tl::unexpected(content.error());
   auto insert = compiled_.Take(
-      "INSERT INTO segment (route, revision, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
+      "INSERT INTO segment (route, teaching, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
       "ON CONFLICT DO UPDATE "
       "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes");
   const SegmentPiece relying{piece.key, piece.index, piece.digest, {}};
@@ -105,7 +105,7 @@ Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentI
   const std::string which = Describe(key, index);
   return Guarded("reading " + which, [&]() -> Result<SegmentPiece> {
     auto select = compiled_.Take(
-        "SELECT digest, seal, bytes FROM segment WHERE route = ? AND revision = ? AND number = ?");
+        "SELECT digest, seal, bytes FROM segment WHERE route = ? AND teaching = ? AND number = ?");
     BindKey(*select, key);
     select->bind(3, index.value());
     if (!select->executeStep()) {
@@ -130,7 +130,7 @@ Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey
       "listing the segments of " + Describe(key), [&]() -> Result<std::vector<HeldSegment>> {
         SQLite::Statement select(*db_,
                                  "SELECT digest, seal, NULL, number FROM segment WHERE route = ? "
-                                 "AND revision = ? ORDER BY number");
+                                 "AND teaching = ? ORDER BY number");
         BindKey(select, key);
         std::vector<HeldSegment> held;
         while (select.executeStep()) {
@@ -162,7 +162,7 @@ Result<std::vector<SegmentIndex>> SqliteRouteStore::SelectIndices(const RouteKey
   return Guarded(
       "listing the segments of " + Describe(key), [&]() -> Result<std::vector<SegmentIndex>> {
         SQLite::Statement select(*db_, fmt::format("SELECT number FROM segment WHERE route = ? AND "
-                                                   "revision = ? {} ORDER BY number",
+                                                   "teaching = ? {} ORDER BY number",
                                                    unreceipted ? "AND receipted = 0" : ""));
         BindKey(select, key);
         std::vector<SegmentIndex> indices;
@@ -200,7 +200,7 @@ Result<std::vector<RouteInfo>> SqliteRouteStore::SelectRoutes(
 Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key) {
   for (const char* table : {"route", "tombstone"}) {
     Result<std::vector<RouteInfo>> found =
-        SelectRoutes(table, "WHERE route = ? AND revision = ?",
+        SelectRoutes(table, "WHERE route = ? AND teaching = ?",
                      [&](SQLite::Statement& select) { BindKey(select, key); });
     if (!found) return tl::unexpected(found.error());
     if (!found->empty()) return std::move(found->front());
@@ -209,8 +209,25 @@ Result<std::optional<RouteInfo>> SqliteRouteStore::FindRoute(const RouteKey& key
 }
 
 Result<std::vector<RouteInfo>> SqliteRouteStore::FindRevisions(const RouteId& route) {
-  return SelectRoutes("route", "WHERE route = ? ORDER BY revision",
+  return SelectRoutes("route", "WHERE route = ? ORDER BY revision, teaching",
                       [&](SQLite::Statement& select) { select.bind(1, route.value()); });
+}
+
+Result<std::vector<KnownTeaching>> SqliteRouteStore::FindTeachings(const RouteId& route) {
+  return Guarded(
+      "listing the teachings of a route", [&]() -> Result<std::vector<KnownTeaching>> {
+        auto select = compiled_.Take(
+            "SELECT teaching, revision, grown_unix_ms FROM route WHERE route = ?1 UNION ALL "
+            "SELECT teaching, revision, grown_unix_ms FROM tombstone WHERE route = ?1");
+        select->bind(1, route.value());
+        std::vector<KnownTeaching> known;
+        while (select->executeStep()) {
+          known.push_back({TeachingOf(select->getColumn(0)),
+                           RevisionNumber(select->getColumn(1).getUInt()),
+                           select->getColumn(2).getInt64()});
+        }
+        return known;
+      });
 }
 
 Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() {
@@ -228,7 +245,7 @@ Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
   return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
     SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
     auto update = compiled_.Take(
-        "UPDATE segment SET receipted = 1 WHERE route = ? AND revision = ? AND number = ? AND "
+        "UPDATE segment SET receipted = 1 WHERE route = ? AND teaching = ? AND number = ? AND "
         "receipted = 0");
     BindKey(*update, key);
     for (const SegmentIndex index : indices) {

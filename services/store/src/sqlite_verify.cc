@@ -36,12 +36,12 @@ Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
   std::vector<route::RouteKey> keys;
   Result<void> listed = Guarded("listing what it holds", [&]() -> Result<void> {
     SQLite::Statement select(*db_,
-                             "SELECT route, revision FROM route UNION "
-                             "SELECT route, revision FROM tombstone UNION "
-                             "SELECT route, revision FROM segment ORDER BY 1, 2");
+                             "SELECT route, teaching FROM route UNION "
+                             "SELECT route, teaching FROM tombstone UNION "
+                             "SELECT route, teaching FROM segment ORDER BY 1, 2");
     while (select.executeStep()) {
       keys.push_back({RouteId(select.getColumn(0).getString()),
-                      RevisionNumber(select.getColumn(1).getUInt())});
+                      TeachingOf(select.getColumn(1))});
     }
     return {};
   });

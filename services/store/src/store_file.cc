@@ -104,12 +104,14 @@ Result<void> StoreFile::Inspect() const {
                 "{} is not a route store; it was left untouched, give another file",
                 path_.string());
   }
-  if (const std::uint32_t version = Number(header, kUserVersionAt, 4); version != kSchemaVersion) {
-    return Fail(
-        ErrorCode::kCorrupt,
-        "route store {} has version {}, this program reads {}; use the program that wrote it, "
-        "or give another file",
-        path_.string(), version, kSchemaVersion);
+  const std::uint32_t version = Number(header, kUserVersionAt, 4);
+  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
+    return Fail(ErrorCode::kCorrupt,
+                "route store {} has version {}, this program reads {} to {}; {}, or give another "
+                "file",
+                path_.string(), version, kOldestSchemaVersion, kSchemaVersion,
+                version > kSchemaVersion ? "update this program"
+                                         : "export its routes with the program that wrote it");
   }
   // With a log beside it the file may rightly be shorter: SQLite then decides when it recovers.
   if (size < PromisedBytes(header) && !HasContent(path_.string() + "-wal")) {

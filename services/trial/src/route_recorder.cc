@@ -10,7 +10,7 @@ RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
                              const agent::TeachOptions& options)
     : session_(options) {
   // It needs no id that differs from others'.
-  taught_.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
+  taught_.info.key = {RouteId("00000000000000000000000000000000"), TeachingId(1)};
   taught_.info.name = name;
   taught_.info.scout = AgentId("scout");
   taught_.info.camera = camera;

@@ -39,7 +39,7 @@ exchange::RouteSender MakeSender(const TaughtRoute& taught) {
   std::vector<route::Digest> digests;
   for (const route::SegmentPiece& piece : taught.pieces) digests.push_back(piece.digest);
   info.manifest_digest = route::ManifestDigest(digests);
-  return exchange::RouteSender(AgentId("scout"), info, read, {});
+  return exchange::RouteSender(AgentId("scout"), info, read, exchange::SegmentDigests(digests), {});
 }
 
 }  // namespace

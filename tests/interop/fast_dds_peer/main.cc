@@ -23,7 +23,7 @@ std::string StateOf(const trailcast::wire::RouteInfo& info) {
 void Tell(const CatalogRoute& route) {
   const auto& info = route.info();
   std::printf("%s %s %u %s %u %.3f %llu %s %s %s\n", info.name().c_str(),
-              route.key().route().c_str(), route.key().revision(), StateOf(info).c_str(),
+              route.key().route().c_str(), info.revision(), StateOf(info).c_str(),
               info.segment_count(), info.length_m(), static_cast<unsigned long long>(info.bytes()),
               info.scout().c_str(), peer::Hex(info.manifest_digest()).c_str(),
               info.camera().c_str());

@@ -24,7 +24,8 @@ std::int64_t NowUnixMs() {
 // As a scout that has just taught it says it: nobody changed its labels yet.
 wire::CatalogRoute Relabelled(wire::CatalogRoute route, const std::string& name) {
   route.key().route(NewRouteId());
-  route.key().revision(1);
+  route.key().teaching(1);
+  route.info().revision(1);
   route.info().name(name);
   route.info().scout(kName);
   route.info().taught_unix_ms(NowUnixMs());

@@ -83,7 +83,7 @@ TEST_F(FollowerTest, HoldsANewRevisionInAdvanceAndStillFollowsTheActiveOne) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_TRUE(outcome->success) << outcome->reason;
   const auto both = swarm_.OpenStore("robot")->FindRoutesByName("hall").value();
-  EXPECT_EQ(exchange::ChooseRoute(both)->key.revision, RevisionNumber(1))
+  EXPECT_EQ(exchange::ChooseRoute(both)->revision, RevisionNumber(1))
       << "also out of the server's reach";
 }
 

@@ -91,6 +91,7 @@ TEST_F(ScoutTest, StopsTheRobotFirstWhenTheCameraFailsAndKeepsWhatWasTaught) {
   EXPECT_EQ(device_.told.front(), motion::VelocityCommand{});
   EXPECT_GE(Taught("scout").segment_count, 1U);
   EXPECT_EQ(Taught("scout").state, RouteState::kComplete);
+  EXPECT_TRUE(Taught("scout").cut_off);
 }
 
 TEST_F(ScoutTest, EndsTheRouteWhereASignalStopsIt) {
@@ -131,6 +132,74 @@ TEST_F(ScoutTest, TeachesARouteAgainAsItsNextRevision) {
   const auto routes = swarm_.OpenStore("scout")->FindRoutesByName("hall");
   ASSERT_THAT(*routes, SizeIs(2));
   EXPECT_EQ(routes->front().key.route, routes->back().key.route);
+}
+
+// Both robots hold revision 1 and each teaches its second while no server is there.
+TEST_F(ScoutTest, TwoThatTeachTheSameRouteAgainBothArriveUnderNumbersOfTheirOwn) {
+  ASSERT_TRUE(swarm_.Teach(device_, swarm_.ScoutNamed("first"), false));
+  std::filesystem::copy_file(swarm_.StoreFile("first"), swarm_.StoreFile("second"));
+  WalkDevice further(kFrames + 50);
+  WalkDevice again(kFrames);
+  EXPECT_EQ(Value(swarm_.Teach(further, swarm_.ScoutNamed("first"), false), "revision"), "2");
+  EXPECT_EQ(Value(swarm_.Teach(again, swarm_.ScoutNamed("second"), false), "revision"), "2");
+  swarm_.StartServer();
+  for (const std::string name : {"first", "second"}) {
+    const auto delivered = DeliverBacklog(swarm_.ScoutNamed(name).link, swarm_.OpenStore(name),
+                                          swarm_.Join(exchange::ScoutTopics()));
+    ASSERT_TRUE(delivered) << delivered.error().message;
+  }
+  swarm_.StopServer();
+  const auto server = swarm_.OpenStore("server");
+  for (const std::string name : {"first", "second"}) {
+    const auto store = swarm_.OpenStore(name);
+    const auto all = store->FindRoutesByName("hall").value();
+    for (const route::RouteInfo& taught : all) {
+      const auto there = server->FindRoute(taught.key);
+      ASSERT_TRUE(there && *there) << name << "'s revision " << taught.revision.value();
+      EXPECT_TRUE(route::SameTeaching(**there, taught));
+      EXPECT_EQ((*there)->revision, taught.revision) << "its scout learns the number";
+      EXPECT_THAT(*server->HeldSegments(taught.key), SizeIs(taught.segment_count));
+      EXPECT_THAT(*store->UnreceiptedSegments(taught.key), IsEmpty());
+    }
+  }
+  std::set<std::uint32_t> numbers;
+  const auto held = server->FindRoutesByName("hall").value();
+  for (const route::RouteInfo& info : held) {
+    numbers.insert(info.revision.value());
+  }
+  EXPECT_EQ(numbers, (std::set<std::uint32_t>{1, 2, 3}));
+}
+
+TEST_F(ScoutTest, FillsAServerThatWasPutBackFromABackup) {
+  swarm_.StartServer();
+  ASSERT_TRUE(swarm_.Teach(device_, swarm_.ScoutNamed("scout"), true));
+  swarm_.StopServer();
+  const std::filesystem::path backup = swarm_.StoreFile("backup");
+  std::filesystem::copy_file(swarm_.StoreFile("server"), backup);
+  swarm_.StartServer();
+  WalkDevice again(kFrames);
+  ASSERT_TRUE(swarm_.Teach(again, swarm_.ScoutNamed("scout"), true));
+  swarm_.StopServer();
+  for (const bool restored : {true, false}) {  // false: a new server
+    std::filesystem::remove(swarm_.StoreFile("server"));
+    if (restored) std::filesystem::copy_file(backup, swarm_.StoreFile("server"));
+    swarm_.StartServer();
+    const auto delivered =
+        DeliverBacklog(swarm_.ScoutNamed("scout").link, swarm_.OpenStore("scout"),
+                       swarm_.Join(exchange::ScoutTopics()));
+    ASSERT_TRUE(delivered) << delivered.error().message;
+    swarm_.StopServer();
+    const auto server = swarm_.OpenStore("server");
+    const auto taught = swarm_.OpenStore("scout")->FindRoutesByName("hall").value();
+    ASSERT_THAT(taught, SizeIs(2));
+    for (const route::RouteInfo& info : taught) {
+      const auto there = server->FindRoute(info.key).value();
+      ASSERT_TRUE(there) << "revision " << info.revision.value();
+      EXPECT_TRUE(route::SameTeaching(*there, info));
+      EXPECT_EQ(there->revision, info.revision);
+      EXPECT_THAT(*server->HeldSegments(info.key), SizeIs(info.segment_count));
+    }
+  }
 }
 
 TEST_F(ScoutTest, RefusesANameThatIsTakenBeforeTheFirstFrame) {

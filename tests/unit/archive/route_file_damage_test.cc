@@ -137,8 +137,8 @@ TEST(RouteFileDamage, FieldsOutOfBoundsAreNamed) {
   EXPECT_THAT(error([](auto& info) { info.scout = AgentId(std::string(65, 'a')); }),
               HasSubstr("scout"));
   EXPECT_THAT(error([](auto& info) { info.key.route = RouteId("x"); }), HasSubstr("route id"));
-  EXPECT_THAT(error([](auto& info) { info.key.revision = RevisionNumber(0); }),
-              HasSubstr("revision"));
+  EXPECT_THAT(error([](auto& info) { info.key.teaching = TeachingId(1ULL << 63U); }),
+              HasSubstr("teaching"));
   EXPECT_THAT(error([](auto& info) { info.camera = "\033[2J"; }), HasSubstr("camera"));
   EXPECT_THAT(error([](auto& info) { info.image_width_px = 70000; }), HasSubstr("image width"));
   EXPECT_THAT(error([](auto& info) { info.image_height_px = -1; }), HasSubstr("image height"));
@@ -184,14 +184,14 @@ TEST(RouteFileDamage, SegmentsOutOfOrderAreRefused) {
 
 TEST(RouteFileDamage, ASegmentOfOtherBytesThanItsDigestIsNamed) {
   EXPECT_THAT(ErrorAfter([](MadeFile& made) { made.frames[1].bytes[3] ^= 1U; }),
-              AllOf(HasSubstr("segment 1 of route"), HasSubstr("have digest")));
+              AllOf(HasSubstr("segment 1 of teaching 2 of route"), HasSubstr("have digest")));
 }
 
 TEST(RouteFileDamage, ASegmentThatDoesNotDecodeIsNamed) {
   EXPECT_THAT(ErrorAfter([](MadeFile& made) {
                 Replace(made.frames[1], {0xff, 0xff});
               }),
-              AllOf(HasSubstr("segment 1 of route"), HasSubstr("2 bytes are no segment")));
+              AllOf(HasSubstr("segment 1 of teaching 2 of route"), HasSubstr("2 bytes are no segment")));
   // Another's segment, with its own digest.
   EXPECT_THAT(ErrorAfter([](MadeFile& made) { Replace(made.frames[1], made.frames[0].bytes); }),
               HasSubstr("its bytes are of segment 0"));

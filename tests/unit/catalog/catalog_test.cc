@@ -23,7 +23,7 @@ class Catalog : public testing::Test {
 
   route::RouteInfo Put(const std::string& name, std::int64_t taught_unix_ms) {
     route::RouteInfo info;
-    info.key = {RouteId(fmt::format("{:032x}", taught_unix_ms)), RevisionNumber(1)};
+    info.key = {RouteId(fmt::format("{:032x}", taught_unix_ms)), TeachingId(1)};
     info.name = name;
     info.scout = AgentId("scout-1");
     info.taught_unix_ms = taught_unix_ms;

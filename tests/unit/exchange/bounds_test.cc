@@ -44,7 +44,7 @@ TEST(CheckBounds, RefusesEachBadFieldOfAnAnnouncementByName) {
   ExpectRefused(with([](Info& i) { i.length_m = std::numeric_limits<double>::infinity(); }),
                 "length");
   ExpectRefused(with([](Info& i) { i.key.route = RouteId(std::string(32, 'G')); }), "route id");
-  ExpectRefused(with([](Info& i) { i.key.revision = RevisionNumber(0); }), "revision");
+  ExpectRefused(with([](Info& i) { i.key.teaching = TeachingId(0); }), "teaching");
 }
 
 TEST(CheckBounds, RefusesPlacesThatNoRouteHas) {
@@ -56,7 +56,7 @@ TEST(CheckBounds, RefusesPlacesThatNoRouteHas) {
     message.places = {place};
     return message;
   };
-  ExpectRefused(with({{RouteId("x"), RevisionNumber(1)}, SegmentIndex(0), 0.5}), "route id");
+  ExpectRefused(with({{RouteId("x"), TeachingId(1)}, SegmentIndex(0), 0.5}), "route id");
   ExpectRefused(with({KeyNumber(1), SegmentIndex(kMaxSegmentsPerRoute), 0.5}), "segment index");
   ExpectRefused(with({KeyNumber(1), SegmentIndex(0), 1.5}), "score");
   CatalogReply many = good;
@@ -80,7 +80,7 @@ TEST(CheckBounds, RefusesListsThatAreTooLong) {
       SegmentRequest{AgentId("f"), KeyNumber(1), test::Indices(0, kMaxIndicesPerRequest + 1)},
       "lacking");
   Receipt receipt{.server = AgentId("s"), .key = KeyNumber(1)};
-  receipt.durable_beyond = test::Indices(0, kMaxIndicesPerReceipt + 1);
+  receipt.durable_beyond.resize(kMaxSegmentsPerReceipt + 1);
   ExpectRefused(receipt, "durable");
 }
 

@@ -18,8 +18,9 @@ const AgentId kServer("server");
 RouteInfo Info(const std::string& name, std::uint32_t revision, std::int64_t taught,
                RouteState state) {
   RouteInfo info;
-  info.key = {RouteId(std::string(32, 'a')), RevisionNumber(revision)};
+  info.key = {RouteId(std::string(32, 'a')), TeachingId(revision)};
   info.name = name;
+  info.revision = RevisionNumber(revision);
   info.taught_unix_ms = taught;
   info.state = state;
   return info;
@@ -58,7 +59,16 @@ TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
                                           Info("hall", 1, 10, RouteState::kComplete)}},
                               {},
                               ""});
-  EXPECT_EQ(finder_.found()->key.revision.value(), 2U);
+  EXPECT_EQ(finder_.found()->revision.value(), 2U);
+}
+
+TEST_F(RouteFinderTest, WhatWasCutOffIsTakenByItsNumberOnly) {
+  RouteInfo cut_off = Info("hall", 2, 20, RouteState::kComplete);
+  cut_off.cut_off = true;
+  const RouteInfo before = Info("hall", 1, 10, RouteState::kComplete);
+  EXPECT_EQ(ChooseRoute({cut_off, before}), before);
+  EXPECT_EQ(ChooseRoute({cut_off}), std::nullopt);
+  EXPECT_EQ(ChooseRoute({cut_off, before}, {.number = 2}), cut_off);
 }
 
 TEST_F(RouteFinderTest, TellsThatTheServerDoesNotKnowTheRouteAndWhichItKnows) {

@@ -73,9 +73,9 @@ TEST_F(RouteKeeperTest, StoresOneTakeInOneCommitThenReceipts) {
   Deliver({pieces_[3]});
   const auto out = Tick();
   EXPECT_EQ(store_.commits, 1);
-  EXPECT_EQ(Only<Receipt>(out),
-            (std::vector{
-                Receipt{AgentId("server-1"), key_, 2, {SegmentIndex(3)}, RouteState::kTeaching}}));
+  Receipt receipt = test::ReceiptFor(AgentId("server-1"), key_, pieces_, 2, {SegmentIndex(3)});
+  receipt.revision = RevisionNumber(1);
+  EXPECT_EQ(Only<Receipt>(out), std::vector{receipt});
   const auto announced = Only<RouteAnnouncement>(out);
   ASSERT_EQ(announced.size(), 1U);
   EXPECT_EQ(announced[0].info.segment_count, 2U);  // what can be served without a gap
@@ -91,6 +91,27 @@ TEST_F(RouteKeeperTest, SaysCompleteOnlyWhenAllIsOnDiskAndTheManifestIsRight) {
   EXPECT_EQ(Only<RouteAnnouncement>(out).at(0).info, Active(2));
   EXPECT_EQ(Only<Receipt>(out).at(0).durable_state, RouteState::kComplete);
   EXPECT_EQ(store_.FindRoute(key_).value(), Active(2));
+}
+
+TEST_F(RouteKeeperTest, WhatWasCutOffIsNotActivated) {
+  route::RouteInfo cut_off = Info(2, RouteState::kComplete);
+  cut_off.cut_off = true;
+  keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), cut_off}, now_);
+  Deliver({pieces_[0], pieces_[1]});
+  const Receipt receipt = Only<Receipt>(Tick()).at(0);
+  EXPECT_EQ(receipt.durable_state, RouteState::kComplete);
+  EXPECT_EQ(receipt.standing, route::Standing::kStaged);
+  EXPECT_EQ(store_.FindRoute(key_).value(), cut_off);
+}
+
+TEST_F(RouteKeeperTest, AsksWhoHasWhatAgentsHoldAndItLacks) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  const route::RouteKey lost = test::KeyNumber(7);
+  keeper_->Handle(AgentStatus{.agent = AgentId("robot"), .held = {key_, lost}}, now_);
+  const auto asked = Only<SegmentRequest>(Tick());
+  EXPECT_EQ(asked, (std::vector{SegmentRequest{AgentId("server-1"), lost, {}}}));
 }
 
 TEST_F(RouteKeeperTest, ARouteIsNotCompletedWithFewerSegmentsThanItHas) {
@@ -185,7 +206,8 @@ TEST_F(RouteKeeperTest, OneDamagedPieceDoesNotCostTheOthers) {
   Deliver({damaged, pieces_[1]});
   const auto out = Tick();
   EXPECT_EQ(keeper_->counters().corrupt, 1U);
-  EXPECT_EQ(Only<Receipt>(out).at(0).durable_beyond, std::vector{SegmentIndex(1)});
+  EXPECT_EQ(Only<Receipt>(out).at(0).durable_beyond,
+            (std::vector{NamedSegment{SegmentIndex(1), pieces_[1].digest}}));
 }
 
 TEST_F(RouteKeeperTest, AFullDiskMeansARefusalUntilThereIsRoom) {
@@ -451,7 +473,7 @@ TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
   Announce(2, RouteState::kComplete);
   Deliver({pieces_[0], pieces_[1]});
   Tick();
-  const route::RouteKey again{key_.route, RevisionNumber(2)};
+  const route::RouteKey again{key_.route, TeachingId(2)};
   route::SegmentPiece known = pieces_[0];
   route::SegmentPiece fresh = pieces_[2];
   known.key = fresh.key = again;

@@ -15,10 +15,13 @@ using test::Only;
 class RouteSenderTest : public testing::Test {
  protected:
   RouteSender Sender(const std::vector<SegmentIndex>& receipted = {}) {
+    std::vector<route::Digest> digests;
+    for (const route::SegmentPiece& piece : pieces_) digests.push_back(piece.digest);
     const auto read = [this](SegmentIndex index) -> Result<route::SegmentPiece> {
       return pieces_.at(index.value());
     };
-    return {AgentId("scout-1"), Info(RouteState::kTeaching), read, receipted};
+    return {AgentId("scout-1"), Info(RouteState::kTeaching), read, SegmentDigests(digests),
+            receipted};
   }
   void Teach(RouteSender& sender) {
     pieces_.push_back(test::PieceOf(key_, static_cast<std::uint32_t>(pieces_.size())));
@@ -28,9 +31,14 @@ class RouteSenderTest : public testing::Test {
   void Ask(RouteSender& sender, const std::string& who, std::vector<SegmentIndex> lacking) {
     sender.Handle(SegmentRequest{AgentId(who), key_, std::move(lacking)}, now_);
   }
-  void Confirm(RouteSender& sender, std::uint32_t prefix, std::vector<SegmentIndex> beyond = {},
+  Receipt ReceiptOf(std::uint32_t prefix, const std::vector<SegmentIndex>& beyond = {},
+                    RouteState state = RouteState::kTeaching) {
+    return test::ReceiptFor(AgentId("server-1"), key_, pieces_, prefix, beyond, state);
+  }
+  void Confirm(RouteSender& sender, std::uint32_t prefix,
+               const std::vector<SegmentIndex>& beyond = {},
                RouteState state = RouteState::kTeaching) {
-    sender.Handle(Receipt{AgentId("server-1"), key_, prefix, std::move(beyond), state}, now_);
+    sender.Handle(ReceiptOf(prefix, beyond, state), now_);
   }
   std::vector<Message> TickAfter(RouteSender& sender, milliseconds passed) {
     now_ += passed;
@@ -83,11 +91,47 @@ TEST_F(RouteSenderTest, ReportsEachReceiptedSegmentOnce) {
 TEST_F(RouteSenderTest, ReceiptsOfOtherRoutesAndBeyondTheEndChangeNothing) {
   RouteSender sender = Sender();
   Teach(sender);
-  sender.Handle(Receipt{AgentId("s"), test::KeyNumber(2), 9, {}, RouteState::kComplete}, now_);
+  Receipt other = ReceiptOf(1, {}, RouteState::kComplete);
+  other.key = test::KeyNumber(2);
+  sender.Handle(other, now_);
   EXPECT_EQ(sender.Unreceipted().size(), 1U);
-  Confirm(sender, 100'000);
+  Receipt beyond = ReceiptOf(1);
+  beyond.durable_prefix = 100'000;
+  sender.Handle(beyond, now_);
+  EXPECT_EQ(sender.Unreceipted().size(), 1U);
+}
+
+TEST_F(RouteSenderTest, AReceiptOfOtherBytesConfirmsNothing) {
+  RouteSender sender = Sender();
+  for (int i = 0; i < 4; ++i) Teach(sender);
+  sender.Update(Info(RouteState::kComplete));
+  std::vector<route::SegmentPiece> others = pieces_;
+  others[0] = test::PieceOf(key_, 0, 100, 1);
+  others[3] = test::PieceOf(key_, 3, 100, 1);
+  const AgentId server("server-1");
+  sender.Handle(test::ReceiptFor(server, key_, others, 4, {}, RouteState::kComplete), now_);
+  EXPECT_EQ(sender.Unreceipted().size(), 4U);
+  EXPECT_FALSE(sender.AllReceipted());
+  EXPECT_EQ(sender.contradicted_by(), server);
+  sender.Handle(test::ReceiptFor(server, key_, others, 0, {SegmentIndex(2), SegmentIndex(3)}),
+                now_);
+  EXPECT_EQ(sender.TakeNewlyReceipted(), std::vector{SegmentIndex(2)});
+  Confirm(sender, 4, {}, RouteState::kComplete);
+  EXPECT_TRUE(sender.AllReceipted());
+  EXPECT_FALSE(sender.contradicted_by());
+}
+
+TEST_F(RouteSenderTest, TakesTheNumberThatTheServerGives) {
+  RouteSender sender = Sender();
   Teach(sender);
-  EXPECT_EQ(sender.Unreceipted(), std::set{SegmentIndex(1)});
+  EXPECT_FALSE(sender.TakeNumbered());
+  Receipt receipt = ReceiptOf(1);
+  receipt.revision = RevisionNumber(3);
+  sender.Handle(receipt, now_);
+  EXPECT_EQ(sender.TakeNumbered()->revision, RevisionNumber(3));
+  EXPECT_FALSE(sender.TakeNumbered());
+  Teach(sender);  // by whoever does not know it
+  EXPECT_EQ(sender.info().revision, RevisionNumber(3));
 }
 
 TEST_F(RouteSenderTest, AnswersWhatOnlyItHas) {
@@ -133,7 +177,7 @@ TEST_F(RouteSenderTest, GoesOnOfferingWhatAFullServerRefuses) {
   RouteSender sender = Sender();
   Teach(sender);
   (void)sender.Tick(now_);
-  Receipt refusal{AgentId("server-1"), key_, 0, {}, RouteState::kTeaching};
+  Receipt refusal = ReceiptOf(0);
   refusal.refusal = Refusal::kFull;
   refusal.reason = "disk full";
   sender.Handle(refusal, now_);
@@ -148,14 +192,15 @@ TEST_F(RouteSenderTest, GoesOnOfferingWhatAFullServerRefuses) {
 TEST_F(RouteSenderTest, StopsSendingWhatAnOperatorDeleted) {
   RouteSender sender = Sender();
   Teach(sender);
-  Receipt refusal{AgentId("server-1"), key_, 0, {}, RouteState::kTeaching};
+  Receipt refusal = ReceiptOf(0);
   refusal.refusal = Refusal::kDeleted;
   sender.Handle(refusal, now_);
   Teach(sender);
-  EXPECT_EQ(sender.TakeNewlyReceipted(), Indices(0, 2)) << "nobody waits for them";
   EXPECT_TRUE(test::PiecesIn(sender.Tick(now_)).empty());
   sender.Update(Info(RouteState::kComplete));
-  EXPECT_TRUE(sender.AllReceipted());
+  EXPECT_TRUE(sender.Done()) << "nobody waits for them";
+  EXPECT_FALSE(sender.AllReceipted()) << "and nobody has them";
+  EXPECT_TRUE(sender.TakeNewlyReceipted().empty());
 }
 
 }  // namespace

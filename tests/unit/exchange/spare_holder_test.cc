@@ -42,6 +42,9 @@ class SpareHolderTest : public testing::Test {
         }
         return pieces_[index.value()];
       },
+      [this](const route::RouteKey& key) -> Result<std::optional<route::RouteInfo>> {
+        return test::InfoOf(key, pieces_, route::RouteState::kComplete);
+      },
       {.patience = milliseconds(100)}};
 };
 
@@ -110,6 +113,25 @@ TEST_F(SpareHolderTest, SendsALongAnswerInParts) {
   }
   EXPECT_EQ(sent, many.size());
   EXPECT_GE(ticks, 4U);
+}
+
+TEST_F(SpareHolderTest, TellsAServerThatLacksARouteAllAboutIt) {
+  const SegmentRequest who_has{AgentId("server"), key_, {}};
+  holder_.Handle(who_has, now_);
+  now_ += milliseconds(1000);
+  EXPECT_THAT(holder_.Tick(now_), IsEmpty()) << "not known to be a server";
+  AgentStatus server{.agent = AgentId("server"), .instance = 1};
+  server.role = AgentRole::kServer;
+  holder_.Handle(server, now_);
+  holder_.Handle(who_has, now_);
+  now_ += milliseconds(200);
+  const auto told = Only<RouteAnnouncement>(holder_.Tick(now_));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].info, test::InfoOf(key_, pieces_, route::RouteState::kComplete));
+  holder_.Handle(who_has, now_);
+  holder_.Handle(RouteAnnouncement{AgentId("other"), told[0].info}, now_);
+  now_ += milliseconds(1000);
+  EXPECT_THAT(holder_.Tick(now_), IsEmpty()) << "another one did";
 }
 
 }  // namespace

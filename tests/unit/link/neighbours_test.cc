@@ -53,7 +53,7 @@ TEST_F(NeighboursTest, KnowsWhereOthersLastWere) {
 
 TEST_F(NeighboursTest, AnotherRevisionsPlacesAreNotComparable) {
   AgentStatus status = Follower("a", 2.0);
-  status.place->key.revision = RevisionNumber(2);
+  status.place->key.teaching = TeachingId(2);
   Hear(status);
   EXPECT_EQ(Places(), These{});
 }

@@ -2,14 +2,29 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "services/route/digest.h"
+#include "tests/support/pieces.h"
 #include "tests/support/temp_dir.h"
+
+namespace trailcast::test {
+
+// The segment's bytes in the store's file are no longer what they were.
+void DamageSegment(const std::filesystem::path& file, int number) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &db), SQLITE_OK);
+  const std::string sql =
+      fmt::format("UPDATE segment SET bytes = zeroblob(length(bytes)) WHERE number = {}", number);
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+}
+
+}  // namespace trailcast::test
 
 namespace trailcast::agent {
 namespace {
 
-using exchange::Receipt;
 using route::RouteState;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -17,7 +32,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 const AgentId kScout("scout");
-const route::RouteKey kKey{RouteId(std::string(32, '1')), RevisionNumber(1)};
+const route::RouteKey kKey{RouteId(std::string(32, '1')), TeachingId(1)};
 
 route::Segment SegmentNumber(std::uint32_t index) {
   route::Segment segment;
@@ -52,7 +67,11 @@ class OutboxTest : public testing::Test {
     for (std::uint32_t i = 0; i < segments; ++i) ASSERT_TRUE(outbox_->Add(kKey, SegmentNumber(i)));
   }
   void Confirm(std::uint32_t prefix, RouteState state) {
-    outbox_->Handle(Receipt{AgentId("server"), kKey, prefix, {}, state}, {});
+    std::vector<route::SegmentPiece> pieces;
+    for (std::uint32_t i = 0; i < prefix; ++i) {
+      pieces.push_back(route::MakePiece(kKey, SegmentNumber(i)));
+    }
+    outbox_->Handle(test::ReceiptFor(AgentId("server"), kKey, pieces, prefix, {}, state), {});
     ASSERT_TRUE(outbox_->SaveReceipts());
   }
   route::RouteInfo Stored() { return **store_->FindRoute(kKey); }
@@ -133,6 +152,66 @@ TEST_F(OutboxTest, LeavesAnotherAgentsUnfinishedRouteAlone) {
   EXPECT_THAT(*outbox_->LoadBacklog(), ElementsAre(HasSubstr("--name scout")));
   EXPECT_EQ(outbox_->unreceipted(), 0U);
   EXPECT_EQ(Stored().state, RouteState::kTeaching);
+}
+
+TEST_F(OutboxTest, ARouteWhoseTeachingWasCutOffSaysSo) {
+  Teach(3);
+  Restart();
+  ASSERT_TRUE(outbox_->LoadBacklog());
+  EXPECT_TRUE(Stored().cut_off);
+}
+
+TEST_F(OutboxTest, ADamagedSegmentIsThatSegmentsTroubleAlone) {
+  Teach(3);
+  store_.reset();
+  test::DamageSegment(folder_ / "scout.db", 1);
+  Restart();
+  const auto notes = outbox_->LoadBacklog();
+  ASSERT_TRUE(notes) << notes.error().message;
+  EXPECT_EQ(Stored().segment_count, 3U);
+  EXPECT_DOUBLE_EQ(Stored().length_m, 6.0) << "as long as the others";
+  outbox_->Handle(exchange::SegmentRequest{AgentId("server"), kKey, test::Indices(0, 3)}, {});
+  const auto sent = test::PiecesIn(outbox_->Tick(Outbox::Time{} + std::chrono::seconds(1)));
+  ASSERT_THAT(sent, SizeIs(2));
+  EXPECT_EQ(sent[1].index, SegmentIndex(2));
+  EXPECT_THAT(outbox_->TakeReadErrors(), SizeIs(1));
+}
+
+TEST_F(OutboxTest, OffersAgainWhatAServerOnceHadAndLacks) {
+  Teach(2);
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  Confirm(2, RouteState::kComplete);
+  Restart();
+  ASSERT_THAT(*outbox_->LoadBacklog(), IsEmpty());
+  const exchange::SegmentRequest who_has{AgentId("server"), kKey, {}};
+  outbox_->Handle(who_has, {});
+  EXPECT_THAT(outbox_->Tick({}), IsEmpty()) << "not known to be a server";
+  exchange::AgentStatus server{.agent = AgentId("server")};
+  server.role = exchange::AgentRole::kServer;
+  outbox_->Handle(server, {});
+  outbox_->Handle(who_has, {});
+  const auto told = test::Only<exchange::RouteAnnouncement>(outbox_->Tick({}));
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_EQ(told[0].info, Stored());
+  EXPECT_EQ(outbox_->unreceipted(), 2U);
+  Confirm(2, RouteState::kComplete);
+  EXPECT_TRUE(outbox_->AllReceipted());
+}
+
+TEST_F(OutboxTest, WhatAnOperatorDeletedStaysAndIsOfferedNoMore) {
+  Teach(2);
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  exchange::Receipt refusal{.server = AgentId("server"), .key = kKey};
+  refusal.refusal = exchange::Refusal::kDeleted;
+  refusal.reason = "an operator deleted it";
+  outbox_->Handle(refusal, {});
+  ASSERT_TRUE(outbox_->SaveReceipts());
+  EXPECT_TRUE(outbox_->Done());
+  EXPECT_FALSE(outbox_->AllReceipted());
+  EXPECT_THAT(*outbox_->refusal(), HasSubstr("an operator deleted it"));
+  EXPECT_THAT(*store_->HeldSegments(kKey), SizeIs(2));
+  Restart();
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
 }
 
 }  // namespace

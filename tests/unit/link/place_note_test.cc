@@ -65,7 +65,7 @@ TEST_F(PlaceNoteTest, RefusesWhateverItDidNotWrite) {
   ExpectCorrupt(with("12.345", "1e300"));
   ExpectCorrupt(with("0.75", "0"));
   ExpectCorrupt(with("place 1", "place 2"));
-  ExpectCorrupt(with("revision 3", "revision 0"));
+  ExpectCorrupt(with("teaching 3", "teaching 0"));
   ExpectCorrupt(std::string(100'000, 'x'));
 }
 

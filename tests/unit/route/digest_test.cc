@@ -11,7 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const RouteKey kKey{RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(2)};
+const RouteKey kKey{RouteId("0123456789abcdef0123456789abcdef"), TeachingId(2)};
 
 // The three examples of FIPS 180's SHA-256.
 TEST(Digest, IsSha256) {
@@ -57,7 +57,7 @@ TEST(Piece, WithAChangedByteIsCorruptAndSaysWhichSegment) {
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::kCorrupt);
   EXPECT_THAT(opened.error().message, AllOf(HasSubstr("segment 12"), HasSubstr(kKey.route.value()),
-                                            HasSubstr("revision 2"), HasSubstr("digest")));
+                                            HasSubstr("teaching 2"), HasSubstr("digest")));
 }
 
 TEST(Piece, OfAnotherSegmentsBytesIsCorrupt) {
@@ -75,7 +75,7 @@ TEST(Piece, WithARightDigestOfNonsenseIsCorrupt) {
   const Result<Segment> opened = Open(piece);
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::kCorrupt);
-  EXPECT_THAT(opened.error().message, HasSubstr("segment 1 of route"));
+  EXPECT_THAT(opened.error().message, HasSubstr("segment 1 of teaching 2 of route"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 RouteInfo Taught(std::uint32_t segments, RouteState state = RouteState::kTeaching) {
   RouteInfo info;
-  info.key = {RouteId("00ff"), RevisionNumber(2)};
+  info.key = {RouteId("00ff"), TeachingId(2)};
   info.name = "yard";
   info.segment_count = segments;
   info.state = state;

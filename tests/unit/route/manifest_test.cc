@@ -11,7 +11,7 @@ namespace {
 
 RouteInfo Begun() {
   RouteInfo info;
-  info.key = {RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(3)};
+  info.key = {RouteId("0123456789abcdef0123456789abcdef"), TeachingId(3)};
   info.name = "yard";
   info.segment_count = 99;  // left over from elsewhere: not to be believed
   info.state = RouteState::kComplete;

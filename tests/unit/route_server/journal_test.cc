@@ -13,13 +13,14 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Optional;
 
-const route::RouteKey kKey{RouteId(std::string(32, '1')), RevisionNumber(1)};
+const route::RouteKey kKey{RouteId(std::string(32, '1')), TeachingId(1)};
 
 RouteAnnouncement Announcement() {
   RouteAnnouncement announcement;
   announcement.holder = AgentId("scout");
   announcement.info.key = kKey;
   announcement.info.name = "hall";
+  announcement.info.revision = RevisionNumber(1);
   announcement.info.scout = AgentId("scout");
   announcement.info.camera = "webcam 320x240";
   return announcement;

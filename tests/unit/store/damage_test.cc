@@ -64,10 +64,10 @@ TEST_F(StoreDamage, ChangedByteInASegmentIsCorruptAndTheOthersStillRead) {
     }
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::kCorrupt);
-    EXPECT_THAT(read.error().message, HasSubstr("segment 7 of route"));
+    EXPECT_THAT(read.error().message, HasSubstr("segment 7 of teaching 1 of route"));
     EXPECT_THAT(read.error().message, HasSubstr(file_.string()));
   }
-  EXPECT_THAT(store->Verify().value(), testing::ElementsAre(HasSubstr("segment 7 of route")));
+  EXPECT_THAT(store->Verify().value(), testing::ElementsAre(HasSubstr("segment 7 of teaching 1 of route")));
 }
 
 TEST_F(StoreDamage, DamagedSegmentMendsWhenItIsAppendedAgain) {
@@ -88,7 +88,7 @@ TEST_F(StoreDamage, ChangedByteInARouteIsCorruptUntilItIsAnnouncedAgain) {
   EXPECT_EQ(found.error().code, ErrorCode::kCorrupt);
   EXPECT_THAT(found.error().message, HasSubstr("named 'yard'"));
   EXPECT_FALSE(store->ListRoutes());
-  EXPECT_THAT(store->Verify().value(), Contains(HasSubstr("what is known of route")));
+  EXPECT_THAT(store->Verify().value(), Contains(HasSubstr("what is known of teaching 1 of route")));
   EXPECT_EQ(store->ReadSegment(kYard, SegmentIndex(3)).value(), Piece(3));
   ASSERT_TRUE(store->PutRoute(Complete(kSegments)));
   EXPECT_EQ(store->FindRoute(kYard).value(), Complete(kSegments));

@@ -9,7 +9,7 @@
 
 namespace trailcast::store {
 
-inline const route::RouteKey kYard{RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(1)};
+inline const route::RouteKey kYard{RouteId("0123456789abcdef0123456789abcdef"), TeachingId(1)};
 
 // A piece as large as a segment of some fifty features; `salt` makes other bytes for the same
 // index.

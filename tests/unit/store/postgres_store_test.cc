@@ -87,7 +87,7 @@ TEST_F(PostgresStore, OtherVersionsAndEncodingsAreRefused) {
   EXPECT_THAT(MessageOf(OpenStore(latin)), HasSubstr("is in LATIN1, expected UTF8"));
   (void)Open();
   Execute("UPDATE trailcast.store SET version = 77");
-  EXPECT_THAT(MessageOf(OpenStore(url_)), HasSubstr("has version 77, this program reads 1"));
+  EXPECT_THAT(MessageOf(OpenStore(url_)), HasSubstr("has version 77, this program reads 2"));
 }
 
 TEST_F(PostgresStore, OpenedForReadingItWritesNothing) {
@@ -114,7 +114,7 @@ TEST_F(PostgresStore, ServersThatStartAtOnceMakeTheTablesOnce) {
 TEST_F(PostgresStore, RevisionsShareTheBytesThatTheyHaveInCommon) {
   const auto store = Open();
   auto other = Pieces({0, 1, 2});
-  for (route::SegmentPiece& piece : other) piece.key.revision = RevisionNumber(2);
+  for (route::SegmentPiece& piece : other) piece.key.teaching = TeachingId(2);
   ASSERT_TRUE(store->AppendSegments(Pieces({0, 1, 2, 3})));
   ASSERT_TRUE(store->AppendSegments(other));
   EXPECT_EQ(Count("segment"), 7);
@@ -123,7 +123,7 @@ TEST_F(PostgresStore, RevisionsShareTheBytesThatTheyHaveInCommon) {
   EXPECT_EQ(Count("content"), 3) << "what the other revision has stays";
   EXPECT_EQ(store->ReadSegment(other[2].key, SegmentIndex(2)).value(), other[2]);
   route::RouteInfo second = Deleted(Teaching(3));
-  second.key.revision = RevisionNumber(2);
+  second.key.teaching = TeachingId(2);
   ASSERT_TRUE(store->PutRoute(second));
   EXPECT_EQ(Count("content"), 0);
 }
@@ -159,7 +159,7 @@ TEST_F(PostgresStore, ServersWritingTheSameAtOnceAgree) {
       const auto pieces = Pieces({2 * i, 2 * i + 1});
       if (auto done = store->AppendSegments(pieces); !done) errors[server] = done.error().message;
       route::SegmentPiece other = pieces.front();
-      other.key.revision = RevisionNumber(2 + (i + server) % 2);
+      other.key.teaching = TeachingId(2 + (i + server) % 2);
       if (auto done = store->AppendSegments({&other, 1}); !done) {
         errors[server] = done.error().message;
       }
@@ -167,7 +167,7 @@ TEST_F(PostgresStore, ServersWritingTheSameAtOnceAgree) {
       info.edition = kServers * i + server;
       info.description = fmt::format("{}", info.edition);
       if (auto done = store->PutRoute(info); !done) errors[server] = done.error().message;
-      info.key.revision = RevisionNumber(2 + i % 2);
+      info.key.teaching = TeachingId(2 + i % 2);
       if (i + 2 < kBatches) continue;
       if (auto done = store->PutRoute(Deleted(info)); !done) errors[server] = done.error().message;
     }

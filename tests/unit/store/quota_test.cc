@@ -68,7 +68,7 @@ TEST(StoreQuota, ARevisionCostsWhatIsNewInIt) {
   ASSERT_GT(taken, 20U);
   const route::SegmentPiece again = [] {
     route::SegmentPiece piece = Piece(0);
-    piece.key.revision = RevisionNumber(2);
+    piece.key.teaching = TeachingId(2);
     return piece;
   }();
   EXPECT_TRUE(store->AppendSegments({&again, 1})) << "its bytes are there";

@@ -72,7 +72,7 @@ TEST_P(RouteStoreContract, LargestAndSmallestPiecesAreHeld) {
 
 TEST_P(RouteStoreContract, RevisionsOfARouteAreApart) {
   route::SegmentPiece other = Piece(0, 99);
-  other.key.revision = RevisionNumber(2);
+  other.key.teaching = TeachingId(2);
   ASSERT_TRUE(store_->AppendSegments(Pieces({0})));
   ASSERT_TRUE(store_->AppendSegments({&other, 1}));
   EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(0)).value(), Piece(0));
@@ -84,7 +84,7 @@ TEST_P(RouteStoreContract, SegmentNotHeldIsNotFound) {
   const auto read = store_->ReadSegment(kYard, SegmentIndex(1));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kNotFound);
-  EXPECT_THAT(read.error().message, HasSubstr("segment 1 of route " + kYard.route.value()));
+  EXPECT_THAT(read.error().message, HasSubstr("segment 1 of teaching 1 of route " + kYard.route.value()));
 }
 
 TEST_P(RouteStoreContract, AppendingWhatIsHeldIsFine) {
@@ -173,12 +173,13 @@ TEST_P(RouteStoreContract, LabelsOfACompleteRouteChangeWithALaterEdition) {
 TEST_P(RouteStoreContract, RevisionsOfARouteRise) {
   for (const std::uint32_t revision : {3U, 1U, 2U}) {
     route::RouteInfo info = Complete(2);
-    info.key.revision = RevisionNumber(revision);
+    info.key.teaching = TeachingId(10 - revision);
+    info.revision = RevisionNumber(revision);
     ASSERT_TRUE(store_->PutRoute(info));
   }
   std::vector<std::uint32_t> revisions;
   const std::vector<route::RouteInfo> found = store_->FindRevisions(kYard.route).value();
-  for (const route::RouteInfo& info : found) revisions.push_back(info.key.revision.value());
+  for (const route::RouteInfo& info : found) revisions.push_back(info.revision.value());
   EXPECT_THAT(revisions, testing::ElementsAre(1U, 2U, 3U));
 }
 
@@ -210,10 +211,31 @@ TEST_P(RouteStoreContract, DigestsOfWhatIsHeldAreToldByIndex) {
   EXPECT_EQ(held[1].digest, Piece(2).digest);
 }
 
+TEST_P(RouteStoreContract, TeachingsAreKnownAlsoWhenDeletedAndSinceWhenByThisClock) {
+  route::RouteInfo info = Teaching(3);
+  info.taught_unix_ms = 1'670'000'000'000;  // a scout whose clock says 2022
+  info.revision = RevisionNumber(4);
+  ASSERT_TRUE(store_->PutRoute(info));
+  const auto before = store_->FindTeachings(kYard.route).value();
+  ASSERT_EQ(before.size(), 1U);
+  EXPECT_EQ(before[0].teaching, kYard.teaching);
+  EXPECT_EQ(before[0].revision, RevisionNumber(4));
+  EXPECT_GT(before[0].grown_unix_ms, 1'780'000'000'000);
+  info.description = "past the greenhouse";
+  info.edition = 1;
+  ASSERT_TRUE(store_->PutRoute(info));
+  EXPECT_EQ(store_->FindTeachings(kYard.route).value()[0].grown_unix_ms, before[0].grown_unix_ms)
+      << "labels are no growth";
+  info.standing = route::Standing::kDeleted;
+  info.edition = 2;
+  ASSERT_TRUE(store_->PutRoute(info));
+  EXPECT_EQ(store_->FindTeachings(kYard.route).value().at(0).revision, RevisionNumber(4));
+}
+
 // A revision that has segments of another one in it.
 TEST_P(RouteStoreContract, SegmentsThatAreAlikeOutliveEachOther) {
   route::SegmentPiece again = Piece(0);
-  again.key.revision = RevisionNumber(2);
+  again.key.teaching = TeachingId(2);
   again.index = SegmentIndex(5);
   EXPECT_EQ(store_->FindContent(again.digest).value(), std::nullopt);
   ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1})));

@@ -65,7 +65,7 @@ TEST_F(SalvageTest, AFlippedByteCostsTheSegmentItIsIn) {
   const auto salvaged = Salvage(file_, saved_);
   ASSERT_TRUE(salvaged) << salvaged.error().message;
   EXPECT_EQ(salvaged->segments, kSegments - 1);
-  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("segment 7 of route")));
+  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("segment 7 of teaching 1 of route")));
   EXPECT_EQ(OpenSqliteStore(saved_).value()->HeldSegments(kYard).value().size(), kSegments - 1);
 }
 
@@ -127,7 +127,7 @@ TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
 }
 
 TEST_F(SalvageTest, WhatWasDeletedStaysDeleted) {
-  const route::RouteKey gone{RouteId("gone"), RevisionNumber(1)};
+  const route::RouteKey gone{RouteId("gone"), TeachingId(1)};
   {
     const auto store = OpenSqliteStore(file_).value();
     route::RouteInfo tombstone = Complete(1);
@@ -143,7 +143,7 @@ TEST_F(SalvageTest, WhatWasDeletedStaysDeleted) {
 
 TEST_F(SalvageTest, SegmentsThatRelyOnOthersBytesAreSavedWithThem) {
   route::SegmentPiece again = Piece(3);
-  again.key.revision = RevisionNumber(2);
+  again.key.teaching = TeachingId(2);
   {
     const auto store = OpenSqliteStore(file_).value();
     ASSERT_TRUE(store->AppendSegments({&again, 1}));

@@ -16,7 +16,8 @@ using ::testing::Not;
 
 route::RouteInfo Aisle() {
   route::RouteInfo info;
-  info.key = {RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(3)};
+  info.key = {RouteId("0123456789abcdef0123456789abcdef"), TeachingId(3)};
+  info.revision = RevisionNumber(3);
   info.name = "aisle-3";
   info.scout = AgentId("scout");
   info.camera = "webcam 320x240";

@@ -19,7 +19,8 @@ exchange::CatalogReply ReplyOf(std::vector<route::RouteInfo> routes) {
 
 route::RouteInfo Revision(std::uint32_t number, route::RouteState state) {
   route::RouteInfo info = TeachSamples(2).info;
-  info.key.revision = RevisionNumber(number);
+  info.key.teaching = TeachingId(number);
+  info.revision = RevisionNumber(number);
   info.taught_unix_ms += number;
   info.state = state;
   return info;
@@ -29,8 +30,8 @@ TEST(ChooseForExport, TakesTheNewestThatIsComplete) {
   const auto reply =
       ReplyOf({Revision(1, route::RouteState::kComplete), Revision(2, route::RouteState::kComplete),
                Revision(3, route::RouteState::kTeaching)});
-  EXPECT_EQ(ChooseForExport(reply, "hall", {}, "it")->key.revision, RevisionNumber(2));
-  EXPECT_EQ(ChooseForExport(reply, "hall", 1, "it")->key.revision, RevisionNumber(1));
+  EXPECT_EQ(ChooseForExport(reply, "hall", {}, "it")->revision, RevisionNumber(2));
+  EXPECT_EQ(ChooseForExport(reply, "hall", 1, "it")->revision, RevisionNumber(1));
   EXPECT_THAT(ChooseForExport(reply, "hall", 3, "it").error().message,
               HasSubstr("'hall' revision 3 is still being taught (2 segments so far)"));
   EXPECT_THAT(ChooseForExport(reply, "hall", 4, "it").error().message,

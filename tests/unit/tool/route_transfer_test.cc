@@ -201,7 +201,7 @@ TEST_F(RouteTransferTest, PartOfAnotherTeachingIsAConflictToo) {
   const auto imported = Import(FileOf(TeachSamples(4)), milliseconds(3000));
   ASSERT_FALSE(imported);
   EXPECT_EQ(imported.error().code, ErrorCode::kConflict);
-  EXPECT_THAT(imported.error().message, HasSubstr("has all 4 segments"));
+  EXPECT_THAT(imported.error().message, HasSubstr("server 'barn' has other segments"));
 }
 
 TEST_F(RouteTransferTest, NoServerIsTold) {

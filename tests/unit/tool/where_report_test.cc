@@ -11,7 +11,8 @@ using testing::HasSubstr;
 exchange::CatalogReply Reply() {
   exchange::CatalogReply reply;
   route::RouteInfo info;
-  info.key = {RouteId("0123456789abcdef0123456789abcdef"), RevisionNumber(3)};
+  info.key = {RouteId("0123456789abcdef0123456789abcdef"), TeachingId(3)};
+  info.revision = RevisionNumber(3);
   info.name = "aisle-3";
   info.segment_count = 18;
   reply.page.routes = {info};

@@ -9,7 +9,7 @@ namespace {
 
 TaughtRoute RouteOf(std::uint32_t segments) {
   TaughtRoute taught;
-  taught.info.key = {RouteId("00000000000000000000000000000000"), RevisionNumber(1)};
+  taught.info.key = {RouteId("00000000000000000000000000000000"), TeachingId(1)};
   taught.info.name = "hall";
   taught.info.scout = AgentId("scout");
   taught.info.camera = "webcam";

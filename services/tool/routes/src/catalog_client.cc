@@ -23,6 +23,7 @@ double BytesPerMeter(const route::RouteInfo& info) {
 
 const char* StateName(const route::RouteInfo& info) {
   const bool taught = info.state == route::RouteState::kComplete;
+  if (info.cut_off && info.standing == route::Standing::kStaged) return "cut off";
   return taught || info.standing == route::Standing::kDeleted ? route::NameOf(info.standing)
                                                               : "teaching";
 }
@@ -148,7 +149,7 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
     const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
         "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
-        info.name, name_width, info.key.revision.value(), StateName(info), info.segment_count,
+        info.name, name_width, info.revision.value(), StateName(info), info.segment_count,
         taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
@@ -160,15 +161,18 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
 
 std::string RouteJson(const route::RouteInfo& info) {
   return fmt::format(
-      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", \"segments\": {}, "
+      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", "
+      "\"segments\": {}, "
       "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
       "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
-      "\"place\": {}, \"description\": {}, \"edition\": {}}}",
+      "\"place\": {}, \"description\": {}, \"edition\": {}, "
+      "\"teaching\": \"{:x}\"}}",
       program::JsonText(info.name), program::JsonText(info.key.route.value()),
-      info.key.revision.value(), StateName(info), info.segment_count, info.length_m, info.bytes,
+      info.revision.value(), StateName(info), info.segment_count, info.length_m, info.bytes,
       BytesPerMeter(info), program::JsonText(info.scout.value()), program::JsonText(info.camera),
       info.taught_unix_ms, route::ToHex(info.manifest_digest), JsonTexts(info.tags),
-      JsonPlace(info.place), program::JsonText(info.description), info.edition);
+      JsonPlace(info.place), program::JsonText(info.description), info.edition,
+      info.key.teaching.value());
 }
 
 std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {

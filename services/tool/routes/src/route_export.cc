@@ -50,7 +50,7 @@ tl::unexpected<Error> NotThere(const exchange::CatalogReply& reply, const std::s
                                std::optional<std::uint32_t> revision, const std::string& holder) {
   std::set<std::uint32_t> revisions;
   for (const route::RouteInfo& info : reply.page.routes) {
-    revisions.insert(info.key.revision.value());
+    revisions.insert(info.revision.value());
   }
   if (revision && !revisions.empty()) {
     return Fail(ErrorCode::kNotFound, "{} has no revision {} of route '{}'; it has {}", holder,
@@ -69,7 +69,7 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
                                          const std::string& holder) {
   std::vector<route::RouteInfo> fitting = reply.page.routes;
   std::erase_if(fitting, [&](const route::RouteInfo& info) {
-    return info.name != name || (revision && info.key.revision.value() != *revision);
+    return info.name != name || (revision && info.revision.value() != *revision);
   });
   if (fitting.empty()) return NotThere(reply, name, revision, holder);
   // Who names a revision need not wait until it is activated.
@@ -83,7 +83,7 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
       ErrorCode::kInvalidArgument,
       "route '{}' revision {} is still being taught ({} segments so far), and only complete "
       "routes are exported: wait until its scout has delivered all of it",
-      name, chosen->key.revision.value(), chosen->segment_count);
+      name, chosen->revision.value(), chosen->segment_count);
 }
 
 Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::RouteInfo& info,
@@ -119,7 +119,7 @@ Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
       return Fail(ErrorCode::kCorrupt,
                   "the segments that came are not those of route '{}' revision {}: two holders may "
                   "have different ones",
-                  info.name, info.key.revision.value());
+                  info.name, info.revision.value());
     }
     if (watch.stop()) return Fail(ErrorCode::kUnavailable, "interrupted; nothing was written");
     if (now > deadline) {

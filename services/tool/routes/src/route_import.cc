@@ -8,6 +8,7 @@
 
 #include "services/exchange/publish.h"
 #include "services/exchange/route_sender.h"
+#include "services/exchange/revision_numbers.h"
 #include "services/tool/routes/catalog_client.h"
 
 namespace trailcast::tool {
@@ -20,7 +21,7 @@ constexpr std::size_t kBatchBytes = 1U << 20U;  // in one commit
 
 std::string NameOf(const route::RouteInfo& info) {
   return fmt::format("route '{}' ({}) revision {}", info.name, info.key.route.value(),
-                     info.key.revision.value());
+                     info.revision.value());
 }
 
 bool IsComplete(const route::RouteInfo& info) { return info.state == route::RouteState::kComplete; }
@@ -32,7 +33,7 @@ bool IsSameTeaching(const route::RouteInfo& a, const route::RouteInfo& b) {
 
 tl::unexpected<Error> Conflict(const route::RouteInfo& info, const std::string& holder) {
   return Fail(ErrorCode::kConflict,
-              "{} has other segments under the id and revision of {}: they cannot both be there, "
+              "{} has other segments under the identity of {}: they cannot both be there, "
               "and nothing was changed",
               holder, NameOf(info));
 }
@@ -63,8 +64,7 @@ Result<void> AppendAll(const archive::RouteFile& file, store::RouteStore& store)
 }
 
 // A route on its way from a file to a server, as a scout delivers it. A server that has a complete
-// route announces it when asked who has it, and that is what settles the matter: a receipt does not
-// say of which bytes it speaks.
+// route announces it when asked who has it, and then has these bytes, as its receipts say.
 class Delivery {
  public:
   Delivery(const archive::RouteFile& file, OperatorPeer& peer, AgentId server)
@@ -72,7 +72,7 @@ class Delivery {
         peer_(peer),
         servers_{std::move(server)},
         sender_(peer.self, info_, [&file](SegmentIndex index) { return file.ReadSegment(index); },
-                {}) {}
+                exchange::SegmentDigests(file.digests()), {}) {}
 
   // One turn of the loop.
   Result<void> Step() {
@@ -81,6 +81,7 @@ class Delivery {
     }
     if (conflicting_) return Conflict(info_, fmt::format("'{}'", conflicting_->value()));
     if (sender_.refused()) return Refused(info_, *sender_.refused());
+    if (sender_.contradicted_by()) return Conflict(info_, ServerName(*sender_.contradicted_by()));
     const auto now = Clock::now();
     std::vector<exchange::Message> messages = sender_.Tick(now);
     if (now >= inquire_at_) {
@@ -139,7 +140,7 @@ tl::unexpected<Error> FellSilent(const route::RouteInfo& info, const Delivery& d
   if (delivery.receipted() == info.segment_count) {
     return Fail(ErrorCode::kConflict,
                 "{} has all {} segments of {}, but not confirmed that they are these for {:.1f} s: "
-                "it probably has other ones under the same id and revision; its log tells",
+                "it probably has other ones under the same identity; its log tells",
                 ServerName(server), info.segment_count, NameOf(info), seconds);
   }
   return Fail(ErrorCode::kUnavailable,
@@ -171,7 +172,9 @@ Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteSto
   if (auto appended = AppendAll(file, store); !appended) return tl::unexpected(appended.error());
   if (complete) return Imported{held->size() >= info.segment_count, name};
   // Last, so that no route is there without its segments.
-  if (auto put = store.PutRoute(info); !put) return tl::unexpected(put.error());
+  std::vector<route::RouteInfo> numbered{info};
+  if (auto given = exchange::GiveNumbers(store, numbered); !given) return tl::unexpected(given.error());
+  if (auto put = store.PutRoutes(numbered); !put) return tl::unexpected(put.error());
   return Imported{false, name};
 }
 

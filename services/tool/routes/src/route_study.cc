@@ -54,7 +54,7 @@ Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
 }
 
 std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study) {
-  const std::string route = fmt::format("'{}' revision {}", info.name, info.key.revision.value());
+  const std::string route = fmt::format("'{}' revision {}", info.name, info.revision.value());
   if (study.weak_places.empty()) return fmt::format("\n{}: no weak place\n", route);
   std::string text = fmt::format("\n{}: weak where\n", route);
   for (const view::WeakPlace& place : study.weak_places) {

@@ -28,7 +28,7 @@ std::string WhereText(const exchange::CatalogReply& reply) {
   std::string text;
   for (const auto& [place, route] : PlacesIn(reply)) {
     text += fmt::format("route {} revision {}, segment {} of {}, score {:.2f}\n", route.name,
-                        place.key.revision.value(), place.segment.value(), route.segment_count,
+                        route.revision.value(), place.segment.value(), route.segment_count,
                         place.score);
   }
   const route::ViewCoverage& searched = reply.coverage;
@@ -49,7 +49,7 @@ std::string WhereJson(const exchange::CatalogReply& reply) {
     places += fmt::format(
         "{}\n    {{\"name\": \"{}\", \"route\": \"{}\", \"revision\": {}, \"segment\": {}, "
         "\"segments\": {}, \"score\": {:.3f}}}",
-        places.empty() ? "" : ",", route.name, place.key.route.value(), place.key.revision.value(),
+        places.empty() ? "" : ",", route.name, place.key.route.value(), route.revision.value(),
         place.segment.value(), route.segment_count, place.score);
   }
   const route::ViewCoverage& searched = reply.coverage;
