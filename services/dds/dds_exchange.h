@@ -33,8 +33,7 @@ struct DdsOptions {
   // Called by Take.
   std::function<void(const std::string& line)> tell_of_stranger{};
 
-  // How long Publish waits for slow readers, and closing for the last messages to arrive.
-  std::chrono::milliseconds write_timeout{100};
+  // How long closing waits for the last messages to arrive. Publish waits for nobody.
   std::chrono::milliseconds close_timeout{1000};
 };
 

@@ -43,7 +43,7 @@ class AnswerQueue {
     std::vector<Unreadable> unreadable;       // asked for, but `read` failed: not sent
   };
   // What is to be sent now, from the routes whose window has passed: up to `max_bytes`, and the
-  // rest the next time.
+  // rest the next time, when another route is the first.
   [[nodiscard]] Answers Due(Time now, std::size_t max_bytes, const ReadPiece& read);
 
   // Nothing is to be sent, now or soon.
@@ -62,6 +62,7 @@ class AnswerQueue {
 
   Options options_;
   std::map<route::RouteKey, Asked> asked_;
+  route::RouteKey served_last_;
 };
 
 }  // namespace trailcast::exchange

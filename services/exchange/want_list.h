@@ -23,10 +23,11 @@ class WantList {
     std::chrono::milliseconds retry_after{1000};    // above any round trip with a busy holder
     std::chrono::milliseconds retry_at_most{8000};  // a holder that returns is noticed by then
     // How many are under way at first. It grows by one with each answer that came within
-    // `quick_answer` and shrinks by one with each that took longer than `slow_answer`, so that on
-    // any link about so much time's worth of segments is queued.
-    std::size_t first_under_way = 32;
-    std::size_t least_under_way = 16;
+    // `quick_answer`, shrinks by one with each that took longer than `slow_answer`, and is halved
+    // when some do not come at all, so that on any link about so much time's worth of segments is
+    // queued: nobody who sends them waits for anybody.
+    std::size_t first_under_way = 8;
+    std::size_t least_under_way = 4;
     std::size_t most_under_way = 1024;  // what one request may carry
     std::chrono::milliseconds quick_answer{250};
     std::chrono::milliseconds slow_answer{500};

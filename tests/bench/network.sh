@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures how routes are shared over networks staged on this machine, and the rivals beside it.
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
-#   tests/bench/network.sh followers|loss|wire|ingest|latency|security [RUNS]
+#   tests/bench/network.sh followers|stall|loss|wire|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
 #   tests/bench/network.sh swarm [AGENTS]
 set -euo pipefail
@@ -148,6 +148,46 @@ followers() {
       printf "| %s | %.2f, %.1f | %.2f, %.1f | %.1f, %.1f |\n", what, a[1], a[2] / 1e6, b[1],
         b[2] / 1e6, b[1] / a[1], b[2] / a[2] }'
   done
+}
+
+# signal_robot NUMBER SIGNAL: to its agent, once that has some of the route.
+signal_robot() {
+  await 30 "robot$1's first segments" test -s "$work/robot$1.db-wal"
+  await 30 "robot$1 to fetch" says "robot$1" 'segments so far'
+  sleep 0.3
+  pkill "-$2" -f -- "trailcast-agent --name robot$1 "
+}
+
+# The slowest of the others' seconds when, while all fetch, the last robot but one is killed and the last
+# one hangs.
+fetch_beside_dead() {
+  local robot gone hangs healthy
+  rm -f "$work"/robot*
+  gone=${robots[-2]} hangs=${robots[-1]}
+  healthy=("${robots[@]:0:${#robots[@]}-2}")
+  for robot in "${robots[@]}"; do fetch "$robot" & done
+  signal_robot "$gone" KILL &
+  signal_robot "$hangs" STOP &
+  for robot in "${healthy[@]}"; do
+    await "$fetch_timeout" "robot$robot" says "robot$robot" 'are here$'
+  done
+  pkill -KILL -f -- "trailcast-agent --name robot$hangs " || true
+  wait_for_robots
+  for robot in "${healthy[@]}"; do fetch_time "$robot"; done | sort -n | tail -1
+}
+
+stall() {
+  local host plain beside
+  lab_open
+  for ((host = 1; host <= 11; ++host)); do lab_host "$host"; done
+  make_route 300
+  lab_rate 1 8mbit
+  start_server 1 "$work/server.db"
+  mapfile -t robots < <(seq 2 11)
+  plain=$(medians fetch_all | cut -d' ' -f1)
+  beside=$(medians fetch_beside_dead)
+  printf '| ten followers, s | one of them killed, one stopped: the others, s | times |\n'
+  awk -v a="$plain" -v b="$beside" 'BEGIN { printf "| %.2f | %.2f | %.2f |\n", a, b, b / a }'
 }
 
 # Cyclone alone, its own defaults: the writer at host 1, a late reader at host 2.
@@ -361,9 +401,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | loss | wire | ingest | latency | memory | security | swarm) ;;
+    followers | stall | loss | wire | ingest | latency | memory | security | swarm) ;;
     *)
-      die 'say what to measure: followers, loss, wire, ingest, latency, memory, security or swarm'
+      die 'say what to measure: followers, stall, loss, wire, ingest, latency, memory, security or swarm'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'

@@ -102,31 +102,76 @@ TEST_F(DdsLivelinessTest, AnAgentThatStallsIsGoneAndComesBack) {
   EXPECT_TRUE(SeesAlive(7));
 }
 
-TEST_F(DdsLivelinessTest, PublishFailsInTimeWhileAReaderIsStalledAndSucceedsAfterwards) {
+// A reader that hangs, as after it was killed until its lease is over.
+TEST_F(DdsLivelinessTest, AReaderThatHangsHoldsUpNeitherTheWriterNorTheOtherReaders) {
   const auto writer = OpenDdsExchange(test::LoopbackOptions(tag_),
                                       {.write = {exchange::Topic::kSegments}, .read = {}})
                           .value();
+  const auto other = OpenDdsExchange(test::LoopbackOptions(tag_),
+                                     {.write = {}, .read = {exchange::Topic::kSegments}})
+                         .value();
   const Peer peer(tag_, "robot-1", "7");
   ASSERT_TRUE(SeesAlive(7));
-  const exchange::SegmentBatch batch{AgentId("s"), test::PiecesOf(test::KeyNumber(1), 100, 4096)};
-  const auto publish_in_time = [&] {
-    const auto deadline = Clock::now() + std::chrono::seconds(20);
-    while (!writer->Publish(batch)) ASSERT_LT(Clock::now(), deadline);
+  const auto batch = [](std::uint32_t number) {
+    return exchange::SegmentBatch{AgentId("s"),
+                                  {test::PieceOf(test::KeyNumber(1), number, 40'000)}};
   };
-  publish_in_time();
-  peer.Signal(SIGSTOP);
-  Result<void> published;
-  Clock::duration slowest{};
-  for (int i = 0; i < 200 && published; ++i) {
-    const auto start = Clock::now();
-    published = writer->Publish(batch);
-    slowest = std::max(slowest, Clock::now() - start);
+  std::uint32_t last = 0;
+  std::uint32_t heard = 0;
+  const auto hear = [&](const Message& message) {
+    const auto* segments = std::get_if<exchange::SegmentBatch>(&message);
+    if (segments == nullptr) return;
+    last = segments->pieces.front().index.value();
+    ++heard;
+  };
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  while (heard == 0 && Clock::now() < deadline) {  // they have found each other
+    ASSERT_TRUE(writer->Publish(batch(0)));
+    for (const Message& message : other->Take(std::chrono::milliseconds(100))) hear(message);
   }
-  ASSERT_FALSE(published);
-  EXPECT_EQ(published.error().code, ErrorCode::kUnavailable) << published.error().message;
-  EXPECT_LT(slowest, std::chrono::seconds(5));
+  ASSERT_GT(heard, 0U);
+  peer.Signal(SIGSTOP);
+  heard = 0;
+  constexpr std::uint32_t kBatches = 500;  // 20 MB, more than anybody keeps
+  Clock::duration slowest{};
+  for (std::uint32_t i = 1; i <= kBatches; ++i) {
+    const auto start = Clock::now();
+    ASSERT_TRUE(writer->Publish(batch(i)));
+    slowest = std::max(slowest, Clock::now() - start);
+    for (const Message& message : other->Take(std::chrono::milliseconds(0))) hear(message);
+  }
+  EXPECT_LT(slowest, std::chrono::seconds(2));
+  EXPECT_TRUE(test::TakeUntil(*other, hear, [&] { return last == kBatches; }));
+  EXPECT_GT(heard, kBatches / 2);
   peer.Signal(SIGCONT);
-  publish_in_time();
+  EXPECT_TRUE(SeesAlive(7));
+}
+
+TEST_F(DdsLivelinessTest, AReaderThatDoesNotTakeKeepsSoMuchAndNoMore) {
+  const auto writer = OpenDdsExchange(test::LoopbackOptions(tag_),
+                                      {.write = {exchange::Topic::kSegments}, .read = {}})
+                          .value();
+  const auto reader = OpenDdsExchange(test::LoopbackOptions(tag_),
+                                      {.write = {}, .read = {exchange::Topic::kSegments}})
+                          .value();
+  std::size_t heard = 0;
+  const auto count = [&](const Message& message) {
+    if (std::holds_alternative<exchange::SegmentBatch>(message)) ++heard;
+  };
+  const exchange::SegmentBatch batch{AgentId("s"), {test::PieceOf(test::KeyNumber(1), 0, 1000)}};
+  EXPECT_TRUE(test::TakeUntil(*reader, count, [&] {
+    EXPECT_TRUE(writer->Publish(batch));
+    return heard > 0;
+  }));
+  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(writer->Publish(batch));
+  heard = 0;
+  std::size_t before = 0;
+  do {
+    before = heard;
+    for (const Message& message : reader->Take(std::chrono::milliseconds(500))) count(message);
+  } while (heard > before);
+  EXPECT_GT(heard, 0U);
+  EXPECT_LE(heard, 2U * 256U);  // some come while the first are taken
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
   }
   const std::string everybody = options.keys ? "*" : "";
   for (const exchange::Topic topic : use.read) {
-    const Qos qos = MakeQos(QosOf(topic), options.write_timeout, everybody);
+    const Qos qos = MakeQos(QosOf(topic), everybody);
     if (auto read = Read(joined, topic, qos); !read) return read;
   }
   for (const exchange::Topic topic : use.overhear) {
@@ -100,8 +100,7 @@ Result<Writer*> Joined::WriterOf(exchange::Topic topic, const DdsOptions& option
   const auto found = Find(*this, topic);
   if (!found) return tl::unexpected(found.error());
   const std::string own = options.keys ? security::PartitionOf(options.keys->member) : "";
-  auto writer =
-      Writer::Create(participant, **found, MakeQos(QosOf(topic), options.write_timeout, own));
+  auto writer = Writer::Create(participant, **found, MakeQos(QosOf(topic), own));
   if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
   return &writers.emplace(topic, *std::move(writer)).first->second;
 }

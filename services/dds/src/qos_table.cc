@@ -8,18 +8,19 @@ namespace {
 using T = exchange::Topic;
 using std::chrono::milliseconds;
 
-constexpr int kKeepAll = 0;
 constexpr milliseconds kForever{0};
 // Three missed heartbeats on a bad radio link, and still soon enough for people to notice.
 constexpr milliseconds kAgentLease{3000};
 
-// Requests and replies keep the last few per agent, so that a stalled reader never blocks who asks;
-// whoever gets no answer asks again. Segments keep all: a writer that outruns its readers waits.
+// No topic keeps all: a writer would wait for a reader that is dead or hangs until its lease is
+// over (10 s), and with it everybody else. Whoever gets no answer, or lost a segment, asks again;
+// who asks for segments has no more under way than its link carries (exchange::WantList). 256
+// batches of segments are 12 MB on either side.
 // clang-format off
 constexpr std::array kTable = {
     // topic               transient-local  keep last  liveliness
     TopicQos{T::kRoutes,          true,     1,         kForever},
-    TopicQos{T::kSegments,        false,    kKeepAll,  kForever},
+    TopicQos{T::kSegments,        false,    256,       kForever},
     TopicQos{T::kSegmentRequests, false,    16,        kForever},
     TopicQos{T::kReceipts,        true,     1,         kForever},
     TopicQos{T::kCatalogRequests, false,    16,        kForever},
@@ -41,12 +42,11 @@ static_assert(RowsAreInTopicOrder());
 
 const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)]; }
 
-Qos MakeQos(const TopicQos& row, milliseconds write_timeout, const std::string& partition) {
+Qos MakeQos(const TopicQos& row, const std::string& partition) {
   const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
   Qos qos = MakeQos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, nanoseconds(write_timeout));
-  const auto kind = row.keep_last == kKeepAll ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
-  dds_qset_history(qos.get(), kind, row.keep_last == kKeepAll ? 1 : row.keep_last);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, row.keep_last);
   if (row.transient_local) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     // What late joiners get is decided by this one, not by the history.
@@ -63,7 +63,7 @@ Qos MakeQos(const TopicQos& row, milliseconds write_timeout, const std::string& 
 }
 
 Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition) {
-  Qos qos = MakeQos(row, milliseconds{0}, partition);
+  Qos qos = MakeQos(row, partition);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   return qos;

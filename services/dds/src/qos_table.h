@@ -12,17 +12,15 @@ namespace trailcast::dds {
 // overhear it.
 struct TopicQos {
   exchange::Topic topic;
-  bool transient_local;  // late joiners get the latest sample per key
-  int keep_last;         // samples per key; 0: keep all, the writer waits for slow readers
+  bool transient_local;                  // late joiners get the latest sample per key
+  int keep_last;                         // samples per key; nobody waits for slow readers
   std::chrono::milliseconds liveliness;  // a silent writer's samples are over after this; 0: never
 };
 
 [[nodiscard]] const TopicQos& QosOf(exchange::Topic topic);
 
-// `write_timeout`: how long a keep-all writer waits for slow readers before it gives up.
 // `partition`: in which it writes or reads; empty: the default one.
-[[nodiscard]] Qos MakeQos(const TopicQos& row, std::chrono::milliseconds write_timeout,
-                          const std::string& partition = "");
+[[nodiscard]] Qos MakeQos(const TopicQos& row, const std::string& partition = "");
 // For a reader that overhears: best-effort, and nothing of what was written before it.
 [[nodiscard]] Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition = "");
 

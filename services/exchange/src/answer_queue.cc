@@ -18,12 +18,15 @@ void AnswerQueue::Ask(const route::RouteKey& key, std::span<const SegmentIndex> 
 AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const ReadPiece& read) {
   Answers due;
   std::size_t bytes = 0;
-  for (auto at = asked_.begin(); at != asked_.end() && bytes < max_bytes;) {
-    auto& [key, asked] = *at;
-    if (now < asked.due_at) {
-      ++at;
-      continue;
-    }
+  // In turn: the route that was served last is the last one now.
+  std::vector<route::RouteKey> turn;
+  for (const auto& [key, asked] : asked_) turn.push_back(key);
+  std::rotate(turn.begin(), std::upper_bound(turn.begin(), turn.end(), served_last_), turn.end());
+  for (const route::RouteKey& key : turn) {
+    if (bytes >= max_bytes) break;
+    Asked& asked = asked_.at(key);
+    if (now < asked.due_at) continue;
+    if (!asked.indices.empty()) served_last_ = key;
     while (!asked.indices.empty() && bytes < max_bytes) {
       const SegmentIndex index = *asked.indices.begin();
       asked.indices.erase(asked.indices.begin());
@@ -36,8 +39,7 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
         due.unreadable.push_back({key, index, piece.error()});
       }
     }
-    const bool over = asked.indices.empty() && !IsOnItsWay(asked.sent_last, now);
-    at = over ? asked_.erase(at) : std::next(at);
+    if (asked.indices.empty() && !IsOnItsWay(asked.sent_last, now)) asked_.erase(key);
   }
   return due;
 }

@@ -83,13 +83,16 @@ std::vector<SegmentIndex> WantList::Due(Time now) {
   std::vector<SegmentIndex> due;
   const bool few = under_way < window_ && 4 * (window_ - under_way) < window_;
   if (few) return due;
+  bool in_vain = false;
   for (auto at = asked_.begin(); at != asked_.end() && under_way < window_; ++at) {
     auto& [index, asked] = *at;
     if (!IsDueAgain(asked, now)) continue;
+    in_vain |= !asked.again_now;
     asked = {.at = now, .times = asked.times + 1};
     due.push_back(index);
     ++under_way;
   }
+  if (in_vain) window_ = std::max(window_ / 2, options_.least_under_way);
   for (auto at = waiting_.begin(); at != waiting_.end() && under_way < window_;) {
     std::uint32_t next = at->first;
     const Waiting waiting = at->second;

@@ -70,5 +70,24 @@ TEST(AnswerQueue, ReportsWhatCannotBeReadAndSendsTheRest) {
   EXPECT_EQ(answers.unreadable[0].error.message, "damaged");
 }
 
+TEST(AnswerQueue, RoutesAreServedInTurn) {
+  AnswerQueue queue({});
+  for (const unsigned route : {1U, 2U, 3U}) {
+    queue.Ask(test::KeyNumber(route), test::Indices(0, 10), kStart);
+  }
+  std::vector<route::RouteKey> served;
+  const auto read = [](const route::RouteKey& key, SegmentIndex index) {
+    return Result<route::SegmentPiece>(test::PieceOf(key, index.value(), 100));
+  };
+  for (int tick = 0; tick < 6; ++tick) {
+    const auto answers = queue.Due(kStart + std::chrono::milliseconds(20 + tick), 300, read);
+    ASSERT_EQ(answers.pieces.size(), 3U);
+    served.push_back(answers.pieces.front().key);
+  }
+  using test::KeyNumber;
+  EXPECT_EQ(served, (std::vector{KeyNumber(1), KeyNumber(2), KeyNumber(3), KeyNumber(1),
+                                 KeyNumber(2), KeyNumber(3)}));
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

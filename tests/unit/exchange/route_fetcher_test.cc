@@ -196,10 +196,10 @@ TEST_F(RouteFetcherTest, IgnoresOtherRoutes) {
 TEST_F(RouteFetcherTest, AsksForALongRouteBitByBit) {
   RouteFetcher fetcher = Fetcher();
   Announce(fetcher, 300);
-  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 32));
-  for (std::uint32_t i = 0; i < 20; ++i) Deliver(fetcher, pieces_[i]);
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(0, 8));
+  for (std::uint32_t i = 0; i < 6; ++i) Deliver(fetcher, pieces_[i]);
   // Each quick answer lets one more be under way.
-  EXPECT_EQ(AskedAfter(fetcher, milliseconds(10)), Indices(32, 72));
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(10)), Indices(8, 20));
 }
 
 TEST_F(RouteFetcherTest, NoticesThatNobodyHoldsTheRouteAndAsksWhoDoes) {

@@ -38,6 +38,15 @@ TEST(WantList, AsksLowestFirstAndNeverForWhatIsUnderWay) {
   EXPECT_EQ(list.Due(kStart + milliseconds(30)), Indices(4, 6));
 }
 
+TEST(WantList, HasHalfAsManyUnderWayAfterSomeDidNotCome) {
+  WantList list = Wanting(20);
+  EXPECT_EQ(list.Due(kStart), Indices(0, 4));
+  const WantList::Time later = kStart + milliseconds(101);
+  EXPECT_EQ(list.Due(later), Indices(0, 4));  // once more
+  for (const SegmentIndex index : Indices(0, 4)) list.Arrived(index, later);
+  EXPECT_EQ(list.Due(later), Indices(4, 6));
+}
+
 // Fetches with a link that brings a segment every so often, and nothing at first; how many were
 // under way at most in the end.
 std::size_t UnderWayWithASegmentEvery(milliseconds every) {
