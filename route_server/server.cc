@@ -190,8 +190,7 @@ void Server::DeleteOutdated() {
     return;
   }
   for (const route::RouteInfo& info : *outdated) {
-    spdlog::info("outdated: revision {} of route '{}' deleted", info.revision.value(),
-                 info.name);
+    spdlog::info("outdated: revision {} of route '{}' deleted", info.revision.value(), info.name);
   }
 }
 
