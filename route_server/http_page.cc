@@ -1,10 +1,10 @@
 #include "route_server/http_page.h"
 
-#include <httplib.h>
-
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "route_server/http_stream.h"
 
 namespace trailcast::server {
 
@@ -16,7 +16,7 @@ struct HttpPage::State {
   std::string metrics;
   Clock::time_point shown_at = Clock::now();
   int port = 0;
-  httplib::Server server;
+  HttpServer server;
   std::jthread thread;
 
   void Answer() {
@@ -39,6 +39,7 @@ Result<std::unique_ptr<HttpPage>> HttpPage::Open(const std::string& host, int po
   state->stale_after = stale_after;
   // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
   state->server.new_task_queue = [] { return new httplib::ThreadPool(2); };
+  state->server.set_payload_max_length(0);
   state->Answer();
   // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
   state->server.set_socket_options([](socket_t socket) {
