@@ -24,8 +24,8 @@ class Id {
 
 // Given once when teaching begins, never reused: 32 lower-case hexadecimal digits.
 using RouteId = Id<struct RouteIdTag, std::string>;
-// One teaching of a route, drawn at random when it begins, so that no two robots make the same: 1 to
-// 2^63 - 1.
+// One teaching of a route, drawn at random when it begins, so that no two robots make the same: 1
+// to 2^63 - 1.
 using TeachingId = Id<struct TeachingIdTag, std::uint64_t>;
 // What people call a teaching by: 1, 2, .. in the order in which teachings of the route arrived at
 // the server. 0: none was given yet.

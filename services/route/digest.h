@@ -30,8 +30,8 @@ class Sha256Stream {
 
 // RouteInfo::manifest_digest of segments with these digests, in order.
 [[nodiscard]] Digest ManifestDigest(std::span<const Digest> digests);
-// Of a route's first segments, one by one: zero before the first, then SHA-256 of what it was before
-// the segment and of the segment's digest. Two routes' are the same if these segments are.
+// Of a route's first segments, one by one: zero before the first, then SHA-256 of what it was
+// before the segment and of the segment's digest. Two routes' are the same if these segments are.
 [[nodiscard]] Digest ChainDigest(const Digest& before, const Digest& next);
 // Lower-case hexadecimal.
 [[nodiscard]] std::string ToHex(const Digest& digest);

@@ -84,7 +84,8 @@ TEST_F(FollowersTest, TheSecondStopsBehindTheFirstThatHangsAndBothGoOnAfter) {
   Teach("first.db");
   std::filesystem::copy_file(Path("first.db"), Path("second.db"));
   Observer observer(tag_);
-  // In real time: in lockstep the first is at the route's end before the others have found it again.
+  // In real time: in lockstep the first is at the route's end before the others have found it
+  // again.
   const auto first_robot = Robot("robot1", {});
   const auto second_robot = Robot("robot2", {"--seed", "2"});
   const auto first = Follow("robot1", "first.db", {"--server", "--name", "first"}, "first");

@@ -18,7 +18,7 @@ class MemoryStore : public store::RouteStore {
  public:
   bool full = false;
   std::set<std::pair<route::RouteKey, SegmentIndex>> damaged;  // read as kCorrupt until replaced
-  std::map<route::RouteKey, std::int64_t> grown_unix_ms;  // as tests set it
+  std::map<route::RouteKey, std::int64_t> grown_unix_ms;       // as tests set it
   int commits = 0;        // AppendSegments that stored something
   int route_commits = 0;  // PutRoutes that did
 

@@ -65,9 +65,8 @@ bool IsActive(const RouteInfo& info) { return info.standing == Standing::kActive
 RouteInfo* NewestComplete(Revisions& revisions, std::uint32_t end) {
   RouteInfo* newest = nullptr;
   for (RouteInfo& info : revisions) {
-    const bool usable =
-        info.state == route::RouteState::kComplete && !info.cut_off &&
-        info.standing != Standing::kRetired;
+    const bool usable = info.state == route::RouteState::kComplete && !info.cut_off &&
+                        info.standing != Standing::kRetired;
     if (usable && info.revision.value() < end) newest = &info;
   }
   return newest;

@@ -52,8 +52,8 @@ std::vector<RouteInfo> Retention::Outdated(const std::vector<RouteInfo>& revisio
     const bool complete = info->state == route::RouteState::kComplete;
     const bool too_many = policy_.keep_revisions > 0 && complete && newer >= policy_.keep_revisions;
     const auto grown = grown_unix_ms.find(info->key.teaching);
-    const bool too_old = keep_ms > 0 && grown != grown_unix_ms.end() &&
-                         grown->second < now_unix_ms - keep_ms;
+    const bool too_old =
+        keep_ms > 0 && grown != grown_unix_ms.end() && grown->second < now_unix_ms - keep_ms;
     if (complete) ++newer;
     if (!too_many && !too_old) continue;
     outdated.push_back(*info);

@@ -47,9 +47,9 @@ std::string SealedBefore5(const route::RouteInfo& info) {
 route::Digest SealBefore5(const route::RouteInfo& info) { return Sha256(SealedBefore5(info)); }
 
 route::Digest Seal(const route::RouteInfo& info) {
-  return Sha256(SealedBefore5(info) +
-                fmt::format("labels {} {} {} {}\n{}\n", info.revision.value(), info.cut_off,
-                            static_cast<int>(info.standing), info.edition, info.description));
+  return Sha256(SealedBefore5(info) + fmt::format("labels {} {} {} {}\n{}\n", info.revision.value(),
+                                                  info.cut_off, static_cast<int>(info.standing),
+                                                  info.edition, info.description));
 }
 
 route::Digest Seal(const route::SegmentPiece& piece) {

@@ -214,20 +214,19 @@ Result<std::vector<RouteInfo>> SqliteRouteStore::FindRevisions(const RouteId& ro
 }
 
 Result<std::vector<KnownTeaching>> SqliteRouteStore::FindTeachings(const RouteId& route) {
-  return Guarded(
-      "listing the teachings of a route", [&]() -> Result<std::vector<KnownTeaching>> {
-        auto select = compiled_.Take(
-            "SELECT teaching, revision, grown_unix_ms FROM route WHERE route = ?1 UNION ALL "
-            "SELECT teaching, revision, grown_unix_ms FROM tombstone WHERE route = ?1");
-        select->bind(1, route.value());
-        std::vector<KnownTeaching> known;
-        while (select->executeStep()) {
-          known.push_back({TeachingOf(select->getColumn(0)),
-                           RevisionNumber(select->getColumn(1).getUInt()),
-                           select->getColumn(2).getInt64()});
-        }
-        return known;
-      });
+  return Guarded("listing the teachings of a route", [&]() -> Result<std::vector<KnownTeaching>> {
+    auto select = compiled_.Take(
+        "SELECT teaching, revision, grown_unix_ms FROM route WHERE route = ?1 UNION ALL "
+        "SELECT teaching, revision, grown_unix_ms FROM tombstone WHERE route = ?1");
+    select->bind(1, route.value());
+    std::vector<KnownTeaching> known;
+    while (select->executeStep()) {
+      known.push_back({TeachingOf(select->getColumn(0)),
+                       RevisionNumber(select->getColumn(1).getUInt()),
+                       select->getColumn(2).getInt64()});
+    }
+    return known;
+  });
 }
 
 Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() {

@@ -40,8 +40,7 @@ Result<void> SqliteRouteStore::VerifyRoutes(std::vector<std::string>& damage) {
                              "SELECT route, teaching FROM tombstone UNION "
                              "SELECT route, teaching FROM segment ORDER BY 1, 2");
     while (select.executeStep()) {
-      keys.push_back({RouteId(select.getColumn(0).getString()),
-                      TeachingOf(select.getColumn(1))});
+      keys.push_back({RouteId(select.getColumn(0).getString()), TeachingOf(select.getColumn(1))});
     }
     return {};
   });

@@ -188,10 +188,11 @@ TEST(RouteFileDamage, ASegmentOfOtherBytesThanItsDigestIsNamed) {
 }
 
 TEST(RouteFileDamage, ASegmentThatDoesNotDecodeIsNamed) {
-  EXPECT_THAT(ErrorAfter([](MadeFile& made) {
-                Replace(made.frames[1], {0xff, 0xff});
-              }),
-              AllOf(HasSubstr("segment 1 of teaching 2 of route"), HasSubstr("2 bytes are no segment")));
+  EXPECT_THAT(
+      ErrorAfter([](MadeFile& made) {
+        Replace(made.frames[1], {0xff, 0xff});
+      }),
+      AllOf(HasSubstr("segment 1 of teaching 2 of route"), HasSubstr("2 bytes are no segment")));
   // Another's segment, with its own digest.
   EXPECT_THAT(ErrorAfter([](MadeFile& made) { Replace(made.frames[1], made.frames[0].bytes); }),
               HasSubstr("its bytes are of segment 0"));

@@ -67,7 +67,8 @@ TEST_F(StoreDamage, ChangedByteInASegmentIsCorruptAndTheOthersStillRead) {
     EXPECT_THAT(read.error().message, HasSubstr("segment 7 of teaching 1 of route"));
     EXPECT_THAT(read.error().message, HasSubstr(file_.string()));
   }
-  EXPECT_THAT(store->Verify().value(), testing::ElementsAre(HasSubstr("segment 7 of teaching 1 of route")));
+  EXPECT_THAT(store->Verify().value(),
+              testing::ElementsAre(HasSubstr("segment 7 of teaching 1 of route")));
 }
 
 TEST_F(StoreDamage, DamagedSegmentMendsWhenItIsAppendedAgain) {

@@ -84,7 +84,8 @@ TEST_P(RouteStoreContract, SegmentNotHeldIsNotFound) {
   const auto read = store_->ReadSegment(kYard, SegmentIndex(1));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kNotFound);
-  EXPECT_THAT(read.error().message, HasSubstr("segment 1 of teaching 1 of route " + kYard.route.value()));
+  EXPECT_THAT(read.error().message,
+              HasSubstr("segment 1 of teaching 1 of route " + kYard.route.value()));
 }
 
 TEST_P(RouteStoreContract, AppendingWhatIsHeldIsFine) {

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "services/exchange/publish.h"
-#include "services/exchange/route_sender.h"
 #include "services/exchange/revision_numbers.h"
+#include "services/exchange/route_sender.h"
 #include "services/tool/routes/catalog_client.h"
 
 namespace trailcast::tool {
@@ -173,7 +173,8 @@ Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteSto
   if (complete) return Imported{held->size() >= info.segment_count, name};
   // Last, so that no route is there without its segments.
   std::vector<route::RouteInfo> numbered{info};
-  if (auto given = exchange::GiveNumbers(store, numbered); !given) return tl::unexpected(given.error());
+  if (auto given = exchange::GiveNumbers(store, numbered); !given)
+    return tl::unexpected(given.error());
   if (auto put = store.PutRoutes(numbered); !put) return tl::unexpected(put.error());
   return Imported{false, name};
 }

@@ -41,9 +41,9 @@ std::string FileText(const std::string& path, const archive::RouteFile& file) {
       "  taught    {} by {} with {}, {} x {}\n"
       "  size      {} segments, {}, {} bytes of {}\n"
       "  manifest  {}\n",
-      path, info.name, info.revision.value(), info.key.route.value(),
-      DateText(info.taught_unix_ms), info.scout.value(), info.camera, info.image_width_px,
-      info.image_height_px, info.segment_count, LengthText(info), info.bytes, file.file_bytes(),
+      path, info.name, info.revision.value(), info.key.route.value(), DateText(info.taught_unix_ms),
+      info.scout.value(), info.camera, info.image_width_px, info.image_height_px,
+      info.segment_count, LengthText(info), info.bytes, file.file_bytes(),
       route::ToHex(info.manifest_digest));
   if (!info.tags.empty()) text += fmt::format("  tags      {}\n", fmt::join(info.tags, " "));
   if (info.place) text += fmt::format("  begins    {}\n", PlaceText(*info.place));
