@@ -27,6 +27,11 @@ void AddRoute(CLI::App& command, std::string& route) {
       ->check(program::NameValidator());
 }
 
+void AddScout(CLI::App& command, std::string& scout) {
+  command.add_option("--scout", scout, "Of several routes of this name that of this scout")
+      ->check(program::NameValidator());
+}
+
 void AddRevision(CLI::App& command, std::uint32_t& revision, const char* help) {
   command.add_option("--revision", revision, help)->check(program::RevisionValidator());
 }
@@ -86,6 +91,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.agent = AgentId(options.common.name);
   follower.link.route = replay.route;
   follower.link.revision.number = replay.revision;
+  follower.link.revision.scout = replay.scout;
   follower.link.store_file = options.store_file;
   follower.link.wait_for_route = replay.wait_for_route;
   follower.link.wait = ToMilliseconds(replay.wait_s);
@@ -138,6 +144,7 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRoute(command, replay.route);
   AddRevision(command, replay.revision, "Default: the active one");
+  AddScout(command, replay.scout);
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
   command.add_option("--log", replay.diagnosis.log,
                      "Writes what the robot saw and why it did what it did here, while it runs; "
@@ -180,6 +187,7 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch) {
   AddRoute(command, fetch.route);
   AddRevision(command, fetch.revision, "Default: the newest that is complete");
+  AddScout(command, fetch.scout);
   command
       .add_option("--wait", fetch.wait_s,
                   "Seconds to wait for a server, the route or the next segment while none comes")
@@ -228,7 +236,7 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
   FollowerLinkOptions link;
   link.agent = AgentId(options.common.name);
   link.route = fetch.route;
-  link.revision = {.number = fetch.revision, .newest = true};
+  link.revision = {.number = fetch.revision, .newest = true, .scout = fetch.scout};
   link.store_file = options.store_file;
   link.wait = ToMilliseconds(fetch.wait_s);
   link.stop = [] { return program::StopSignal::requested(); };

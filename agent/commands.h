@@ -31,6 +31,7 @@ struct TeachCommand {
 struct FetchCommand {
   std::string route;
   std::uint32_t revision = 0;  // the newest
+  std::string scout;           // anybody
   double wait_s = 30.0;
 };
 
@@ -38,6 +39,7 @@ struct ReplayCommand {
   DeviceOptions device;
   std::string route;
   std::uint32_t revision = 0;  // the active one
+  std::string scout;           // anybody
   std::filesystem::path csv;
   DiagnosisOptions diagnosis;
   std::string method = "default";

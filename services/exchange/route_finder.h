@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/result.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::exchange {
@@ -14,6 +15,7 @@ namespace trailcast::exchange {
 struct RevisionChoice {
   std::uint32_t number = 0;  // 0: none in particular
   bool newest = false;
+  std::string scout{};  // who taught it; empty: anybody
 };
 
 // Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
@@ -21,6 +23,13 @@ struct RevisionChoice {
 // otherwise the newest, but none whose teaching was cut off. Nothing if there is none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
+
+// Of several routes with one name the one that is meant of each, if it is meant of more than one: a
+// name is no identity, and two scouts may have given it.
+[[nodiscard]] std::vector<route::RouteInfo> FindRivals(const std::vector<route::RouteInfo>& routes,
+                                                       const RevisionChoice& which = {});
+// kConflict: which there are, and how to say which is meant.
+[[nodiscard]] tl::unexpected<Error> Ambiguous(const std::vector<route::RouteInfo>& rivals);
 
 // Asks the catalog which route has a name, again and again until one has. No clock, no I/O.
 class RouteFinder {
@@ -41,7 +50,12 @@ class RouteFinder {
   [[nodiscard]] std::optional<route::RouteInfo> announced() const {
     return ChooseRoute(announced_, which_);
   }
+  [[nodiscard]] std::vector<route::RouteInfo> announced_rivals() const {
+    return FindRivals(announced_, which_);
+  }
 
+  // From a catalog's reply: more than one that could be meant; nothing is found then.
+  [[nodiscard]] const std::vector<route::RouteInfo>& rivals() const { return rivals_; }
   // A server's word that it has no route of this name, or none that may be followed.
   struct Unknown {
     AgentId server;
@@ -63,6 +77,7 @@ class RouteFinder {
   std::optional<Time> asked_at_;
   std::optional<route::RouteInfo> found_;
   std::vector<route::RouteInfo> announced_;  // the latest of each key, at most kMaxAnnounced
+  std::vector<route::RouteInfo> rivals_;
   std::optional<Unknown> unknown_;
   std::string error_;
 };

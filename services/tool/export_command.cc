@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "services/base/time.h"
@@ -22,7 +21,7 @@ using archive::RouteFileWriter;
 
 struct ExportOptions {
   std::string route;
-  std::optional<std::uint32_t> revision;
+  exchange::RevisionChoice which;
   fs::path out;
   fs::path store;
   bool force = false;
@@ -58,7 +57,7 @@ Result<Exported> FromStore(const ExportOptions& options) {
   const exchange::CatalogReply reply =
       catalog::Answer({.client = {}, .request = 0, .query = {.name = options.route}}, {}, **store);
   if (!reply.error.empty()) return Fail(ErrorCode::kUnavailable, "{}: {}", holder, reply.error);
-  auto info = ChooseForExport(reply, options.route, options.revision, holder);
+  auto info = ChooseForExport(reply, options.route, options.which, holder);
   if (!info) return tl::unexpected(info.error());
   auto file = OpenFile(options, *info);
   if (!file) return tl::unexpected(file.error());
@@ -75,7 +74,7 @@ Result<Exported> FromServer(const program::CommonOptions& common, const ExportOp
   const auto reply = AskForRoutes(*peer->exchange, peer->self, {.name = options.route},
                                   exchange::kMaxRoutesPerReply, watch.timeout);
   if (!reply) return tl::unexpected(reply.error());
-  auto info = ChooseForExport(*reply, options.route, options.revision,
+  auto info = ChooseForExport(*reply, options.route, options.which,
                               fmt::format("server '{}'", reply->server.value()));
   if (!info) return tl::unexpected(info.error());
   // From here on there is something to tidy up.
@@ -108,8 +107,11 @@ Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common)
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("route", options->route, "Its name")->required()->check(program::NameValidator());
-  app->add_option("--revision", options->revision, "This one; else the active one")
+  app->add_option("--revision", options->which.number, "This one; else the active one")
       ->check(program::RevisionValidator());
+  app->add_option("--scout", options->which.scout,
+                  "Of several routes of this name that of this scout")
+      ->check(program::NameValidator());
   app->add_option("--out", options->out, "The file; else ROUTE.trailcast here");
   app->add_flag("--force", options->force, "Replace the file if it is there already");
   app->add_option("--store", options->store, "From this store file instead of a route server");

@@ -37,12 +37,19 @@ Error NotOffered(const AgentId& server, const FollowerLinkOptions& options) {
 Result<std::optional<route::RouteInfo>> FollowerLink::FindOwn() {
   auto named = store_->FindRoutesByName(options_.route);
   if (!named) return tl::unexpected(named.error());
+  const auto rivals = exchange::FindRivals(*named, options_.revision);
+  if (!rivals.empty()) return exchange::Ambiguous(rivals);
   return exchange::ChooseRoute(*named, options_.revision);
 }
 
 Result<void> FollowerLink::Find() {
   auto own = FindOwn();
-  if (!own) return tl::unexpected(own.error());
+  const bool rivals_here = !own && own.error().code == ErrorCode::kConflict;
+  if (!own && !(rivals_here && exchange_)) return tl::unexpected(own.error());
+  if (rivals_here) {
+    spdlog::warn("{}: a server may know which", own.error().message);
+    own = std::nullopt;
+  }
   if (!exchange_) {
     route_ = *own;
     if (route_) return {};
@@ -67,8 +74,11 @@ Result<void> FollowerLink::Find() {
 Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInfo>& own) {
   const auto waited = steady_clock::now() - began;
   const bool settled = finder_.unknown() || waited > kServerPatience;
+  if (!finder_.rivals().empty()) return exchange::Ambiguous(finder_.rivals());
   if (finder_.found()) {
     route_ = finder_.found();
+  } else if (const auto rivals = finder_.announced_rivals(); settled && !rivals.empty()) {
+    return exchange::Ambiguous(rivals);
   } else if (settled && finder_.announced()) {
     route_ = finder_.announced();
   } else if (settled && own) {

@@ -35,8 +35,14 @@ Result<Revisions> FindMeant(const std::string& name_or_id, store::RouteStore& st
   }
   if (ids.size() > 1) {
     constexpr std::size_t kShown = 4;
-    const std::vector<std::string> shown(ids.begin(),
-                                         std::next(ids.begin(), std::min(kShown, ids.size())));
+    std::vector<std::string> shown;
+    for (const std::string& id : ids) {
+      if (shown.size() == kShown) break;
+      const auto of_it = std::find_if(named->begin(), named->end(), [&](const RouteInfo& info) {
+        return info.key.route.value() == id;
+      });
+      shown.push_back(fmt::format("{} (of scout '{}')", id, of_it->scout.value()));
+    }
     return Fail(ErrorCode::kConflict, "{} routes have the name '{}': give the id instead: {}{}",
                 ids.size(), name_or_id, fmt::join(shown, ", "), ids.size() > kShown ? ", .." : "");
   }

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "services/archive/route_file_writer.h"
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/route_finder.h"
 #include "services/store/route_store.h"
 #include "services/tool/routes/transfer.h"
 
@@ -19,7 +19,7 @@ namespace trailcast::tool {
 // is none; kInvalidArgument for one that is still being taught.
 [[nodiscard]] Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
                                                        const std::string& name,
-                                                       std::optional<std::uint32_t> revision,
+                                                       const exchange::RevisionChoice& which,
                                                        const std::string& holder);
 
 // Give all the route's segments to `writer`, which was made for it. Return the file's size.

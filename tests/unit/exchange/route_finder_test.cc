@@ -62,6 +62,27 @@ TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
   EXPECT_EQ(finder_.found()->revision.value(), 2U);
 }
 
+TEST_F(RouteFinderTest, ANameThatTwoScoutsGaveIsNotFoundWithoutSayingWhose) {
+  RouteInfo ours = Info("hall", 1, 10, RouteState::kComplete);
+  ours.scout = AgentId("a");
+  RouteInfo theirs = Info("hall", 1, 20, RouteState::kComplete);
+  theirs.key.route = RouteId(std::string(32, 'b'));
+  theirs.scout = AgentId("b");
+  Ask(milliseconds(0));
+  const CatalogReply reply{kServer, kSelf, 1, {.routes = {theirs, ours}}, {}, ""};
+  finder_.Handle(reply);
+  EXPECT_FALSE(finder_.found());
+  EXPECT_THAT(finder_.rivals(), ElementsAre(ours, theirs));
+  RouteFinder of_scout(kSelf, "hall", {.scout = "a"});
+  (void)of_scout.Tick(start_);
+  of_scout.Handle(reply);
+  EXPECT_EQ(of_scout.found(), ours);
+  RouteInfo retired = theirs;
+  retired.standing = route::Standing::kRetired;
+  retired.edition = 1;
+  EXPECT_THAT(FindRivals({retired, ours}), testing::IsEmpty()) << "of it none may be followed";
+}
+
 TEST_F(RouteFinderTest, WhatWasCutOffIsTakenByItsNumberOnly) {
   RouteInfo cut_off = Info("hall", 2, 20, RouteState::kComplete);
   cut_off.cut_off = true;

@@ -31,11 +31,25 @@ TEST(ChooseForExport, TakesTheNewestThatIsComplete) {
       ReplyOf({Revision(1, route::RouteState::kComplete), Revision(2, route::RouteState::kComplete),
                Revision(3, route::RouteState::kTeaching)});
   EXPECT_EQ(ChooseForExport(reply, "hall", {}, "it")->revision, RevisionNumber(2));
-  EXPECT_EQ(ChooseForExport(reply, "hall", 1, "it")->revision, RevisionNumber(1));
-  EXPECT_THAT(ChooseForExport(reply, "hall", 3, "it").error().message,
+  EXPECT_EQ(ChooseForExport(reply, "hall", {.number = 1}, "it")->revision, RevisionNumber(1));
+  EXPECT_THAT(ChooseForExport(reply, "hall", {.number = 3}, "it").error().message,
               HasSubstr("'hall' revision 3 is still being taught (2 segments so far)"));
-  EXPECT_THAT(ChooseForExport(reply, "hall", 4, "it").error().message,
+  EXPECT_THAT(ChooseForExport(reply, "hall", {.number = 4}, "it").error().message,
               HasSubstr("it has no revision 4 of route 'hall'; it has 1, 2, 3"));
+}
+
+TEST(ChooseForExport, RefusesANameThatTwoScoutsGave) {
+  route::RouteInfo other = Revision(1, route::RouteState::kComplete);
+  other.key.route = RouteId(std::string(32, 'f'));
+  other.scout = AgentId("scout-2");
+  const auto reply = ReplyOf({Revision(1, route::RouteState::kComplete), other});
+  const auto refused = ChooseForExport(reply, "hall", {}, "it");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(
+      refused.error().message,
+      testing::AllOf(HasSubstr("2 routes have the name 'hall'"), HasSubstr("of scout 'scout-1'"),
+                     HasSubstr("of scout 'scout-2'"), HasSubstr("--scout")));
+  EXPECT_EQ(ChooseForExport(reply, "hall", {.scout = "scout-2"}, "it").value(), other);
 }
 
 TEST(ChooseForExport, NamesWhatThereIsInstead) {
@@ -43,7 +57,7 @@ TEST(ChooseForExport, NamesWhatThereIsInstead) {
   reply.similar_names = {"hall", "hull"};
   EXPECT_EQ(ChooseForExport(reply, "hell", {}, "server 'barn'").error().message,
             "server 'barn' has no route 'hell'; there is hall, hull");
-  EXPECT_EQ(ChooseForExport({}, "hell", 2, "server 'barn'").error().message,
+  EXPECT_EQ(ChooseForExport({}, "hell", {.number = 2}, "server 'barn'").error().message,
             "server 'barn' has no route 'hell'");
 }
 

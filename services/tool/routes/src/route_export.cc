@@ -65,18 +65,23 @@ tl::unexpected<Error> NotThere(const exchange::CatalogReply& reply, const std::s
 
 Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
                                          const std::string& name,
-                                         std::optional<std::uint32_t> revision,
+                                         const exchange::RevisionChoice& which,
                                          const std::string& holder) {
   std::vector<route::RouteInfo> fitting = reply.page.routes;
   std::erase_if(fitting, [&](const route::RouteInfo& info) {
-    return info.name != name || (revision && info.revision.value() != *revision);
+    return info.name != name || (which.number != 0 && info.revision.value() != which.number);
   });
-  if (fitting.empty()) return NotThere(reply, name, revision, holder);
-  // Who names a revision need not wait until it is activated.
-  auto chosen = revision ? std::optional(fitting.front()) : exchange::ChooseRoute(fitting);
+  if (fitting.empty()) {
+    return NotThere(reply, name, which.number == 0 ? std::nullopt : std::optional(which.number),
+                    holder);
+  }
+  const auto rivals = exchange::FindRivals(fitting, which);
+  if (!rivals.empty()) return exchange::Ambiguous(rivals);
+  auto chosen = exchange::ChooseRoute(fitting, which);
   if (!chosen) {
     return Fail(ErrorCode::kInvalidArgument,
-                "{} has no active revision of route '{}': say which with --revision", holder, name);
+                "{} has no active revision of route '{}'{}: say which with --revision", holder,
+                name, which.scout.empty() ? "" : " of scout '" + which.scout + "'");
   }
   if (chosen->state == route::RouteState::kComplete) return std::move(*chosen);
   return Fail(
