@@ -58,7 +58,6 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
   if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
     Known& known = KnownOf(announcement->info.key);
     known.name = announcement->info.name;
-    known.scout = announcement->info.scout.value();
     known.revision = route::RevisionText(announcement->info);
   }
   if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
@@ -81,10 +80,11 @@ std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announ
   const bool is_new = !routes_.contains(info.key);
   Known& known = KnownOf(info.key);
   known.name = info.name;
-  known.scout = info.scout.value();
   known.revision = route::RevisionText(info);
   if (!is_new) return std::nullopt;
-  return fmt::format("scout '{}' {} route {} with camera {}: {} segments so far", known.scout,
+  const bool scouts = announcement.holder == info.scout;
+  return fmt::format("{}'{}' {} route {} with camera {}: {} segments so far",
+                     scouts ? "scout " : "", announcement.holder.value(),
                      info.state == route::RouteState::kComplete ? "offers" : "teaches",
                      NameOf(info.key), info.camera, info.segment_count);
 }

@@ -20,7 +20,6 @@ class Journal {
  private:
   struct Known {
     std::string name;
-    std::string scout;
     std::string revision;
     std::uint32_t told_durable = 0;  // segments receipted, when that was last told
   };
