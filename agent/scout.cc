@@ -7,6 +7,7 @@
 
 #include "agent/device/standstill.h"
 #include "agent/session/teach_session.h"
+#include "services/base/unix_time.h"
 #include "services/route/labels.h"
 
 namespace trailcast::agent {
@@ -20,9 +21,7 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   info.camera = device.camera();
   info.image_width_px = frame.width;
   info.image_height_px = frame.height;
-  info.taught_unix_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
-                            std::chrono::system_clock::now().time_since_epoch())
-                            .count();
+  info.taught_unix_ms = NowUnixMs();
   const std::set<std::string> tags(options.tags.begin(), options.tags.end());
   info.tags.assign(tags.begin(), tags.end());
   info.place = options.place;

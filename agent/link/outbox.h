@@ -51,8 +51,6 @@ class Outbox {
   [[nodiscard]] bool AllReceipted() const;
   // Nothing is left to be sent: all is confirmed, or was deleted by an operator.
   [[nodiscard]] bool Done() const;
-  // What an operator deleted, so that no server takes it.
-  [[nodiscard]] std::vector<route::RouteInfo> deleted() const;
   // What a server says that the route is to operators; nothing while none has spoken.
   [[nodiscard]] std::optional<route::Standing> standing(const route::RouteKey& key) const;
 

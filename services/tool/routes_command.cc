@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
@@ -59,12 +60,6 @@ const std::map<std::string, route::RouteState> kStates = {
 const std::map<std::string, route::Standing> kStandings = {{"staged", route::Standing::kStaged},
                                                            {"active", route::Standing::kActive},
                                                            {"retired", route::Standing::kRetired}};
-
-std::int64_t NowUnixMs() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 std::int64_t Before(std::int64_t now_unix_ms, double age_s) {
   return now_unix_ms - static_cast<std::int64_t>(age_s * 1000.0);

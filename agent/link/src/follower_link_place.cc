@@ -5,21 +5,16 @@
 
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
 
 namespace trailcast::agent {
 namespace {
 
-using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-using std::chrono::system_clock;
 
 // Often enough to find the place again, and no burden on a memory card.
 constexpr milliseconds kNoteEvery{1000};
-
-std::int64_t UnixMs() {
-  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 void Complain(const Result<void>& noted) {
   if (!noted)
@@ -44,14 +39,14 @@ std::optional<LeftAt> FollowerLink::ReadPlace() const {
   spdlog::info(
       "the last run got {:.1f} m along the route, {:.0f} s ago: looking whether the robot "
       "is still there",
-      place.left.along_m, 1e-3 * static_cast<double>(UnixMs() - place.unix_ms));
+      place.left.along_m, 1e-3 * static_cast<double>(NowUnixMs() - place.unix_ms));
   return place.left;
 }
 
 void FollowerLink::TakeReports() {
   while (auto report = reports_.TryGet()) latest_ = std::move(*report);
   if (latest_.state == ReplayState::kFollowing && latest_.along_m && route_) {
-    place_ = {route_->key, {*latest_.along_m, latest_.magnification}, UnixMs()};
+    place_ = {route_->key, {*latest_.along_m, latest_.magnification}, NowUnixMs()};
   }
 }
 

@@ -249,14 +249,6 @@ std::optional<std::string> Outbox::refusal() const {
   return std::nullopt;
 }
 
-std::vector<route::RouteInfo> Outbox::deleted() const {
-  std::vector<route::RouteInfo> deleted;
-  for (const auto& [key, sending] : sending_) {
-    if (sending.sender.deleted()) deleted.push_back(sending.sender.info());
-  }
-  return deleted;
-}
-
 std::optional<route::Standing> Outbox::standing(const route::RouteKey& key) const {
   return sending_.at(key).sender.standing();
 }

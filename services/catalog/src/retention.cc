@@ -3,6 +3,8 @@
 #include <map>
 #include <set>
 
+#include "services/base/unix_time.h"
+
 namespace trailcast::catalog {
 namespace {
 
@@ -13,8 +15,7 @@ constexpr std::uint32_t kPage = 100;
 }  // namespace
 
 Result<std::vector<RouteInfo>> Retention::Next(std::chrono::system_clock::time_point now) {
-  using std::chrono::milliseconds;
-  const auto now_unix_ms = std::chrono::duration_cast<milliseconds>(now.time_since_epoch()).count();
+  const std::int64_t now_unix_ms = UnixMs(now);
   const auto page = store_.QueryRoutes(
       {.order = route::RouteOrder::kName, .page_size = kPage, .cursor = cursor_});
   if (!page) {

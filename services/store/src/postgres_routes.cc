@@ -1,6 +1,7 @@
 // PostgresRouteStore's routes: storing what is known of them, and finding them.
 #include <algorithm>
 
+#include "services/base/unix_time.h"
 #include "services/route/labels.h"
 #include "services/store/src/postgres_rows.h"
 #include "services/store/src/postgres_store.h"

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -55,12 +54,6 @@ route::Digest Seal(const route::RouteInfo& info) {
 route::Digest Seal(const route::SegmentPiece& piece) {
   return Sha256(fmt::format("{}\n{}\n{}\n{}\n", piece.key.route.value(), piece.key.teaching.value(),
                             piece.index.value(), route::ToHex(piece.digest)));
-}
-
-std::int64_t NowUnixMs() {
-  using std::chrono::milliseconds;
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<milliseconds>(since_epoch).count();
 }
 
 // As text they are one column; route_tag, by which routes are found, is made from it.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,9 +29,6 @@ inline constexpr int kRouteColumnCount = 23;
 // A route's in stores of version 4 and before, which left its labels out.
 [[nodiscard]] route::Digest SealBefore5(const route::RouteInfo& info);
 [[nodiscard]] route::Digest Seal(const route::SegmentPiece& piece);  // its bytes left out
-
-// By this machine's clock.
-[[nodiscard]] std::int64_t NowUnixMs();
 
 // As text they are one column; route_tag, by which routes are found, is made from it.
 [[nodiscard]] std::string JoinTags(const std::vector<std::string>& tags);

@@ -1,6 +1,7 @@
 // SqliteRouteStore's catalog: by what routes are found, and finding them.
 #include <algorithm>
 
+#include "services/base/unix_time.h"
 #include "services/store/sqlite_store.h"
 #include "services/store/src/query_sql.h"
 #include "services/store/src/rows.h"

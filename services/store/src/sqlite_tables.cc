@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "services/base/unix_time.h"
 #include "services/store/src/rows.h"
 #include "services/store/store_file.h"
 
