@@ -49,10 +49,12 @@ void Report::Add(const Cycle::Outcome& outcome) {
 std::string Report::Text() const {
   std::string text = fmt::format(
       "soak of {:.1f} minutes, seed {}\n"
-      "  {} cycles: {} segments taught, {} followers arrived, {} said why they did not\n"
+      "  {} cycles: {} segments taught, {} followers arrived, {} said why they did not; beside "
+      "them {} "
+      "robots killed, stopped or cut off while they fetched, and left so\n"
       "  {} segments receipted; {} looked at in {} checks of the server's store\n",
-      took.count() / 60.0, seed, cycles, segments, arrived, explained.size(), receipted, checked,
-      store_checks);
+      took.count() / 60.0, seed, cycles, segments, arrived, explained.size(), casualties, receipted,
+      checked, store_checks);
   for (const std::string& why : explained) text += "    " + why + "\n";
   text += FaultLines(recoveries) + VitalsLine(server);
   for (const std::string& failure : failures) text += "FAILED: " + failure + "\n";

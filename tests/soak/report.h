@@ -17,6 +17,7 @@ struct Report {
   std::uint64_t seed = 0;
   std::chrono::duration<double> took{};
   int cycles = 0;
+  int casualties = 0;
   std::size_t segments = 0;
   int arrived = 0;
   std::vector<std::string> explained;

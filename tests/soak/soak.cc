@@ -33,6 +33,7 @@ Soak::Soak(const SoakOptions& options)
       disk_(options.folder / "disk"),
       fleet_(lab_, options.folder, disk_.folder()),
       faults_(options.seed, fleet_),
+      casualties_(lab_, options.folder),
       exchange_(Listen()) {
   report_.seed = options_.seed;
   faults_.OnServerKilled([this] { CheckStore(); });
@@ -57,6 +58,7 @@ void Soak::RunCycle(int number) {
                       options_.seed + static_cast<std::uint64_t>(number)};
   Cycle cycle(errand, fleet_, ledger_, *exchange_, live_);
   cycle_ = &cycle;
+  casualties_.Begin(errand.route, errand.folder);
   while (!cycle.done()) {
     const auto now = Clock::now();
     Hear(now);
@@ -64,6 +66,7 @@ void Soak::RunCycle(int number) {
     cycle.Tick(now);
   }
   CalmDown();
+  casualties_.End();
   cycle_ = nullptr;
   report_.Add(cycle.outcome());
   TellCycle(cycle.outcome());
@@ -77,6 +80,7 @@ void Soak::Hear(Clock::time_point now) {
     if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
       fleet_.Hear(*status, now);
     }
+    casualties_.Handle(message);
     if (cycle_ != nullptr) cycle_->Handle(message, now);
   }
   if (now >= sample_at_) SampleServer(now);
@@ -138,6 +142,8 @@ void Soak::End() {
   }
   CheckStore();
   for (std::string& failure : faults_.TakeFailures()) report_.failures.push_back(failure);
+  for (std::string& failure : casualties_.TakeFailures()) report_.failures.push_back(failure);
+  report_.casualties = casualties_.struck();
   report_.took = Clock::now() - began_;
   report_.recoveries = faults_.recoveries();
   report_.receipted = ledger_.receipted();

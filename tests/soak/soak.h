@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/exchange/route_exchange.h"
+#include "tests/soak/casualties.h"
 #include "tests/soak/cycle.h"
 #include "tests/soak/faults.h"
 #include "tests/soak/fleet.h"
@@ -48,6 +49,7 @@ class Soak {
   test::NetworkLab lab_;
   Fleet fleet_;
   Faults faults_;
+  Casualties casualties_;
   Ledger ledger_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::vector<Retired> live_;
