@@ -1,20 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/route/bounds.h"
 
 namespace trailcast::exchange {
 
-// What is accepted from a peer, and therefore published. Also in idl/README.md.
-inline constexpr std::size_t kMaxPieceBytes = 1U << 20U;          // = route::kMaxSegmentBytes
-inline constexpr std::uint64_t kMaxTeaching = (1ULL << 63U) - 1;  // a database's largest number
-inline constexpr std::size_t kMaxPiecesPerBatch = 4096;           // what one Publish may carry
-inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;    // 200 km at 2 m
-inline constexpr std::uint64_t kMaxRouteBytes =
-    kMaxSegmentsPerRoute * std::uint64_t{kMaxPieceBytes};
+// What is accepted from a peer, and therefore published, beyond what a route is (route/bounds.h).
+// Also in idl/README.md.
+inline constexpr std::size_t kMaxPieceBytes = route::kMaxSegmentBytes;
+inline constexpr std::size_t kMaxPiecesPerBatch = 4096;  // what one Publish may carry
 inline constexpr std::size_t kMaxIndicesPerRequest = 1024;
 inline constexpr std::size_t kMaxSegmentsPerReceipt = 1024;
 inline constexpr std::size_t kMaxRoutesPerReply = 1000;
@@ -22,19 +19,15 @@ inline constexpr std::size_t kMaxSimilarNames = 16;
 inline constexpr std::size_t kMaxHeldTold = 64;  // by one agent
 inline constexpr std::size_t kMaxHoldingsPerReply = 1024;
 inline constexpr std::size_t kMaxPlacesPerReply = 16;  // by view
-inline constexpr std::size_t kMaxCameraBytes = 128;
 inline constexpr std::size_t kMaxCursorBytes = 256;
 inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
-inline constexpr int kMaxImageSide_px = 65535;
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
 // not checked against its bytes here (route::CheckDigest), only that there is one.
 [[nodiscard]] Result<void> CheckBounds(const Message& message);
 
-// The same of a catalog query and of an edit, which a server judges when it answers, and of a
-// place.
+// The same of a catalog query and of an edit, which a server judges when it answers.
 [[nodiscard]] Result<void> CheckQuery(const route::RouteQuery& query);
 [[nodiscard]] Result<void> CheckEdit(const route::RouteEdit& edit);
-[[nodiscard]] Result<void> CheckPlace(const route::Place& place);
 
 }  // namespace trailcast::exchange

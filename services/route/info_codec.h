@@ -10,12 +10,10 @@ namespace trailcast::route {
 // More than any info within bounds takes.
 inline constexpr std::size_t kMaxInfoBytes = 16U << 10U;
 
-// A complete route's info in the route format (trailcast.format.v1.Route). Equal infos give equal
-// bytes. The state is not written.
+// An info in the route format (trailcast.format.v1.Route). Equal infos give equal bytes.
 [[nodiscard]] Bytes EncodeInfo(const RouteInfo& info);
 
-// The state is kComplete. kCorrupt for bytes that are no such message; whether what it says is
-// within bounds is the caller's to check.
+// kCorrupt for bytes that are no such message, or that say what no route can be (bounds.h).
 [[nodiscard]] Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes);
 
 }  // namespace trailcast::route

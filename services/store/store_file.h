@@ -11,7 +11,7 @@ namespace trailcast::store {
 // In SQLite's header, so that `file` and we can tell a route store from any other database: "TRCT".
 inline constexpr std::uint32_t kApplicationId = 0x54524354;
 // Version of the tables, in SQLite's user_version.
-inline constexpr std::uint32_t kSchemaVersion = 5;
+inline constexpr std::uint32_t kSchemaVersion = 6;
 // Of this version and later ones stores are opened, and brought up to date by that.
 inline constexpr std::uint32_t kOldestSchemaVersion = 4;
 

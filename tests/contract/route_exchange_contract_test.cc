@@ -52,12 +52,12 @@ route::RouteInfo ExtremeInfo() {
   route::RouteInfo info = test::InfoOf(KeyNumber(7, 0xFFFFFFFF), {}, RouteState::kComplete);
   info.name = std::string(64, 'x');
   info.scout = AgentId(std::string(64, 'Z'));
-  info.camera = "f\xC3\xA4hre \xF0\x9F\x9A\xA2" + std::string(kMaxCameraBytes - 11, '.');
-  info.image_width_px = info.image_height_px = kMaxImageSide_px;
+  info.camera = "f\xC3\xA4hre \xF0\x9F\x9A\xA2" + std::string(route::kMaxCameraBytes - 11, '.');
+  info.image_width_px = info.image_height_px = route::kMaxImageSide_px;
   info.taught_unix_ms = std::numeric_limits<std::int64_t>::min();
-  info.segment_count = kMaxSegmentsPerRoute;
+  info.segment_count = route::kMaxSegmentsPerRoute;
   info.length_m = 1e7;
-  info.bytes = exchange::kMaxRouteBytes;
+  info.bytes = route::kMaxRouteBytes;
   info.manifest_digest.fill(0xFF);
   for (std::size_t i = 0; i < route::kMaxTags; ++i) {
     info.tags.push_back(fmt::format("{:02}{}", i, std::string(62, 't')));
@@ -79,7 +79,7 @@ TEST_P(RouteExchangeContract, CarriesASegmentOfOneByte) {
 }
 
 TEST_P(RouteExchangeContract, CarriesTheLargestSegmentOfTheLongestRoute) {
-  const auto piece = test::PieceOf(KeyNumber(1), kMaxSegmentsPerRoute - 1, kMaxPieceBytes);
+  const auto piece = test::PieceOf(KeyNumber(1), route::kMaxSegmentsPerRoute - 1, kMaxPieceBytes);
   ExpectRoundTrip(SegmentBatch{AgentId("s"), {piece}}, Topic::kSegments);
 }
 
@@ -130,7 +130,7 @@ TEST_P(RouteExchangeContract, CarriesTheLongestView) {
 TEST_P(RouteExchangeContract, CarriesPlacesAndHowMuchWasSearched) {
   CatalogReply reply{AgentId("s"), AgentId("f"), 1, {}, {}, {}};
   reply.places.assign(kMaxPlacesPerReply,
-                      {KeyNumber(1), SegmentIndex(kMaxSegmentsPerRoute - 1), 1.0});
+                      {KeyNumber(1), SegmentIndex(route::kMaxSegmentsPerRoute - 1), 1.0});
   reply.coverage = {1ULL << 40U, ~0ULL, 7};
   ExpectRoundTrip(reply, Topic::kCatalogReplies);
 }

@@ -37,7 +37,7 @@ class Stranger {
     if (Seldom())
       info.segment_count = input_.ConsumeIntegralInRange<std::uint32_t>(0, kMostSegments);
     if (Seldom())
-      info.bytes = input_.ConsumeIntegralInRange<std::uint64_t>(0, exchange::kMaxRouteBytes);
+      info.bytes = input_.ConsumeIntegralInRange<std::uint64_t>(0, route::kMaxRouteBytes);
     if (Seldom()) info.length_m = 1e7;
     if (Seldom()) info.scout = Name();
     if (Seldom()) info.taught_unix_ms = input_.ConsumeIntegral<std::int64_t>();
@@ -54,7 +54,7 @@ class Stranger {
   }
   // Rarely far: every wanted segment costs time.
   SegmentIndex Index() {
-    const std::uint32_t most = Seldom() ? exchange::kMaxSegmentsPerRoute - 1 : 7;
+    const std::uint32_t most = Seldom() ? route::kMaxSegmentsPerRoute - 1 : 7;
     return SegmentIndex(input_.ConsumeIntegralInRange<std::uint32_t>(0, most));
   }
   std::vector<SegmentIndex> Indices() {

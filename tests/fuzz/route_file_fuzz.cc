@@ -2,7 +2,7 @@
 // means to deceive. What is taken is within bounds and all there.
 #include "services/archive/route_file.h"
 #include "services/archive/src/layout.h"
-#include "services/exchange/bounds.h"
+#include "services/route/bounds.h"
 #include "services/route/digest.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -15,8 +15,7 @@ void TakeIn(std::span<const std::uint8_t> bytes) {
     Require(!file.error().message.empty(), "a refusal has a reason");
     return;
   }
-  const exchange::RouteAnnouncement offered{.holder = AgentId("it"), .info = file->info()};
-  Require(exchange::CheckBounds(offered).has_value(), "its route could be offered to a server");
+  Require(route::CheckInfo(file->info()).has_value(), "its route could be offered to a server");
   for (std::uint32_t i = 0; i < file->info().segment_count; ++i) {
     Require(file->ReadSegment(SegmentIndex(i)).has_value(), "each of its segments can be read");
   }

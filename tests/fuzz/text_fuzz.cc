@@ -1,10 +1,10 @@
 // Text that strangers send and that is shown on terminals.
-#include "services/exchange/text.h"
+#include "services/base/text.h"
 
 #include "tests/fuzz/fuzz.h"
 
-using trailcast::exchange::IsPlainText;
-using trailcast::exchange::PlainText;
+using trailcast::IsPlainText;
+using trailcast::PlainText;
 using trailcast::fuzz::Require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "agent/link/src/held_revisions.h"
+#include "services/base/text.h"
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
 #include "services/exchange/revision_numbers.h"
-#include "services/exchange/text.h"
 
 namespace trailcast::agent {
 namespace {
@@ -257,7 +257,7 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
   status.speed_mps = driving ? latest_.speed_mps : 0.0;
   status.features = driving ? static_cast<std::uint32_t>(std::max(0, latest_.features)) : 0U;
   status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
-  status.detail = exchange::PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
+  status.detail = PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
   status.held = held_revisions_;
   presence_->Set(std::move(status));
 }

@@ -4,14 +4,13 @@
 #include <span>
 #include <string_view>
 
-#include "services/exchange/bounds.h"
 #include "services/route/route.h"
 
 namespace trailcast::archive {
 
 // A route file (idl/README.md, "A route as a file"), numbers little-endian:
 //   preamble: magic, u32 version, u32 size of the description, u64 size of the whole file
-//   the description: route::EncodeInfo
+//   the description: route::EncodeInfo, AsTaught
 //   each segment in order: u32 index, u32 size, digest, the bytes that were hashed
 //   SHA-256 of everything before
 inline constexpr std::string_view kMagic = "TRCROUTE";
@@ -36,9 +35,11 @@ inline void AppendNumber(route::Bytes& out, std::uint64_t value, std::size_t byt
   return value;
 }
 
-// kInvalidArgument, naming the field, for what no holder of a route may announce.
-[[nodiscard]] inline Result<void> CheckInfo(const route::RouteInfo& info) {
-  return exchange::CheckBounds(exchange::RouteAnnouncement{AgentId("file"), info});
+// What a file says of a route: what operators made of it where it was written stays there.
+[[nodiscard]] inline route::RouteInfo AsTaught(route::RouteInfo info) {
+  info.standing = route::Standing::kStaged;
+  info.edition = 0;
+  return info;
 }
 
 }  // namespace trailcast::archive

@@ -108,8 +108,8 @@ class RouteFileChecker {
     if (auto read = source_.Read(kPreambleBytes, bytes); !read) return read;
     auto info = route::DecodeInfo(bytes);
     if (!info) return Wrap(info.error(), source_.name());
-    if (const auto possible = CheckInfo(*info); !possible) {
-      return Refuse("{}", possible.error().message);
+    if (info->state != route::RouteState::kComplete) {
+      return Refuse("its route is still being taught, expected a complete one");
     }
     at_ = kPreambleBytes + info_bytes_;
     const std::uint64_t room = (end_ - at_) / (kFrameBytes + 1);
@@ -117,7 +117,7 @@ class RouteFileChecker {
       return Refuse("it says that it has {} segments, expected 1 to the {} for which it has room",
                     info->segment_count, room);
     }
-    file_.info_ = std::move(*info);
+    file_.info_ = AsTaught(std::move(*info));
     return {};
   }
 

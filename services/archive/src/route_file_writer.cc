@@ -12,6 +12,7 @@
 
 #include "services/archive/route_file.h"
 #include "services/archive/src/layout.h"
+#include "services/route/bounds.h"
 #include "services/route/info_codec.h"
 
 namespace trailcast::archive {
@@ -26,7 +27,7 @@ Result<void> CheckExportable(const route::RouteInfo& info) {
                 "complete routes are exported",
                 info.name, info.revision.value(), info.segment_count);
   }
-  return CheckInfo(info);
+  return route::CheckInfo(info);
 }
 
 std::uint64_t FileBytes(const route::RouteInfo& info, std::size_t info_bytes) {
@@ -101,7 +102,7 @@ tl::unexpected<Error> RouteFileWriter::CannotWrite(int error) const {
 }
 
 Result<void> RouteFileWriter::Begin() {
-  const route::Bytes description = route::EncodeInfo(info_);
+  const route::Bytes description = route::EncodeInfo(AsTaught(info_));
   const std::uint64_t size = FileBytes(info_, description.size());
   if (info_.bytes > kMaxFileBytes || size > kMaxFileBytes) {
     part_.clear();

@@ -1,14 +1,16 @@
 #include "services/exchange/bounds.h"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-
-#include "services/exchange/src/field_bounds.h"
 
 namespace trailcast::exchange {
 namespace {
 
+using route::CheckAmount;
+using route::CheckCount;
+using route::CheckName;
+using route::CheckText;
+using route::kMaxLength_m;
+using route::kMaxSegmentsPerRoute;
 using route::RouteInfo;
 using route::RouteKey;
 using route::SegmentPiece;
@@ -24,38 +26,6 @@ Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& in
     if (auto ok = CheckIndex(index); !ok) return ok;
   }
   return {};
-}
-
-Result<void> CheckOrdered(const std::vector<std::string>& tags) {
-  if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return {};
-  return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
-}
-
-constexpr double kMaxLength_m = 1e7;
-
-Result<void> CheckInfo(const RouteInfo& info) {
-  if (auto ok = CheckKey(info.key); !ok) return ok;
-  if (auto ok = CheckName("route name", info.name); !ok) return ok;
-  if (auto ok = CheckName("scout", info.scout.value()); !ok) return ok;
-  if (auto ok = CheckText("camera", info.camera, kMaxCameraBytes); !ok) return ok;
-  if (auto ok = CheckAmount("image width", info.image_width_px, kMaxImageSide_px); !ok) return ok;
-  if (auto ok = CheckAmount("image height", info.image_height_px, kMaxImageSide_px); !ok) {
-    return ok;
-  }
-  if (auto ok = CheckState(info.state); !ok) return ok;
-  if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
-    return ok;
-  }
-  if (auto ok = CheckStanding(info.standing); !ok) return ok;
-  if (auto ok = CheckText("description", info.description, route::kMaxDescriptionBytes); !ok)
-    return ok;
-  if (auto ok = CheckCount("bytes in a route", info.bytes, kMaxRouteBytes); !ok) return ok;
-  if (auto ok = CheckTags(info.tags); !ok) return ok;
-  if (auto ok = CheckOrdered(info.tags); !ok) return ok;
-  if (info.place) {
-    if (auto ok = CheckPlace(*info.place); !ok) return ok;
-  }
-  return CheckAmount("route length in metres", info.length_m, kMaxLength_m);
 }
 
 Result<void> CheckPiece(const SegmentPiece& piece) {

@@ -3,10 +3,15 @@
 #include <utility>
 
 #include "services/exchange/bounds.h"
-#include "services/exchange/src/field_bounds.h"
 
 namespace trailcast::exchange {
 namespace {
+
+using route::CheckAmount;
+using route::CheckCount;
+using route::CheckName;
+using route::CheckTags;
+using route::CheckText;
 
 // A view is asked for alone.
 Result<void> CheckAlone(const route::RouteQuery& query) {
@@ -37,12 +42,12 @@ Result<void> CheckView(const route::View& view) {
   }
   for (const route::ViewFeature& feature : view) {
     if (auto ok = CheckAmount("u in a view, to either side, in pixels", std::abs(feature.u_px),
-                              kMaxImageSide_px);
+                              route::kMaxImageSide_px);
         !ok) {
       return ok;
     }
     if (auto ok = CheckAmount("v in a view, to either side, in pixels", std::abs(feature.v_px),
-                              kMaxImageSide_px);
+                              route::kMaxImageSide_px);
         !ok) {
       return ok;
     }
@@ -61,7 +66,8 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
     if (auto ok = CheckName(field, *name); !ok) return ok;
   }
   if (auto ok = CheckTags(query.tags); !ok) return ok;
-  if (auto ok = CheckText("camera prefix", query.camera_prefix, kMaxCameraBytes); !ok) return ok;
+  if (auto ok = CheckText("camera prefix", query.camera_prefix, route::kMaxCameraBytes); !ok)
+    return ok;
   if (auto ok = CheckAmount("least length in metres", query.min_length_m, kMaxMetres); !ok) {
     return ok;
   }

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "services/base/text.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_keeper.h"
-#include "services/exchange/text.h"
 
 namespace trailcast::exchange {
 namespace {

@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
+#include "services/base/text.h"
 #include "services/exchange/batches.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_keeper.h"
-#include "services/exchange/text.h"
 #include "services/route/labels.h"
 
 namespace trailcast::exchange {

@@ -48,7 +48,7 @@ std::optional<route::RouteInfo> RouteSender::TakeNumbered() {
 void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
   if (request.key != info_.key) return;
   if (request.lacking.empty()) changed_ = true;
-  if (left_to_server_.size() > kMaxSegmentsPerRoute) left_to_server_.clear();
+  if (left_to_server_.size() > route::kMaxSegmentsPerRoute) left_to_server_.clear();
   std::vector<SegmentIndex> wanted;
   for (const SegmentIndex index : request.lacking) {
     if (index.value() >= info_.segment_count) continue;

@@ -5,7 +5,7 @@
 #include <array>
 #include <charconv>
 
-#include "services/exchange/bounds.h"
+#include "services/route/bounds.h"
 
 namespace trailcast::program {
 namespace {
@@ -32,7 +32,7 @@ Place PlaceFrom(Place::Frame frame, const std::array<double, 2>& pair) {
 std::string Wrong(Place::Frame frame, const std::string& text) {
   const auto pair = ParsePair(text);
   if (!pair) return fmt::format("'{}' is not two numbers with a comma between", text);
-  const auto possible = exchange::CheckPlace(PlaceFrom(frame, *pair));
+  const auto possible = route::CheckPlace(PlaceFrom(frame, *pair));
   return possible ? "" : possible.error().message;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "services/exchange/text.h"
+#include "services/base/text.h"
 
 namespace trailcast::program {
 namespace {
@@ -68,7 +68,7 @@ void Presence::Set(exchange::AgentStatus status) {
   status.agent = status_.agent;
   status.role = status_.role;
   status.instance = status_.instance;
-  status.detail = exchange::PlainText(status.detail, 200);
+  status.detail = PlainText(status.detail, 200);
   status_ = std::move(status);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "idl/route.pb.h"
+#include "services/route/bounds.h"
 
 namespace trailcast::route {
 namespace {
@@ -48,6 +49,9 @@ Bytes EncodeInfo(const RouteInfo& info) {
     out.mutable_place()->set_y(info.place->y);
   }
   out.set_description(info.description);
+  out.set_being_taught(info.state == RouteState::kTeaching);
+  out.set_standing(static_cast<std::uint32_t>(info.standing));
+  out.set_edition(info.edition);
   Bytes bytes(out.ByteSizeLong());
   [[maybe_unused]] const bool fits =
       out.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
@@ -80,14 +84,19 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
   info.image_width_px = Narrowed<int>(in.image_width_px());
   info.image_height_px = Narrowed<int>(in.image_height_px());
   info.taught_unix_ms = in.taught_unix_ms();
-  info.state = RouteState::kComplete;
+  info.state = in.being_taught() ? RouteState::kTeaching : RouteState::kComplete;
   info.segment_count = in.segment_count();
   info.length_m = in.length_m();
   info.bytes = in.bytes();
   std::copy(in.manifest_digest().begin(), in.manifest_digest().end(), info.manifest_digest.begin());
   info.tags.assign(in.tags().begin(), in.tags().end());
   info.description = in.description();
+  info.standing = static_cast<Standing>(Narrowed<std::uint8_t>(in.standing()));
+  info.edition = in.edition();
   if (in.has_place()) info.place = ReadPlace(in.place());
+  if (const auto possible = CheckInfo(info); !possible) {
+    return Fail(ErrorCode::kCorrupt, "{}", possible.error().message);
+  }
   return info;
 }
 

@@ -5,7 +5,7 @@
 #include "services/route/labels.h"
 #include "services/store/src/postgres_rows.h"
 #include "services/store/src/postgres_store.h"
-#include "services/store/src/row_values.h"
+#include "services/store/src/query_sql.h"
 
 namespace trailcast::store {
 namespace {
@@ -59,7 +59,10 @@ using Some = Infos::const_iterator;
 pqxx::result PutRows(Transaction& transaction, const std::string& table, Some begin, Some end) {
   PostgresValues values;
   const std::int64_t now_unix_ms = NowUnixMs();
-  for (Some each = begin; each != end; ++each) values.AddRoute(each->second, now_unix_ms);
+  for (Some each = begin; each != end; ++each) {
+    values.AddRoute(each->second);
+    values.Add(now_unix_ms);
+  }
   return values.Execute(
       transaction,
       fmt::format("INSERT INTO {0} ({1}, grown_unix_ms) VALUES {2} "
@@ -94,6 +97,8 @@ void PutLiving(Transaction& transaction, const Infos& infos) {
 
 // Contents that no other revision has go too.
 void DeleteSegments(Transaction& transaction, const PostgresValues& keys) {
+  (void)keys.Execute(transaction,
+                     "DELETE FROM receipt WHERE (route, teaching) IN (" + keys.Rows(2) + ")");
   const pqxx::result digests =
       keys.Execute(transaction, "DELETE FROM segment WHERE (route, teaching) IN (" + keys.Rows(2) +
                                     ") RETURNING digest");

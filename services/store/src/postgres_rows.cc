@@ -4,12 +4,10 @@
 #include <cstdlib>
 
 #include "services/route/digest.h"
-#include "services/store/src/row_values.h"
+#include "services/route/info_codec.h"
 
 namespace trailcast::store {
 namespace {
-
-double ReadDouble(const pqxx::field& field) { return std::strtod(field.c_str(), nullptr); }
 
 // Nothing when it has another length than a digest.
 std::optional<route::Digest> ReadDigest(const pqxx::field& field) {
@@ -20,13 +18,17 @@ std::optional<route::Digest> ReadDigest(const pqxx::field& field) {
   return digest;
 }
 
-std::optional<route::Place> ReadPlace(const pqxx::row& row, int first) {
-  if (row[first].is_null()) return std::nullopt;
-  return route::Place{static_cast<route::Place::Frame>(row[first].as<int>()),
-                      ReadDouble(row[first + 1]), ReadDouble(row[first + 2])};
+bool Is(const pqxx::field& field, const SqlValue& value) {
+  if (field.is_null()) return std::holds_alternative<std::monostate>(value);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text == field.c_str();
+  if (const auto* real = std::get_if<double>(&value)) return ReadDouble(field) == *real;
+  const auto* number = std::get_if<std::int64_t>(&value);
+  return number != nullptr && field.as<std::int64_t>() == *number;
 }
 
 }  // namespace
+
+double ReadDouble(const pqxx::field& field) { return std::strtod(field.c_str(), nullptr); }
 
 route::Bytes ReadBytes(const pqxx::field& field) {
   if (field.is_null()) return {};
@@ -56,40 +58,17 @@ void PostgresValues::Add(const route::RouteKey& key) {
   Add(static_cast<std::int64_t>(key.teaching.value()));
 }
 
-void PostgresValues::Add(const std::vector<SqlCondition::Value>& values) {
-  for (const SqlCondition::Value& value : values) {
+void PostgresValues::Add(const std::vector<SqlValue>& values) {
+  for (const SqlValue& value : values) {
     std::visit([this](const auto& each) { Add(each); }, value);
   }
 }
 
-void PostgresValues::AddRoute(const route::RouteInfo& info, std::int64_t grown_unix_ms) {
-  Add(info.key);
-  Add(info.name);
-  Add(info.scout.value());
-  Add(info.camera);
-  Add(std::int64_t{info.image_width_px});
-  Add(std::int64_t{info.image_height_px});
-  Add(info.taught_unix_ms);
-  Add(static_cast<std::int64_t>(info.state));
-  Add(std::int64_t{info.segment_count});
-  Add(info.length_m);
-  Add(static_cast<std::int64_t>(info.bytes));
-  Add(info.manifest_digest);
-  Add(Seal(info));
-  Add(JoinTags(info.tags));
-  if (info.place) {
-    Add(static_cast<std::int64_t>(info.place->frame));
-    Add(info.place->x);
-    Add(info.place->y);
-  } else {
-    for (int column = 0; column < 3; ++column) AddNull();
-  }
-  Add(info.description);
-  Add(static_cast<std::int64_t>(info.standing));
-  Add(std::int64_t{info.edition});
-  Add(std::int64_t{info.revision.value()});
-  Add(std::string(info.cut_off ? "true" : "false"));
-  Add(grown_unix_ms);
+void PostgresValues::AddRoute(const route::RouteInfo& info) {
+  const route::Bytes bytes = route::EncodeInfo(info);
+  Add(FoundBy(info));
+  AddBytes(bytes.data(), bytes.size());
+  Add(route::Sha256(bytes));
 }
 
 void PostgresValues::AddSegment(const route::SegmentPiece& piece) {
@@ -129,30 +108,10 @@ route::RouteKey ReadKey(const pqxx::row& row) {
 }
 
 Result<route::RouteInfo> ReadRoute(const pqxx::row& row) {
-  route::RouteInfo info;
-  info.key = ReadKey(row);
-  info.name = row[2].as<std::string>();
-  info.scout = AgentId(row[3].as<std::string>());
-  info.camera = row[4].as<std::string>();
-  info.image_width_px = row[5].as<int>();
-  info.image_height_px = row[6].as<int>();
-  info.taught_unix_ms = row[7].as<std::int64_t>();
-  info.state = row[8].as<int>() == 0 ? route::RouteState::kTeaching : route::RouteState::kComplete;
-  info.segment_count = row[9].as<std::uint32_t>();
-  info.length_m = ReadDouble(row[10]);
-  info.bytes = row[11].as<std::uint64_t>();
-  const std::optional<route::Digest> manifest = ReadDigest(row[12]);
-  const std::optional<route::Digest> seal = ReadDigest(row[13]);
-  info.tags = SplitTags(row[14].as<std::string>());
-  info.place = ReadPlace(row, 15);
-  info.description = row[18].as<std::string>();
-  info.standing = static_cast<route::Standing>(row[19].as<int>());
-  info.edition = row[20].as<std::uint32_t>();
-  info.revision = RevisionNumber(row[21].as<std::uint32_t>());
-  info.cut_off = row[22].as<bool>();
-  info.manifest_digest = manifest.value_or(route::Digest{});
-  if (!manifest || seal != Seal(info)) return DamagedRoute(info);
-  return info;
+  auto info = OpenInfo(ReadBytes(row[kFoundByCount]), ReadBytes(row[kFoundByCount + 1]),
+                       [&](int i, const SqlValue& value) { return Is(row[i], value); });
+  if (info) return info;
+  return DamagedRoute(ReadKey(row), row[3].as<std::string>());
 }
 
 Result<route::Digest> ReadSegmentDigest(const pqxx::row& row, const route::RouteKey& key,

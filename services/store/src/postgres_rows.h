@@ -10,7 +10,7 @@
 
 #include "services/base/result.h"
 #include "services/route/route.h"
-#include "services/store/src/query_sql.h"
+#include "services/store/src/row_values.h"
 
 namespace trailcast::store {
 
@@ -22,11 +22,11 @@ class PostgresValues {
   void Add(double number) { values_.emplace_back(fmt::format("{}", number)); }  // reads back same
   void AddBytes(const std::uint8_t* bytes, std::size_t size);
   void Add(const route::Digest& digest) { AddBytes(digest.data(), digest.size()); }
-  void AddNull() { values_.emplace_back(std::nullopt); }
+  void Add(std::monostate) { values_.emplace_back(std::nullopt); }
   void Add(const route::RouteKey& key);  // two
-  void Add(const std::vector<SqlCondition::Value>& values);
-  // In the order of kRouteColumns, then when it last grew.
-  void AddRoute(const route::RouteInfo& info, std::int64_t grown_unix_ms);
+  void Add(const std::vector<SqlValue>& values);
+  // In the order of kRouteColumns.
+  void AddRoute(const route::RouteInfo& info);
   void AddSegment(const route::SegmentPiece& piece);  // route, teaching, number, digest, seal
 
   [[nodiscard]] bool empty() const { return values_.empty(); }
@@ -54,7 +54,7 @@ void ForSome(const Items& items, const Work& work) {
 }
 
 [[nodiscard]] route::RouteKey ReadKey(const pqxx::row& row);  // its first two columns
-// A row of kRouteColumns. kCorrupt if it fails its seal.
+// A row of kRouteColumns. kCorrupt if it is damaged.
 [[nodiscard]] Result<route::RouteInfo> ReadRoute(const pqxx::row& row);
 // The columns digest, seal, bytes of a row asked for under this key and index. kCorrupt if its
 // bytes fail their digest, or if damage made the row answer to another's name.
@@ -65,6 +65,7 @@ void ForSome(const Items& items, const Work& work) {
 [[nodiscard]] Result<route::Digest> ReadSegmentDigest(const pqxx::row& row,
                                                       const route::RouteKey& key,
                                                       SegmentIndex index);
+[[nodiscard]] double ReadDouble(const pqxx::field& field);
 // Empty where the column is NULL, as of a content that is gone.
 [[nodiscard]] route::Bytes ReadBytes(const pqxx::field& field);
 

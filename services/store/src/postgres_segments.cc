@@ -201,9 +201,11 @@ Result<std::vector<SegmentIndex>> PostgresRouteStore::SelectIndices(const RouteK
         for (const pqxx::row& row : values.Execute(
                  transaction,
                  fmt::format(
-                     "SELECT number FROM segment WHERE route = ? AND teaching = ? {} ORDER BY "
+                     "SELECT number FROM segment WHERE route = $1 AND teaching = $2 {} ORDER BY "
                      "number",
-                     unreceipted ? "AND NOT receipted" : ""))) {
+                     unreceipted ? "AND number NOT IN (SELECT number FROM receipt WHERE route = $1 "
+                                   "AND teaching = $2)"
+                                 : ""))) {
           indices.emplace_back(row[0].as<std::uint32_t>());
         }
         return indices;
@@ -231,9 +233,9 @@ Result<void> PostgresRouteStore::MarkReceipted(const RouteKey& key,
                            }
                            (void)values.Execute(
                                transaction,
-                               "UPDATE segment SET receipted = true WHERE NOT receipted AND "
-                               "(route, teaching, number) IN (" +
-                                   values.Rows(3) + ")");
+                               "INSERT INTO receipt SELECT route, teaching, number FROM segment "
+                               "WHERE (route, teaching, number) IN (" +
+                                   values.Rows(3) + ") ON CONFLICT DO NOTHING");
                          });
                          return {};
                        });

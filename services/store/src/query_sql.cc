@@ -58,7 +58,7 @@ std::vector<std::string_view> Split(std::string_view text, char separator) {
 }
 
 // A cursor's value in the type of the column that it is compared to.
-std::optional<SqlCondition::Value> ValueIn(RouteOrder order, std::string_view text) {
+std::optional<SqlValue> ValueIn(RouteOrder order, std::string_view text) {
   if (order == RouteOrder::kName) return std::string(text);
   if (order == RouteOrder::kNewest || order == RouteOrder::kOldest) {
     if (const auto number = Parse<std::int64_t>(text)) return *number;
@@ -80,8 +80,8 @@ void BeginsNear(const route::Surroundings& near, SqlDialect dialect, SqlConditio
   const double x = near.radius_m / x_m;
   const double y = near.radius_m / y_m;
   const auto frame = static_cast<std::int64_t>(near.middle.frame);
-  const std::vector<SqlCondition::Value> box{frame, near.middle.x + x, near.middle.x - x,
-                                             near.middle.y + y, near.middle.y - y};
+  const std::vector<SqlValue> box{frame, near.middle.x + x, near.middle.x - x, near.middle.y + y,
+                                  near.middle.y - y};
   if (dialect == SqlDialect::kSqlite) {
     condition.FindBy(
         "route_place",
@@ -102,13 +102,13 @@ void BeginsNear(const route::Surroundings& near, SqlDialect dialect, SqlConditio
 
 }  // namespace
 
-void SqlCondition::And(const std::string& term, std::vector<Value> values) {
+void SqlCondition::And(const std::string& term, std::vector<SqlValue> values) {
   terms_.push_back(term);
   values_.insert(values_.end(), values.begin(), values.end());
 }
 
 void SqlCondition::FindBy(const std::string& table, const std::string& term,
-                          std::vector<Value> values) {
+                          std::vector<SqlValue> values) {
   found_by_ = table;
   And(term, std::move(values));
 }

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "services/base/result.h"
 #include "services/route/route_query.h"
+#include "services/store/src/row_values.h"
 
 namespace trailcast::store {
 
@@ -18,23 +18,21 @@ enum class SqlDialect : std::uint8_t { kSqlite, kPostgres };
 // their order.
 class SqlCondition {
  public:
-  using Value = std::variant<std::string, std::int64_t, double>;
-
-  void And(const std::string& term, std::vector<Value> values = {});
+  void And(const std::string& term, std::vector<SqlValue> values = {});
   // Rows are found by this table of ids and then looked up, however
   // they are to be sorted: right where it narrows down much.
-  void FindBy(const std::string& table, const std::string& term, std::vector<Value> values);
+  void FindBy(const std::string& table, const std::string& term, std::vector<SqlValue> values);
   [[nodiscard]] std::string FromWhere() const;
   // The same for counting alone, which looks up no more than it must.
   [[nodiscard]] std::string CountedFromWhere() const;
-  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
+  [[nodiscard]] const std::vector<SqlValue>& values() const { return values_; }
 
  private:
   [[nodiscard]] std::string Where() const;
 
   std::string found_by_;
   std::vector<std::string> terms_;
-  std::vector<Value> values_;
+  std::vector<SqlValue> values_;
 };
 
 // What a row of table `route` must fulfil; the page asked for does not matter here. `by_tag`: the

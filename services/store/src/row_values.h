@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "services/base/result.h"
@@ -11,34 +14,42 @@ namespace trailcast::store {
 
 // What rows are made of, whatever database holds them.
 
-// Columns of tables `route` and `tombstone`.
+using SqlValue = std::variant<std::monostate, std::string, std::int64_t, double>;  // first: NULL
+
+// Columns of tables `route` and `tombstone`: by what rows are found and sorted; then what is known
+// of the route, in the route format, which all others are made from; then its seal.
 inline constexpr const char* kRouteColumns =
-    "route, teaching, name, scout, camera, image_width_px, image_height_px, taught_unix_ms, state, "
-    "segment_count, length_m, bytes, manifest_digest, seal, tags, place_frame, place_east, "
-    "place_north, description, standing, edition, revision, cut_off";
-inline constexpr int kRouteColumnCount = 23;
+    "route, teaching, revision, name, scout, camera, taught_unix_ms, state, segment_count, "
+    "length_m, standing, place_frame, place_east, place_north, info, seal";
+inline constexpr int kFoundByCount = 14;
+inline constexpr int kRouteColumnCount = kFoundByCount + 2;
+
+// "?,?,?": parameters for so many columns.
+[[nodiscard]] std::string Marks(int count);
+
+// The first kFoundByCount of them.
+[[nodiscard]] std::vector<SqlValue> FoundBy(const route::RouteInfo& info);
+// What a row of kRouteColumns says, if its bytes fit their seal and `is` tells of each column that
+// it has the value which they give it: a database may not notice a changed byte, and a damaged
+// index can lead to the wrong row.
+[[nodiscard]] Result<route::RouteInfo> OpenInfo(
+    const route::Bytes& info, const route::Bytes& seal,
+    const std::function<bool(int column, const SqlValue& value)>& is);
 
 // kInvalidArgument, naming the field, for an info that no route can have.
 [[nodiscard]] Result<void> CheckRoute(const route::RouteInfo& info);
 // kInvalidArgument or kCorrupt for a piece that no segment can be.
 [[nodiscard]] Result<void> CheckSegment(const route::SegmentPiece& piece);
 
-// Of a row's other columns: a database may not notice a changed byte, and a damaged index can lead
-// to the wrong row. Part of the stores' format.
-[[nodiscard]] route::Digest Seal(const route::RouteInfo& info);
-// A route's in stores of version 4 and before, which left its labels out.
-[[nodiscard]] route::Digest SealBefore5(const route::RouteInfo& info);
-[[nodiscard]] route::Digest Seal(const route::SegmentPiece& piece);  // its bytes left out
-
-// As text they are one column; route_tag, by which routes are found, is made from it.
-[[nodiscard]] std::string JoinTags(const std::vector<std::string>& tags);
-[[nodiscard]] std::vector<std::string> SplitTags(const std::string& joined);
+// Of a segment's row, its bytes left out. Part of the stores' format.
+[[nodiscard]] route::Digest Seal(const route::SegmentPiece& piece);
 
 using route::Describe;
 // "segment 3 of teaching 1f of route .."
 [[nodiscard]] std::string Describe(const route::RouteKey& key, SegmentIndex index);
 // kCorrupt: the row fails its seal.
-[[nodiscard]] tl::unexpected<Error> DamagedRoute(const route::RouteInfo& info);
+[[nodiscard]] tl::unexpected<Error> DamagedRoute(const route::RouteKey& key,
+                                                 const std::string& name);
 [[nodiscard]] tl::unexpected<Error> DamagedSegment(const route::RouteKey& key, SegmentIndex index);
 
 }  // namespace trailcast::store

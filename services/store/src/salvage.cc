@@ -122,8 +122,7 @@ class Salvaging {
   }
 
   Result<void> SaveSegments() {
-    const std::string columns =
-        std::string(kSegmentContent) + ", route, teaching, number, receipted";
+    const std::string columns = std::string(kSegmentContent) + ", route, teaching, number";
     RowWalk rows(damaged_, "segment", columns.c_str());
     while (const SQLite::Statement* row = rows.Next()) {
       auto piece = Readable([&]() -> Result<route::SegmentPiece> {
@@ -134,7 +133,6 @@ class Salvaging {
       if (!piece) continue;
       const bool relies = piece->bytes.empty();
       if (!relies && !route::CheckDigest(*piece)) continue;
-      if (row->getColumn(6).getInt() != 0) receipted_[piece->key].push_back(piece->index);
       if (relies) {
         relying_.push_back(std::move(*piece));
       } else if (auto saved = Save(std::move(*piece)); !saved) {
@@ -192,8 +190,19 @@ class Salvaging {
     return {};
   }
 
+  // As far as they can be read in one go: a segment without its receipt is only offered again.
   Result<void> SaveReceipts() {
-    for (const auto& [key, indices] : receipted_) {
+    std::map<route::RouteKey, std::vector<SegmentIndex>> receipted;
+    try {
+      SQLite::Statement select(damaged_, "SELECT route, teaching, number FROM receipt");
+      while (select.executeStep()) {
+        receipted[{RouteId(select.getColumn(0).getString()), TeachingOf(select.getColumn(1))}]
+            .emplace_back(select.getColumn(2).getUInt());
+      }
+    } catch (const SQLite::Exception& exception) {
+      if (!IsDamage(exception)) throw;
+    }
+    for (const auto& [key, indices] : receipted) {
       if (auto noted = whole_.MarkReceipted(key, indices); !noted) return noted;
     }
     return {};
@@ -238,7 +247,6 @@ class Salvaging {
   std::vector<route::RouteInfo> routes_;
   std::vector<route::SegmentPiece> pieces_;
   std::vector<route::SegmentPiece> relying_;  // their bytes are another's
-  std::map<route::RouteKey, std::vector<SegmentIndex>> receipted_;
   Salvaged salvaged_;
 };
 

@@ -18,37 +18,27 @@ constexpr const char* kBequeath = R"(
 WITH leaving AS (
   SELECT digest, bytes FROM segment WHERE route = ?1 AND teaching = ?2 AND bytes IS NOT NULL)
 UPDATE segment AS heir SET bytes = (SELECT bytes FROM leaving WHERE digest = heir.digest)
-WHERE digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND teaching = ?2)
-  AND rowid = (SELECT MIN(rowid) FROM segment WHERE digest = heir.digest
-               AND NOT (route = ?1 AND teaching = ?2)) AND bytes IS NULL
+WHERE substr(digest, 1, 4) IN (SELECT substr(digest, 1, 4) FROM leaving)
+  AND digest IN (SELECT digest FROM leaving) AND NOT (route = ?1 AND teaching = ?2)
+  AND rowid = (SELECT MIN(rowid) FROM segment WHERE substr(digest, 1, 4) = substr(heir.digest, 1, 4)
+               AND digest = heir.digest AND NOT (route = ?1 AND teaching = ?2)) AND bytes IS NULL
 )";
 
 void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
   statement.bind(parameter, static_cast<std::int64_t>(size));
 }
 
-// From parameter 1 on; the number of the next one.
-int BindValues(SQLite::Statement& statement, const SqlCondition& condition) {
-  int parameter = 1;
-  for (const SqlCondition::Value& value : condition.values()) {
-    std::visit([&](const auto& each) { statement.bind(parameter, each); }, value);
-    ++parameter;
-  }
-  return parameter;
-}
-
 }  // namespace
 
 std::int64_t SqliteRouteStore::PutRow(const std::string& table, const RouteInfo& info) {
-  auto put =
-      compiled_.Take(fmt::format("INSERT OR REPLACE INTO {0} ({1}, id, grown_unix_ms) VALUES "
-                                 "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,"
-                                 "(SELECT id FROM {0} WHERE route = ?1 AND teaching = ?2),"
-                                 "coalesce((SELECT grown_unix_ms FROM {0} WHERE route = ?1 AND "
-                                 "teaching = ?2 AND state = ?9 AND segment_count = ?10), ?24))",
-                                 table, kRouteColumns));
+  auto put = compiled_.Take(
+      fmt::format("INSERT OR REPLACE INTO {0} ({1}, id, grown_unix_ms) VALUES ({2},"
+                  "(SELECT id FROM {0} WHERE route = ?1 AND teaching = ?2),"
+                  "coalesce((SELECT grown_unix_ms FROM {0} WHERE route = ?1 AND "
+                  "teaching = ?2 AND state = ?8 AND segment_count = ?9), ?{3}))",
+                  table, kRouteColumns, Marks(kRouteColumnCount), kRouteColumnCount + 1));
   BindRoute(*put, info);
-  put->bind(24, NowUnixMs());
+  put->bind(kRouteColumnCount + 1, NowUnixMs());
   put->exec();
   return db_->getLastInsertRowid();
 }
@@ -67,6 +57,7 @@ void SqliteRouteStore::Bury(const RouteInfo& info) {
   if (find->executeStep()) ForgetPlaceAndTags(find->getColumn(0).getInt64());
   find->reset();
   for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND teaching = ?",
+                              "DELETE FROM receipt WHERE route = ? AND teaching = ?",
                               "DELETE FROM route WHERE route = ? AND teaching = ?"}) {
     auto part = compiled_.Take(parting);
     BindKey(*part, info.key);
@@ -117,7 +108,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
         query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
     SQLite::Statement select(*db_, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
                                                match.FromWhere(), OrderBy(query.order)));
-    const int limit = BindValues(select, match);
+    const int limit = BindValues(select, match.values());
     BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
     RoutePage page;
     while (select.executeStep()) {
@@ -134,7 +125,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
     // However many have the tag: nothing is sorted here.
     const SqlCondition all = MatchOf(query, query.tags.empty() ? "" : query.tags.front());
     SQLite::Statement count(*db_, "SELECT COUNT(*)" + all.CountedFromWhere());
-    BindValues(count, all);
+    BindValues(count, all.values());
     count.executeStep();
     page.total = static_cast<std::uint64_t>(count.getColumn(0).getInt64());
     return page;

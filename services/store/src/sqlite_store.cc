@@ -9,6 +9,9 @@ namespace {
 
 constexpr const char* kNewestFirst = "ORDER BY taught_unix_ms DESC, route DESC, teaching DESC";
 
+constexpr const char* kUnreceipted =
+    "AND number NOT IN (SELECT number FROM receipt WHERE route = ?1 AND teaching = ?2)";
+
 using route::RouteInfo;
 using route::RouteKey;
 using route::SegmentPiece;
@@ -144,8 +147,8 @@ Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey
 
 Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::Digest& digest) {
   return Guarded("looking up a segment's bytes", [&]() -> Result<std::optional<route::Bytes>> {
-    auto select =
-        compiled_.Take("SELECT bytes FROM segment WHERE digest = ? AND bytes IS NOT NULL");
+    auto select = compiled_.Take(
+        fmt::format("SELECT bytes FROM segment WHERE {} AND bytes IS NOT NULL", kOfDigest));
     BindDigest(*select, 1, digest);
     while (select->executeStep()) {
       const SQLite::Column column = select->getColumn(0);
@@ -159,18 +162,19 @@ Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::D
 
 Result<std::vector<SegmentIndex>> SqliteRouteStore::SelectIndices(const RouteKey& key,
                                                                   bool unreceipted) {
-  return Guarded(
-      "listing the segments of " + Describe(key), [&]() -> Result<std::vector<SegmentIndex>> {
-        SQLite::Statement select(*db_, fmt::format("SELECT number FROM segment WHERE route = ? AND "
-                                                   "teaching = ? {} ORDER BY number",
-                                                   unreceipted ? "AND receipted = 0" : ""));
-        BindKey(select, key);
-        std::vector<SegmentIndex> indices;
-        while (select.executeStep()) {
-          indices.emplace_back(select.getColumn(0).getUInt());
-        }
-        return indices;
-      });
+  return Guarded("listing the segments of " + Describe(key),
+                 [&]() -> Result<std::vector<SegmentIndex>> {
+                   SQLite::Statement select(
+                       *db_, fmt::format("SELECT number FROM segment WHERE route = ?1 AND "
+                                         "teaching = ?2 {} ORDER BY number",
+                                         unreceipted ? kUnreceipted : ""));
+                   BindKey(select, key);
+                   std::vector<SegmentIndex> indices;
+                   while (select.executeStep()) {
+                     indices.emplace_back(select.getColumn(0).getUInt());
+                   }
+                   return indices;
+                 });
 }
 
 Result<std::vector<SegmentIndex>> SqliteRouteStore::HeldSegments(const RouteKey& key) {
@@ -243,14 +247,14 @@ Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
   if (indices.empty()) return {};
   return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
     SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-    auto update = compiled_.Take(
-        "UPDATE segment SET receipted = 1 WHERE route = ? AND teaching = ? AND number = ? AND "
-        "receipted = 0");
-    BindKey(*update, key);
+    auto insert = compiled_.Take(
+        "INSERT OR IGNORE INTO receipt SELECT route, teaching, number FROM segment WHERE "
+        "route = ? AND teaching = ? AND number = ?");
+    BindKey(*insert, key);
     for (const SegmentIndex index : indices) {
-      update->bind(3, index.value());
-      update->exec();
-      update->reset();
+      insert->bind(3, index.value());
+      insert->exec();
+      insert->reset();
     }
     transaction.commit();
     return {};

@@ -6,7 +6,7 @@ namespace trailcast::store {
 
 // In the caller's transaction, into an empty database.
 void CreateTables(SQLite::Database& db);
-// Makes a store of version 4 one of kSchemaVersion, or leaves it as it was.
-void BringUpFrom4(SQLite::Database& db);
+// The part of it that other versions had otherwise: not the tables of tags and places.
+void CreateRowTables(SQLite::Database& db);
 
 }  // namespace trailcast::store

@@ -113,6 +113,15 @@ TEST(RouteFileDamage, ADescriptionThatIsNoneIsRefused) {
               HasSubstr("manifest digest has 0 bytes, expected 32"));
 }
 
+TEST(RouteFileDamage, ARouteThatIsBeingTaughtIsRefused) {
+  EXPECT_THAT(ErrorAfter([](MadeFile& made) {
+                route::RouteInfo info = test::TeachSamples(2).info;
+                info.state = route::RouteState::kTeaching;
+                made.description = route::EncodeInfo(info);
+              }),
+              HasSubstr("still being taught"));
+}
+
 TEST(RouteFileDamage, SizesThatCannotBeAreRefusedUnread) {
   // The description would reach into the checksum, or far beyond the file.
   for (const std::uint32_t size : {64U, 16384U}) {

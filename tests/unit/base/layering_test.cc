@@ -34,7 +34,7 @@ const std::map<std::string, Rooms> kMayInclude{
     {"services/belief", {"services/base"}},
     {"services/store", {"services/base", "services/route"}},
     {"services/exchange", {"services/base", "services/route", "services/store"}},
-    {"services/archive", {"services/base", "services/route", "services/exchange"}},
+    {"services/archive", {"services/base", "services/route"}},
     {"services/catalog",
      {"services/base", "services/route", "services/view", "services/store", "services/exchange"}},
     {"services/security", {"services/base", "services/route", "services/exchange"}},

@@ -57,7 +57,8 @@ TEST(CheckBounds, RefusesPlacesThatNoRouteHas) {
     return message;
   };
   ExpectRefused(with({{RouteId("x"), TeachingId(1)}, SegmentIndex(0), 0.5}), "route id");
-  ExpectRefused(with({KeyNumber(1), SegmentIndex(kMaxSegmentsPerRoute), 0.5}), "segment index");
+  ExpectRefused(with({KeyNumber(1), SegmentIndex(route::kMaxSegmentsPerRoute), 0.5}),
+                "segment index");
   ExpectRefused(with({KeyNumber(1), SegmentIndex(0), 1.5}), "score");
   CatalogReply many = good;
   many.places.resize(kMaxPlacesPerReply + 1, good.places[0]);
@@ -71,8 +72,9 @@ TEST(CheckBounds, RefusesPiecesWithoutDigest) {
   no_bytes.bytes.clear();
   ExpectRefused(SegmentBatch{AgentId("s"), {no_digest}}, "no digest");
   EXPECT_TRUE(CheckBounds(SegmentBatch{AgentId("s"), {no_bytes}})) << "a digest alone";
-  ExpectRefused(SegmentBatch{AgentId("s"), {test::PieceOf(KeyNumber(1), kMaxSegmentsPerRoute)}},
-                "index");
+  ExpectRefused(
+      SegmentBatch{AgentId("s"), {test::PieceOf(KeyNumber(1), route::kMaxSegmentsPerRoute)}},
+      "index");
 }
 
 TEST(CheckBounds, RefusesListsThatAreTooLong) {

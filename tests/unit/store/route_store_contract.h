@@ -258,13 +258,17 @@ TEST_P(RouteStoreContract, ImpossibleRoutesAreRefusedNamingTheField) {
     EXPECT_EQ(CodeOf(put), ErrorCode::kInvalidArgument);
     return put ? "" : put.error().message;
   };
-  EXPECT_THAT(message([](auto& i) { i.name = "my yard"; }), HasSubstr("its name must be"));
-  EXPECT_THAT(message([](auto& i) { i.key.route = RouteId("'"); }), HasSubstr("its id must be"));
-  EXPECT_THAT(message([](auto& i) { i.scout = AgentId(""); }), HasSubstr("its scout must be"));
-  EXPECT_THAT(message([](auto& i) { i.camera.assign(129, 'x'); }), HasSubstr("its camera must"));
-  EXPECT_THAT(message([](auto& i) { i.image_width_px = -1; }), HasSubstr("its image size must"));
+  EXPECT_THAT(message([](auto& i) { i.name = "my yard"; }),
+              HasSubstr("route name \"my yard\" is not"));
+  EXPECT_THAT(message([](auto& i) { i.key.route = RouteId("'"); }),
+              HasSubstr("route id \"'\" is not"));
+  EXPECT_THAT(message([](auto& i) { i.scout = AgentId(""); }), HasSubstr("scout \"\" is not"));
+  EXPECT_THAT(message([](auto& i) { i.camera.assign(129, 'x'); }),
+              HasSubstr("camera is not one line"));
+  EXPECT_THAT(message([](auto& i) { i.image_width_px = -1; }),
+              HasSubstr("image width is -1, expected 0 to 65535"));
   EXPECT_THAT(message([](auto& i) { i.length_m = 0.0 / (i.length_m - 2.5); }),
-              HasSubstr("its length must be finite"));
+              HasSubstr("route length in metres is"));
   EXPECT_THAT(store_->ListRoutes().value(), IsEmpty());
 }
 

@@ -127,7 +127,7 @@ TEST_F(SalvageTest, AStoreCutShortKeepsWhatIsLeft) {
 }
 
 TEST_F(SalvageTest, WhatWasDeletedStaysDeleted) {
-  const route::RouteKey gone{RouteId("gone"), TeachingId(1)};
+  const route::RouteKey gone{RouteId(std::string(32, '9')), TeachingId(1)};
   {
     const auto store = OpenSqliteStore(file_).value();
     route::RouteInfo tombstone = Complete(1);

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace trailcast::exchange {
+namespace trailcast {
 
 // Valid UTF-8 of one line: no control characters, so that what a stranger sent can be printed on a
 // terminal, and at most `max_bytes` long.
@@ -12,4 +12,4 @@ namespace trailcast::exchange {
 // `text` made to pass IsPlainText: what does not fit is replaced by spaces or cut off.
 [[nodiscard]] std::string PlainText(std::string_view text, std::size_t max_bytes);
 
-}  // namespace trailcast::exchange
+}  // namespace trailcast

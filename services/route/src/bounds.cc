@@ -1,12 +1,20 @@
-#include "services/exchange/src/field_bounds.h"
+#include "services/route/bounds.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "services/exchange/bounds.h"
-#include "services/exchange/text.h"
+#include "services/base/text.h"
 
-namespace trailcast::exchange {
+namespace trailcast::route {
+namespace {
+
+Result<void> CheckOrdered(const std::vector<std::string>& tags) {
+  if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return {};
+  return Fail(ErrorCode::kInvalidArgument, "tags are not sorted, or one is there twice");
+}
+
+}  // namespace
 
 Result<void> CheckName(const char* field, const std::string& name) {
   if (IsValidName(name)) return {};
@@ -32,17 +40,17 @@ Result<void> CheckAmount(const char* field, double value, double max) {
   return Fail(ErrorCode::kInvalidArgument, "{} is {}, expected 0 to {}", field, value, max);
 }
 
-Result<void> CheckState(route::RouteState state) {
+Result<void> CheckState(RouteState state) {
   return CheckCount("route state", static_cast<std::uint8_t>(state),
-                    static_cast<std::uint8_t>(route::RouteState::kComplete));
+                    static_cast<std::uint8_t>(RouteState::kComplete));
 }
 
-Result<void> CheckStanding(route::Standing standing) {
+Result<void> CheckStanding(Standing standing) {
   return CheckCount("standing", static_cast<std::uint8_t>(standing),
-                    static_cast<std::uint8_t>(route::Standing::kDeleted));
+                    static_cast<std::uint8_t>(Standing::kDeleted));
 }
 
-Result<void> CheckKey(const route::RouteKey& key) {
+Result<void> CheckKey(const RouteKey& key) {
   const std::string& id = key.route.value();
   const bool hex = std::all_of(id.begin(), id.end(), [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
@@ -59,17 +67,17 @@ Result<void> CheckKey(const route::RouteKey& key) {
 }
 
 Result<void> CheckTags(const std::vector<std::string>& tags) {
-  if (auto ok = CheckCount("tags", tags.size(), route::kMaxTags); !ok) return ok;
+  if (auto ok = CheckCount("tags", tags.size(), kMaxTags); !ok) return ok;
   for (const std::string& tag : tags) {
     if (auto ok = CheckName("tag", tag); !ok) return ok;
   }
   return {};
 }
 
-Result<void> CheckPlace(const route::Place& place) {
+Result<void> CheckPlace(const Place& place) {
   constexpr double kMaxSite_m = 1e7;
-  const bool globe = place.frame == route::Place::Frame::kWgs84;
-  if (!globe && place.frame != route::Place::Frame::kSite) {
+  const bool globe = place.frame == Place::Frame::kWgs84;
+  if (!globe && place.frame != Place::Frame::kSite) {
     return Fail(ErrorCode::kInvalidArgument, "place frame is {}, expected 1 (site) or 2 (WGS 84)",
                 static_cast<int>(place.frame));
   }
@@ -82,4 +90,28 @@ Result<void> CheckPlace(const route::Place& place) {
                      std::abs(place.y), globe ? 90.0 : kMaxSite_m);
 }
 
-}  // namespace trailcast::exchange
+Result<void> CheckInfo(const RouteInfo& info) {
+  if (auto ok = CheckKey(info.key); !ok) return ok;
+  if (auto ok = CheckName("route name", info.name); !ok) return ok;
+  if (auto ok = CheckName("scout", info.scout.value()); !ok) return ok;
+  if (auto ok = CheckText("camera", info.camera, kMaxCameraBytes); !ok) return ok;
+  if (auto ok = CheckAmount("image width", info.image_width_px, kMaxImageSide_px); !ok) return ok;
+  if (auto ok = CheckAmount("image height", info.image_height_px, kMaxImageSide_px); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckState(info.state); !ok) return ok;
+  if (auto ok = CheckCount("segment count", info.segment_count, kMaxSegmentsPerRoute); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckStanding(info.standing); !ok) return ok;
+  if (auto ok = CheckText("description", info.description, kMaxDescriptionBytes); !ok) return ok;
+  if (auto ok = CheckCount("bytes in a route", info.bytes, kMaxRouteBytes); !ok) return ok;
+  if (auto ok = CheckTags(info.tags); !ok) return ok;
+  if (auto ok = CheckOrdered(info.tags); !ok) return ok;
+  if (info.place) {
+    if (auto ok = CheckPlace(*info.place); !ok) return ok;
+  }
+  return CheckAmount("route length in metres", info.length_m, kMaxLength_m);
+}
+
+}  // namespace trailcast::route

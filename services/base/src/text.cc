@@ -1,9 +1,9 @@
-#include "services/exchange/text.h"
+#include "services/base/text.h"
 
 #include <algorithm>
 #include <cstdint>
 
-namespace trailcast::exchange {
+namespace trailcast {
 namespace {
 
 // Length of the well-formed UTF-8 character at the beginning of `text`, 0 if there is none
@@ -70,4 +70,4 @@ std::string PlainText(std::string_view text, std::size_t max_bytes) {
   return plain;
 }
 
-}  // namespace trailcast::exchange
+}  // namespace trailcast

@@ -1,8 +1,8 @@
-#include "services/exchange/text.h"
+#include "services/base/text.h"
 
 #include <gtest/gtest.h>
 
-namespace trailcast::exchange {
+namespace trailcast {
 namespace {
 
 TEST(IsPlainText, AcceptsWordsOfAnyLanguageUpToTheLimit) {
@@ -33,4 +33,4 @@ TEST(PlainText, MakesAnythingPassAndKeepsWhatPassed) {
 }
 
 }  // namespace
-}  // namespace trailcast::exchange
+}  // namespace trailcast

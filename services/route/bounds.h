@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/route/codec.h"
+#include "services/route/route.h"
+
+namespace trailcast::route {
+
+// What is accepted of a route wherever it comes from, a peer, a file or a store's row, and
+// therefore made. Also in idl/README.md.
+inline constexpr std::uint64_t kMaxTeaching = (1ULL << 63U) - 1;  // a database's largest number
+inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;    // 200 km at 2 m
+inline constexpr std::uint64_t kMaxRouteBytes =
+    kMaxSegmentsPerRoute * std::uint64_t{kMaxSegmentBytes};
+inline constexpr std::size_t kMaxCameraBytes = 128;
+inline constexpr int kMaxImageSide_px = 65535;
+inline constexpr double kMaxLength_m = 1e7;
+
+// kInvalidArgument naming the field, what it holds and what is accepted.
+[[nodiscard]] Result<void> CheckInfo(const RouteInfo& info);
+
+// The same of one field, which is called `field`.
+[[nodiscard]] Result<void> CheckName(const char* field, const std::string& name);
+[[nodiscard]] Result<void> CheckText(const char* field, const std::string& text,
+                                     std::size_t max_bytes);
+[[nodiscard]] Result<void> CheckCount(const char* field, std::uint64_t count, std::uint64_t max);
+// Not below 0, a number.
+[[nodiscard]] Result<void> CheckAmount(const char* field, double value, double max);
+[[nodiscard]] Result<void> CheckKey(const RouteKey& key);
+[[nodiscard]] Result<void> CheckState(RouteState state);
+[[nodiscard]] Result<void> CheckStanding(Standing standing);
+[[nodiscard]] Result<void> CheckTags(const std::vector<std::string>& tags);  // in any order
+[[nodiscard]] Result<void> CheckPlace(const Place& place);
+
+}  // namespace trailcast::route
