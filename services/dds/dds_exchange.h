@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
@@ -13,6 +14,15 @@
 #include "services/security/member_keys.h"
 
 namespace trailcast::dds {
+
+// Whom a process meets. Discovery of all by all costs the square of their number; as a star round
+// the route servers, a fleet costs each member the same however large it is.
+enum class Discovery : std::uint8_t {
+  kMesh,  // everybody, by multicast
+  kStar,  // route servers, and who is in a mesh: calls them by multicast or at their addresses, and
+          // does not hear others call
+  kAuto,  // a star; if no server is there within some seconds of the beginning a mesh, until one is
+};
 
 struct DdsOptions {
   std::uint32_t domain_id = 0;  // 0..230, decides the UDP ports
@@ -23,7 +33,17 @@ struct DdsOptions {
   std::string network_interface;
   // Shown by DDS tools as the participant's user data; not with keys: it is not encrypted.
   AgentId self;
-  std::string extra_config_xml;  // Cyclone's XML, has the last word (peers)
+  std::string extra_config_xml;  // Cyclone's XML, has the last word
+
+  Discovery discovery = Discovery::kMesh;
+  // A route server, the centre of a star: in every mesh, too, and at the fixed ports of its domain
+  // (7410 and 7411, 250 more for each domain above 0) if those are free on this machine.
+  bool serves = false;
+  // Of route servers, names or IPv4 addresses, to be met where there is no multicast.
+  std::vector<std::string> server_addresses{};
+  // Told which way others are met, when that was not what was asked for, or changes. Called by
+  // OpenDdsExchange and Take.
+  std::function<void(const std::string& line)> tell_of_discovery{};
 
   // With DDS Security, as the member whose keys these are; without: open to everybody. When the
   // folder's files change (renewed keys, a new list of revoked ones), the exchange joins anew with

@@ -29,7 +29,7 @@ char* Raw(const char (&text)[n]) {
 class Stranger {
  public:
   explicit Stranger(const std::string& tag, exchange::Topic topic)
-      : domain_(Domain::Create(DomainConfig(test::LoopbackOptions(tag), "").value()).value()),
+      : domain_(Domain::Create(DomainConfig(test::LoopbackOptions(tag), {}, "").value()).value()),
         participant_(Participant::Create(domain_, "stranger").value()),
         topic_(Topic::Create(participant_, TypeOf(topic), exchange::NameOf(topic)).value()),
         writer_(Writer::Create(participant_, topic_, MakeQos(QosOf(topic))).value()) {}

@@ -16,7 +16,7 @@ TEST(DomainConfig, GivesTheLastWordToTheExtraConfiguration) {
   options.domain_id = 17;
   options.network_interface = "lo";
   options.extra_config_xml = "<extra/>";
-  const std::string config = DomainConfig(options, "<environment/>").value();
+  const std::string config = DomainConfig(options, {}, "<environment/>").value();
   const auto environment = config.find("<environment/>");
   const auto domain = config.find("<ExternalDomainId>17</ExternalDomainId>");
   const auto extra = config.find("<extra/>");
@@ -28,15 +28,15 @@ TEST(DomainConfig, GivesTheLastWordToTheExtraConfiguration) {
 
 TEST(DomainConfig, PacketsFitAFrameOfTheNetwork) {
   DdsOptions options;
-  EXPECT_THAT(DomainConfig(options, "").value(), HasSubstr("<MaxMessageSize>1400B<"));
+  EXPECT_THAT(DomainConfig(options, {}, "").value(), HasSubstr("<MaxMessageSize>1400B<"));
   options.network_interface = "lo";  // whose frames are large
-  EXPECT_THAT(DomainConfig(options, "").value(), testing::Not(HasSubstr("MaxMessageSize")));
+  EXPECT_THAT(DomainConfig(options, {}, "").value(), testing::Not(HasSubstr("MaxMessageSize")));
 }
 
 TEST(DomainConfig, LetsTheEnvironmentForbidMulticastOnTheChosenInterface) {
   DdsOptions options;
   options.network_interface = "eth0";
-  const std::string config = DomainConfig(options, "<environment/>").value();
+  const std::string config = DomainConfig(options, {}, "<environment/>").value();
   EXPECT_LT(config.find("<AllowMulticast>true<"), config.find("<environment/>"));
   EXPECT_EQ(config.find("AllowMulticast", config.find("<environment/>")), std::string::npos);
 }
@@ -44,25 +44,25 @@ TEST(DomainConfig, LetsTheEnvironmentForbidMulticastOnTheChosenInterface) {
 TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
   DdsOptions options;
   options.domain_id = 231;
-  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("231"));
+  EXPECT_THAT(DomainConfig(options, {}, "").error().message, HasSubstr("231"));
   options = {};
   options.discovery_tag = "</Tag>";
-  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("tag"));
+  EXPECT_THAT(DomainConfig(options, {}, "").error().message, HasSubstr("tag"));
   options = {};
   options.network_interface = "eth0\"/>";
-  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("interface"));
+  EXPECT_THAT(DomainConfig(options, {}, "").error().message, HasSubstr("interface"));
 }
 
 TEST(DomainConfig, WithKeysTheMembersFilesAreUsed) {
   DdsOptions options;
   options.keys = security::MemberKeys{.folder = "/keys/robot1"};
-  const std::string config = DomainConfig(options, "").value();
+  const std::string config = DomainConfig(options, {}, "").value();
   for (const char* file : {"authority.pem", "revoked.pem", "identity.pem", "identity.key",
                            "governance.p7s", "permissions.p7s"}) {
     EXPECT_THAT(config, HasSubstr(std::string("file:/keys/robot1/") + file));
   }
   options.keys->folder = "/keys/<robot1>";
-  EXPECT_THAT(DomainConfig(options, "").error().message, HasSubstr("folder"));
+  EXPECT_THAT(DomainConfig(options, {}, "").error().message, HasSubstr("folder"));
 }
 
 TEST(OpenDdsExchange, FailsWithAHintWhenTheInterfaceDoesNotExist) {

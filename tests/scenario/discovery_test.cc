@@ -1,4 +1,4 @@
-// The files of config/dds, each on a network of the kind that it is for.
+// Who finds whom on networks of different kinds, by flags and by the files of config/dds.
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
 
@@ -21,33 +21,33 @@ class DiscoveryTest : public ProgramsTest {
     for (const int host : {kServer, kScout, kFollower}) lab_->AddHost(host);
   }
 
-  // With a file of config/dds; none: as it is.
-  std::unique_ptr<Process> StartAt(int host, const std::string& file, const std::string& program,
+  // With `settings` of the environment, a file of config/dds among them.
+  std::unique_ptr<Process> StartAt(int host, const Words& settings, const std::string& program,
                                    const Words& words) {
-    Words all{"/usr/bin/env", "TRAILCAST_SERVER_ADDRESS=10.77.0.1"};
-    if (!file.empty()) {
-      all.push_back("CYCLONEDDS_URI=file://" + std::string(TRAILCAST_SOURCE_DIR) + "/config/dds/" +
-                    file);
-    }
+    Words all{"/usr/bin/env"};
+    all.insert(all.end(), settings.begin(), settings.end());
     all.push_back(std::string(TRAILCAST_BINARY_DIR) + "/" + program);
     all.insert(all.end(), {"--dds-tag", tag_, "--network-interface", "eth0"});
     all.insert(all.end(), words.begin(), words.end());
     return std::make_unique<Process>(lab_->At(host, all), Path(program + std::to_string(host)));
   }
-  void StartServer(const std::string& file) {
-    server_ = StartAt(kServer, file, "trailcast-server", {"--store", Path("server.db")});
+  static std::string File(const std::string& file) {
+    return "CYCLONEDDS_URI=file://" + std::string(TRAILCAST_SOURCE_DIR) + "/config/dds/" + file;
+  }
+  void StartServer(const Words& settings) {
+    server_ = StartAt(kServer, settings, "trailcast-server", {"--store", Path("server.db")});
     ASSERT_TRUE(server_->WaitForOutput("ready")) << server_->output();
   }
   // A scout teaches by the server, and a follower follows.
-  void ExpectShared(const std::string& file) {
+  void ExpectShared(const Words& settings) {
     const auto scout =
-        StartAt(kScout, file, "trailcast-agent",
+        StartAt(kScout, settings, "trailcast-agent",
                 With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}));
     const auto taught = End(*scout);
     EXPECT_EQ(taught.status, 0) << taught.output;
     EXPECT_THAT(taught.output, HasSubstr("unreceipted=0"));
     const auto follower =
-        StartAt(kFollower, file, "trailcast-agent",
+        StartAt(kFollower, settings, "trailcast-agent",
                 With(ReplayWords(Walk("seen", kFollowerFrames), "follower.db"), {"--server"}));
     const auto followed = End(*follower);
     EXPECT_EQ(followed.status, 0) << followed.output;
@@ -60,23 +60,28 @@ class DiscoveryTest : public ProgramsTest {
 
 TEST_F(DiscoveryTest, WithoutMulticastTheServersAddressIsEnough) {
   lab_->ForbidMulticast();
-  StartServer("unicast-server.xml");
-  ExpectShared("unicast-agent.xml");
+  StartServer({});
+  ExpectShared({"TRAILCAST_DISCOVERY=star", "TRAILCAST_SERVER_ADDRESS=10.77.0.1"});
 }
 
 TEST_F(DiscoveryTest, WithoutMulticastNobodyIsFoundUnlessToldAnAddress) {
   lab_->ForbidMulticast();
-  StartServer("");
-  const auto lost = End(*StartAt(kFollower, "", "trailcast", {"routes", "--timeout", "3"}));
+  StartServer({});
+  const auto lost = End(*StartAt(kFollower, {}, "trailcast", {"routes", "--timeout", "3"}));
   EXPECT_EQ(lost.status, 1);
   EXPECT_THAT(lost.output, HasSubstr("no route server answered"));
+}
+
+TEST_F(DiscoveryTest, WithMulticastAStarNeedsNoAddress) {
+  StartServer({});
+  ExpectShared({"TRAILCAST_DISCOVERY=star"});
 }
 
 class WithMulticast : public DiscoveryTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(WithMulticast, NobodyNeedsAnAddress) {
-  StartServer(GetParam());
-  ExpectShared(GetParam());
+  StartServer({File(GetParam())});
+  ExpectShared({File(GetParam()), "TRAILCAST_DISCOVERY=star"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WithMulticast, testing::Values("multicast.xml", "wifi.xml"),

@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <map>
 #include <optional>
+#include <random>
 #include <thread>
 #include <utility>
 
 #include "services/dds/src/joined.h"
+#include "services/dds/src/star_or_mesh.h"
 #include "services/dds/src/stranger_watch.h"
 #include "services/dds/src/wire.h"
 #include "services/exchange/batches.h"
@@ -36,10 +38,15 @@ exchange::SegmentBatch::Trust TrustIn(security::Role role) {
   return role == security::Role::kScout ? Trust::kOwnRoutes : Trust::kAll;
 }
 
+double RandomShare() {
+  std::random_device random;
+  return std::uniform_real_distribution<double>(0.0, 1.0)(random);
+}
+
 class DdsExchange : public exchange::RouteExchange {
  public:
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
-      : options_(options), use_(std::move(use)) {
+      : options_(options), use_(std::move(use)), star_or_mesh_(options.discovery, RandomShare()) {
     if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
   }
   ~DdsExchange() override { SayGoodBye(); }
@@ -58,10 +65,13 @@ class DdsExchange : public exchange::RouteExchange {
   void NoteWhoIsHeard(const Message& message);
   void SayGoodBye();
 
-  // With keys.
   void KeepWatch();
+  void Leave();
+  void MeetOthers(Clock::time_point now);
+  void TellOfDiscovery(const std::string& line);
+
+  // With keys.
   void TakeUpNewKeys();
-  void ForgetWhoWasHeard();
   void TellOnce(const std::string& line);
   void LookForStrangers(Clock::time_point now);
   const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
@@ -74,22 +84,39 @@ class DdsExchange : public exchange::RouteExchange {
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
 
-  std::map<std::string, exchange::AgentGone> heard_;  // with keys: by instance, and not gone since
-  std::vector<Message> gone_;                         // to be told with the next Take
+  // By instance, and not gone since; unless nothing makes this exchange ever join anew.
+  std::map<std::string, exchange::AgentGone> heard_;
+  std::vector<Message> gone_;  // to be told with the next Take
+  StarOrMesh star_or_mesh_;
+  Clock::time_point look_at_{};
+
   std::string keys_version_;
   std::string unusable_version_;  // of files that changed, and cannot be used
   Clock::time_point unusable_since_{};
   std::string told_;  // last of the keys
-  Clock::time_point look_at_{};
   StrangerWatch strangers_;
 };
 
 Result<void> DdsExchange::Join() {
   joined_.reset();
-  auto joined = Joined::Open(options_, use_);
+  auto joined = Joined::Open(options_, use_, star_or_mesh_.star());
   if (!joined) return tl::unexpected(joined.error());
   joined_ = *std::move(joined);
+  star_or_mesh_.Begin(Clock::now());
+  if (options_.serves && !joined_->meeting.fixed_ports) {
+    TellOfDiscovery(
+        "another program has a route server's ports of this domain: robots that are told this "
+        "machine's address do not find this server; those with multicast do");
+  }
   return {};
+}
+
+// Who ends while this exchange joins anew would never be told gone: all are, until heard again.
+void DdsExchange::Leave() {
+  SayGoodBye();
+  joined_.reset();
+  for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
+  heard_.clear();
 }
 
 Result<void> DdsExchange::Publish(const Message& message) {
@@ -127,7 +154,7 @@ Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
 }
 
 std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
-  if (options_.keys) KeepWatch();
+  KeepWatch();
   std::vector<Message> messages = std::exchange(gone_, {});
   if (!joined_) {
     std::this_thread::sleep_for(max_wait);
@@ -169,17 +196,20 @@ void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages
                      [](const Received& a, const Received& b) { return a.sent_at < b.sent_at; });
   }
   for (Received& one : received) {
-    if (options_.keys && agents) NoteWhoIsHeard(one.message);
+    if (agents) NoteWhoIsHeard(one.message);
     messages.push_back(std::move(one.message));
   }
 }
 
 void DdsExchange::NoteWhoIsHeard(const Message& message) {
+  star_or_mesh_.Hear(message);
+  if (!options_.keys && options_.discovery != Discovery::kAuto) return;
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     heard_.insert_or_assign(exchange::InstanceOf(message),
                             exchange::AgentGone{status->agent, status->instance});
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    std::erase_if(heard_, [&](const auto& each) { return each.second == *gone; });
+    heard_.erase(exchange::InstanceOf(
+        exchange::AgentStatus{.agent = gone->agent, .instance = gone->instance}));
   }
 }
 
@@ -204,8 +234,30 @@ void DdsExchange::KeepWatch() {
   const auto now = Clock::now();
   if (now < look_at_) return;
   look_at_ = now + kLookEvery;
-  TakeUpNewKeys();
-  if (joined_) LookForStrangers(now);
+  if (options_.keys) TakeUpNewKeys();
+  if (options_.keys && joined_) LookForStrangers(now);
+  if (options_.discovery != Discovery::kMesh) MeetOthers(now);
+}
+
+void DdsExchange::MeetOthers(Clock::time_point now) {
+  if (joined_) {
+    const StarOrMesh::Step step = star_or_mesh_.Look(joined_->Look(), now);
+    // What is not heard now is said again.
+    if (step == StarOrMesh::Step::kCall) (void)joined_->participant.Call();
+    if (step != StarOrMesh::Step::kJoinAnew) return;
+    Leave();
+    TellOfDiscovery(star_or_mesh_.star() ? "a route server is there: going by it alone"
+                                         : "no route server is there: looking for everybody");
+  } else if (options_.keys) {
+    return;  // they are waited for
+  }
+  if (const auto joined = Join(); !joined) {
+    TellOfDiscovery("cannot join, trying again: " + joined.error().message);
+  }
+}
+
+void DdsExchange::TellOfDiscovery(const std::string& line) {
+  if (options_.tell_of_discovery) options_.tell_of_discovery(line);
 }
 
 void DdsExchange::TakeUpNewKeys() {
@@ -218,9 +270,7 @@ void DdsExchange::TakeUpNewKeys() {
       options_.keys = *std::move(keys);
       keys_version_ = version;
       told_.clear();
-      SayGoodBye();
-      joined_.reset();
-      ForgetWhoWasHeard();
+      Leave();
     } else if (version != unusable_version_) {
       unusable_version_ = version;
       unusable_since_ = Clock::now();
@@ -238,12 +288,6 @@ void DdsExchange::TakeUpNewKeys() {
   } else {
     TellOnce("cannot join with the changed keys: " + joined.error().message);
   }
-}
-
-// Who ends while this exchange joins anew would never be told gone: all are, until heard again.
-void DdsExchange::ForgetWhoWasHeard() {
-  for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
-  heard_.clear();
 }
 
 void DdsExchange::TellOnce(const std::string& line) {

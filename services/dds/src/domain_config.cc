@@ -75,7 +75,8 @@ Result<std::string> SecurityConfig(const security::MemberKeys& keys) {
 
 }  // namespace
 
-Result<std::string> DomainConfig(const DdsOptions& options, const std::string& cyclonedds_uri) {
+Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeting,
+                                 const std::string& cyclonedds_uri) {
   constexpr std::uint32_t kMaxDomainId = 230;  // beyond, port numbers run out
   if (options.domain_id > kMaxDomainId) {
     return Fail(ErrorCode::kInvalidArgument, "DDS domain id {} is above {}", options.domain_id,
@@ -108,6 +109,9 @@ Result<std::string> DomainConfig(const DdsOptions& options, const std::string& c
   if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
   config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
                         general, discovery);
+  const auto meet = DiscoveryConfig(options, meeting);
+  if (!meet) return meet;
+  config += "," + *meet;
   if (options.keys) {
     const auto secured = SecurityConfig(*options.keys);
     if (!secured) return secured;

@@ -66,6 +66,8 @@ class Participant : public Entity {
   // `name` is shown by DDS tools, as the participant's user data. Empty: nothing is told, not even
   // host and process, which Cyclone would tell everybody.
   [[nodiscard]] static Result<Participant> Create(const Domain& domain, const std::string& name);
+  // Tells of itself once more, now: who was not there may be now.
+  [[nodiscard]] Result<void> Call();
 
  private:
   using Entity::Entity;

@@ -14,13 +14,21 @@
 namespace trailcast::dds {
 namespace {
 
-Result<Joined> OpenDomain(const DdsOptions& options) {
+Result<Domain> MakeDomain(const DdsOptions& options, const Meeting& meeting) {
   // Read before any thread of ours exists; nobody writes to the environment.
   const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-  const auto config = DomainConfig(options, uri == nullptr ? "" : uri);
+  const auto config = DomainConfig(options, meeting, uri == nullptr ? "" : uri);
   if (!config) return tl::unexpected(config.error());
+  return Domain::Create(*config);
+}
+
+Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   if (options.keys) HideHostName();
-  auto domain = Domain::Create(*config);
+  auto domain = MakeDomain(options, meeting);
+  if (!domain && meeting.fixed_ports) {  // somebody was quicker
+    meeting.fixed_ports = false;
+    domain = MakeDomain(options, meeting);
+  }
   if (!domain) return tl::unexpected(domain.error());
   std::unique_ptr<CycloneLog> log;
   if (options.keys) log = std::make_unique<CycloneLog>(domain->id());
@@ -38,7 +46,8 @@ Result<Joined> OpenDomain(const DdsOptions& options) {
   }
   auto wait_set = WaitSet::Create(*participant);
   if (!wait_set) return tl::unexpected(wait_set.error());
-  return Joined{.domain = *std::move(domain),
+  return Joined{.meeting = meeting,
+                .domain = *std::move(domain),
                 .log = std::move(log),
                 .participant = *std::move(participant),
                 .peers = std::move(peers),
@@ -86,13 +95,41 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
 
 }  // namespace
 
-Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use) {
-  auto joined = OpenDomain(options);
+Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use, bool star) {
+  const bool fixed_ports = options.serves && FixedPortsAreFree(options.domain_id);
+  auto joined = OpenDomain(options, {.star = star, .fixed_ports = fixed_ports});
   if (!joined) return joined;
+  if (options.discovery != Discovery::kMesh) {
+    auto others = Reader::CreateBuiltin(joined->participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
+    if (!others) return tl::unexpected(others.error());
+    joined->participants = *std::move(others);
+  }
   if (auto opened = OpenTopics(*joined, options, use); !opened) {
     return tl::unexpected(opened.error());
   }
   return joined;
+}
+
+StarOrMesh::Seen Joined::Look() {
+  constexpr std::size_t kMostAtOnce = 1024;
+  if (participants) {
+    // What cannot be read now is there the next time.
+    (void)participants->Take(kMostAtOnce, [&](const void*, const dds_sample_info_t& info) {
+      if (info.instance_state == DDS_IST_ALIVE) {
+        present.insert(info.instance_handle);
+      } else {
+        present.erase(info.instance_handle);
+      }
+    });
+  }
+  StarOrMesh::Seen seen{.server = false, .anybody = present.size() > 1};
+  // Servers alone write these.
+  for (const exchange::Topic topic :
+       {exchange::Topic::kReceipts, exchange::Topic::kCatalogReplies}) {
+    const auto reader = readers.find(topic);
+    seen.server = seen.server || (reader != readers.end() && reader->second.matched() > 0);
+  }
+  return seen;
 }
 
 Result<Writer*> Joined::WriterOf(exchange::Topic topic, const DdsOptions& options) {

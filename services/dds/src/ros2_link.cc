@@ -68,7 +68,7 @@ struct Node {
     dds.network_interface = options.network_interface;
     dds.extra_config_xml = kPictureSized;
     const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-    const auto config = DomainConfig(dds, uri == nullptr ? "" : uri);
+    const auto config = DomainConfig(dds, {}, uri == nullptr ? "" : uri);
     if (!config) return tl::unexpected(config.error());
     auto domain = Domain::Create(*config);
     if (!domain) return tl::unexpected(domain.error());

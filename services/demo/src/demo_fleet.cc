@@ -41,6 +41,8 @@ std::vector<std::string> NetworkWords(const program::CommonOptions& network,
           network.log_level,
           "--network-interface",
           network.network_interface,
+          "--discovery",
+          network.discovery,
           "--security",
           network.security};
 }

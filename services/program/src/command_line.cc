@@ -68,6 +68,17 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   app.add_option("--network-interface", options.network_interface,
                  "Network interface for DDS, as 'lo' or 'wlan0'; empty: DDS chooses")
       ->envname("TRAILCAST_NETWORK_INTERFACE");
+  app.add_option("--discovery", options.discovery,
+                 "Whom to meet: 'star' the route servers alone, 'mesh' everybody, which costs "
+                 "large fleets much, 'auto' everybody as long as there is no server; servers are "
+                 "met either way")
+      ->check(CLI::IsMember({"auto", "star", "mesh"}))
+      ->envname("TRAILCAST_DISCOVERY");
+  app.add_option("--server-address", options.server_addresses,
+                 "Names or IPv4 addresses of route servers, as 'a,b', where there is no multicast: "
+                 "UDP ports 7410 and 7411, 250 more for each domain above 0")
+      ->delimiter(',')
+      ->envname("TRAILCAST_SERVER_ADDRESS");
   app.add_option("--security", options.security,
                  "Folder with this member's keys, as 'trailcast keys add' wrote it: speaks, "
                  "encrypted, with members of its fleet only; empty: open to everybody")

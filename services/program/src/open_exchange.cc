@@ -36,6 +36,12 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
   return keys;
 }
 
+dds::Discovery DiscoveryOf(const std::string& word) {
+  if (word == "mesh") return dds::Discovery::kMesh;
+  return word == "star" ? dds::Discovery::kStar : dds::Discovery::kAuto;
+}
+
+bool IsServer(const exchange::TopicUse& use) { return use.Writes(exchange::Topic::kReceipts); }
 bool IsAgent(const exchange::TopicUse& use) { return use.Writes(exchange::Topic::kAgents); }
 
 }  // namespace
@@ -47,11 +53,17 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   dds.discovery_tag = options.dds_tag;
   dds.network_interface = options.network_interface;
   dds.self = AgentId(options.name);
+  dds.serves = IsServer(use);
+  dds.discovery = dds.serves ? dds::Discovery::kMesh : DiscoveryOf(options.discovery);
+  dds.server_addresses = options.server_addresses;
+  // A command that is over in a moment has no log to watch.
+  if (IsAgent(use)) {
+    dds.tell_of_discovery = [](const std::string& line) { spdlog::info("{}", line); };
+  }
   if (!options.security.empty()) {
     auto keys = Keys(options, use);
     if (!keys) return Wrap(keys.error(), "--security");
     dds.keys = *std::move(keys);
-    // A command that is over in a moment has no log to watch.
     if (IsAgent(use))
       dds.tell_of_stranger = [](const std::string& line) { spdlog::warn("{}", line); };
   }

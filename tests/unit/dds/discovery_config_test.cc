@@ -1,0 +1,58 @@
+#include "services/dds/src/discovery_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::dds {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(DiscoveryConfig, AMeshIsCyclonesOwn) {
+  const std::string config = DiscoveryConfig({}, {}).value();
+  EXPECT_THAT(config, Not(HasSubstr("Peer")));
+  EXPECT_THAT(config, Not(HasSubstr("Multicast")));
+}
+
+TEST(DiscoveryConfig, AStarCallsWhereMeshesMeetAndDoesNotListenThere) {
+  DdsOptions options;
+  options.domain_id = 3;
+  const std::string config = DiscoveryConfig(options, {.star = true}).value();
+  EXPECT_THAT(config, HasSubstr("<Peer Address=\"239.255.0.1:8150\"/>"));
+  EXPECT_THAT(config, HasSubstr("<SPDPMulticastAddress>0.0.0.0<"));
+  EXPECT_THAT(config, Not(HasSubstr("AllowMulticast")));  // data as the network has it
+}
+
+TEST(DiscoveryConfig, AServerCallsTheStarsAtItsFixedPorts) {
+  DdsOptions options;
+  options.serves = true;
+  EXPECT_THAT(DiscoveryConfig(options, {.fixed_ports = true}).value(),
+              HasSubstr("<ParticipantIndex>0<"));
+  const std::string config = DiscoveryConfig(options, {}).value();
+  EXPECT_THAT(config, HasSubstr("<Peer Address=\"239.255.0.2:7402\"/>"));
+  EXPECT_THAT(config, Not(HasSubstr("ParticipantIndex")));
+}
+
+TEST(DiscoveryConfig, AddressesAreWhereServersListen) {
+  DdsOptions options;
+  options.domain_id = 1;
+  options.server_addresses = {"127.0.0.1", "127.0.0.2"};
+  const std::string config = DiscoveryConfig(options, {.star = true}).value();
+  EXPECT_THAT(config,
+              HasSubstr("<Peer Address=\"127.0.0.1:7660\"/><Peer Address=\"127.0.0.2:7660\"/>"));
+  EXPECT_THAT(config, HasSubstr("<AllowMulticast>false<"));
+  EXPECT_THAT(config, Not(HasSubstr("239.255."))) << "which TCP knows nothing of";
+}
+
+TEST(DiscoveryConfig, ANameThatLeadsNowhereIsNamed) {
+  DdsOptions options;
+  options.server_addresses = {"no such host"};
+  const auto config = DiscoveryConfig(options, {.star = true});
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(config.error().message, HasSubstr("'no such host'"));
+}
+
+}  // namespace
+}  // namespace trailcast::dds
