@@ -15,7 +15,7 @@ namespace trailcast::agent {
 class Summary {
  public:
   void Add(std::string key, std::string value);
-  // Its name, revision, segments, metres and bytes.
+  // Its name, id, revision, segments, metres and bytes.
   void AddRoute(const route::RouteInfo& route);
 
   [[nodiscard]] const std::string* Find(const std::string& key) const;

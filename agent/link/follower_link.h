@@ -26,7 +26,7 @@ namespace trailcast::agent {
 
 struct FollowerLinkOptions {
   AgentId agent;
-  std::string route;  // name
+  std::string route;  // name, or an id or its beginning
   exchange::RevisionChoice revision{};
   std::string store_file;            // for messages
   bool wait_for_route = false;       // a route that nobody knows yet may still be taught

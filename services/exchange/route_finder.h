@@ -7,6 +7,7 @@
 
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::exchange {
 
@@ -24,22 +25,24 @@ struct RevisionChoice {
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
 
-// Of several routes with one name the one that is meant of each, if it is meant of more than one: a
-// name is no identity, and two scouts may have given it.
+// Of several routes that a name, or the beginning of an id, may mean the revision that is meant of
+// each, if there is more than one: two scouts may have given the name.
 [[nodiscard]] std::vector<route::RouteInfo> FindRivals(const std::vector<route::RouteInfo>& routes,
                                                        const RevisionChoice& which = {});
 // kConflict: which there are, and how to say which is meant.
-[[nodiscard]] tl::unexpected<Error> Ambiguous(const std::vector<route::RouteInfo>& rivals);
+[[nodiscard]] tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
+                                              const std::vector<route::RouteInfo>& rivals);
 
-// Asks the catalog which route has a name, again and again until one has. No clock, no I/O.
+// Asks the catalog which route has a name, or an id that begins so, again and again until one has.
+// No clock, no I/O.
 class RouteFinder {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kAskEvery{1000};
   static constexpr std::size_t kMaxAnnounced = 64;
 
-  RouteFinder(AgentId self, std::string name, RevisionChoice which = {})
-      : self_(std::move(self)), name_(std::move(name)), which_(which) {}
+  RouteFinder(AgentId self, std::string name_or_id, RevisionChoice which = {})
+      : self_(std::move(self)), name_or_id_(std::move(name_or_id)), which_(which) {}
 
   void Handle(const exchange::Message& message);
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
@@ -48,10 +51,10 @@ class RouteFinder {
   [[nodiscard]] const std::optional<route::RouteInfo>& found() const { return found_; }
   // Announced by whoever holds or teaches it: second to what a catalog says, which knows them all.
   [[nodiscard]] std::optional<route::RouteInfo> announced() const {
-    return ChooseRoute(announced_, which_);
+    return ChooseRoute(route::OnlyMeant(announced_, name_or_id_), which_);
   }
   [[nodiscard]] std::vector<route::RouteInfo> announced_rivals() const {
-    return FindRivals(announced_, which_);
+    return FindRivals(route::OnlyMeant(announced_, name_or_id_), which_);
   }
 
   // From a catalog's reply: more than one that could be meant; nothing is found then.
@@ -71,7 +74,7 @@ class RouteFinder {
   void Learn(const exchange::RouteAnnouncement& announcement);
 
   AgentId self_;
-  std::string name_;
+  std::string name_or_id_;
   RevisionChoice which_;
   std::uint64_t asked_ = 0;
   std::optional<Time> asked_at_;

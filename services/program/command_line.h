@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::program {
 
@@ -41,6 +42,12 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options);
 
 // Accepts names that IsValidName accepts.
 [[nodiscard]] CLI::Validator NameValidator();
+// What ParseRouteRef takes.
+[[nodiscard]] CLI::Validator RouteRefValidator();
+// Of a route said as "hall@2" and a --revision given besides (0: none) the revision that is meant.
+// kInvalidArgument when they differ.
+[[nodiscard]] Result<route::RouteRef> WithRevision(const std::string& route,
+                                                   std::uint32_t revision);
 // Whole numbers from 1.
 [[nodiscard]] CLI::Validator RevisionValidator();
 

@@ -10,6 +10,10 @@ namespace trailcast::route {
 // "staged", "active", "retired", "deleted".
 [[nodiscard]] const char* NameOf(Standing standing);
 
+// What a revision is at present, for people: "teaching"; "cut off" while that keeps it from being
+// followed; or its standing.
+[[nodiscard]] const char* StateText(const RouteInfo& info);
+
 // "teaching 1f of route 0123..", for messages where no more is known.
 [[nodiscard]] std::string Describe(const RouteKey& key);
 // "route 'hall' revision 2", for people.

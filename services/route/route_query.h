@@ -29,7 +29,7 @@ struct Surroundings {
 // Which routes are asked for. What is empty or zero does not narrow it down; the rest must all
 // hold.
 struct RouteQuery {
-  std::string name{};               // exactly this
+  std::string name{};               // exactly this, or an id that begins so (LooksLikeId)
   std::string name_prefix{};        // begins with this
   std::vector<std::string> tags{};  // has all of these
   std::string scout{};              // exactly this

@@ -16,6 +16,7 @@
 #include "services/base/result.h"
 #include "services/route/route.h"
 #include "services/route/route_query.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::store {
 
@@ -92,6 +93,18 @@ class RouteStore {
   // field, for a cursor that no page gave, or that another order did. What the query's other fields
   // may hold is the caller's to check.
   [[nodiscard]] virtual Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) = 0;
+  // All that have this name, or an id that begins so; newest first.
+  [[nodiscard]] Result<std::vector<route::RouteInfo>> FindMeant(const std::string& name_or_id) {
+    std::vector<route::RouteInfo> found;
+    route::RouteQuery query{.name = name_or_id};
+    do {
+      auto page = QueryRoutes(query);
+      if (!page) return tl::unexpected(page.error());
+      found.insert(found.end(), page->routes.begin(), page->routes.end());
+      query.cursor = page->next;
+    } while (!query.cursor.empty());
+    return route::OnlyMeant(std::move(found), name_or_id);
+  }
   // Names in use, each once: the `count` nearest in the alphabet on either side, `name` first if it
   // is one.
   [[nodiscard]] virtual Result<std::vector<std::string>> NamesNear(const std::string& name,

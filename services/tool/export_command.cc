@@ -8,6 +8,8 @@
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
 #include "services/program/stop_signal.h"
+#include "services/route/labels.h"
+#include "services/route/route_ref.h"
 #include "services/tool/command.h"
 #include "services/tool/routes/catalog_client.h"
 #include "services/tool/routes/route_export.h"
@@ -31,7 +33,8 @@ struct ExportOptions {
 constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast export hall                          # hall.trailcast, from a route server\n"
-    "  trailcast export hall --revision 2 --out /media/stick/hall-2.trailcast\n"
+    "  trailcast export hall@2 --out /media/stick/hall-2.trailcast\n"
+    "  trailcast export a3f9c21                       # by its id, where two scouts taught a hall\n"
     "  trailcast export hall --store scout.db         # no network; no server may have it open";
 
 struct Exported {
@@ -89,13 +92,17 @@ Result<Exported> FromServer(const program::CommonOptions& common, const ExportOp
   return Exported{std::move(*info), *bytes};
 }
 
-int Run(const CLI::App& app, const program::CommonOptions& common, const ExportOptions& options) {
+int Run(const CLI::App& app, const program::CommonOptions& common, ExportOptions options) {
+  const auto ref = program::WithRevision(options.route, options.which.number);
+  if (!ref) return program::Complain(app, ref.error());
+  options.route = ref->route;
+  options.which.number = ref->revision;
   const auto exported = options.store.empty() ? FromServer(common, options) : FromStore(options);
   if (!exported) return program::Complain(app, exported.error());
   const route::RouteInfo& info = exported->info;
   const std::string out = options.out.empty() ? info.name + ".trailcast" : options.out.string();
-  fmt::print("{}: route '{}' revision {}, {} segments, {}, {} bytes\n", out, info.name,
-             info.revision.value(), info.segment_count, LengthText(info), exported->bytes);
+  fmt::print("{}: {}, id {}, {} segments, {}, {} bytes\n", out, route::Describe(info),
+             route::ShortIds().Of(info), info.segment_count, LengthText(info), exported->bytes);
   return program::kExitOk;
 }
 
@@ -106,13 +113,17 @@ Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common)
   CLI::App* app = parent.add_subcommand("export", "Write a complete route to a file");
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
-  app->add_option("route", options->route, "Its name")->required()->check(program::NameValidator());
+  app->add_option("route", options->route,
+                  "Its name, or its id, of which 7 digits or more will do; '@2' behind it is its "
+                  "revision 2")
+      ->required()
+      ->check(program::RouteRefValidator());
   app->add_option("--revision", options->which.number, "This one; else the active one")
       ->check(program::RevisionValidator());
   app->add_option("--scout", options->which.scout,
                   "Of several routes of this name that of this scout")
       ->check(program::NameValidator());
-  app->add_option("--out", options->out, "The file; else ROUTE.trailcast here");
+  app->add_option("--out", options->out, "The file; else NAME.trailcast here");
   app->add_flag("--force", options->force, "Replace the file if it is there already");
   app->add_option("--store", options->store, "From this store file instead of a route server");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server to go on")

@@ -8,6 +8,7 @@
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/route/labels.h"
+#include "services/route/route_ref.h"
 #include "services/tool/routes/catalog_client.h"
 #include "services/tool/routes/transfer.h"
 
@@ -18,21 +19,36 @@ using route::EditAction;
 using route::RouteEdit;
 
 void Tell(const std::vector<route::RouteInfo>& changed) {
+  const route::ShortIds ids(changed);
   for (const route::RouteInfo& info : changed) {
-    std::fputs(fmt::format("{} revision {}: {}{}{}\n", info.name, info.revision.value(),
-                           route::NameOf(info.standing), info.tags.empty() ? "" : ", tags ",
-                           fmt::join(info.tags, " "))
+    std::fputs(fmt::format("{} {}: {}{}{}\n", ids.Of(info), info.name, route::NameOf(info.standing),
+                           info.tags.empty() ? "" : ", tags ", fmt::join(info.tags, " "))
                    .c_str(),
                stdout);
   }
   if (changed.empty()) std::fputs("nothing to change: it is so already\n", stdout);
 }
 
-int Run(const CLI::App& app, const program::CommonOptions& common, const RouteEdit& edit,
-        double timeout_s) {
-  if (auto possible = exchange::CheckEdit(edit); !possible) {
-    return program::Complain(app, possible.error());
+// "hall@2" is route hall, revision 2.
+Result<void> TakeApart(RouteEdit& edit) {
+  const auto ref = program::WithRevision(edit.route, edit.revision);
+  if (!ref) return tl::unexpected(ref.error());
+  const bool of_whole_route =
+      edit.action == EditAction::kRename || edit.action == EditAction::kRollBack;
+  if (of_whole_route && ref->revision != 0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "this is about the whole route: say '{}' without '@{}'", ref->route, ref->revision);
   }
+  edit.route = ref->route;
+  edit.revision = ref->revision;
+  return {};
+}
+
+int Run(const CLI::App& app, const program::CommonOptions& common, RouteEdit edit,
+        double timeout_s) {
+  auto possible = TakeApart(edit);
+  if (possible) possible = exchange::CheckEdit(edit);
+  if (!possible) return program::Complain(app, possible.error());
   const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(timeout_s);
@@ -52,8 +68,11 @@ std::vector<Command> AddRouteEdits(CLI::App& routes, const program::CommonOption
     edit->action = action;
     CLI::App* app = routes.add_subcommand(name, help);
     app->fallthrough();
-    app->add_option("ROUTE", edit->route, "Its name, or its id where several have the name")
-        ->required();
+    app->add_option("ROUTE", edit->route,
+                    "Its name, or its id, of which 7 digits or more will do; '@2' behind it is "
+                    "its revision 2")
+        ->required()
+        ->check(program::RouteRefValidator());
     commands.push_back(
         {app, [app, edit, &common, &timeout_s] { return Run(*app, common, *edit, timeout_s); }});
     return std::pair(app, edit.get());
@@ -93,9 +112,10 @@ std::vector<Command> AddRouteEdits(CLI::App& routes, const program::CommonOption
   const auto every = std::make_shared<bool>(false);
   CLI::Option* all = remove.first->add_flag("--all-revisions", *every, "Of all of them");
   revision->excludes(all);
-  remove.first->callback([revision, all, every] {
-    if (revision->count() + all->count() == 0) {
-      throw CLI::RequiredError("one of --revision and --all-revisions");
+  remove.first->callback([revision, all, every, edit = remove.second] {
+    const bool one = revision->count() > 0 || edit->route.find('@') != std::string::npos;
+    if (one == (all->count() > 0)) {
+      throw CLI::RequiredError("one of ROUTE@REVISION, --revision and --all-revisions");
     }
   });
   return commands;

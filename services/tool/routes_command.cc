@@ -40,6 +40,7 @@ constexpr const char* kExamples =
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
     "  trailcast routes --network-interface lo --timeout 2\n"
     "  trailcast routes activate aisle-3          # followers take the newest revision now\n"
+    "  trailcast routes activate a3f9c21@2        # or this one, by the id that is listed\n"
     "  trailcast routes rollback aisle-3          # and the one before again\n"
     "  trailcast routes tag aisle-3 night wet";
 
@@ -152,7 +153,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesO
 
 void AddFilters(CLI::App& app, RoutesOptions& options) {
   route::RouteQuery& query = options.query;
-  app.add_option("--name", query.name, "Only the route of this name")
+  app.add_option("--name", query.name, "Only the route of this name, or whose id begins so")
       ->check(program::NameValidator());
   app.add_option("--prefix", query.name_prefix, "Only names that begin so")
       ->check(program::NameValidator());

@@ -117,10 +117,12 @@ class MemoryStore : public store::RouteStore {
     return Living([&](const route::RouteInfo& info) { return info.name == name; });
   }
 
-  // All in one page, by name only.
+  // All in one page, by name or id only.
   Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override {
     route::RoutePage page;
-    page.routes = (query.name.empty() ? ListRoutes() : FindRoutesByName(query.name)).value();
+    page.routes = Living([&](const route::RouteInfo& info) {
+      return query.name.empty() || route::IsMeantBy(info, query.name);
+    });
     page.total = page.routes.size();
     return page;
   }

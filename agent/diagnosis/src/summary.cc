@@ -13,6 +13,7 @@ void Summary::Add(std::string key, std::string value) {
 
 void Summary::AddRoute(const route::RouteInfo& route) {
   Add("route", route.name);
+  Add("id", route.key.route.value());
   Add("revision", std::to_string(route.revision.value()));
   Add("segments", std::to_string(route.segment_count));
   Add("metres", fmt::format("{:.2f}", route.length_m));

@@ -10,6 +10,7 @@
 #include "services/base/time.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::agent {
 namespace {
@@ -105,9 +106,9 @@ Result<void> FollowerLink::StartFetching() {
       return tl::unexpected(piece.error());
     }
   }
-  spdlog::info("route '{}' of scout '{}', camera {}: {} segments so far, {} of them here",
-               route_->name, route_->scout.value(), route_->camera, route_->segment_count,
-               held.size());
+  spdlog::info("route '{}' {} of scout '{}', camera {}: {} segments so far, {} of them here",
+               route_->name, route::ShortIds().Of(*route_), route_->scout.value(), route_->camera,
+               route_->segment_count, held.size());
   held_before_ = static_cast<std::uint32_t>(held.size());
   if (exchange_) {
     const auto now = steady_clock::now();

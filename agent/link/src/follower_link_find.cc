@@ -35,11 +35,11 @@ Error NotOffered(const AgentId& server, const FollowerLinkOptions& options) {
 }  // namespace
 
 Result<std::optional<route::RouteInfo>> FollowerLink::FindOwn() {
-  auto named = store_->FindRoutesByName(options_.route);
-  if (!named) return tl::unexpected(named.error());
-  const auto rivals = exchange::FindRivals(*named, options_.revision);
-  if (!rivals.empty()) return exchange::Ambiguous(rivals);
-  return exchange::ChooseRoute(*named, options_.revision);
+  const auto meant = store_->FindMeant(options_.route);
+  if (!meant) return tl::unexpected(meant.error());
+  const auto rivals = exchange::FindRivals(*meant, options_.revision);
+  if (!rivals.empty()) return exchange::Ambiguous(options_.route, rivals);
+  return exchange::ChooseRoute(*meant, options_.revision);
 }
 
 Result<void> FollowerLink::Find() {
@@ -74,11 +74,11 @@ Result<void> FollowerLink::Find() {
 Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInfo>& own) {
   const auto waited = steady_clock::now() - began;
   const bool settled = finder_.unknown() || waited > kServerPatience;
-  if (!finder_.rivals().empty()) return exchange::Ambiguous(finder_.rivals());
+  if (!finder_.rivals().empty()) return exchange::Ambiguous(options_.route, finder_.rivals());
   if (finder_.found()) {
     route_ = finder_.found();
   } else if (const auto rivals = finder_.announced_rivals(); settled && !rivals.empty()) {
-    return exchange::Ambiguous(rivals);
+    return exchange::Ambiguous(options_.route, rivals);
   } else if (settled && finder_.announced()) {
     route_ = finder_.announced();
   } else if (settled && own) {

@@ -43,7 +43,7 @@ void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
 
 void FollowerLink::ShowStatus() {
   exchange::AgentStatus status;
-  status.route = options_.route;
+  status.route = route_ ? route_->name : options_.route;
   status.segments = route_ ? route_->segment_count : 0;
   const bool started = next_feed_ > 0;
   status.mode = started ? ModeOf(latest_.state) : exchange::AgentMode::kWaiting;

@@ -3,9 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "services/exchange/bounds.h"
+#include "services/exchange/route_finder.h"
 #include "services/route/labels.h"
 
 namespace trailcast::catalog {
@@ -25,28 +27,20 @@ std::set<std::string> IdsOf(const Revisions& revisions) {
 
 // All revisions of the one route that is meant, rising.
 Result<Revisions> FindMeant(const std::string& name_or_id, store::RouteStore& store) {
-  auto revisions = store.FindRevisions(RouteId(name_or_id));
-  if (!revisions || !revisions->empty()) return revisions;
-  const auto named = store.FindRoutesByName(name_or_id);
-  if (!named) return tl::unexpected(named.error());
-  const std::set<std::string> ids = IdsOf(*named);
-  if (ids.empty()) {
+  const auto meant = store.FindMeant(name_or_id);
+  if (!meant) return tl::unexpected(meant.error());
+  std::map<RouteId, RouteInfo> newest;
+  for (const RouteInfo& info : *meant) {
+    const auto [at, is_first] = newest.try_emplace(info.key.route, info);
+    if (at->second.revision < info.revision) at->second = info;
+  }
+  if (newest.empty()) {
     return Fail(ErrorCode::kNotFound, "there is no route '{}'", name_or_id);
   }
-  if (ids.size() > 1) {
-    constexpr std::size_t kShown = 4;
-    std::vector<std::string> shown;
-    for (const std::string& id : ids) {
-      if (shown.size() == kShown) break;
-      const auto of_it = std::find_if(named->begin(), named->end(), [&](const RouteInfo& info) {
-        return info.key.route.value() == id;
-      });
-      shown.push_back(fmt::format("{} (of scout '{}')", id, of_it->scout.value()));
-    }
-    return Fail(ErrorCode::kConflict, "{} routes have the name '{}': give the id instead: {}{}",
-                ids.size(), name_or_id, fmt::join(shown, ", "), ids.size() > kShown ? ", .." : "");
-  }
-  return store.FindRevisions(RouteId(*ids.begin()));
+  if (newest.size() == 1) return store.FindRevisions(newest.begin()->first);
+  Revisions rivals;
+  for (const auto& [id, info] : newest) rivals.push_back(info);
+  return exchange::Ambiguous(name_or_id, rivals);
 }
 
 // What the edit is about: one revision, or all.

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <variant>
+
+#include "services/base/unix_time.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::exchange {
 
@@ -48,18 +52,20 @@ std::vector<route::RouteInfo> FindRivals(const std::vector<route::RouteInfo>& ro
   return rivals;
 }
 
-tl::unexpected<Error> Ambiguous(const std::vector<route::RouteInfo>& rivals) {
+tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
+                                const std::vector<route::RouteInfo>& rivals) {
   constexpr std::size_t kShown = 4;
+  const route::ShortIds ids(rivals);
   std::string shown;
-  for (std::size_t i = 0; i < std::min(kShown, rivals.size()); ++i) {
-    shown += fmt::format("{}of scout '{}' (revision {}, {} segments, {:.1f} m, id {})",
-                         i == 0 ? "" : ", ", rivals[i].scout.value(), rivals[i].revision.value(),
-                         rivals[i].segment_count, rivals[i].length_m, rivals[i].key.route.value());
+  for (const route::RouteInfo& info : std::span(rivals).first(std::min(kShown, rivals.size()))) {
+    shown += fmt::format("{}{} '{}' of scout '{}' ({}, {})", shown.empty() ? "" : "; ",
+                         ids.Of(info), info.name, info.scout.value(), DateText(info.taught_unix_ms),
+                         info.length_m > 0.0 ? fmt::format("{:.1f} m", info.length_m)
+                                             : fmt::format("{} segments", info.segment_count));
   }
   return Fail(ErrorCode::kConflict,
-              "{} routes have the name '{}': {}{}; say which with --scout, or rename one "
-              "('trailcast routes rename ID NAME')",
-              rivals.size(), rivals.front().name, shown, rivals.size() > kShown ? ", .." : "");
+              "'{}' may be any of {} routes, give the id of one instead: {}{}", name_or_id,
+              rivals.size(), shown, rivals.size() > kShown ? "; .." : "");
 }
 
 void RouteFinder::Handle(const exchange::Message& message) {
@@ -72,7 +78,7 @@ void RouteFinder::Handle(const exchange::Message& message) {
 }
 
 void RouteFinder::Learn(const exchange::RouteAnnouncement& announcement) {
-  if (announcement.info.name != name_) return;
+  if (!route::IsMeantBy(announcement.info, name_or_id_)) return;
   const auto known =
       std::find_if(announced_.begin(), announced_.end(),
                    [&](const route::RouteInfo& info) { return info.key == announcement.info.key; });
@@ -87,19 +93,18 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (reply.client != self_ || reply.request == 0 || reply.request > asked_) return;
   error_ = reply.error;
   if (!reply.error.empty()) return;
-  std::vector<route::RouteInfo> named = reply.page.routes;
-  std::erase_if(named, [&](const route::RouteInfo& info) { return info.name != name_; });
-  rivals_ = FindRivals(named, which_);
+  const auto meant = route::OnlyMeant(reply.page.routes, name_or_id_);
+  rivals_ = FindRivals(meant, which_);
   if (!rivals_.empty()) return;
-  found_ = ChooseRoute(named, which_);
-  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !named.empty()};
+  found_ = ChooseRoute(meant, which_);
+  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !meant.empty()};
 }
 
 std::vector<exchange::Message> RouteFinder::Tick(Time now) {
   if (found_ || (asked_at_ && now - *asked_at_ < kAskEvery)) return {};
   asked_at_ = now;
   ++asked_;
-  return {exchange::CatalogRequest{self_, asked_, {.name = name_}}};
+  return {exchange::CatalogRequest{self_, asked_, {.name = name_or_id_}}};
 }
 
 }  // namespace trailcast::exchange

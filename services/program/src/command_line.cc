@@ -129,6 +129,25 @@ CLI::Validator NameValidator() {
           "NAME"};
 }
 
+CLI::Validator RouteRefValidator() {
+  return {[](std::string& text) {
+            const auto ref = route::ParseRouteRef(text);
+            return ref ? std::string() : ref.error().message;
+          },
+          "NAME|ID[@REVISION]"};
+}
+
+Result<route::RouteRef> WithRevision(const std::string& route, std::uint32_t revision) {
+  auto ref = route::ParseRouteRef(route);
+  if (!ref || revision == 0) return ref;
+  if (ref->revision != 0 && ref->revision != revision) {
+    return Fail(ErrorCode::kInvalidArgument, "'{}' is revision {}, and --revision says {}", route,
+                ref->revision, revision);
+  }
+  ref->revision = revision;
+  return ref;
+}
+
 int Complain(const CLI::App& app, const Error& error) {
   fmt::print(stderr, "{}: {}\n", app.get_name(), error.message);
   return kExitFailure;

@@ -28,6 +28,13 @@ const char* NameOf(Standing standing) {
   return "unknown";
 }
 
+const char* StateText(const RouteInfo& info) {
+  const bool settled = info.standing == Standing::kRetired || info.standing == Standing::kDeleted;
+  if (!settled && info.state == RouteState::kTeaching) return "teaching";
+  if (info.cut_off && info.standing == Standing::kStaged) return "cut off";
+  return NameOf(info.standing);
+}
+
 std::string Describe(const RouteKey& key) {
   return fmt::format("teaching {:x} of route {}", key.teaching.value(), key.route.value());
 }

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "services/route/route_ref.h"
+
 namespace trailcast::store {
 namespace {
 
@@ -132,7 +134,12 @@ SqlCondition MatchOf(const RouteQuery& query, const std::string& by_tag, SqlDial
   SqlCondition match;
   const bool found_by_tag = !by_tag.empty() && !query.near;
   if (found_by_tag) match.FindBy("route_tag", "tag = ?", {by_tag});
-  if (!query.name.empty()) match.And("name = ?", {query.name});
+  if (route::LooksLikeId(query.name)) {
+    match.And("(name = ? OR (route >= ? AND route < ?))",
+              {query.name, query.name, query.name + route::kAfterAnyIdDigit});
+  } else if (!query.name.empty()) {
+    match.And("name = ?", {query.name});
+  }
   if (!query.name_prefix.empty()) {
     match.And("name >= ? AND name < ?", {query.name_prefix, query.name_prefix + kAfterAnyText});
   }

@@ -34,7 +34,8 @@ namespace trailcast::tool {
                                                           std::size_t limit,
                                                           std::chrono::milliseconds timeout);
 
-// For people: one line a route, `now_unix_ms` for their ages.
+// For people: one line a route, with an id by which every command finds it ("a3f9c21@2": revision
+// 2); `now_unix_ms` for their ages.
 [[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
                                       std::int64_t now_unix_ms);
 // For programs: an object, and an array of them, with what was found out of some besides.

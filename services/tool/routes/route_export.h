@@ -13,12 +13,12 @@
 
 namespace trailcast::tool {
 
-// Which of the routes of one name to export: the one that followers would take, or the revision
-// that is asked for, the newest if several routes have it. `reply` answers the catalog's question
-// for that name; `holder` is who answered, for messages. kNotFound, with what there is, when there
-// is none; kInvalidArgument for one that is still being taught.
+// Which of the routes that a name or an id's beginning means to export: the revision that followers
+// would take, or the one that is asked for. `reply` answers the catalog's question for it; `holder`
+// is who answered, for messages. kNotFound, with what there is, when there is none; kConflict for
+// several routes; kInvalidArgument for one that is still being taught.
 [[nodiscard]] Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
-                                                       const std::string& name,
+                                                       const std::string& name_or_id,
                                                        const exchange::RevisionChoice& which,
                                                        const std::string& holder);
 

@@ -127,6 +127,17 @@ TEST_F(FollowerTest, GoesOnFromItsOwnStoreWhenTheServerIsGone) {
   EXPECT_TRUE(outcome->success) << outcome->reason;
 }
 
+TEST_F(FollowerTest, FollowsFromItsOwnStoreByTheBeginningOfTheRoutesId) {
+  TeachInto("robot");
+  const std::string id =
+      swarm_.OpenStore("robot")->FindRoutesByName("hall")->front().key.route.value();
+  FollowerOptions options = swarm_.FollowerNamed("robot");
+  options.link.route = id.substr(0, route::kLeastIdDigits);
+  const auto outcome = swarm_.Replay(device_, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->reason;
+}
+
 TEST_F(FollowerTest, NamesTheRoutesThereAreWhenItsOwnIsNotAmongThem) {
   TeachInto("server");
   swarm_.StartServer();

@@ -99,9 +99,27 @@ TEST_F(Editing, NamesStayUnambiguous) {
   EXPECT_THAT(Edit({.action = EditAction::kRetire, .route = "yard"}), HasSubstr("no route 'yard'"));
   EXPECT_THAT(Edit({.action = EditAction::kRetire, .route = "shed"}),
               HasSubstr(test::KeyNumber(2).route.value()));
+  EXPECT_THAT(Edit({.action = EditAction::kRetire, .route = "shed"}),
+              HasSubstr("may be any of 2 routes"));
   const std::string id = test::KeyNumber(3).route.value();
   EXPECT_EQ(Edit({.action = EditAction::kRetire, .route = id}), "");
   EXPECT_THAT(Standings(3), ElementsAre(Standing::kRetired));
+}
+
+TEST_F(Editing, TheBeginningOfAnIdIsEnoughWhereItIsTheOnlyOne) {
+  Teach(0xa3f9c21, 1, "yard");
+  route::RouteInfo shed = store_.FindRoute(test::KeyNumber(0xa3f9c21)).value().value();
+  shed.key.route = RouteId("a3f9c21" + std::string(25, '0'));
+  shed.name = "shed";
+  ASSERT_TRUE(store_.PutRoute(shed));
+  EXPECT_EQ(Edit({.action = EditAction::kRetire, .route = "a3f9c21"}), "");
+  EXPECT_EQ(store_.FindRoute(shed.key).value()->standing, Standing::kRetired);
+  EXPECT_THAT(Standings(0xa3f9c21), ElementsAre(Standing::kStaged)) << "its id only ends so";
+  shed.key.route = RouteId("a3f9c21" + std::string(25, '1'));
+  ASSERT_TRUE(store_.PutRoute(shed));
+  EXPECT_THAT(Edit({.action = EditAction::kActivate, .route = "a3f9c21"}),
+              testing::AllOf(HasSubstr("a3f9c210@1 'shed'"), HasSubstr("a3f9c211@1 'shed'")));
+  EXPECT_EQ(Edit({.action = EditAction::kActivate, .route = "a3f9c211"}), "");
 }
 
 TEST_F(Editing, DeletesARevisionOrAllButNotTheActiveOneAlone) {

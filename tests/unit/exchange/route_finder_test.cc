@@ -83,6 +83,20 @@ TEST_F(RouteFinderTest, ANameThatTwoScoutsGaveIsNotFoundWithoutSayingWhose) {
   EXPECT_THAT(FindRivals({retired, ours}), testing::IsEmpty()) << "of it none may be followed";
 }
 
+TEST_F(RouteFinderTest, FindsARouteByTheBeginningOfItsId) {
+  const RouteInfo ours = Info("hall", 1, 10, RouteState::kComplete);
+  RouteInfo theirs = ours;
+  theirs.key.route = RouteId(std::string(32, 'b'));
+  RouteFinder by_id(kSelf, "bbbbbbb");
+  EXPECT_EQ(std::get<CatalogRequest>(by_id.Tick(start_).front()).query.name, "bbbbbbb");
+  by_id.Handle(RouteAnnouncement{AgentId("scout"), ours});
+  EXPECT_FALSE(by_id.announced());
+  by_id.Handle(RouteAnnouncement{AgentId("scout"), theirs});
+  EXPECT_EQ(by_id.announced(), theirs);
+  by_id.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {theirs}}, {}, ""});
+  EXPECT_EQ(by_id.found(), theirs);
+}
+
 TEST_F(RouteFinderTest, WhatWasCutOffIsTakenByItsNumberOnly) {
   RouteInfo cut_off = Info("hall", 2, 20, RouteState::kComplete);
   cut_off.cut_off = true;

@@ -42,6 +42,16 @@ TEST(Labels, ACompleteTeachingNeverChanges) {
       << "two labels of one edition";
 }
 
+TEST(StateText, TellsWhatKeepsARevisionFromBeingFollowed) {
+  EXPECT_STREQ(StateText(Taught(3)), "teaching");
+  RouteInfo info = Taught(3, RouteState::kComplete);
+  EXPECT_STREQ(StateText(info), "staged");
+  info.cut_off = true;
+  EXPECT_STREQ(StateText(info), "cut off");
+  info.standing = Standing::kActive;
+  EXPECT_STREQ(StateText(info), "active") << "an operator wants it so";
+}
+
 TEST(Labels, WhatIsDeletedStaysDeleted) {
   const RouteInfo tombstone = Edited(Taught(3), "yard", 1, Standing::kDeleted);
   EXPECT_EQ(AfterNews(Taught(9), tombstone).value(),

@@ -65,6 +65,22 @@ TEST_P(RouteQueryContract, UnsortedTagsAndPlacesNowhereAreRefused) {
   EXPECT_EQ(CodeOf(store_->PutRoute(info)), ErrorCode::kInvalidArgument);
 }
 
+TEST_P(RouteQueryContract, ANameMayBeTheBeginningOfAnId) {
+  route::RouteInfo info = Put(1, "barn");
+  for (const char* id : {"a3f9c21", "a3f9c219", "a3f9c22", "a3f9c2f"}) {
+    info.key.route = RouteId(id + std::string(32 - std::string_view(id).size(), '7'));
+    info.name = "of-" + std::string(id);
+    ASSERT_TRUE(store_->PutRoute(info));
+  }
+  info = Put(2, "a3f9c21");
+  EXPECT_THAT(Names({.name = "a3f9c21"}), ElementsAre("a3f9c21", "of-a3f9c219", "of-a3f9c21"));
+  EXPECT_THAT(Names({.name = "a3f9c2f"}), ElementsAre("of-a3f9c2f"));
+  EXPECT_THAT(Names({.name = "a3f9c2"}), IsEmpty()) << "too little of an id";
+  EXPECT_THAT(Names({.name = "a3f9c21", .scout = "nobody"}), IsEmpty());
+  EXPECT_EQ(store_->FindMeant(info.key.route.value()).value(), std::vector{info});
+  EXPECT_EQ(store_->FindMeant("a3f9c21").value().size(), 3U);
+}
+
 TEST_P(RouteQueryContract, EachFieldNarrowsDownAndAllMustHold) {
   Put(1, "barn-1", {"day", "wet"});
   Put(2, "barn-2", {"wet"});

@@ -112,6 +112,16 @@ TEST(RoutesTable, ShowsWhatARouteWeighsAMetre) {
   EXPECT_THAT(table, HasSubstr("5 min"));
 }
 
+TEST(RoutesTable, ShowsShortIdsThatTellRoutesApartAndJsonTheWholeOnes) {
+  route::RouteInfo other = Aisle();
+  other.key.route = RouteId("0123456789abcdef0123456789abcdee");
+  EXPECT_THAT(RoutesTable(Reply({Aisle()}), 0), HasSubstr("aisle-3  0123456@3  "));
+  EXPECT_THAT(RoutesTable(Reply({Aisle(), other}), 0),
+              HasSubstr("0123456789abcdef0123456789abcdee@3"));
+  EXPECT_THAT(RoutesJson(Reply({Aisle()})),
+              HasSubstr("\"route\": \"0123456789abcdef0123456789abcdef\", \"revision\": 3"));
+}
+
 TEST(RoutesTable, TellsWhereARouteIsWeak) {
   const RouteStudy study{
       {{3.0, 4.5, view::Weakness::kBland, 7}, {9.0, 9.25, view::Weakness::kUnrelated, 2}}};

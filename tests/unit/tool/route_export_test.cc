@@ -45,11 +45,12 @@ TEST(ChooseForExport, RefusesANameThatTwoScoutsGave) {
   const auto reply = ReplyOf({Revision(1, route::RouteState::kComplete), other});
   const auto refused = ChooseForExport(reply, "hall", {}, "it");
   ASSERT_FALSE(refused);
-  EXPECT_THAT(
-      refused.error().message,
-      testing::AllOf(HasSubstr("2 routes have the name 'hall'"), HasSubstr("of scout 'scout-1'"),
-                     HasSubstr("of scout 'scout-2'"), HasSubstr("--scout")));
+  EXPECT_THAT(refused.error().message,
+              testing::AllOf(HasSubstr("'hall' may be any of 2 routes, give the id of one"),
+                             HasSubstr("of scout 'scout-1'"),
+                             HasSubstr("fffffff@1 'hall' of scout 'scout-2'")));
   EXPECT_EQ(ChooseForExport(reply, "hall", {.scout = "scout-2"}, "it").value(), other);
+  EXPECT_EQ(ChooseForExport(reply, "fffffff", {}, "it").value(), other);
 }
 
 TEST(ChooseForExport, NamesWhatThereIsInstead) {

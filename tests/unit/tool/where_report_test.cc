@@ -22,7 +22,7 @@ exchange::CatalogReply Reply() {
 }
 
 TEST(WhereText, TellsRouteRevisionSegmentAndScore) {
-  EXPECT_EQ(WhereText(Reply()), "route aisle-3 revision 3, segment 7 of 18, score 0.62\n");
+  EXPECT_EQ(WhereText(Reply()), "route aisle-3 0123456@3, segment 7 of 18, score 0.62\n");
 }
 
 TEST(WhereText, SaysThatNoneLooksLikeThis) {

@@ -10,6 +10,7 @@
 #include "services/program/json.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::tool {
 namespace {
@@ -19,13 +20,6 @@ constexpr auto kTakeWait = std::chrono::milliseconds(100);
 
 double BytesPerMeter(const route::RouteInfo& info) {
   return info.length_m > 0.0 ? static_cast<double>(info.bytes) / info.length_m : 0.0;
-}
-
-const char* StateName(const route::RouteInfo& info) {
-  const bool taught = info.state == route::RouteState::kComplete;
-  if (info.cut_off && info.standing == route::Standing::kStaged) return "cut off";
-  return taught || info.standing == route::Standing::kDeleted ? route::NameOf(info.standing)
-                                                              : "teaching";
 }
 
 std::vector<std::string> HoldersOf(const route::RouteKey& key,
@@ -133,24 +127,29 @@ Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
 std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_unix_ms) {
   const std::vector<route::RouteInfo>& routes = reply.page.routes;
   if (routes.empty()) return "no routes\n";
+  const route::ShortIds ids(routes);
   std::size_t name_width = 5;
+  std::size_t id_width = 0;
+  std::size_t state_width = 8;
   std::size_t scout_width = 5;
   std::size_t camera_width = 6;
   for (const route::RouteInfo& info : routes) {
     name_width = std::max(name_width, info.name.size());
+    id_width = std::max(id_width, ids.Of(info).size());
+    state_width = std::max(state_width, std::string_view(route::StateText(info)).size());
     scout_width = std::max(scout_width, info.scout.value().size());
     camera_width = std::max(camera_width, info.camera.size());
   }
   std::string text = fmt::format(
-      "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n", "route",
-      name_width, "revision", "state", "segments", "metres", "kB", "B/m", "scout", scout_width,
-      "camera", camera_width, "age", "held by; tags, description");
+      "{:<{}}  {:<{}}  {:<{}}  {:>8}  {:>8}  {:>8}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n", "route",
+      name_width, "id", id_width, "state", state_width, "segments", "metres", "kB", "B/m", "scout",
+      scout_width, "camera", camera_width, "age", "held by; tags, description");
   for (const route::RouteInfo& info : routes) {
     const bool taught_metres = info.length_m > 0.0;  // not without odometry
     text += fmt::format(
-        "{:<{}}  {:>8}  {:<8}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
-        info.name, name_width, info.revision.value(), StateName(info), info.segment_count,
-        taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
+        "{:<{}}  {:<{}}  {:<{}}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
+        info.name, name_width, ids.Of(info), id_width, route::StateText(info), state_width,
+        info.segment_count, taught_metres ? fmt::format("{:.1f}", info.length_m) : "-",
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
         scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
@@ -168,7 +167,7 @@ std::string RouteJson(const route::RouteInfo& info) {
       "\"place\": {}, \"description\": {}, \"edition\": {}, "
       "\"teaching\": \"{:x}\"}}",
       program::JsonText(info.name), program::JsonText(info.key.route.value()),
-      info.revision.value(), StateName(info), info.segment_count, info.length_m, info.bytes,
+      info.revision.value(), route::StateText(info), info.segment_count, info.length_m, info.bytes,
       BytesPerMeter(info), program::JsonText(info.scout.value()), program::JsonText(info.camera),
       info.taught_unix_ms, route::ToHex(info.manifest_digest), JsonTexts(info.tags),
       JsonPlace(info.place), program::JsonText(info.description), info.edition,

@@ -12,6 +12,7 @@
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_finder.h"
 #include "services/route/digest.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::tool {
 namespace {
@@ -64,31 +65,31 @@ tl::unexpected<Error> NotThere(const exchange::CatalogReply& reply, const std::s
 }  // namespace
 
 Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
-                                         const std::string& name,
+                                         const std::string& name_or_id,
                                          const exchange::RevisionChoice& which,
                                          const std::string& holder) {
-  std::vector<route::RouteInfo> fitting = reply.page.routes;
+  std::vector<route::RouteInfo> fitting = route::OnlyMeant(reply.page.routes, name_or_id);
   std::erase_if(fitting, [&](const route::RouteInfo& info) {
-    return info.name != name || (which.number != 0 && info.revision.value() != which.number);
+    return which.number != 0 && info.revision.value() != which.number;
   });
   if (fitting.empty()) {
-    return NotThere(reply, name, which.number == 0 ? std::nullopt : std::optional(which.number),
-                    holder);
+    return NotThere(reply, name_or_id,
+                    which.number == 0 ? std::nullopt : std::optional(which.number), holder);
   }
   const auto rivals = exchange::FindRivals(fitting, which);
-  if (!rivals.empty()) return exchange::Ambiguous(rivals);
+  if (!rivals.empty()) return exchange::Ambiguous(name_or_id, rivals);
   auto chosen = exchange::ChooseRoute(fitting, which);
   if (!chosen) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{} has no active revision of route '{}'{}: say which with --revision", holder,
-                name, which.scout.empty() ? "" : " of scout '" + which.scout + "'");
+                name_or_id, which.scout.empty() ? "" : " of scout '" + which.scout + "'");
   }
   if (chosen->state == route::RouteState::kComplete) return std::move(*chosen);
   return Fail(
       ErrorCode::kInvalidArgument,
       "route '{}' revision {} is still being taught ({} segments so far), and only complete "
       "routes are exported: wait until its scout has delivered all of it",
-      name, chosen->revision.value(), chosen->segment_count);
+      chosen->name, chosen->revision.value(), chosen->segment_count);
 }
 
 Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::RouteInfo& info,

@@ -1,24 +1,14 @@
 #include "services/tool/routes/route_summary.h"
 
-#include <fmt/chrono.h>
 #include <fmt/ranges.h>
 
-#include <ctime>
-
+#include "services/base/unix_time.h"
 #include "services/program/json.h"
 #include "services/route/digest.h"
 #include "services/tool/routes/catalog_client.h"
 
 namespace trailcast::tool {
 namespace {
-
-// Any number may be in a file; the calendar ends somewhere.
-std::string DateText(std::int64_t unix_ms) {
-  std::tm parts{};
-  const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
-  if (unix_ms <= 0 || gmtime_r(&seconds, &parts) == nullptr) return "at an unknown time";
-  return fmt::format("{:%Y-%m-%d %H:%M} UTC", parts);
-}
 
 std::string PlaceText(const route::Place& place) {
   if (place.frame == route::Place::Frame::kWgs84) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "services/route/route_ref.h"
+
 namespace trailcast::tool {
 namespace {
 
@@ -26,10 +28,10 @@ std::vector<Found> PlacesIn(const exchange::CatalogReply& reply) {
 
 std::string WhereText(const exchange::CatalogReply& reply) {
   std::string text;
+  const route::ShortIds ids(reply.page.routes);
   for (const auto& [place, route] : PlacesIn(reply)) {
-    text += fmt::format("route {} revision {}, segment {} of {}, score {:.2f}\n", route.name,
-                        route.revision.value(), place.segment.value(), route.segment_count,
-                        place.score);
+    text += fmt::format("route {} {}, segment {} of {}, score {:.2f}\n", route.name, ids.Of(route),
+                        place.segment.value(), route.segment_count, place.score);
   }
   const route::ViewCoverage& searched = reply.coverage;
   if (text.empty()) {

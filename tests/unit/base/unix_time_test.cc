@@ -1,0 +1,22 @@
+#include "services/base/unix_time.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace trailcast {
+namespace {
+
+TEST(DateText, IsOfTheMinuteInUtc) {
+  EXPECT_EQ(DateText(86'400'000), "1970-01-02 00:00 UTC");
+  EXPECT_EQ(DateText(1'795'498'259'999), "2026-11-24 05:30 UTC");
+}
+
+TEST(DateText, OfWhatIsNoDateIsUnknown) {
+  EXPECT_EQ(DateText(0), "at an unknown time");
+  EXPECT_EQ(DateText(-1), "at an unknown time");
+  EXPECT_EQ(DateText(std::numeric_limits<std::int64_t>::max()), "at an unknown time");
+}
+
+}  // namespace
+}  // namespace trailcast
