@@ -12,7 +12,9 @@ constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
 void AddRoute(CLI::App& command, std::string& route) {
   command
-      .add_option("--route", route, "The route's name")
+      .add_option("--route", route,
+                  "The route's name; of one that is in the store already its id, or 7 digits or "
+                  "more of it, will do")
       ->required()
       ->check(program::NameValidator());
 }
@@ -68,6 +70,14 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
       ->allow_extra_args(false);
   program::AddPlaceOptions(command, "place", "Where the route begins, for the catalog",
                            teach.place);
+  command
+      .add_option("--unfinished", teach.unfinished,
+                  "What becomes of the last teaching of this route if it was cut off: taught on "
+                  "from where it ended, by a drive over its last metres once more (go-on); kept as "
+                  "it is (keep); dropped (discard); or as the terminal answers, without one: keep "
+                  "(ask)")
+      ->check(CLI::IsMember(UnfinishedNames()))
+      ->capture_default_str();
   AddDeliveryTimeout(command, teach);
   AddDeviceOptions(command, teach.device, true);
 }

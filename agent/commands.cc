@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agent/fetch.h"
+#include "agent/teachings.h"
 #include "services/base/time.h"
 #include "services/program/open_exchange.h"
 #include "services/program/output_file.h"
@@ -98,7 +99,8 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  const ScoutOptions scout{teach.route, LinkOptions(options, teach), teach.tags, teach.place};
+  const ScoutOptions scout{teach.route, LinkOptions(options, teach), teach.tags, teach.place,
+                           UnfinishedOf(teach.unfinished)};
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);
@@ -114,6 +116,19 @@ Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& delive
   return Ended(
       DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),
       options);
+}
+
+Result<int> RunTeachings(const CommandOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(options.store_file, ignored)) {
+    return Fail(ErrorCode::kNotFound, "there is no route store {}", options.store_file);
+  }
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return tl::unexpected(store.error());
+  const auto text = TeachingsText(**store, options.store_file);
+  if (!text) return tl::unexpected(text.error());
+  fmt::print("{}", *text);
+  return program::kExitOk;
 }
 
 Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {

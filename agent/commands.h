@@ -25,6 +25,7 @@ struct TeachCommand {
   std::string route;
   std::vector<std::string> tags;
   std::optional<route::Place> place;
+  std::string unfinished = "ask";
   double delivery_timeout_s = 30.0;
 };
 
@@ -63,5 +64,6 @@ void AddDeliverOptions(CLI::App& command, TeachCommand& deliver);
 [[nodiscard]] Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay);
 [[nodiscard]] Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch);
 [[nodiscard]] Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver);
+[[nodiscard]] Result<int> RunTeachings(const CommandOptions& options);
 
 }  // namespace trailcast::agent

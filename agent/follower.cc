@@ -228,7 +228,7 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   summary.Add("arrived", arrived ? "1" : "0");
   summary.Add("state", state_);
   summary.Add("reason", reason_);
-  summary.Add("route", options_.link.route);
+  summary.Add("route", route ? route->name : options_.link.route);
   summary.Add("segments", std::to_string(segments_));
   summary.Add("segment", std::to_string(last.segment.value()));
   if (went_on_at_m_) summary.Add("went_on_at_m", fmt::format("{:.2f}", *went_on_at_m_));

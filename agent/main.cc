@@ -16,6 +16,7 @@ constexpr const char* kFooter = R"(Examples:
                          --route shop --store robot2.db --server --wait-for-route
   trailcast-agent fetch  --route shop --store robot2.db   # to hold it before it is activated
   trailcast-agent deliver --store scout.db
+  trailcast-agent teachings --store scout.db              # what is there, and what was cut off
 
 Exit status: 0 taught and delivered, arrived, or recording replayed to its end; 3 the follower did
 not arrive; 2 wrong usage; 1 anything else. 'trailcast-agent COMMAND --help' tells more.)";
@@ -46,12 +47,15 @@ int Run(int argc, char** argv) {
       app.add_subcommand("fetch", "Bring a route into the own store without following it");
   CLI::App* deliver_app =
       app.add_subcommand("deliver", "Send a server what earlier runs taught and could not deliver");
+  CLI::App* teachings_app =
+      app.add_subcommand("teachings", "List what is in the store, and what of it was cut off");
   agent::AddTeachOptions(*teach_app, teach);
   agent::AddReplayOptions(*replay_app, replay);
   agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
   CLI::App* health_app = program::AddHeartbeat(app, options.common);
-  for (CLI::App* command : {teach_app, replay_app, fetch_app, deliver_app, health_app}) {
+  for (CLI::App* command :
+       {teach_app, replay_app, fetch_app, deliver_app, teachings_app, health_app}) {
     ShareHelp(app, *command);
   }
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
@@ -61,10 +65,11 @@ int Run(int argc, char** argv) {
   }
   program::SetUpLog(options.common);
   const program::StopSignal stop;
-  const auto status = teach_app->parsed()    ? agent::RunTeach(options, teach)
-                      : replay_app->parsed() ? agent::RunReplay(options, replay)
-                      : fetch_app->parsed()  ? agent::RunFetch(options, fetch)
-                                             : agent::RunDeliver(options, deliver);
+  const auto status = teach_app->parsed()       ? agent::RunTeach(options, teach)
+                      : replay_app->parsed()    ? agent::RunReplay(options, replay)
+                      : fetch_app->parsed()     ? agent::RunFetch(options, fetch)
+                      : teachings_app->parsed() ? agent::RunTeachings(options)
+                                                : agent::RunDeliver(options, deliver);
   return status ? *status : program::Complain(app, status.error());
 }
 

@@ -6,9 +6,10 @@
 #include <utility>
 
 #include "agent/device/standstill.h"
+#include "agent/going_on.h"
+#include "agent/scout_words.h"
 #include "agent/session/teach_session.h"
 #include "services/base/unix_time.h"
-#include "services/route/labels.h"
 
 namespace trailcast::agent {
 namespace {
@@ -27,11 +28,6 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   info.place = options.place;
   return info;
 }
-
-// Shorter than any that somebody meant to teach.
-constexpr double kLeastRoute_m = 0.2;
-// Two to five thousand are usual.
-constexpr double kManyBytes_per_m = 10'000.0;
 
 // What the control loop counts.
 struct Drive {
@@ -86,7 +82,9 @@ void TellWeakness(const TeachStep& step, Drive& drive) {
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
                        ScoutLink& link, Drive& drive) {
   const Standstill standstill(device);
-  TeachSession session;
+  TeachOptions teach;
+  teach.recorder.first_index = link.first_index();
+  TeachSession session(teach);
   TeachingNow now;
   std::optional<Observation> observation = std::move(first);
   Result<void> result;
@@ -133,53 +131,65 @@ Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
   return summary;
 }
 
-// Which revision robots follow from now on.
-void TellStanding(const ScoutLink::Outcome& outcome) {
-  if (!outcome.standing) return;
-  const route::RouteInfo& route = *outcome.route;
-  if (*outcome.standing == route::Standing::kActive) {
-    spdlog::info("robots follow {} from now on", route::Describe(route));
-  } else if (*outcome.standing == route::Standing::kStaged) {
-    spdlog::info(
-        "{} is staged: robots go on with the active one until 'trailcast routes activate {} "
-        "--revision {}'",
-        route::Describe(route), route.name, route.revision.value());
-  }
+// A teaching that goes on, with what was said of it this time.
+route::RouteInfo GoingOn(route::RouteInfo cut_off, const ScoutOptions& options) {
+  std::set<std::string> tags(cut_off.tags.begin(), cut_off.tags.end());
+  tags.insert(options.tags.begin(), options.tags.end());
+  cut_off.tags.assign(tags.begin(), tags.end());
+  if (options.place) cut_off.place = options.place;
+  return cut_off;
 }
 
-Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_file) {
-  return {ErrorCode::kUnavailable,
-          fmt::format("{} segments not receipted, kept in {}: send them with 'trailcast-agent "
-                      "deliver --store {}' when {}{}",
-                      outcome.unreceipted, store_file, store_file,
-                      outcome.refusal ? "that is mended: " : "a server is there",
-                      outcome.refusal.value_or(""))};
+// What becomes of an earlier teaching that was cut off; what goes on, if that is wanted.
+Result<std::optional<route::RouteInfo>> SettleUnfinished(const ScoutOptions& options,
+                                                         ScoutLink& link) {
+  const auto cut_off = link.FindCutOff(options.route);
+  if (!cut_off) return tl::unexpected(cut_off.error());
+  if (!*cut_off && options.unfinished == Unfinished::kGoOn) {
+    return Fail(ErrorCode::kNotFound,
+                "there is nothing to go on with: the newest teaching of route '{}' by '{}' in {} "
+                "was not cut off, or there is none; without --unfinished go-on it is taught anew",
+                options.route, options.link.agent.value(), options.link.store_file);
+  }
+  if (!*cut_off) return std::nullopt;
+  Unfinished becomes = options.unfinished;
+  if (becomes == Unfinished::kAsk) becomes = AskOnTerminal(**cut_off, options.link.stop);
+  if (becomes == Unfinished::kGoOn) {
+    link.Spare(**cut_off);
+    return GoingOn(**cut_off, options);
+  }
+  if (becomes == Unfinished::kDiscard) {
+    if (auto discarded = link.Discard(**cut_off); !discarded) {
+      return tl::unexpected(discarded.error());
+    }
+    return std::nullopt;
+  }
+  spdlog::warn(
+      "{}: it is kept as it is, and the route taught anew ('--unfinished go-on' would go on with "
+      "it, '--unfinished discard' drop it)",
+      DescribeUnfinished(**cut_off));
+  return std::nullopt;
 }
 
-// What is wrong with a route that was taught, if anything.
-Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome, bool sent,
-                   const ScoutOptions& options) {
-  if (!driven && outcome.route) {
-    return Fail(driven.error().code,
-                "{} (the {} segments taught before are kept in {}, cut off: no robot follows them "
-                "unless an operator activates them)",
-                driven.error().message, outcome.route->segment_count, options.link.store_file);
+// Starts the link with what is to be taught; the first observation of that.
+Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, ScoutLink& link,
+                          const std::optional<route::RouteInfo>& cut_off) {
+  auto first = device.Next();
+  if (!first) return tl::unexpected(first.error());
+  if (!*first) return Fail(ErrorCode::kInvalidArgument, "there is no frame to teach from");
+  if (!cut_off) {
+    if (auto started = link.Start(NewRoute(options, device, (*first)->image)); !started) {
+      return tl::unexpected(started.error());
+    }
+    spdlog::info("teaching route '{}' with camera {}", options.route, device.camera());
+    return std::move(**first);
   }
-  if (!driven) return driven;
-  if (!outcome.route) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "nothing was taught: no segment had enough features or was long enough");
-  }
-  if (outcome.standing == route::Standing::kDeleted) {
-    return Fail(ErrorCode::kConflict,
-                "{} was deleted by an operator while it was taught: no robot follows it; this "
-                "agent's copy stays in {}",
-                route::Describe(*outcome.route), options.link.store_file);
-  }
-  if (sent && !outcome.delivered) {
-    return tl::unexpected(NotReceipted(outcome, options.link.store_file));
-  }
-  return {};
+  const auto last = link.LastSegment(*cut_off);
+  if (!last) return tl::unexpected(last.error());
+  auto there = FindWhereItEnded(device, std::move(**first), *cut_off, *last, options.link.stop);
+  if (!there) return there;
+  if (auto started = link.StartFrom(*cut_off); !started) return tl::unexpected(started.error());
+  return there;
 }
 
 }  // namespace
@@ -193,19 +203,16 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
     spdlog::info("no --server: the route is kept in {} only", options.link.store_file);
   }
   ScoutLink link(options.link, std::move(store), std::move(exchange));
+  const auto cut_off = SettleUnfinished(options, link);
+  if (!cut_off) return tl::unexpected(cut_off.error());
   if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
-  auto first = device.Next();
+  auto first = Begin(device, options, link, *cut_off);
   if (!first) return tl::unexpected(first.error());
-  if (!*first) return Fail(ErrorCode::kInvalidArgument, "there is no frame to teach from");
-  if (auto started = link.Start(NewRoute(options, device, (*first)->image)); !started) {
-    return tl::unexpected(started.error());
-  }
-  spdlog::info("teaching route '{}' with camera {}", options.route, device.camera());
   Drive drive;
-  const auto driven = TeachLoop(device, std::move(**first), options, link, drive);
+  const auto driven = TeachLoop(device, std::move(*first), options, link, drive);
   auto outcome = link.Finish(/*cut_off=*/!driven);
   if (!outcome) return tl::unexpected(outcome.error());
-  const auto judged = Judge(driven, *outcome, send, options);
+  const auto judged = Judge(driven, *outcome, send, options.link.store_file);
   using exchange::AgentMode;
   const bool interrupted = options.link.stop();
   link.Close(!judged       ? AgentMode::kFault
@@ -213,20 +220,8 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
                            : AgentMode::kArrived,
              judged ? "" : judged.error().message);
   if (!judged) return tl::unexpected(judged.error());
-  if (drive.has_odometry && outcome->route->length_m < kLeastRoute_m) {
-    spdlog::warn(
-        "the route is {:.2f} m long: was the robot driven? ('trailcast robot' drives itself with "
-        "--scout)",
-        outcome->route->length_m);
-  } else if (drive.has_odometry &&
-             outcome->route->bytes > kManyBytes_per_m * outcome->route->length_m) {
-    spdlog::warn(
-        "the route takes {:.0f} kB a metre, where 2 to 5 are usual: features are soon lost, so "
-        "followers will find few; is what the camera sees bland, blurred, or odometry in other "
-        "units than metres?",
-        1e-3 * outcome->route->bytes / outcome->route->length_m);
-  }
-  TellStanding(*outcome);
+  TellEarlier(*outcome);
+  TellTaught(*outcome, drive.has_odometry, send);
   return Summarize(*outcome, drive);
 }
 
@@ -243,6 +238,7 @@ Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
   if (!outcome->delivered) {
     return tl::unexpected(NotReceipted(*outcome, options.store_file));
   }
+  TellEarlier(*outcome);
   Summary summary;
   summary.Add("unreceipted", "0");
   return summary;

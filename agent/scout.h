@@ -9,6 +9,7 @@
 #include "agent/device/device.h"
 #include "agent/diagnosis/summary.h"
 #include "agent/link/scout_link.h"
+#include "agent/unfinished.h"
 
 namespace trailcast::agent {
 
@@ -17,6 +18,7 @@ struct ScoutOptions {
   ScoutLinkOptions link;
   std::vector<std::string> tags;      // in any order
   std::optional<route::Place> place;  // where the drive begins
+  Unfinished unfinished = Unfinished::kKeep;
 };
 
 // Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.

@@ -24,9 +24,18 @@ class Outbox {
   // Takes up what earlier runs of this agent left: unconfirmed segments, and routes whose teaching
   // was cut off, which end with what is on disk. Returns one line for people on each.
   [[nodiscard]] Result<std::vector<std::string>> LoadBacklog();
+  // Nothing of this one is sent by LoadBacklog: it is gone on with, perhaps.
+  void Spare(const route::RouteKey& key) { spared_ = key; }
 
   // A new route: on disk when this returns.
   [[nodiscard]] Result<void> Begin(const route::RouteInfo& info);
+  // A teaching that begins with all segments of an earlier one that was cut off: the same one, if
+  // `info` has its key. kCorrupt when they cannot all be read.
+  [[nodiscard]] Result<void> GoOn(const route::RouteInfo& earlier, const route::RouteInfo& info);
+  // Gives up a teaching that was cut off: it is offered to nobody again. Servers are told that it
+  // ends where it does, if they may have some of it (`send`: now); a scout deletes nothing there.
+  // One line for people.
+  [[nodiscard]] Result<std::string> Discard(route::RouteInfo info, bool send);
   // The route's next segment: on disk when this returns, sent afterwards.
   [[nodiscard]] Result<void> Add(const route::RouteKey& key, const route::Segment& segment);
   // No segment will follow; `cut_off`: though more were meant to.
@@ -53,13 +62,16 @@ class Outbox {
   [[nodiscard]] bool Done() const;
   // What a server says that the route is to operators; nothing while none has spoken.
   [[nodiscard]] std::optional<route::Standing> standing(const route::RouteKey& key) const;
+  // All whose last word was sent and receipted.
+  [[nodiscard]] std::vector<route::RouteInfo> Receipted() const;
 
  private:
   struct Sending {
     exchange::RouteSender sender;
     std::optional<route::RouteBuilder> teaching;
     std::set<SegmentIndex> confirmed{};  // not yet written down
-    bool laid_aside = false;             // a server deleted it: offered no more by later runs
+    // Deleted by an operator, or discarded: offered no more by later runs.
+    bool laid_aside = false;
   };
 
   // Whose receipts count: those noted in the store; or none of them, for a server that has it not.
@@ -77,6 +89,7 @@ class Outbox {
   store::RouteStore& store_;
   std::map<route::RouteKey, Sending> sending_;
   std::set<AgentId> servers_;  // heard of
+  std::optional<route::RouteKey> spared_;
 };
 
 }  // namespace trailcast::agent

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "agent/link/outbox.h"
 #include "services/base/mailbox.h"
@@ -41,12 +43,26 @@ class ScoutLink {
   ScoutLink(const ScoutLink&) = delete;
   ScoutLink& operator=(const ScoutLink&) = delete;
 
+  // The newest teaching of this route by this agent, if it was cut off and not given up since.
+  [[nodiscard]] Result<std::optional<route::RouteInfo>> FindCutOff(const std::string& route);
+  // Where it ends.
+  [[nodiscard]] Result<route::Segment> LastSegment(const route::RouteInfo& cut_off);
+  // What becomes of it; before Open. Without either it is kept as it is, and sent.
+  [[nodiscard]] Result<void> Discard(const route::RouteInfo& cut_off);
+  void Spare(const route::RouteInfo& cut_off) { outbox_.Spare(cut_off.key); }  // for StartFrom
+
   // Claims the name and takes up what earlier runs left. Before Start.
   [[nodiscard]] Result<void> Open();
   // Starts the thread. `route` is what is to be taught (none: only the backlog is delivered); it
-  // begins with its first segment. Its route is the newest of this name in the store, its teaching
-  // a new one.
+  // begins with its first segment. Its route is the one of this name, or whose id begins so, in
+  // the store, its teaching a new one. kConflict where several are.
   [[nodiscard]] Result<void> Start(std::optional<route::RouteInfo> route);
+  // The same to go on with a teaching that was cut off.
+  [[nodiscard]] Result<void> StartFrom(const route::RouteInfo& cut_off);
+  // Of the first segment that is to come. After Start.
+  [[nodiscard]] SegmentIndex first_index() const {
+    return SegmentIndex(planned_ ? planned_->segment_count : 0);
+  }
 
   // From the control loop. False: the disk does not keep up, or failed; see Finish.
   [[nodiscard]] bool Offer(route::Segment segment);
@@ -61,6 +77,8 @@ class ScoutLink {
     // What a server says that the route is to operators; nothing if none has.
     std::optional<route::Standing> standing;
     std::optional<std::string> refusal;  // why a server takes nothing, if one said so
+    // Of earlier runs, and all on a server now; with what that says of each.
+    std::vector<std::pair<route::RouteInfo, route::Standing>> earlier;
   };
   // No segment will follow: completes the route, waits for receipts, ends the thread. `cut_off`:
   // what failed on the way kept it from its end. The error is the store's, if it failed.
@@ -69,7 +87,10 @@ class ScoutLink {
   void Close(exchange::AgentMode mode, const std::string& detail);
 
  private:
+  [[nodiscard]] Result<std::vector<route::RouteInfo>> FindMeant(const std::string& name_or_id);
   [[nodiscard]] Result<void> Assign(route::RouteInfo& route);
+  [[nodiscard]] Result<void> Number(route::RouteInfo& route);
+  [[nodiscard]] Result<void> GoOn(const route::RouteInfo& cut_off);
   void Run();
   [[nodiscard]] Result<void> Step();
   [[nodiscard]] Result<void> StoreOffered();

@@ -16,6 +16,8 @@ class RouteBuilder {
   // Encodes and hashes the next segment and counts it in. Its index must be the number of segments
   // so far, and the route not complete.
   [[nodiscard]] SegmentPiece Add(const Segment& segment);
+  // Counts in the next segment as it was encoded before; `length_m` is what it says.
+  void Add(const SegmentPiece& piece, double length_m);
   // No more segments will come; `cut_off`: though whoever teaches did not mean to end here.
   void Complete(bool cut_off = false) {
     info_.state = RouteState::kComplete;

@@ -34,6 +34,7 @@ struct SegmentRecorderOptions {
   // closer together than the second figure, but three at least.
   int knots = 4;
   double knot_spacing_m = 0.15;
+  SegmentIndex first_index{0};  // of a teaching that goes on: as many segments as there are already
 };
 
 // Turns the tracked features of one segment after the other into what the route stores of it.
@@ -49,7 +50,9 @@ class SegmentRecorder {
 
   // `width_px`: of the scout's frames.
   explicit SegmentRecorder(int width_px, const SegmentRecorderOptions& options = {})
-      : options_(options), still_px_(options.still_px_at_320 * width_px / 320.0) {}
+      : options_(options),
+        still_px_(options.still_px_at_320 * width_px / 320.0),
+        next_index_(options.first_index) {}
 
   // The segment's first image: its features, the strongest first, and the odometry pose at that
   // moment, if any.
@@ -96,7 +99,7 @@ class SegmentRecorder {
 
   SegmentRecorderOptions options_;
   double still_px_;
-  SegmentIndex next_index_{0};
+  SegmentIndex next_index_;
   std::vector<route::DescribedFeature> first_;
   std::vector<Moment> moments_;
   SensorTime last_stamp_{0};

@@ -12,13 +12,6 @@
 namespace trailcast::agent {
 namespace {
 
-// Segments 0..n-1 that are held without a gap.
-std::uint32_t PrefixLength(const std::vector<store::HeldSegment>& held) {
-  std::uint32_t length = 0;
-  while (length < held.size() && held[length].index.value() == length) ++length;
-  return length;
-}
-
 std::vector<SegmentIndex> Without(const std::vector<SegmentIndex>& all,
                                   const std::vector<SegmentIndex>& some) {
   std::vector<SegmentIndex> rest;
@@ -36,7 +29,8 @@ Result<std::vector<std::string>> Outbox::LoadBacklog() {
     auto unreceipted = store_.UnreceiptedSegments(info.key);
     if (!unreceipted) return tl::unexpected(unreceipted.error());
     const bool unwanted = info.standing == route::Standing::kRetired;
-    if (unreceipted->empty() || unwanted || sending_.contains(info.key)) continue;
+    const bool taken = sending_.contains(info.key) || info.key == spared_;
+    if (unreceipted->empty() || unwanted || taken) continue;
     if (info.state == route::RouteState::kTeaching && info.scout != self_) {
       notes.push_back(
           fmt::format("route '{}' was left unfinished by agent '{}' and is not sent: run with "
@@ -78,38 +72,6 @@ Result<std::string> Outbox::TakeUp(route::RouteInfo info, Receipts receipts) {
                 "operator activates it"
               : "",
       damaged > 0 ? fmt::format("; {} are damaged on the disk and cannot be sent", damaged) : "");
-}
-
-// A crash may come between a segment and the info that counts it: counted anew. A segment that
-// cannot be read counts with what the others have in the mean, and is asked of whoever has it.
-Result<void> Outbox::EndCutOff(route::RouteInfo& info,
-                               const std::vector<store::HeldSegment>& held) {
-  const std::uint32_t count = PrefixLength(held);
-  std::vector<route::Digest> digests;
-  std::uint32_t whole = 0;
-  info.length_m = 0.0;
-  info.bytes = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    digests.push_back(held[i].digest);
-    auto piece = store_.ReadSegment(info.key, SegmentIndex(i));
-    auto segment = piece ? route::Open(*piece) : tl::unexpected(piece.error());
-    if (!segment && segment.error().code != ErrorCode::kCorrupt) {
-      return tl::unexpected(segment.error());
-    }
-    if (!segment) continue;
-    ++whole;
-    info.length_m += segment->length_m;
-    info.bytes += piece->bytes.size();
-  }
-  if (whole > 0) {
-    info.length_m *= static_cast<double>(count) / whole;
-    info.bytes = info.bytes * count / whole;
-  }
-  info.segment_count = count;
-  info.manifest_digest = route::ManifestDigest(digests);
-  info.state = route::RouteState::kComplete;
-  info.cut_off = true;
-  return store_.PutRoute(info);
 }
 
 void Outbox::Emplace(const route::RouteInfo& info, exchange::SegmentDigests held,
@@ -197,7 +159,8 @@ std::vector<Error> Outbox::TakeReadErrors() {
 
 Result<void> Outbox::SaveReceipts() {
   for (auto& [key, sending] : sending_) {
-    if (const auto numbered = sending.sender.TakeNumbered()) {
+    if (auto numbered = sending.sender.TakeNumbered()) {
+      if (sending.laid_aside) numbered->standing = route::Standing::kRetired;
       if (auto put = store_.PutRoute(*numbered); !put) return put;
     }
     if (sending.sender.deleted() && !std::exchange(sending.laid_aside, true)) {
@@ -251,6 +214,14 @@ std::optional<std::string> Outbox::refusal() const {
 
 std::optional<route::Standing> Outbox::standing(const route::RouteKey& key) const {
   return sending_.at(key).sender.standing();
+}
+
+std::vector<route::RouteInfo> Outbox::Receipted() const {
+  std::vector<route::RouteInfo> receipted;
+  for (const auto& [key, sending] : sending_) {
+    if (sending.sender.AllReceipted()) receipted.push_back(sending.sender.info());
+  }
+  return receipted;
 }
 
 bool Outbox::Done() const {

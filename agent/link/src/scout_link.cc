@@ -10,7 +10,6 @@
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
-#include "services/exchange/revision_numbers.h"
 
 namespace trailcast::agent {
 namespace {
@@ -60,30 +59,17 @@ Result<void> ScoutLink::Open() {
   return presence_->Claim(handle, options_.stop);
 }
 
-Result<void> ScoutLink::Assign(route::RouteInfo& route) {
-  auto earlier = store_->FindRoutesByName(route.name);
-  if (!earlier) return tl::unexpected(earlier.error());
-  if (earlier->empty()) {
-    route.key = {MakeRouteId(), MakeTeachingId()};
-    route.revision = RevisionNumber(1);
-    return {};
-  }
-  route.key = {earlier->front().key.route, MakeTeachingId()};
-  std::vector<route::RouteInfo> one{route};
-  if (auto numbered = exchange::GiveNumbers(*store_, one); !numbered) return numbered;
-  route.revision = one.front().revision;
-  spdlog::info(
-      "route '{}' is known here: teaching it again, as revision {} unless a server numbers "
-      "it otherwise",
-      route.name, route.revision.value());
-  return {};
-}
-
 Result<void> ScoutLink::Start(std::optional<route::RouteInfo> route) {
   if (route) {
     if (auto assigned = Assign(*route); !assigned) return assigned;
     planned_ = std::move(route);
   }
+  thread_ = std::thread([this] { Run(); });
+  return {};
+}
+
+Result<void> ScoutLink::StartFrom(const route::RouteInfo& cut_off) {
+  if (auto goes_on = GoOn(cut_off); !goes_on) return goes_on;
   thread_ = std::thread([this] { Run(); });
   return {};
 }
@@ -112,6 +98,10 @@ Result<ScoutLink::Outcome> ScoutLink::Finish(bool cut_off) {
   outcome.unreceipted = outbox_.unreceipted();
   outcome.delivered = outbox_.Done();
   outcome.refusal = outbox_.refusal();
+  for (const route::RouteInfo& info : outbox_.Receipted()) {
+    const auto standing = outbox_.standing(info.key);
+    if (info.key != key_ && standing) outcome.earlier.emplace_back(info, *standing);
+  }
   return outcome;
 }
 

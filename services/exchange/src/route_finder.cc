@@ -24,7 +24,8 @@ std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>&
     if (info.standing == Standing::kDeleted) return false;
     if (!which.scout.empty() && info.scout.value() != which.scout) return false;
     if (which.number != 0) return info.revision.value() == which.number;
-    if (which.newest) return info.standing != Standing::kRetired;
+    if (info.standing == Standing::kRetired) return false;
+    if (which.newest) return true;
     const bool unsaid = !spoken_of.contains(info.key.route) && !info.cut_off;
     return info.standing == Standing::kActive || unsaid;
   };

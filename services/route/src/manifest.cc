@@ -20,12 +20,17 @@ SegmentPiece RouteBuilder::Add(const Segment& segment) {
   assert(info_.state == RouteState::kTeaching);
   assert(segment.index.value() == info_.segment_count);
   SegmentPiece piece = MakePiece(info_.key, segment);
+  Add(piece, segment.length_m);
+  return piece;
+}
+
+void RouteBuilder::Add(const SegmentPiece& piece, double length_m) {
+  assert(piece.index.value() == info_.segment_count);
   digests_.push_back(piece.digest);
   info_.segment_count += 1;
-  info_.length_m += segment.length_m;
+  info_.length_m += length_m;
   info_.bytes += piece.bytes.size();
   info_.manifest_digest = ManifestDigest(digests_);
-  return piece;
 }
 
 }  // namespace trailcast::route

@@ -171,6 +171,15 @@ TEST(ChooseRoute, TakesTheRevisionThatIsNamedOrTheNewestToBeHeldInAdvance) {
   EXPECT_EQ(ChooseRoute(all, {.number = 5}), std::nullopt);
 }
 
+// As a scout lays aside what it discards, in its own store.
+TEST(ChooseRoute, TakesWhatWasRetiredWithoutAnOperatorByItsNumberOnly) {
+  RouteInfo retired = Info("hall", 2, 20, RouteState::kComplete);
+  retired.standing = route::Standing::kRetired;
+  const RouteInfo before = Info("hall", 1, 10, RouteState::kComplete);
+  EXPECT_EQ(ChooseRoute({retired, before}), before);
+  EXPECT_EQ(ChooseRoute({retired, before}, {.number = 2}), retired);
+}
+
 TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   Ask(milliseconds(0));
   const auto retired =

@@ -214,5 +214,83 @@ TEST_F(OutboxTest, WhatAnOperatorDeletedStaysAndIsOfferedNoMore) {
   EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
 }
 
+TEST_F(OutboxTest, GoesOnWithTheSameTeachingWhileItsEndWasNotTold) {
+  Teach(3);
+  Confirm(2, RouteState::kTeaching);
+  Restart();
+  const route::RouteInfo cut_off = Stored();
+  outbox_->Spare(kKey);
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty()) << "its end is not told";
+  ASSERT_TRUE(outbox_->GoOn(cut_off, cut_off));
+  EXPECT_EQ(outbox_->unreceipted(), 1U);
+  ASSERT_TRUE(outbox_->Add(kKey, SegmentNumber(3)));
+  ASSERT_TRUE(outbox_->Complete(kKey));
+  const route::RouteInfo whole = Stored();
+  EXPECT_EQ(whole.state, RouteState::kComplete);
+  EXPECT_FALSE(whole.cut_off);
+  EXPECT_EQ(whole.segment_count, 4U);
+  EXPECT_DOUBLE_EQ(whole.length_m, 8.0);
+  Confirm(4, RouteState::kComplete);
+  EXPECT_TRUE(outbox_->AllReceipted());
+}
+
+TEST_F(OutboxTest, GoesOnWithWhatWasToldToEndThereAsAnotherTeaching) {
+  Teach(3);
+  ASSERT_TRUE(outbox_->Complete(kKey, /*cut_off=*/true));
+  Restart();
+  route::RouteInfo on = Stored();
+  on.key.teaching = TeachingId(2);
+  on.revision = RevisionNumber(2);
+  ASSERT_TRUE(outbox_->GoOn(Stored(), on));
+  ASSERT_TRUE(outbox_->Add(on.key, SegmentNumber(3)));
+  ASSERT_TRUE(outbox_->Complete(on.key));
+  const route::RouteInfo whole = **store_->FindRoute(on.key);
+  EXPECT_FALSE(whole.cut_off);
+  EXPECT_EQ(whole.segment_count, 4U);
+  EXPECT_EQ(store_->ReadSegment(on.key, SegmentIndex(1))->digest,
+            store_->ReadSegment(kKey, SegmentIndex(1))->digest);
+  EXPECT_TRUE(Stored().cut_off) << "as it was";
+}
+
+TEST_F(OutboxTest, DoesNotGoOnWithATeachingOfWhichASegmentIsDamaged) {
+  Teach(3);
+  store_.reset();
+  test::DamageSegment(folder_ / "scout.db", 1);
+  Restart();
+  const route::RouteInfo cut_off = Stored();
+  const auto goes_on = outbox_->GoOn(cut_off, cut_off);
+  ASSERT_FALSE(goes_on);
+  EXPECT_EQ(goes_on.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(goes_on.error().message, HasSubstr("cannot go on with route 'hall'"));
+}
+
+TEST_F(OutboxTest, WhatNoServerHasIsNotSentOnceItIsDiscarded) {
+  Teach(2);
+  Restart();
+  EXPECT_THAT(*outbox_->Discard(Stored(), /*send=*/true), HasSubstr("no server has confirmed"));
+  EXPECT_EQ(Stored().standing, route::Standing::kRetired);
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
+  EXPECT_THAT(outbox_->Tick({}), IsEmpty());
+  EXPECT_TRUE(outbox_->Done());
+}
+
+TEST_F(OutboxTest, OfWhatIsDiscardedAServerIsToldThatItWasCutOffAndItIsOfferedNoMore) {
+  Teach(3);
+  Confirm(1, RouteState::kTeaching);
+  Restart();
+  EXPECT_THAT(*outbox_->Discard(Stored(), /*send=*/true),
+              HasSubstr("'trailcast routes delete 1111111'"));
+  const auto told = test::Only<exchange::RouteAnnouncement>(outbox_->Tick({}));
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_TRUE(told[0].info.cut_off);
+  EXPECT_EQ(told[0].info.standing, route::Standing::kStaged) << "labels are the operator's";
+  EXPECT_EQ(Stored().standing, route::Standing::kRetired);
+  Confirm(3, RouteState::kComplete);
+  EXPECT_TRUE(outbox_->AllReceipted());
+  EXPECT_EQ(Stored().standing, route::Standing::kRetired);
+  Restart();
+  EXPECT_THAT(*outbox_->LoadBacklog(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace trailcast::agent

@@ -42,5 +42,15 @@ TEST(RouteBuilder, CountsEverySegmentIn) {
   EXPECT_EQ(builder.info().state, RouteState::kComplete);
 }
 
+TEST(RouteBuilder, CountsWhatWasEncodedBeforeLikeWhatItEncodes) {
+  RouteBuilder whole(Begun());
+  const SegmentPiece first = whole.Add(SampleSegment(0, 5));
+  (void)whole.Add(SampleSegment(1, 9));
+  RouteBuilder again(Begun());
+  again.Add(first, SampleSegment(0, 5).length_m);
+  (void)again.Add(SampleSegment(1, 9));
+  EXPECT_EQ(again.info(), whole.info());
+}
+
 }  // namespace
 }  // namespace trailcast::route

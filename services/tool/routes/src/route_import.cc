@@ -9,7 +9,6 @@
 #include "services/exchange/publish.h"
 #include "services/exchange/revision_numbers.h"
 #include "services/exchange/route_sender.h"
-#include "services/route/route_ref.h"
 #include "services/tool/routes/catalog_client.h"
 
 namespace trailcast::tool {
@@ -21,7 +20,8 @@ constexpr std::chrono::milliseconds kInquireEvery{1000};
 constexpr std::size_t kBatchBytes = 1U << 20U;  // in one commit
 
 std::string NameOf(const route::RouteInfo& info) {
-  return fmt::format("route '{}' {}", info.name, route::ShortIds().Of(info));
+  return fmt::format("route '{}' ({}) revision {}", info.name, info.key.route.value(),
+                     info.revision.value());
 }
 
 bool IsComplete(const route::RouteInfo& info) { return info.state == route::RouteState::kComplete; }
