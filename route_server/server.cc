@@ -115,9 +115,10 @@ void Server::Serve() {
   for (const exchange::Message& message : outgoing) {
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
   }
-  // What cannot be handed over is asked for again by whoever lacks it.
-  const auto count = [this](const exchange::Message& message) { keeper_->CountSent(message); };
-  if (auto sent = exchange::PublishAll(*exchange_, outgoing, count); !sent) {
+  const auto told = [this, now](const exchange::Message& message, bool sent) {
+    sent ? keeper_->Sent(message) : keeper_->NotSent(message, now);
+  };
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing, told); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
   for (const exchange::Note& note : keeper_->TakeNotes()) {

@@ -45,6 +45,8 @@ class Outbox {
   void Handle(const exchange::Message& message, Time now);
   // What is to be published.
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
+  // Of what Tick returned, this could not be handed over: a later Tick returns it again.
+  void NotSent(const exchange::Message& message, Time now);
   // What should have been sent but could not be read, since the last call.
   [[nodiscard]] std::vector<Error> TakeReadErrors();
   // Writes down what servers have confirmed.

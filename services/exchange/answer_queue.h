@@ -25,11 +25,15 @@ class AnswerQueue {
     std::chrono::milliseconds window{10};
     // Below WantList's retry_after, so that whoever asks again is answered.
     std::chrono::milliseconds on_its_way{800};
+    // A link that took nothing is tried again after this.
+    std::chrono::milliseconds again_after{50};
   };
 
   explicit AnswerQueue(Options options) : options_(options) {}
 
   void Ask(const route::RouteKey& key, std::span<const SegmentIndex> indices, Time now);
+  // It was due and could not be handed over: asked for as before, and not on its way.
+  void PutBack(const route::RouteKey& key, SegmentIndex index, Time now);
 
   using ReadPiece =
       std::function<Result<route::SegmentPiece>(const route::RouteKey&, SegmentIndex)>;

@@ -82,8 +82,10 @@ class RouteKeeper {
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
-  // What Tick returned was handed over; what a stalled reader blocks is not.
-  void CountSent(const Message& message);
+  // Of what Tick returned: handed over, or not, because the link is blocked; then it is returned
+  // again by a later Tick.
+  void Sent(const Message& message);
+  void NotSent(const Message& message, Time now);
 
   // Stores later labels of revisions, in one commit, and has them announced.
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);

@@ -24,8 +24,7 @@ struct RouteSenderOptions {
 
 // The scout's end of the protocol for one route: announces, streams, answers, and keeps count of
 // what some server has confirmed. No clock, no I/O: messages in, messages out. The owner stores
-// each piece before Add, publishes what Tick returns, and may ignore a failed Publish: what was
-// lost is asked for.
+// each piece before Add, and publishes what Tick returns.
 class RouteSender {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -44,6 +43,8 @@ class RouteSender {
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
+  // Of what Tick returned, this could not be handed over: a later Tick returns it again.
+  void NotSent(const Message& message, Time now);
 
   // With the number that a server gave it, if it did since the last call: for RouteStore::PutRoute.
   [[nodiscard]] std::optional<route::RouteInfo> TakeNumbered();

@@ -41,6 +41,9 @@ class SpareHolder {
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
+  // Of what Tick returned, this could not be handed over: a later Tick returns it again, unless
+  // somebody else answers meanwhile.
+  void NotSent(const Message& message, Time now);
 
  private:
   using Place = std::pair<route::RouteKey, SegmentIndex>;

@@ -179,7 +179,10 @@ void FollowerLink::Trade() {
 void FollowerLink::Say(steady_clock::time_point now) {
   auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
   for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
-  if (auto sent = exchange::PublishAll(*exchange_, outgoing); !sent) {
+  const auto told = [this, now](const exchange::Message& message, bool sent) {
+    if (!sent) spare_.NotSent(message, now);
+  };
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing, told); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
 }

@@ -148,6 +148,10 @@ std::vector<exchange::Message> Outbox::Tick(Time now) {
   return messages;
 }
 
+void Outbox::NotSent(const exchange::Message& message, Time now) {
+  for (auto& [key, sending] : sending_) sending.sender.NotSent(message, now);
+}
+
 std::vector<Error> Outbox::TakeReadErrors() {
   std::vector<Error> errors;
   for (auto& [key, sending] : sending_) {

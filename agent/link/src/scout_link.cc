@@ -163,7 +163,10 @@ Result<void> ScoutLink::Trade() {
     outbox_.Handle(message, steady_clock::now());
   }
   const auto now = steady_clock::now();
-  if (auto sent = exchange::PublishAll(*exchange_, outbox_.Tick(now)); !sent) {
+  const auto told = [this, now](const exchange::Message& message, bool sent) {
+    if (!sent) outbox_.NotSent(message, now);
+  };
+  if (auto sent = exchange::PublishAll(*exchange_, outbox_.Tick(now), told); !sent) {
     spdlog::debug("{}", sent.error().message);
   }
   for (const Error& error : outbox_.TakeReadErrors()) {

@@ -15,6 +15,13 @@ void AnswerQueue::Ask(const route::RouteKey& key, std::span<const SegmentIndex> 
   }
 }
 
+void AnswerQueue::PutBack(const route::RouteKey& key, SegmentIndex index, Time now) {
+  Asked& asked = asked_[key];
+  asked.sent.erase(index);
+  asked.indices.insert(index);
+  asked.due_at = now + options_.again_after;
+}
+
 AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const ReadPiece& read) {
   Answers due;
   std::size_t bytes = 0;

@@ -214,13 +214,30 @@ void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
   }
 }
 
-void RouteKeeper::CountSent(const Message& message) {
+void RouteKeeper::Sent(const Message& message) {
   const auto* batch = std::get_if<SegmentBatch>(&message);
   if (batch == nullptr) return;
   for (const SegmentPiece& piece : batch->pieces) {
     if (piece.bytes.empty()) continue;
     ++counters_.answered;
     counters_.answered_bytes += piece.bytes.size();
+  }
+}
+
+void RouteKeeper::NotSent(const Message& message, Time now) {
+  constexpr std::size_t kMostReplies = 32;  // who waits for more asks again
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    for (const SegmentPiece& piece : batch->pieces) {
+      if (!piece.bytes.empty()) answers_.PutBack(piece.key, piece.index, now);
+    }
+  } else if (const auto* announced = std::get_if<RouteAnnouncement>(&message)) {
+    const auto kept = routes_.find(announced->info.key);
+    if (kept != routes_.end()) kept->second.announce_due = kept->second.resend_due = true;
+  } else if (const auto* receipt = std::get_if<Receipt>(&message)) {
+    const auto kept = routes_.find(receipt->key);
+    if (kept != routes_.end()) kept->second.receipt_due = true;
+  } else if (std::holds_alternative<CatalogReply>(message) && replies_.size() < kMostReplies) {
+    replies_.push_back(message);
   }
 }
 

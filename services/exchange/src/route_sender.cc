@@ -128,6 +128,21 @@ std::vector<Message> RouteSender::Tick(Time now) {
   return messages;
 }
 
+void RouteSender::NotSent(const Message& message, Time now) {
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    for (const route::SegmentPiece& piece : batch->pieces) {
+      if (piece.key != info_.key || deleted()) continue;
+      if (piece.bytes.empty()) {
+        to_stream_.push_back(piece);
+      } else {
+        answers_.PutBack(piece.key, piece.index, now);
+      }
+    }
+  } else if (const auto* announced = std::get_if<RouteAnnouncement>(&message)) {
+    changed_ |= announced->info.key == info_.key;
+  }
+}
+
 std::vector<SegmentIndex> RouteSender::TakeNewlyReceipted() {
   return std::exchange(newly_receipted_, {});
 }

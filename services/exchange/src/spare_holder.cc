@@ -10,6 +10,8 @@ namespace {
 
 // Of requests that were not answered; beyond it everything counts as asked for the first time.
 constexpr std::size_t kMostRemembered = 100'000;
+// A link that took nothing is tried again after this.
+constexpr std::chrono::milliseconds kAgainAfter{50};
 
 }  // namespace
 
@@ -99,6 +101,16 @@ std::vector<Message> SpareHolder::Tick(Time now) {
   if (batch.pieces.empty()) return messages;
   for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
   return messages;
+}
+
+void SpareHolder::NotSent(const Message& message, Time now) {
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    for (const route::SegmentPiece& piece : batch->pieces) {
+      to_answer_.try_emplace({piece.key, piece.index}, now + kAgainAfter);
+    }
+  } else if (const auto* announced = std::get_if<RouteAnnouncement>(&message)) {
+    to_announce_.try_emplace(announced->info.key, now + kAgainAfter);
+  }
 }
 
 }  // namespace trailcast::exchange

@@ -89,5 +89,17 @@ TEST(AnswerQueue, RoutesAreServedInTurn) {
                                  KeyNumber(2), KeyNumber(3)}));
 }
 
+TEST(AnswerQueue, WhatIsPutBackIsNotOnItsWayAndSentAfterAPause) {
+  AnswerQueue queue({.window = milliseconds(0), .again_after = milliseconds(50)});
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  const auto due = queue.Due(kStart, kPlenty, Read);
+  ASSERT_EQ(due.pieces.size(), 3U);
+  queue.PutBack(KeyNumber(1), SegmentIndex(1), kStart);
+  EXPECT_FALSE(queue.empty());
+  EXPECT_TRUE(queue.Due(kStart + milliseconds(49), kPlenty, Read).pieces.empty());
+  EXPECT_EQ(queue.Due(kStart + milliseconds(50), kPlenty, Read).pieces,
+            std::vector{test::PieceOf(KeyNumber(1), 1, 100)});
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

@@ -172,9 +172,37 @@ TEST_F(RouteKeeperTest, AnswersFollowersWhoAskTogetherOnce) {
   EXPECT_EQ(test::PiecesIn(answers), (std::vector{pieces_[0], pieces_[1]}));
   EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(100))).empty());
   EXPECT_EQ(keeper_->counters().answered, 0U) << "until they are handed over";
-  for (const Message& message : answers) keeper_->CountSent(message);
+  for (const Message& message : answers) keeper_->Sent(message);
   EXPECT_EQ(keeper_->counters().answered, 2U);
   EXPECT_EQ(keeper_->counters().answered_bytes, pieces_[0].bytes.size() + pieces_[1].bytes.size());
+}
+
+TEST_F(RouteKeeperTest, AnswersThatALongStallBlockedAreSentAsSoonAsItIsOver) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  (void)Tick();
+  Ask("follower-1", Indices(0, 2));
+  for (int tick = 0; tick < 100; ++tick) {  // 10 s; whoever asked has asked before that
+    for (const Message& message : TickAfter(milliseconds(100))) keeper_->NotSent(message, now_);
+  }
+  Ask("follower-1", Indices(0, 2));
+  const auto out = TickAfter(milliseconds(100));
+  EXPECT_EQ(test::PiecesIn(out), (std::vector{pieces_[0], pieces_[1]}));
+  for (const Message& message : out) keeper_->Sent(message);
+  EXPECT_EQ(keeper_->counters().answered, 2U);
+  EXPECT_TRUE(test::PiecesIn(TickAfter(milliseconds(100))).empty());
+}
+
+TEST_F(RouteKeeperTest, WhatElseCouldNotBeHandedOverIsSaidAgain) {
+  Announce(2, RouteState::kComplete);
+  Deliver({pieces_[0], pieces_[1]});
+  keeper_->Handle(CatalogRequest{AgentId("client"), 7, {.name = "x"}}, now_);
+  const auto out = Tick();
+  for (const Message& message : out) keeper_->NotSent(message, now_);
+  const auto again = TickAfter(milliseconds(500));
+  EXPECT_EQ(Only<RouteAnnouncement>(again), Only<RouteAnnouncement>(out));
+  EXPECT_EQ(Only<Receipt>(again).size(), 1U);
+  EXPECT_EQ(Only<CatalogReply>(again), Only<CatalogReply>(out));
 }
 
 TEST_F(RouteKeeperTest, RepeatsItsReceiptToAScoutThatMissedIt) {

@@ -61,6 +61,23 @@ TEST_F(RouteSenderTest, StreamsASegmentOnceBeforeTheAnnouncementThatCountsIt) {
   EXPECT_TRUE(TickAfter(sender, milliseconds(100)).empty());
 }
 
+TEST_F(RouteSenderTest, WhatABlockedLinkDidNotTakeIsSentLater) {
+  RouteSender sender = Sender();
+  (void)sender.Tick(now_);
+  Teach(sender);
+  pieces_.push_back(test::PieceOf(key_, 1));
+  route::SegmentPiece taught_before = pieces_.back();
+  taught_before.bytes.clear();
+  sender.Add(taught_before, Info(RouteState::kTeaching));
+  const std::vector<Message> sent = sender.Tick(now_);
+  ASSERT_EQ(test::PiecesIn(sent), (std::vector{pieces_[0], taught_before}));
+  for (const Message& message : sent) sender.NotSent(message, now_);
+  const auto again = TickAfter(sender, milliseconds(100));
+  EXPECT_EQ(test::PiecesIn(again), (std::vector{taught_before, pieces_[0]}));
+  EXPECT_EQ(Only<RouteAnnouncement>(again).size(), 1U);
+  EXPECT_TRUE(TickAfter(sender, milliseconds(100)).empty());
+}
+
 TEST_F(RouteSenderTest, AnnouncesAgainUntilEverythingIsReceipted) {
   RouteSender sender = Sender();
   Teach(sender);

@@ -59,6 +59,17 @@ TEST_F(SpareHolderTest, AnswersWhatTheSameAgentAskedForTwice) {
   EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty()) << "once";
 }
 
+TEST_F(SpareHolderTest, WhatABlockedLinkDidNotTakeIsLentLaterUnlessSomebodyElseDid) {
+  Ask("server", key_, 0, 2);
+  Ask("server", key_, 0, 2);
+  now_ += milliseconds(200);
+  const auto lent = holder_.Tick(now_);
+  ASSERT_EQ(test::PiecesIn(lent).size(), 2U);
+  for (const Message& message : lent) holder_.NotSent(message, now_);
+  holder_.Handle(SegmentBatch{AgentId("scout-1"), {pieces_[0]}}, now_);
+  EXPECT_EQ(SentAfter(milliseconds(100)), std::vector{pieces_[1]});
+}
+
 TEST_F(SpareHolderTest, LeavesItToWhoeverAnswersFirst) {
   Ask("server", key_, 0, 2);
   Ask("server", key_, 0, 2);

@@ -94,6 +94,16 @@ TEST_F(OutboxTest, HasASegmentOnDiskBeforeItIsSent) {
   EXPECT_EQ(sent, 2U);
 }
 
+TEST_F(OutboxTest, WhatABlockedLinkDidNotTakeIsSentLater) {
+  Teach(2);
+  exchange::RouteSender::Time now{};
+  for (const auto& message : outbox_->Tick(now)) outbox_->NotSent(message, now);
+  now += std::chrono::milliseconds(100);
+  const auto again = outbox_->Tick(now);
+  EXPECT_THAT(test::PiecesIn(again), SizeIs(2));
+  EXPECT_THAT(test::Only<exchange::RouteAnnouncement>(again), SizeIs(1));
+}
+
 TEST_F(OutboxTest, IsEmptyOnceAServerHasEverything) {
   Teach(3);
   ASSERT_TRUE(outbox_->Complete(kKey));

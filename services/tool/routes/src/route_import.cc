@@ -88,8 +88,10 @@ class Delivery {
       inquire_at_ = now + kInquireEvery;
       messages.emplace_back(exchange::SegmentRequest{peer_.self, info_.key, {}});
     }
-    // What cannot be sent is asked for.
-    std::ignore = exchange::PublishAll(*peer_.exchange, messages);
+    std::ignore = exchange::PublishAll(*peer_.exchange, messages,
+                                       [&](const exchange::Message& message, bool sent) {
+                                         if (!sent) sender_.NotSent(message, now);
+                                       });
     for (const Error& error : sender_.TakeReadErrors()) return tl::unexpected(error);
     return {};
   }
