@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,8 @@ class RouteFinder {
     bool others = false;  // there are revisions, and none of them is meant
   };
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
+  // All of `servers` have said so.
+  [[nodiscard]] bool IsUnknownTo(const std::set<AgentId>& servers) const;
   // A server's trouble in answering.
   [[nodiscard]] const std::string& error() const { return error_; }
 
@@ -81,7 +84,8 @@ class RouteFinder {
   std::optional<route::RouteInfo> found_;
   std::vector<route::RouteInfo> announced_;  // the latest of each key, at most kMaxAnnounced
   std::vector<route::RouteInfo> rivals_;
-  std::optional<Unknown> unknown_;
+  std::optional<Unknown> unknown_;  // the last such word
+  std::set<AgentId> unknown_to_;    // who said so, at most kMaxAnnounced
   std::string error_;
 };
 

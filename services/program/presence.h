@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "services/exchange/route_exchange.h"
@@ -19,6 +20,9 @@ class Presence {
   using Handler = std::function<void(const exchange::Message&)>;
   // What all agents together may say: every one of them hears every status.
   static constexpr std::chrono::milliseconds kForEachAgent{10};
+  // Strangers can make up names: more are not kept.
+  static constexpr std::size_t kMostAgents = 4096;
+  static constexpr std::size_t kMostServers = 64;
 
   // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
   // status is published every `interval` (less often in a swarm, so that each of its agents has
@@ -41,10 +45,13 @@ class Presence {
   // Publishes now.
   void Publish();
 
-  // A server that was heard and has not gone since.
+  // A server that was heard and has not gone since; of several the same one as long as it is there.
   [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
+  // All of these.
+  [[nodiscard]] std::set<AgentId> servers() const;
 
  private:
+  void HandleServer(const AgentId& agent, std::uint64_t instance, bool is_there);
   // Who claims this one's name did not hear what it said before: tells whose the name is.
   void AnswerClaim(const exchange::AgentStatus& status);
 
@@ -54,8 +61,9 @@ class Presence {
   std::chrono::milliseconds interval_;
   std::optional<exchange::AgentMode> published_mode_;
   Clock::time_point next_{};
-  std::optional<AgentId> server_;
-  std::set<AgentId> others_;  // heard, and not gone since
+  std::optional<AgentId> server_;                        // one of those
+  std::set<std::pair<AgentId, std::uint64_t>> servers_;  // heard and not gone, and their instances
+  std::set<AgentId> others_;                             // heard, and not gone since
 };
 
 // Topics of a role, and the statuses of all agents, overheard where the role does not read them: a

@@ -73,7 +73,10 @@ Result<void> FollowerLink::Find() {
 // Sets route_ when it is clear which one it is; an error when none will be.
 Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInfo>& own) {
   const auto waited = steady_clock::now() - began;
-  const bool settled = finder_.unknown() || waited > kServerPatience;
+  // Of several servers each may have routes of its own.
+  const bool all_answered = finder_.IsUnknownTo(presence_->servers()) || waited > kServerPatience;
+  const bool unknown = finder_.unknown() && all_answered;
+  const bool settled = unknown || waited > kServerPatience;
   if (!finder_.rivals().empty()) return exchange::Ambiguous(options_.route, finder_.rivals());
   if (finder_.found()) {
     route_ = finder_.found();
@@ -83,12 +86,12 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
     route_ = finder_.announced();
   } else if (settled && own) {
     spdlog::warn("{}: following '{}' from {}",
-                 finder_.unknown() ? "the server does not know the route" : "no server answers",
+                 unknown ? "the server does not know the route" : "no server answers",
                  options_.route, options_.store_file);
     route_ = own;
-  } else if (finder_.unknown() && finder_.unknown()->others && !options_.wait_for_route) {
+  } else if (unknown && finder_.unknown()->others && !options_.wait_for_route) {
     return tl::unexpected(NotOffered(finder_.unknown()->server, options_));
-  } else if (finder_.unknown() && !options_.wait_for_route) {
+  } else if (unknown && !options_.wait_for_route) {
     return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
                 finder_.unknown()->server.value(), options_.route,
                 NamesText(finder_.unknown()->similar_names));

@@ -98,7 +98,13 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   rivals_ = FindRivals(meant, which_);
   if (!rivals_.empty()) return;
   found_ = ChooseRoute(meant, which_);
-  if (!found_) unknown_ = Unknown{reply.server, reply.similar_names, !meant.empty()};
+  if (found_) return;
+  unknown_ = Unknown{reply.server, reply.similar_names, !meant.empty()};
+  if (unknown_to_.size() < kMaxAnnounced) unknown_to_.insert(reply.server);
+}
+
+bool RouteFinder::IsUnknownTo(const std::set<AgentId>& servers) const {
+  return std::includes(unknown_to_.begin(), unknown_to_.end(), servers.begin(), servers.end());
 }
 
 std::vector<exchange::Message> RouteFinder::Tick(Time now) {

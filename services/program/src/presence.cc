@@ -43,18 +43,31 @@ Result<void> Presence::Claim(const Handler& handle, const std::function<bool()>&
 void Presence::Handle(const exchange::Message& message) {
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
     others_.erase(gone->agent);
-    if (server_ == gone->agent) server_.reset();
+    HandleServer(gone->agent, gone->instance, false);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
-    others_.insert(status->agent);
+    if (others_.size() < kMostAgents) others_.insert(status->agent);
     AnswerClaim(*status);
     if (status->role != exchange::AgentRole::kServer) return;
-    const bool ended = status->mode == exchange::AgentMode::kStopped;
-    if (!ended) {
-      server_ = status->agent;
-    } else if (server_ == status->agent) {
-      server_.reset();
-    }
+    HandleServer(status->agent, status->instance, status->mode != exchange::AgentMode::kStopped);
   }
+}
+
+void Presence::HandleServer(const AgentId& agent, std::uint64_t instance, bool is_there) {
+  if (!is_there) {
+    servers_.erase({agent, instance});
+  } else if (servers_.size() < kMostServers) {
+    servers_.emplace(agent, instance);
+  }
+  const auto of_same = [this](const auto& each) { return each.first == *server_; };
+  if (server_ && std::any_of(servers_.begin(), servers_.end(), of_same)) return;
+  server_.reset();
+  if (!servers_.empty()) server_ = servers_.begin()->first;
+}
+
+std::set<AgentId> Presence::servers() const {
+  std::set<AgentId> names;
+  for (const auto& [agent, instance] : servers_) names.insert(agent);
+  return names;
 }
 
 void Presence::AnswerClaim(const exchange::AgentStatus& status) {

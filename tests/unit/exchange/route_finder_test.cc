@@ -49,6 +49,17 @@ TEST_F(RouteFinderTest, AsksForTheNameAgainEachSecondUntilItIsFound) {
   EXPECT_EQ(Ask(milliseconds(9000)), 0U);
 }
 
+TEST_F(RouteFinderTest, ARouteThatOneServerLacksMayBeAnothers) {
+  const AgentId other("server-2");
+  Ask(milliseconds(0));
+  EXPECT_FALSE(finder_.IsUnknownTo({kServer, other}));
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {}, {}, ""});
+  EXPECT_FALSE(finder_.IsUnknownTo({kServer, other}));
+  EXPECT_TRUE(finder_.IsUnknownTo({kServer}));
+  finder_.Handle(CatalogReply{other, kSelf, 1, {}, {}, ""});
+  EXPECT_TRUE(finder_.IsUnknownTo({kServer, other}));
+}
+
 TEST_F(RouteFinderTest, TakesTheNewestCompleteRevision) {
   Ask(milliseconds(0));
   finder_.Handle(CatalogReply{kServer,

@@ -100,6 +100,47 @@ TEST_F(PresenceTest, KnowsTheServerUntilItIsGone) {
   EXPECT_FALSE(presence.server());
 }
 
+TEST_F(PresenceTest, OfSeveralServersItKnowsOneThatIsThere) {
+  const auto end = Open();
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
+  const auto say = [&](const std::string& name, std::uint64_t instance, AgentMode mode) {
+    auto server = Status(name, instance, mode);
+    server.role = exchange::AgentRole::kServer;
+    presence.Handle(server);
+  };
+  say("first", 1, AgentMode::kWaiting);
+  say("second", 2, AgentMode::kWaiting);
+  EXPECT_EQ(presence.server(), AgentId("first")) << "it is still there";
+  EXPECT_EQ(presence.servers(), (std::set{AgentId("first"), AgentId("second")}));
+  presence.Handle(exchange::AgentGone{AgentId("second"), 2});
+  EXPECT_EQ(presence.server(), AgentId("first")) << "though the other was heard last";
+  say("second", 3, AgentMode::kWaiting);
+  say("first", 1, AgentMode::kStopped);
+  EXPECT_EQ(presence.server(), AgentId("second"));
+  say("second", 4, AgentMode::kWaiting);
+  presence.Handle(exchange::AgentGone{AgentId("second"), 3});
+  EXPECT_EQ(presence.server(), AgentId("second")) << "it was started anew";
+  presence.Handle(exchange::AgentGone{AgentId("second"), 4});
+  EXPECT_FALSE(presence.server());
+}
+
+TEST_F(PresenceTest, MadeUpNamesFillNeitherMemoryNorTime) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
+  for (std::size_t i = 0; i < 3 * Presence::kMostAgents; ++i) {
+    auto server = Status(fmt::format("server-{}", i), i, AgentMode::kWaiting);
+    server.role = exchange::AgentRole::kServer;
+    presence.Handle(server);
+  }
+  EXPECT_EQ(presence.servers().size(), Presence::kMostServers);
+  presence.Publish();
+  (void)peer->Take(std::chrono::milliseconds(0));
+  const auto longest = Presence::kForEachAgent * static_cast<int>(Presence::kMostAgents);
+  presence.Tick(Presence::Clock::now() + longest);
+  EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
+}
+
 TEST_F(PresenceTest, PublishesAChangeOfModeAtOnceAndTheRestAtIntervals) {
   const auto end = Open();
   const auto peer = bus_.Open(exchange::OperatorTopics());
