@@ -7,20 +7,24 @@ namespace trailcast::server {
 void Holders::Note(const exchange::AgentStatus& status, Time now) {
   // One that has just started has not looked yet.
   if (status.mode == exchange::AgentMode::kStarting) return;
-  const auto known = held_.find(status.agent);
-  const bool is_new = known == held_.end();
-  if (is_new && (status.held.empty() || held_.size() >= kMostAgents)) return;
-  Held& agent = held_[status.agent];
+  const bool is_new = held_.Find(status.agent) == nullptr;
+  if (is_new && status.held.empty()) return;
+  Held& agent = held_.Touch(status.agent,
+                            [this](const AgentId& gone, const Held& its) { Forget(gone, its); });
   agent.heard = now;
-  std::vector<route::RouteKey>& held = agent.keys;
-  if (held == status.held) return;
-  for (const route::RouteKey& key : held) {
-    std::set<AgentId>& holders = holders_[key];
-    holders.erase(status.agent);
-    if (holders.empty()) holders_.erase(key);
+  if (agent.keys == status.held) return;
+  Forget(status.agent, agent);
+  agent.keys = status.held;
+  for (const route::RouteKey& key : agent.keys) holders_[key].insert(status.agent);
+}
+
+void Holders::Forget(const AgentId& agent, const Held& held) {
+  for (const route::RouteKey& key : held.keys) {
+    const auto holders = holders_.find(key);
+    if (holders == holders_.end()) continue;  // named twice
+    holders->second.erase(agent);
+    if (holders->second.empty()) holders_.erase(holders);
   }
-  held = status.held;
-  for (const route::RouteKey& key : held) holders_[key].insert(status.agent);
 }
 
 std::vector<exchange::Holding> Holders::Of(const std::vector<route::RouteInfo>& routes,
@@ -31,7 +35,7 @@ std::vector<exchange::Holding> Holders::Of(const std::vector<route::RouteInfo>& 
     if (holders == holders_.end()) continue;
     for (const AgentId& agent : holders->second) {
       if (holdings.size() == exchange::kMaxHoldingsPerReply) return holdings;
-      if (now - held_.at(agent).heard > kForgotten) continue;
+      if (now - held_.Find(agent)->heard > kForgotten) continue;
       holdings.push_back({info.key, agent});
     }
   }

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::server {
@@ -15,6 +16,8 @@ class Holders {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::hours kForgotten{3 * 24};
+  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  static constexpr std::size_t kMostAgents = 4096;
 
   void Note(const exchange::AgentStatus& status, Time now);
   // Of the routes given, as many as a reply carries.
@@ -26,9 +29,9 @@ class Holders {
     std::vector<route::RouteKey> keys;
     Time heard;
   };
-  static constexpr std::size_t kMostAgents = 4096;  // strangers can make up names
+  void Forget(const AgentId& agent, const Held& held);
 
-  std::map<AgentId, Held> held_;
+  NewestMap<AgentId, Held> held_{kMostAgents};
   std::map<route::RouteKey, std::set<AgentId>>
       holders_;  // the same, for the catalog's many questions
 };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <variant>
 
 namespace trailcast::server {
@@ -90,18 +91,18 @@ std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announ
 }
 
 std::optional<std::string> Journal::On(const exchange::AgentStatus& status) {
-  const auto [agent, is_new] = agents_.try_emplace(status.agent, status.instance);
-  const bool again = !is_new && agent->second != status.instance;
-  agent->second = status.instance;
+  const bool is_new = agents_.Find(status.agent) == nullptr;
+  const std::uint64_t before = std::exchange(agents_.Touch(status.agent), status.instance);
+  const bool again = !is_new && before != status.instance;
   if (!is_new && !again) return std::nullopt;
   return fmt::format("{} '{}' is there{}", ToString(status.role), status.agent.value(),
                      again ? " again" : "");
 }
 
 std::optional<std::string> Journal::On(const exchange::AgentGone& gone) {
-  const auto agent = agents_.find(gone.agent);
-  if (agent == agents_.end() || agent->second != gone.instance) return std::nullopt;
-  agents_.erase(agent);
+  const std::uint64_t* instance = agents_.Find(gone.agent);
+  if (instance == nullptr || *instance != gone.instance) return std::nullopt;
+  agents_.Erase(gone.agent);
   return fmt::format("'{}' is gone", gone.agent.value());
 }
 

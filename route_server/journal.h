@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::server {
@@ -12,6 +13,9 @@ namespace trailcast::server {
 // Puts the traffic of a route server into words for its log: what is new, not every message.
 class Journal {
  public:
+  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  static constexpr std::size_t kMostAgents = 4096;
+
   // A message that came in, or one that goes out: a line, or nothing worth one.
   [[nodiscard]] std::optional<std::string> Received(const exchange::Message& message);
   [[nodiscard]] std::optional<std::string> Sent(const exchange::Message& message);
@@ -34,7 +38,8 @@ class Journal {
   [[nodiscard]] Known& KnownOf(const route::RouteKey& key);
 
   std::map<route::RouteKey, Known> routes_;
-  std::map<AgentId, std::uint64_t> agents_;  // present, with their instances
+  // Present, with their instances.
+  NewestMap<AgentId, std::uint64_t> agents_{kMostAgents};
 };
 
 }  // namespace trailcast::server

@@ -32,6 +32,9 @@ class Neighbours {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kRemembered{60};
+  // Strangers can make up names: beyond it the one is forgotten that told of itself the longest
+  // ago.
+  static constexpr std::size_t kMost = 1024;
 
   // `self` is no neighbour of its own, nor is what went by its name before.
   explicit Neighbours(AgentId self) : self_(std::move(self)) {}
@@ -50,6 +53,7 @@ class Neighbours {
     Neighbour neighbour;
   };
   void Handle(const exchange::AgentStatus& status, Time now);
+  void MakeRoom();
 
   AgentId self_;
   std::map<AgentId, Known> known_;

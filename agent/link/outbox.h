@@ -4,8 +4,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "services/base/newest_map.h"
 #include "services/exchange/route_sender.h"
 #include "services/route/manifest.h"
 #include "services/store/route_store.h"
@@ -90,7 +92,7 @@ class Outbox {
   AgentId self_;
   store::RouteStore& store_;
   std::map<route::RouteKey, Sending> sending_;
-  std::set<AgentId> servers_;  // heard of
+  NewestMap<AgentId, std::monostate> servers_{64};  // heard of
   std::optional<route::RouteKey> spared_;
 };
 

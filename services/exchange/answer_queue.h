@@ -27,6 +27,9 @@ class AnswerQueue {
     std::chrono::milliseconds on_its_way{800};
     // A link that took nothing is tried again after this.
     std::chrono::milliseconds again_after{50};
+    // Segments that are remembered, of all routes: 15 MB. What is asked for beyond has to be asked
+    // for again.
+    std::size_t most{100'000};
   };
 
   explicit AnswerQueue(Options options) : options_(options) {}
@@ -64,8 +67,12 @@ class AnswerQueue {
     return now < sent + options_.on_its_way;
   }
 
+  [[nodiscard]] bool HasRoom(Time now);
+
   Options options_;
   std::map<route::RouteKey, Asked> asked_;
+  std::size_t remembered_ = 0;  // segments in asked_
+  Time cleared_at_{};           // of what is no longer on its way
   route::RouteKey served_last_;
 };
 

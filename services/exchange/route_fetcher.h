@@ -24,6 +24,8 @@ struct RouteFetcherOptions {
   // Bytes with this digest that the owner has already, in other revisions of the route. If set,
   // digests are asked for first, and bytes only of what is new.
   std::function<std::optional<route::Bytes>(const route::Digest&)> own_content{};
+  // What followers lend is kept in memory until all of it is there, and proven: so much of it.
+  std::size_t most_borrowed_bytes = 64U << 20U;
 };
 
 enum class FetchState : std::uint8_t {
@@ -101,6 +103,7 @@ class RouteFetcher {
   // Lent by a follower, which may be mistaken or lie: not given out before the manifest of the
   // complete route proves them all.
   std::map<SegmentIndex, route::SegmentPiece> borrowed_;
+  std::size_t borrowed_bytes_ = 0;
   bool borrows_ = true;  // no more once they proved wrong: a liar would keep it busy for ever
   std::set<SegmentIndex> asked_digest_;  // of these: now the bytes are asked for
   std::optional<FetchState> verdict_;    // kComplete or kWrong, once all is held

@@ -1,5 +1,6 @@
 #include "agent/link/neighbours.h"
 
+#include <algorithm>
 #include <variant>
 
 namespace trailcast::agent {
@@ -21,11 +22,19 @@ void Neighbours::Handle(const exchange::AgentStatus& status, Time now) {
   if (status.mode == exchange::AgentMode::kArrived) {
     known_.erase(status.agent);
   } else if (status.place) {
+    if (known_.size() >= kMost && !known_.contains(status.agent)) MakeRoom();
     known_[status.agent] = {
         status.instance,
         status.place->key,
         {status.agent, status.place->along_m, status.speed_mps, now, /*heard=*/true}};
   }
+}
+
+void Neighbours::MakeRoom() {
+  const auto told_earlier = [](const auto& a, const auto& b) {
+    return a.second.neighbour.told_at < b.second.neighbour.told_at;
+  };
+  known_.erase(std::min_element(known_.begin(), known_.end(), told_earlier));
 }
 
 std::vector<Neighbour> Neighbours::On(const route::RouteKey& route) const {

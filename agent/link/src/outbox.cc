@@ -112,14 +112,14 @@ Result<void> Outbox::Complete(const route::RouteKey& key, bool cut_off) {
 
 void Outbox::Handle(const exchange::Message& message, Time now) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
-    if (status->role == exchange::AgentRole::kServer) servers_.insert(status->agent);
+    if (status->role == exchange::AgentRole::kServer) servers_.Touch(status->agent);
   }
   if (const auto* request = std::get_if<exchange::SegmentRequest>(&message)) OfferAgain(*request);
   for (auto& [key, sending] : sending_) sending.sender.Handle(message, now);
 }
 
 void Outbox::OfferAgain(const exchange::SegmentRequest& request) {
-  if (!request.lacking.empty() || !servers_.contains(request.requester)) return;
+  if (!request.lacking.empty() || servers_.Find(request.requester) == nullptr) return;
   if (sending_.contains(request.key)) return;
   auto info = store_.FindRoute(request.key);
   if (!info || !*info || (*info)->state != route::RouteState::kComplete) return;

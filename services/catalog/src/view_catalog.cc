@@ -103,7 +103,9 @@ Result<route::Segment> ViewCatalog::Read(const Place& place) {
 }
 
 void ViewCatalog::Note(const route::RouteKey& key) {
-  if (!index_.full()) noted_.insert(key);
+  // Strangers can make up routes; what is beyond is found by the walk after the next start.
+  constexpr std::size_t kMostNoted = 65'536;
+  if (!index_.full() && noted_.size() < kMostNoted) noted_.insert(key);
 }
 
 std::vector<view::ViewIndex::Place> ViewCatalog::TakeDamaged() {

@@ -11,14 +11,29 @@ void AnswerQueue::Ask(const route::RouteKey& key, std::span<const SegmentIndex> 
   if (is_new) asked.due_at = now + options_.window;
   for (const SegmentIndex index : indices) {
     const auto sent = asked.sent.find(index);
-    if (sent == asked.sent.end() || !IsOnItsWay(sent->second, now)) asked.indices.insert(index);
+    if (sent != asked.sent.end() && IsOnItsWay(sent->second, now)) continue;
+    if (!HasRoom(now)) return;
+    remembered_ += asked.indices.insert(index).second ? 1U : 0U;
   }
+}
+
+// What is no longer on its way makes room.
+bool AnswerQueue::HasRoom(Time now) {
+  if (remembered_ < options_.most) return true;
+  if (now < cleared_at_ + options_.on_its_way) return false;
+  cleared_at_ = now;
+  remembered_ = 0;
+  for (auto& [key, asked] : asked_) {
+    std::erase_if(asked.sent, [&](const auto& sent) { return !IsOnItsWay(sent.second, now); });
+    remembered_ += asked.sent.size() + asked.indices.size();
+  }
+  return remembered_ < options_.most;
 }
 
 void AnswerQueue::PutBack(const route::RouteKey& key, SegmentIndex index, Time now) {
   Asked& asked = asked_[key];
-  asked.sent.erase(index);
-  asked.indices.insert(index);
+  remembered_ -= asked.sent.erase(index);
+  remembered_ += asked.indices.insert(index).second ? 1U : 0U;
   asked.due_at = now + options_.again_after;
 }
 
@@ -37,16 +52,20 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
     while (!asked.indices.empty() && bytes < max_bytes) {
       const SegmentIndex index = *asked.indices.begin();
       asked.indices.erase(asked.indices.begin());
+      --remembered_;
       auto piece = read(key, index);
       if (piece) {
         bytes += piece->bytes.size();
-        asked.sent[index] = asked.sent_last = now;
+        remembered_ += asked.sent.insert_or_assign(index, now).second ? 1U : 0U;
+        asked.sent_last = now;
         due.pieces.push_back(*std::move(piece));
       } else {
         due.unreadable.push_back({key, index, piece.error()});
       }
     }
-    if (asked.indices.empty() && !IsOnItsWay(asked.sent_last, now)) asked_.erase(key);
+    if (!asked.indices.empty() || IsOnItsWay(asked.sent_last, now)) continue;
+    remembered_ -= asked.sent.size();
+    asked_.erase(key);
   }
   return due;
 }

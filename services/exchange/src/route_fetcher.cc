@@ -96,7 +96,9 @@ void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
   }
   heard_at_ = now;
   held_.emplace(piece.index, piece.digest);
-  borrowed_.erase(piece.index);
+  if (const auto lent = borrowed_.extract(piece.index)) {
+    borrowed_bytes_ -= lent.mapped().bytes.size();
+  }
   want_.Arrived(piece.index, now);
   arrived_.push_back(piece);
   Judge(now);
@@ -107,12 +109,14 @@ void RouteFetcher::Borrow(const route::SegmentPiece& piece, Time now) {
   const bool wanted = borrows_ && complete && piece.index.value() < info_->segment_count &&
                       !held_.contains(piece.index) && !borrowed_.contains(piece.index);
   if (!wanted || piece.bytes.empty()) return;
+  if (borrowed_bytes_ + piece.bytes.size() > options_.most_borrowed_bytes) return;
   if (!integrity_.check_piece(piece)) {
     ++counts_.bad_pieces;
     return;
   }
   heard_at_ = now;
   borrowed_.emplace(piece.index, piece);
+  borrowed_bytes_ += piece.bytes.size();
   want_.Arrived(piece.index, now);
   Judge(now);
 }
@@ -121,6 +125,7 @@ void RouteFetcher::ReturnBorrowed(Time now) {
   counts_.bad_pieces += borrowed_.size();
   for (const auto& [index, piece] : borrowed_) want_.Want(index, now);
   borrowed_.clear();
+  borrowed_bytes_ = 0;
   borrows_ = false;
 }
 

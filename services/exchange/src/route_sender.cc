@@ -48,7 +48,8 @@ std::optional<route::RouteInfo> RouteSender::TakeNumbered() {
 void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
   if (request.key != info_.key) return;
   if (request.lacking.empty()) changed_ = true;
-  if (left_to_server_.size() > route::kMaxSegmentsPerRoute) left_to_server_.clear();
+  constexpr std::size_t kMostRemembered = 16'384;  // strangers can make up names: 2 MB a route
+  if (left_to_server_.size() > kMostRemembered) left_to_server_.clear();
   std::vector<SegmentIndex> wanted;
   for (const SegmentIndex index : request.lacking) {
     if (index.value() >= info_.segment_count) continue;

@@ -10,6 +10,9 @@ namespace {
 
 // Of requests that were not answered; beyond it everything counts as asked for the first time.
 constexpr std::size_t kMostRemembered = 100'000;
+// Strangers can make up names of servers, and segments to ask for.
+constexpr std::size_t kMostServers = 64;
+constexpr std::size_t kMostToAnswer = 16'384;
 // A link that took nothing is tried again after this.
 constexpr std::chrono::milliseconds kAgainAfter{50};
 
@@ -49,7 +52,7 @@ void SpareHolder::HandleStatus(const AgentStatus& status) {
   if (status.role != AgentRole::kServer) return;
   if (status.mode == AgentMode::kStopped) {
     servers_.erase({status.agent, status.instance});
-  } else {
+  } else if (servers_.size() < kMostServers) {
     servers_.emplace(status.agent, status.instance);
   }
 }
@@ -68,6 +71,7 @@ void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
     const Place place{request.key, index};
     if (asked_once_.emplace(request.requester, place).second) continue;
     asked_once_.erase({request.requester, place});
+    if (to_answer_.size() >= kMostToAnswer) return;  // whoever lacks it asks again
     to_answer_.try_emplace(place, now + patience_);
   }
 }

@@ -125,6 +125,14 @@ TEST_F(ViewCatalogTest, LearnsSegmentsThatItIsToldOfOnceEach) {
   EXPECT_EQ(views.index().size(), 6U);
 }
 
+TEST_F(ViewCatalogTest, RoutesThatAreMadeUpAreNotNotedWithoutEnd) {
+  ViewCatalog views(*store_);
+  for (unsigned i = 0; i < 200'000; ++i) views.Note(KeyNumber(i));
+  int slices = 0;
+  for (; slices < 1000 && !views.Filled(); ++slices) EXPECT_TRUE(views.Fill(1000));
+  EXPECT_LE(slices, 70);
+}
+
 TEST_F(ViewCatalogTest, ForgetsARoute) {
   Put(1, 0, 10);
   Put(2, 0, 10);

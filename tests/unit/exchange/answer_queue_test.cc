@@ -101,5 +101,18 @@ TEST(AnswerQueue, WhatIsPutBackIsNotOnItsWayAndSentAfterAPause) {
             std::vector{test::PieceOf(KeyNumber(1), 1, 100)});
 }
 
+TEST(AnswerQueue, RemembersSoMuchAndNoMore) {
+  AnswerQueue queue({.window = milliseconds(0), .on_its_way = milliseconds(800), .most = 4});
+  queue.Ask(KeyNumber(1), Indices(0, 3), kStart);
+  queue.Ask(KeyNumber(2), Indices(0, 3), kStart);
+  auto now = kStart + milliseconds(100);
+  EXPECT_EQ(queue.Due(now, kPlenty, Read).pieces.size(), 4U);
+  queue.Ask(KeyNumber(3), Indices(0, 1), now);
+  EXPECT_TRUE(queue.empty()) << "four are on their way";
+  now += milliseconds(800);
+  queue.Ask(KeyNumber(3), Indices(0, 9), now);
+  EXPECT_EQ(queue.Due(now, kPlenty, Read).pieces.size(), 4U) << "these have arrived or were lost";
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

@@ -95,6 +95,19 @@ TEST_F(RouteFetcherTest, WhatIsLentIsGivenOutOnceTheManifestProvesIt) {
   EXPECT_EQ(fetcher.TakeArrived().size(), 3U);
 }
 
+TEST_F(RouteFetcherTest, SoMuchIsBorrowedAndNoMore) {
+  RouteFetcherOptions options;
+  options.most_borrowed_bytes = 250;  // two pieces of 100
+  RouteFetcher fetcher(AgentId("follower-1"), key_, {}, test::ToyIntegrity(), now_, options);
+  Announce(fetcher, 4, RouteState::kComplete);
+  Lend(fetcher, {pieces_[0], pieces_[1], pieces_[2]});
+  EXPECT_EQ(AskedAfter(fetcher, milliseconds(200)), Indices(2, 4));
+  Deliver(fetcher, pieces_[0]);
+  Lend(fetcher, {pieces_[2]});
+  Deliver(fetcher, pieces_[3]);
+  EXPECT_TRUE(fetcher.Complete()) << "what is given, not lent, makes room";
+}
+
 TEST_F(RouteFetcherTest, WhatIsLentAndProvesWrongIsAskedForAgainAndNoMoreIsBorrowed) {
   RouteFetcher fetcher = Fetcher();
   Announce(fetcher, 2, RouteState::kComplete);

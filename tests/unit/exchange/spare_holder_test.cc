@@ -103,6 +103,23 @@ TEST_F(SpareHolderTest, AnswersForWholeRevisionsOnlyAndForWhatItCanRead) {
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[3]});
 }
 
+TEST_F(SpareHolderTest, AFloodOfRequestsIsNotRememberedWithoutEnd) {
+  int read = 0;
+  SpareHolder holder(AgentId("robot-7"),
+                     [&](const route::RouteKey&, SegmentIndex) -> Result<route::SegmentPiece> {
+                       ++read;
+                       return Fail(ErrorCode::kNotFound, "made up");
+                     });
+  holder.Hold({key_});
+  for (std::uint32_t first = 0; first < 50'000; first += 1000) {
+    for (int time = 0; time < 2; ++time) {
+      holder.Handle(SegmentRequest{AgentId("server"), key_, Indices(first, first + 1000)}, now_);
+    }
+  }
+  (void)holder.Tick(now_ + milliseconds(1000));
+  EXPECT_EQ(read, 16'384);
+}
+
 TEST_F(SpareHolderTest, SendsALongAnswerInParts) {
   const auto many = test::PiecesOf(key_, 64, 5000);
   SpareHolder holder(

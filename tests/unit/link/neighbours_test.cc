@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/pieces.h"
 
 namespace trailcast::agent {
@@ -124,6 +126,17 @@ TEST_F(NeighboursTest, ARestartedAgentStaysWhereItWasUntilItHasFoundItself) {
   Hear(AgentGone{AgentId("a"), 1}, seconds(5));
   EXPECT_EQ(Places(), These{4.2});
   EXPECT_TRUE(neighbours_.On(KeyNumber(1))[0].heard) << "only its last life is over";
+}
+
+TEST_F(NeighboursTest, MadeUpNamesDoNotCrowdOutWhoIsHeard) {
+  for (std::size_t i = 0; i < 2 * Neighbours::kMost; ++i) {
+    if (i % 100 == 0) Hear(Follower("robot", 3.0), seconds(i));
+    Hear(Follower(fmt::format("made-up-{}", i), 2.0), seconds(i));
+  }
+  const auto on = neighbours_.On(KeyNumber(1));
+  EXPECT_EQ(on.size(), Neighbours::kMost);
+  EXPECT_TRUE(std::any_of(on.begin(), on.end(),
+                          [](const Neighbour& other) { return other.agent == AgentId("robot"); }));
 }
 
 }  // namespace

@@ -59,5 +59,22 @@ TEST(Holders, OneThatHasJustStartedHasNotLookedYet) {
   EXPECT_THAT(holders.Of(Page(kOld), kNow), IsEmpty());
 }
 
+TEST(Holders, MadeUpNamesDoNotCrowdOutWhoIsHeard) {
+  Holders holders;
+  holders.Note(Status("robot-1", {kOld}), kNow);
+  for (std::size_t i = 0; i < 2 * Holders::kMostAgents; ++i) {
+    holders.Note(Status(fmt::format("made-up-{}", i), {kNew}), kNow);
+    if (i % 1000 == 0) holders.Note(Status("robot-1", {kOld}), kNow);
+  }
+  EXPECT_THAT(holders.Of(Page(kOld), kNow),
+              ElementsAre(exchange::Holding{kOld, AgentId("robot-1")}));
+  const AgentId first("made-up-0");
+  for (const exchange::Holding& holding : holders.Of(Page(kNew), kNow)) {
+    EXPECT_NE(holding.agent, first) << "the oldest go";
+  }
+  holders.Note(Status("robot-2", {kOld}), kNow);
+  EXPECT_EQ(holders.Of(Page(kOld), kNow).size(), 2U) << "there is room for who is new";
+}
+
 }  // namespace
 }  // namespace trailcast::server

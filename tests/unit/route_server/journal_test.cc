@@ -84,5 +84,16 @@ TEST(JournalTest, TellsWhatFollowersAskFor) {
             "'robot2' asks for 2 segments of 'hall' revision 1, from 4 on");
 }
 
+TEST(JournalTest, ForgetsAgentsRatherThanGrow) {
+  Journal journal;
+  exchange::AgentStatus status;
+  for (std::size_t i = 0; i < 2 * Journal::kMostAgents; ++i) {
+    status.agent = AgentId(fmt::format("made-up-{}", i));
+    EXPECT_TRUE(journal.Received(status));
+  }
+  EXPECT_EQ(journal.agents(), Journal::kMostAgents);
+  EXPECT_EQ(journal.Received(status), std::nullopt) << "the newest are known";
+}
+
 }  // namespace
 }  // namespace trailcast::server
