@@ -36,6 +36,7 @@ struct HttpOptions {
 struct StoreOptions {
   std::string location;
   std::uint64_t limit_mb = 0;
+  std::uint64_t quota_mb = 0;  // of each scout
   std::uint32_t keep_revisions = 0;
   std::uint32_t keep_days = 0;
 };
@@ -61,6 +62,25 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "stored here; 0: never")
       ->check(CLI::Range(0, 36500))
       ->envname("TRAILCAST_KEEP_DAYS");
+}
+
+void AddQuotaOptions(CLI::App& app, trailcast::server::QuotaOptions& options,
+                     std::uint64_t& stored_mb) {
+  app.add_option("--quota-segments-per-s", options.segments_per_s,
+                 "How many segments a second are taken from an agent, or sent to it; the others "
+                 "later; 0: as many as there are")
+      ->envname("TRAILCAST_QUOTA_SEGMENTS_PER_S");
+  app.add_option("--quota-mb", stored_mb,
+                 "How much the routes of one scout may take here, in megabytes; its scout is told, "
+                 "and keeps what it taught; 0: any amount")
+      ->envname("TRAILCAST_QUOTA_MB");
+  app.add_option("--quota-routes", options.routes,
+                 "How many routes of one scout are kept here, revisions counted; 0: any number")
+      ->envname("TRAILCAST_QUOTA_ROUTES");
+  app.add_option("--quota-requests-per-s", options.requests_per_s,
+                 "How many questions and edits a second are taken from a client; the others are "
+                 "answered with an error; 0: any number")
+      ->envname("TRAILCAST_QUOTA_REQUESTS_PER_S");
 }
 
 // A damaged file is served as far as it is whole.
@@ -91,7 +111,7 @@ void KeepHeapWhole() {
 }
 
 int Serve(const CLI::App& app, const program::CommonOptions& common, const StoreOptions& options,
-          const HttpOptions& http) {
+          trailcast::server::QuotaOptions quotas, const HttpOptions& http) {
   KeepHeapWhole();
   program::SetUpLog(common);
   const program::StopSignal stop;
@@ -107,6 +127,8 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};
   if (policy.any()) (*server)->Retain(policy);
+  quotas.stored_bytes = options.quota_mb * 1'000'000;
+  if (quotas.any()) (*server)->Limit(quotas);
   if (http.port != 0) {
     auto page = trailcast::server::HttpPage::Open(http.host, http.port);
     if (!page) return program::Complain(app, page.error());
@@ -134,6 +156,8 @@ int Run(int argc, char** argv) {
   StoreOptions store;
   program::AddCommonOptions(app, common);
   AddStoreOptions(app, store);
+  trailcast::server::QuotaOptions quotas;
+  AddQuotaOptions(app, quotas, store.quota_mb);
   HttpOptions http;
   app.add_option("--http-port", http.port,
                  "Serve /health and /metrics (Prometheus) over HTTP on this port; 0: do not")
@@ -151,7 +175,7 @@ int Run(int argc, char** argv) {
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   if (health->parsed()) return program::RunHealth(app, common);
   if (check->parsed()) return CheckStore(app, store.location, repair);
-  return Serve(app, common, store, http);
+  return Serve(app, common, store, quotas, http);
 }
 
 }  // namespace

@@ -61,6 +61,15 @@ std::string Metrics::Text() const {
            keeper.damaged) +
       Line("segments_repaired_total", kCounter, "Damaged segments replaced by what a holder had.",
            keeper.repaired) +
+      Line("requests_refused_total", kCounter,
+           "Requests of the catalog and edits that were refused, as too many waited.",
+           requests_refused) +
+      Line("over_quota_segments_total", kCounter, "Segments not taken, or not sent, for a quota.",
+           over_quota.segments) +
+      Line("over_quota_routes_total", kCounter, "Announcements of new routes beyond a quota.",
+           over_quota.routes) +
+      Line("over_quota_requests_total", kCounter, "Requests refused for a quota.",
+           over_quota.requests) +
       Line("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
   text += fmt::format(

@@ -33,7 +33,13 @@ class LatencyHistogram {
 // (https://prometheus.io/docs/instrumenting/exposition_formats/).
 struct Metrics {
   exchange::KeeperCounters keeper;
-  std::uint64_t dropped = 0;                        // messages out of bounds or unreadable
+  std::uint64_t dropped = 0;           // messages out of bounds or unreadable
+  std::uint64_t requests_refused = 0;  // too many waited
+  struct {
+    std::uint64_t segments = 0;  // not taken, or not sent
+    std::uint64_t routes = 0;    // announcements that were not taken
+    std::uint64_t requests = 0;
+  } over_quota{};
   std::size_t routes = 0;                           // in the store
   std::size_t backlog = 0;                          // segments announced, not durable yet
   std::size_t agents = 0;                           // present

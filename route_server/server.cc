@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "services/catalog/catalog.h"
 #include "services/catalog/editing.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
@@ -87,6 +86,11 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
 }
 
 void Server::Receive(const exchange::Message& message) {
+  if (std::holds_alternative<exchange::CatalogRequest>(message) ||
+      std::holds_alternative<exchange::RouteEditRequest>(message)) {
+    ReceiveRequest(message);
+    return;
+  }
   presence_.Handle(message);
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
@@ -95,7 +99,11 @@ void Server::Receive(const exchange::Message& message) {
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
   }
-  keeper_->Handle(message, steady_clock::now());
+  if (!quotas_) {
+    keeper_->Handle(message, steady_clock::now());
+  } else if (const auto allowed = WithinQuotas(message)) {
+    keeper_->Handle(*allowed, steady_clock::now());
+  }
 }
 
 // Another server may have put it into the store that both share.
@@ -106,28 +114,11 @@ void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
 }
 
 void Server::Serve() {
-  const milliseconds wait = !views_.Filled() && !views_wait_ ? milliseconds(0)
-                            : keeper_->answering()           ? kWaitAnswering
-                                                             : kWait;
-  for (const exchange::Message& message : exchange_->Take(wait)) Receive(message);
+  for (const exchange::Message& message : exchange_->Take(WaitForMessages())) Receive(message);
+  ServeRequests();
   const auto now = steady_clock::now();
-  const auto outgoing = keeper_->Tick(now);
-  for (const exchange::Message& message : outgoing) {
-    if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
-  }
-  const auto told = [this, now](const exchange::Message& message, bool sent) {
-    sent ? keeper_->Sent(message) : keeper_->NotSent(message, now);
-  };
-  if (auto sent = exchange::PublishAll(*exchange_, outgoing, told); !sent) {
-    spdlog::debug("{}", sent.error().message);
-  }
-  for (const exchange::Note& note : keeper_->TakeNotes()) {
-    spdlog::log(LevelOf(note.severity), "{}", note.text);
-  }
-  if (exchange_->dropped() > told_dropped_) {
-    told_dropped_ = exchange_->dropped();
-    spdlog::warn("{} messages so far were out of bounds or unreadable, and dropped", told_dropped_);
-  }
+  const auto outgoing = Say(now);
+  TellTroubles();
   FillViews(outgoing);
   ShowStatus(exchange::AgentMode::kWaiting,
              fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
@@ -140,6 +131,39 @@ void Server::Serve() {
   if (page_ && now >= metrics_due_) {
     metrics_due_ = now + kMetricsEvery;
     ShowMetrics();
+  }
+}
+
+milliseconds Server::WaitForMessages() const {
+  const bool views_due = !views_.Filled() && !views_wait_;
+  if (views_due || !requests_.empty()) return milliseconds(0);
+  return keeper_->answering() ? kWaitAnswering : kWait;
+}
+
+std::vector<exchange::Message> Server::Say(steady_clock::time_point now) {
+  auto outgoing = keeper_->Tick(now);
+  for (exchange::Message& refusal : std::exchange(refusals_, {})) {
+    outgoing.push_back(std::move(refusal));
+  }
+  for (const exchange::Message& message : outgoing) {
+    if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
+  }
+  const auto told = [this, now](const exchange::Message& message, bool sent) {
+    sent ? keeper_->Sent(message) : keeper_->NotSent(message, now);
+  };
+  if (auto sent = exchange::PublishAll(*exchange_, outgoing, told); !sent) {
+    spdlog::debug("{}", sent.error().message);
+  }
+  return outgoing;
+}
+
+void Server::TellTroubles() {
+  for (const exchange::Note& note : keeper_->TakeNotes()) {
+    spdlog::log(LevelOf(note.severity), "{}", note.text);
+  }
+  if (exchange_->dropped() > told_dropped_) {
+    told_dropped_ = exchange_->dropped();
+    spdlog::warn("{} messages so far were out of bounds or unreadable, and dropped", told_dropped_);
   }
 }
 
@@ -165,18 +189,6 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
     spdlog::warn("left out of the index of views: {}", filled.error().message);
   }
   if (views_.Filled()) spdlog::debug("{} segments indexed by view", views_.index().size());
-}
-
-exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
-                                             const exchange::CatalogRequest& request) {
-  const auto begin = steady_clock::now();
-  exchange::CatalogReply reply = request.query.view.empty()
-                                     ? catalog::Answer(request, name, *store_)
-                                     : views_.Answer(request, name);
-  reply.holdings = holders_.Of(reply.page.routes, begin);
-  const std::chrono::duration<double> took = steady_clock::now() - begin;
-  metrics_.queries[KindOf(request.query)].Note(took.count());
-  return reply;
 }
 
 void Server::DeleteOutdated() {

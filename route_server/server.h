@@ -9,6 +9,8 @@
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
+#include "route_server/quotas.h"
+#include "route_server/request_queue.h"
 #include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
@@ -28,6 +30,8 @@ class Server {
 
   // Deletes what the policy does not keep, from now on.
   void Retain(const catalog::RetentionPolicy& policy) { retention_.emplace(*store_, policy); }
+  // Nobody may use more than this, from now on.
+  void Limit(const QuotaOptions& options);
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -40,7 +44,19 @@ class Server {
          std::unique_ptr<exchange::RouteExchange> exchange);
 
   void Receive(const exchange::Message& message);
+  void ReceiveRequest(const exchange::Message& request);
+  [[nodiscard]] Result<void> Enqueue(const exchange::Message& request);
+  // Of a message what its sender's quotas allow; nothing if that is nothing.
+  [[nodiscard]] std::optional<exchange::Message> WithinQuotas(const exchange::Message& message);
+  [[nodiscard]] exchange::SegmentBatch WithinQuotas(const exchange::SegmentBatch& batch);
+  [[nodiscard]] Result<void> RouteWithinQuotas(const AgentId& scout, const route::RouteKey& key);
+  [[nodiscard]] Result<Quotas::Stored> LookUp(const AgentId& scout);
   void Serve();
+  [[nodiscard]] std::chrono::milliseconds WaitForMessages() const;
+  void ServeRequests();
+  // Hands over what is due, and returns it.
+  [[nodiscard]] std::vector<exchange::Message> Say(std::chrono::steady_clock::time_point now);
+  void TellTroubles();
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
   void NoteViews(const exchange::RouteAnnouncement& announcement);
@@ -56,6 +72,9 @@ class Server {
   program::Presence presence_;
   Journal journal_;
   Holders holders_;
+  std::optional<Quotas> quotas_;  // none: everybody may use what there is
+  RequestQueue requests_;
+  std::vector<exchange::Message> refusals_;  // of requests, to be sent
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

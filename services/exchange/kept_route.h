@@ -64,7 +64,13 @@ class KeptRoute {
   }
   // The store has no room for the revision, or has again.
   void MarkFull(const std::string& reason) { full_ = reason; }
-  void MarkRoom() { full_.clear(); }
+  void MarkRoom() {
+    if (!over_until_) full_.clear();
+  }
+  // Its scout is over a quota, and is told so until then.
+  void MarkOver(const std::string& reason, Time until);
+  // That time has passed: a receipt is due that says so.
+  void LapseOver(Time now);
 
   // There is something that a receipt could say.
   [[nodiscard]] bool can_receipt() const {
@@ -102,7 +108,8 @@ class KeptRoute {
   // ChainDigest of the first `chained_` segments, kept so that each is hashed in once.
   std::uint32_t chained_ = 0;
   route::Digest chain_{};
-  std::string full_;  // why the store takes nothing; empty: it does
+  std::string full_;                // why the store takes nothing; empty: it does
+  std::optional<Time> over_until_;  // that is a quota, told of until then
 };
 
 }  // namespace trailcast::exchange

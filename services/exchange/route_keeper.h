@@ -22,9 +22,10 @@ struct RouteKeeperOptions {
   WantList::Options want{};
   std::chrono::milliseconds fresh_grace{200};  // as in RouteFetcherOptions
   AnswerQueue::Options answers{};
-  std::chrono::milliseconds announce_every{250};  // at most so often while a route grows
-  std::chrono::milliseconds receipt_again{500};   // at most so often when nothing new is durable
-  std::chrono::milliseconds note_again{10'000};   // the same trouble is reported at most so often
+  std::chrono::milliseconds announce_every{250};    // at most so often while a route grows
+  std::chrono::milliseconds receipt_again{500};     // at most so often when nothing new is durable
+  std::chrono::milliseconds note_again{10'000};     // the same trouble is reported at most so often
+  std::chrono::milliseconds over_quota_told{5000};  // after the last of it was refused
   std::chrono::milliseconds refresh_again{1000};  // the store is looked at again for another's work
   // A slow link holds the caller up for so much, and nothing is received meanwhile.
   std::size_t answer_bytes_per_tick = 128U << 10U;
@@ -61,8 +62,8 @@ struct KeeperCounters {
 // The server's end of the protocol for all routes: makes durable what arrives, says so only then,
 // asks for what it lacks, answers who asks. No clock, no socket: messages in, messages out; the
 // store is its only effect. Other servers may share the store: what they put there counts as held
-// here, and of what all hear alike, as an edit, it lets one do it. Handle everything one Take
-// returned, then Tick: the pieces of one Take are one commit.
+// here, and of what all hear alike, as an edit, it lets one do it. Handle everything
+// one Take returned, then Tick: the pieces of one Take are one commit.
 class RouteKeeper {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -86,6 +87,9 @@ class RouteKeeper {
   // again by a later Tick.
   void Sent(const Message& message);
   void NotSent(const Message& message, Time now);
+
+  // The owner takes nothing, or not all, of the revision for now: its scout is told why.
+  void TellOverQuota(const route::RouteKey& key, const std::string& why, Time now);
 
   // Stores later labels of revisions, in one commit, and has them announced.
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);

@@ -122,6 +122,19 @@ bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
   return is_new;
 }
 
+void KeptRoute::MarkOver(const std::string& reason, Time until) {
+  full_ = reason;
+  over_until_ = until;
+  receipt_due = true;
+}
+
+void KeptRoute::LapseOver(Time now) {
+  if (!over_until_ || now < *over_until_) return;
+  over_until_.reset();
+  full_.clear();
+  receipt_due = true;
+}
+
 std::optional<AgentId> KeptRoute::scout() const {
   const std::optional<route::RouteInfo>& info = stored_ ? stored_ : claim_;
   return info ? std::optional(info->scout) : std::nullopt;

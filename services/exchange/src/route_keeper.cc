@@ -160,7 +160,10 @@ void RouteKeeper::TellDigests(const route::RouteKey& key, const KeptRoute& kept,
     batch.pieces.push_back({key, index, kept.DigestOf(index).value_or(route::Digest{}), {}});
   }
   if (batch.pieces.empty()) return;
-  for (SegmentBatch& part : SplitBatch(std::move(batch))) replies_.emplace_back(std::move(part));
+  constexpr std::size_t kMostReplies = 256;  // 12 MB; who hears nothing asks again
+  for (SegmentBatch& part : SplitBatch(std::move(batch))) {
+    if (replies_.size() < kMostReplies) replies_.emplace_back(std::move(part));
+  }
 }
 
 void RouteKeeper::HandleCatalogRequest(const CatalogRequest& request) {
@@ -176,6 +179,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   std::vector<Message> out = std::exchange(replies_, {});
   Announce(now, out);
   for (auto& [key, kept] : routes_) {
+    kept.LapseOver(now);
     const bool due =
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
     if (due && kept.can_receipt()) {

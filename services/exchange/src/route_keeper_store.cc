@@ -186,6 +186,12 @@ void RouteKeeper::TellFull(std::span<const SegmentPiece> pieces, const Error& er
   }
 }
 
+void RouteKeeper::TellOverQuota(const RouteKey& key, const std::string& why, Time now) {
+  KeptRoute* kept = Find(key, now);
+  if (kept == nullptr) return;
+  kept->MarkOver(PlainText(why, kMaxLineBytes), now + options_.over_quota_told);
+}
+
 void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
   const bool conflict = error.code == ErrorCode::kConflict;
   const bool corrupt = error.code == ErrorCode::kCorrupt;

@@ -257,6 +257,21 @@ TEST_F(RouteKeeperTest, AFullDiskMeansARefusalUntilThereIsRoom) {
   EXPECT_EQ(taken[0].durable_prefix, 1U);
 }
 
+TEST_F(RouteKeeperTest, AScoutOverItsQuotaIsToldSoUntilAWhileAfter) {
+  Announce(2);
+  Deliver({pieces_[0]});
+  keeper_->TellOverQuota(key_, "over quota: one a second", now_);
+  Receipt receipt = Only<Receipt>(Tick()).at(0);
+  EXPECT_EQ(receipt.refusal, Refusal::kFull);
+  EXPECT_EQ(receipt.reason, "over quota: one a second");
+  EXPECT_EQ(receipt.durable_prefix, 1U) << "what was taken is confirmed all the same";
+  Deliver({pieces_[1]});
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(1000))).at(0).refusal, Refusal::kFull);
+  receipt = Only<Receipt>(TickAfter(milliseconds(4000))).at(0);
+  EXPECT_EQ(receipt.refusal, Refusal::kNone);
+  EXPECT_EQ(receipt.durable_prefix, 2U);
+}
+
 TEST_F(RouteKeeperTest, ReportsTheSameTroubleNowAndThen) {
   store_.full = true;
   for (int i = 0; i < 100; ++i) {
@@ -538,6 +553,17 @@ TEST_F(RouteKeeperTest, TellsDigestsAloneToWhoAsksForNoMore) {
   ASSERT_EQ(told[0].pieces.size(), 2U);
   EXPECT_TRUE(told[0].pieces[1].bytes.empty());
   EXPECT_EQ(told[0].pieces[1].digest, pieces_[1].digest);
+}
+
+TEST_F(RouteKeeperTest, AFloodOfRequestsForDigestsIsAnsweredInPart) {
+  Deliver({pieces_[0]});
+  (void)Tick();
+  for (int i = 0; i < 10'000; ++i) {
+    keeper_->Handle(SegmentRequest{AgentId("flood"), key_, Indices(0, 1), true}, now_);
+  }
+  EXPECT_EQ(Only<SegmentBatch>(Tick()).size(), 256U);
+  keeper_->Handle(SegmentRequest{AgentId("robot"), key_, Indices(0, 1), true}, now_);
+  EXPECT_EQ(Only<SegmentBatch>(Tick()).size(), 1U);
 }
 
 }  // namespace

@@ -28,12 +28,14 @@ TEST(Metrics, EachHasItsHelpAndType) {
   Metrics metrics;
   metrics.routes = 7;
   metrics.keeper.appended = 42;
+  metrics.over_quota.segments = 3;
   metrics.queries["name"].Note(0.001);
   const std::string text = metrics.Text();
   EXPECT_THAT(text, HasSubstr("# HELP trailcast_routes "));
   EXPECT_THAT(text, HasSubstr("# TYPE trailcast_routes gauge\ntrailcast_routes 7\n"));
   EXPECT_THAT(text, HasSubstr("# TYPE trailcast_segments_stored_total counter\n"
                               "trailcast_segments_stored_total 42\n"));
+  EXPECT_THAT(text, HasSubstr("\ntrailcast_over_quota_segments_total 3\n"));
   EXPECT_THAT(text, HasSubstr("# TYPE trailcast_catalog_query_seconds histogram\n"));
   EXPECT_THAT(text, HasSubstr("trailcast_catalog_query_seconds_count{kind=\"name\"} 1\n"));
   EXPECT_THAT(text, Not(HasSubstr("\n\n")));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+
+#include "services/base/result.h"
+#include "services/exchange/messages.h"
+
+namespace trailcast::server {
+
+// Of a CatalogRequest or RouteEditRequest.
+[[nodiscard]] const AgentId& ClientOf(const exchange::Message& request);
+
+// What clients ask of the catalog, or want edited, waits here for its turn: the clients are served
+// one after the other, each in the order in which it asked, so that one who asks for much, or
+// slowly, holds up neither the others nor the segments. Bounded.
+class RequestQueue {
+ public:
+  static constexpr std::size_t kMostOfAClient = 16;
+  static constexpr std::size_t kMost = 2048;  // 20 MB, if all of them have a view
+
+  // A CatalogRequest or RouteEditRequest. The same that waits already, asked again, takes its
+  // place. kUnavailable, in words for the reply: too many wait.
+  [[nodiscard]] Result<void> Add(const exchange::Message& request);
+  [[nodiscard]] std::optional<exchange::Message> Next();
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::map<AgentId, std::deque<exchange::Message>> waiting_;  // none of them empty
+  std::size_t size_ = 0;
+  AgentId served_last_;
+};
+
+}  // namespace trailcast::server

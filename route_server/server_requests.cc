@@ -1,0 +1,79 @@
+// What clients ask of the catalog, or want edited.
+#include "route_server/server.h"
+#include "services/catalog/catalog.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// All else waits for so long, and for the request that is being answered then.
+constexpr milliseconds kRequestsASlice{20};
+
+exchange::CatalogReply Refusal(const exchange::Message& request, const AgentId& self,
+                               const std::string& why) {
+  exchange::CatalogReply reply;
+  reply.server = self;
+  if (const auto* query = std::get_if<exchange::CatalogRequest>(&request)) {
+    reply.client = query->client;
+    reply.request = query->request;
+  } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&request)) {
+    reply.client = edit->client;
+    reply.request = edit->request;
+  }
+  reply.error = why;
+  return reply;
+}
+
+}  // namespace
+
+// Who asks wrongly is told so at once: it costs nothing, and what waits is small.
+void Server::ReceiveRequest(const exchange::Message& request) {
+  const auto* query = std::get_if<exchange::CatalogRequest>(&request);
+  const auto possible =
+      query != nullptr ? exchange::CheckQuery(query->query)
+                       : exchange::CheckEdit(std::get<exchange::RouteEditRequest>(request).edit);
+  if (!possible) {
+    keeper_->Handle(request, steady_clock::now());
+  } else if (const auto added = Enqueue(request); !added) {
+    refusals_.emplace_back(Refusal(request, presence_.status().agent, added.error().message));
+  }
+}
+
+Result<void> Server::Enqueue(const exchange::Message& request) {
+  if (quotas_) {
+    const auto allowed = quotas_->TakeRequest(ClientOf(request), steady_clock::now());
+    if (!allowed) {
+      ++metrics_.over_quota.requests;
+      return allowed;
+    }
+  }
+  auto added = requests_.Add(request);
+  if (!added) ++metrics_.requests_refused;
+  return added;
+}
+
+// At least one, and no more than fit into the slice.
+void Server::ServeRequests() {
+  const auto until = steady_clock::now() + kRequestsASlice;
+  while (const auto request = requests_.Next()) {
+    keeper_->Handle(*request, steady_clock::now());
+    if (steady_clock::now() >= until) break;
+  }
+}
+
+exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
+                                             const exchange::CatalogRequest& request) {
+  const auto begin = steady_clock::now();
+  exchange::CatalogReply reply = request.query.view.empty()
+                                     ? catalog::Answer(request, name, *store_)
+                                     : views_.Answer(request, name);
+  reply.holdings = holders_.Of(reply.page.routes, begin);
+  const std::chrono::duration<double> took = steady_clock::now() - begin;
+  metrics_.queries[KindOf(request.query)].Note(took.count());
+  return reply;
+}
+
+}  // namespace trailcast::server

@@ -1,0 +1,165 @@
+#include "route_server/server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include "services/exchange/in_process_exchange.h"
+#include "services/exchange/publish.h"
+#include "services/exchange/route_sender.h"
+#include "services/program/presence.h"
+#include "services/route/digest.h"
+#include "tests/support/memory_store.h"
+
+namespace trailcast::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+// Takes whatever is appended, and thinks for a while about each query.
+class SlowStore : public test::MemoryStore {
+ public:
+  Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override {
+    std::this_thread::sleep_for(milliseconds(10));
+    return MemoryStore::QueryRoutes(query);
+  }
+  Result<void> AppendSegments(std::span<const route::SegmentPiece>) override { return {}; }
+};
+
+class ServerTest : public testing::Test {
+ protected:
+  void Start(const QuotaOptions& quotas = {}) {
+    auto server = Server::Open(AgentId("server"), std::make_unique<SlowStore>(),
+                               bus_.Open(program::WithAgents(exchange::ServerTopics())));
+    server_ = std::move(*server);
+    if (quotas.any()) server_->Limit(quotas);
+    running_ = std::thread([this] { (void)server_->Run([this] { return stopping_.load(); }); });
+  }
+  void TearDown() override {
+    stopping_ = true;
+    running_.join();
+  }
+
+  // The whole route, as its scout has it.
+  static exchange::RouteSender SenderOf(const route::RouteKey& key, std::uint32_t segments) {
+    std::vector<route::SegmentPiece> pieces = test::PiecesOf(key, segments);
+    std::vector<route::Digest> digests;
+    for (route::SegmentPiece& piece : pieces) {
+      piece.digest = route::Sha256(piece.bytes);
+      digests.push_back(piece.digest);
+    }
+    route::RouteInfo info = test::InfoOf(key, pieces, route::RouteState::kComplete);
+    info.manifest_digest = route::ManifestDigest(digests);
+    const auto read = [pieces](SegmentIndex index) -> Result<route::SegmentPiece> {
+      return pieces.at(index.value());
+    };
+    return {info.scout, info, read, exchange::SegmentDigests(digests), {}};
+  }
+  // Until all is receipted, or the server refuses something for a reason like this.
+  static bool Delivers(exchange::RouteSender& sender, exchange::RouteExchange& exchange,
+                       milliseconds within, const std::string& until_refused = {}) {
+    bool refused = false;
+    const auto until = steady_clock::now() + within;
+    while (steady_clock::now() < until && !sender.AllReceipted() && !refused) {
+      for (const exchange::Message& message : exchange.Take(milliseconds(20))) {
+        sender.Handle(message, steady_clock::now());
+      }
+      refused = !until_refused.empty() && sender.refused() &&
+                sender.refused()->reason.find(until_refused) != std::string::npos;
+      (void)exchange::PublishAll(exchange, sender.Tick(steady_clock::now()));
+    }
+    return refused || sender.AllReceipted();
+  }
+  // Messages are taken until one of them, or time, is right.
+  static bool Hears(exchange::RouteExchange& exchange, milliseconds within,
+                    const std::function<bool(const exchange::Message&)>& right) {
+    const auto until = steady_clock::now() + within;
+    while (steady_clock::now() < until) {
+      for (const exchange::Message& message : exchange.Take(milliseconds(20))) {
+        if (right(message)) return true;
+      }
+    }
+    return false;
+  }
+
+  exchange::InProcessBus bus_;
+  std::unique_ptr<Server> server_;
+  std::atomic<bool> stopping_{false};
+  std::thread running_;
+};
+
+TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
+  Start();
+  constexpr int kClients = 500;
+  const auto desk = bus_.Open(exchange::OperatorTopics());
+  ASSERT_TRUE(Hears(*desk, seconds(20), [](const exchange::Message& message) {
+    const auto* status = std::get_if<exchange::AgentStatus>(&message);
+    return status != nullptr && status->mode == exchange::AgentMode::kWaiting;
+  })) << "it serves";
+  for (int i = 0; i < kClients; ++i) {
+    ASSERT_TRUE(desk->Publish(
+        exchange::CatalogRequest{AgentId(fmt::format("client-{}", i)), 1, {.name = "hall"}}));
+  }
+  const auto scout = bus_.Open(exchange::ScoutTopics());
+  route::SegmentPiece piece{test::KeyNumber(1), SegmentIndex(0), {}, {1, 2, 3}};
+  piece.digest = route::Sha256(piece.bytes);
+  ASSERT_TRUE(scout->Publish(exchange::SegmentBatch{AgentId("scout"), {piece}}));
+  EXPECT_TRUE(Hears(*scout, seconds(1), [](const exchange::Message& message) {
+    const auto* receipt = std::get_if<exchange::Receipt>(&message);
+    return receipt != nullptr && receipt->durable_prefix == 1;
+  })) << "a receipt within a second";
+  int statuses = 0;
+  int answered = 0;
+  EXPECT_TRUE(Hears(*desk, seconds(60), [&](const exchange::Message& message) {
+    statuses += std::holds_alternative<exchange::AgentStatus>(message) && answered < kClients;
+    answered += std::holds_alternative<exchange::CatalogReply>(message);
+    return answered == kClients;
+  })) << "all are answered in the end";
+  EXPECT_GE(statuses, 2) << "it tells of itself each second meanwhile";
+}
+
+TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {
+  Start({.segments_per_s = 5});
+  const auto scout = bus_.Open(exchange::ScoutTopics());
+  exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 12);
+  EXPECT_TRUE(Delivers(sender, *scout, seconds(30), "may have 5 segments a second"));
+  EXPECT_FALSE(sender.AllReceipted());
+  EXPECT_TRUE(Delivers(sender, *scout, seconds(60))) << sender.Unreceipted().size() << " left";
+}
+
+TEST_F(ServerTest, ARouteBeyondAScoutsQuotaWaits) {
+  Start({.routes = 1});
+  const auto scout = bus_.Open(exchange::ScoutTopics());
+  exchange::RouteSender first = SenderOf(test::KeyNumber(1), 2);
+  EXPECT_TRUE(Delivers(first, *scout, seconds(30)));
+  exchange::RouteSender second = SenderOf(test::KeyNumber(2), 2);
+  EXPECT_TRUE(Delivers(second, *scout, seconds(30), "may have 1 routes here"));
+  EXPECT_EQ(second.Unreceipted().size(), 2U);
+}
+
+TEST_F(ServerTest, AClientOverItsQuotaIsAnsweredWithTheReason) {
+  Start({.requests_per_s = 1});
+  const auto desk = bus_.Open(exchange::OperatorTopics());
+  for (const std::uint64_t number : {1, 2, 3}) {
+    ASSERT_TRUE(desk->Publish(
+        exchange::CatalogRequest{AgentId("desk"), number, {.name = fmt::format("r{}", number)}}));
+  }
+  int refused = 0;
+  int answered = 0;
+  EXPECT_TRUE(Hears(*desk, seconds(30),
+                    [&](const exchange::Message& message) {
+                      if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
+                        ++(reply->error.find("over quota") != std::string::npos ? refused
+                                                                                : answered);
+                      }
+                      return refused == 2 && answered == 1;
+                    }))
+      << refused << " refused, " << answered << " answered";
+}
+
+}  // namespace
+}  // namespace trailcast::server
