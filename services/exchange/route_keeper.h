@@ -14,6 +14,7 @@
 #include "services/exchange/kept_route.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/missing_routes.h"
+#include "services/exchange/stand_in.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::exchange {
@@ -62,7 +63,7 @@ struct KeeperCounters {
 // The server's end of the protocol for all routes: makes durable what arrives, says so only then,
 // asks for what it lacks, answers who asks. No clock, no socket: messages in, messages out; the
 // store is its only effect. Other servers may share the store: what they put there counts as held
-// here, and of what all hear alike, as an edit, it lets one do it. Handle everything
+// here, and of what all hear alike, as an edit or a request, it lets one do it. Handle everything
 // one Take returned, then Tick: the pieces of one Take are one commit.
 class RouteKeeper {
  public:
@@ -174,6 +175,7 @@ class RouteKeeper {
   std::vector<std::pair<route::RouteKey, SegmentIndex>> appended_;  // that nobody was told of yet
   std::vector<Message> replies_;  // to the catalog's clients; digests
   AnswerQueue answers_;
+  StandIn stand_in_;
   MissingRoutes missing_;
   std::vector<Note> notes_;
   std::map<std::string, Time> noted_at_;

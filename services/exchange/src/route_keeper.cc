@@ -17,7 +17,8 @@ RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog
       catalog_(std::move(catalog)),
       integrity_(std::move(integrity)),
       options_(options),
-      answers_(options.answers) {}
+      answers_(options.answers),
+      stand_in_(self_) {}
 
 Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::RouteStore& store,
                                                        Catalog catalog, Integrity integrity,
@@ -37,6 +38,7 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
 }
 
 void RouteKeeper::Handle(const Message& message, Time now) {
+  stand_in_.Handle(message, now);
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     HandleAnnouncement(*announcement, now);
   } else if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
@@ -149,7 +151,7 @@ void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
   if (request.digests_only) {
     TellDigests(request.key, *kept, held);
   } else {
-    answers_.Ask(request.key, held, now);
+    answers_.Ask(request.key, stand_in_.Mine(request.requester, request.key, held, now), now);
   }
 }
 

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
+#include "services/exchange/in_process_exchange.h"
+#include "services/exchange/publish.h"
 #include "services/exchange/route_keeper.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/pieces.h"
@@ -14,6 +17,7 @@ namespace {
 using route::RouteState;
 using std::chrono::milliseconds;
 using test::Only;
+using testing::ElementsAre;
 using testing::IsEmpty;
 
 constexpr std::size_t kA = 0;
@@ -140,6 +144,68 @@ TEST_F(SharedStoreTest, WhatTheOtherDeletedIsTakenFromNobody) {
   ASSERT_EQ(receipts.size(), 1U);
   EXPECT_EQ(receipts[0].refusal, Refusal::kDeleted);
   EXPECT_THAT(store_.HeldSegments(key_).value(), IsEmpty());
+}
+
+class TwoServersTest : public SharedStoreTest {
+ protected:
+  TwoServersTest() {
+    Complete(kA, 10);
+    for (const std::size_t which : {kA, kB}) {
+      ends_[which] = bus_.Open(ServerTopics());
+      AgentStatus status{.agent = AgentId(fmt::format("server-{}", which)), .instance = which + 1};
+      status.role = AgentRole::kServer;
+      status.mode = AgentMode::kWaiting;
+      EXPECT_TRUE(ends_[which]->Publish(status));
+    }
+    Turn();
+  }
+  // One turn of the loop of each that runs.
+  void Turn() {
+    now_ += milliseconds(20);
+    for (const std::size_t which : {kA, kB}) {
+      if (!ends_[which]) continue;
+      for (const Message& message : ends_[which]->Take(milliseconds(0))) {
+        keepers_[which]->Handle(message, now_);
+      }
+      (void)PublishAll(*ends_[which], keepers_[which]->Tick(now_));
+    }
+  }
+  // Of what it asks for, the segments that the follower is sent within a while, sorted.
+  std::vector<std::uint32_t> SentTo(const std::string& follower,
+                                    const std::vector<SegmentIndex>& ask, milliseconds within) {
+    EXPECT_TRUE(follower_->Publish(SegmentRequest{AgentId(follower), key_, ask}));
+    std::vector<std::uint32_t> sent;
+    for (milliseconds passed{0}; passed < within; passed += milliseconds(20)) {
+      Turn();
+      for (const auto& piece : test::PiecesIn(follower_->Take(milliseconds(0)))) {
+        sent.push_back(piece.index.value());
+      }
+    }
+    std::sort(sent.begin(), sent.end());
+    return sent;
+  }
+
+  InProcessBus bus_;
+  std::array<std::unique_ptr<RouteExchange>, 2> ends_;
+  std::unique_ptr<RouteExchange> follower_ = bus_.Open(FollowerTopics());
+};
+
+TEST_F(TwoServersTest, EachSegmentIsSentOnce) {
+  EXPECT_THAT(SentTo("robot-1", test::Indices(0, 5), milliseconds(2000)),
+              ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(SentTo("robot-2", test::Indices(3, 8), milliseconds(2000)),
+              ElementsAre(3, 4, 5, 6, 7));
+}
+
+TEST_F(TwoServersTest, WhenEitherStopsWithoutAWordTheOtherSendsAll) {
+  for (const std::size_t stopped : {kA, kB}) {
+    std::unique_ptr<RouteExchange> end = std::move(ends_[stopped]);
+    EXPECT_THAT(SentTo(fmt::format("robot-{}", stopped), test::Indices(0, 5), milliseconds(900)),
+                ElementsAre(0, 1, 2, 3, 4))
+        << stopped << " is stopped";
+    ends_[stopped] = std::move(end);
+    (void)ends_[stopped]->Take(milliseconds(0));
+  }
 }
 
 }  // namespace
