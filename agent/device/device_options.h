@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "agent/device/bag_device.h"
 #include "agent/device/recorded_device.h"
 #include "agent/device/ros2_device.h"
 #include "agent/device/simulated_robot.h"
@@ -14,6 +15,7 @@ namespace trailcast::agent {
 // Which robot is behind the agent, as the command line says it.
 struct DeviceOptions {
   RecordedRun recorded;
+  BagRun bag;
   SimulatedRun simulated;
   Ros2Run ros2;
   double sensor_timeout_s = 0.3;
@@ -22,10 +24,10 @@ struct DeviceOptions {
   std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
-  [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty(); }
+  [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }
 };
 
-// Flags of `command`; one of --frames, --sim and --ros2 is required. The scout's differ: a
+// Flags of `command`; one of --frames, --bag, --sim and --ros2 is required. The scout's differ: a
 // simulated one is told a speed, a real one when its drive is over.
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
 

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
+#include "agent/device/src/pose_history.h"
 #include "services/base/result.h"
 #include "services/base/time.h"
 #include "services/motion/motion.h"
 
 namespace trailcast::agent {
 
-// Wheel odometry of a recorded run: poses at rising times, seconds after the run's first frame.
+// Wheel odometry of a recorded run: poses at rising times, seconds
+// after the run's first frame, or by the clock of its frames' own times.
 class OdometryFile {
  public:
   // CSV with the header `t_s,x_m,y_m,heading_rad` (more columns may follow and are not looked at).
@@ -23,15 +24,11 @@ class OdometryFile {
   static constexpr double kSlack_s = 0.5;
 
  private:
-  struct Row {
-    double t_s = 0.0;
-    motion::Pose2 pose;
-  };
-  OdometryFile(std::filesystem::path file, std::vector<Row> rows)
-      : file_(std::move(file)), rows_(std::move(rows)) {}
+  OdometryFile(std::filesystem::path file, PoseHistory poses)
+      : file_(std::move(file)), poses_(std::move(poses)) {}
 
   std::filesystem::path file_;
-  std::vector<Row> rows_;
+  PoseHistory poses_;
 };
 
 }  // namespace trailcast::agent

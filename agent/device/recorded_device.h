@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device/device.h"
 #include "agent/device/odometry_file.h"
@@ -12,9 +13,10 @@
 namespace trailcast::agent {
 
 struct RecordedRun {
-  std::filesystem::path frames;    // a folder of pictures or a video
-  std::filesystem::path odometry;  // empty: vision only
-  std::optional<double> rate_hz;   // nothing: the video's own, or kDefaultRate_hz
+  std::filesystem::path frames;         // a folder of pictures or a video
+  std::filesystem::path odometry;       // empty: vision only
+  std::optional<double> rate_hz;        // nothing: the video's own, or kDefaultRate_hz
+  std::filesystem::path frame_times{};  // a CSV, t_s; empty: by the rate
 };
 
 // A run that was recorded, as fast as it can be read. What it is told to drive has no effect.
@@ -32,11 +34,16 @@ class RecordedDevice final : public RobotDevice {
 
   [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
+  // For people: "30 frames a second", or "frames by their own times".
+  [[nodiscard]] std::string timing() const;
   [[nodiscard]] int width_px() const { return width_; }
 
  private:
   RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,
                  std::optional<OdometryFile> odometry, double rate_hz);
+
+  [[nodiscard]] Result<void> ReadFrameTimes(const std::filesystem::path& file);
+  [[nodiscard]] Result<SensorTime> NextStamp();
 
   std::unique_ptr<image::FrameSequence> frames_;
   std::optional<image::GrayImage> first_;  // until it is handed out
@@ -44,7 +51,9 @@ class RecordedDevice final : public RobotDevice {
   int height_;
   std::optional<OdometryFile> odometry_;
   double rate_hz_;
-  int next_ = 0;  // number of the next frame
+  std::filesystem::path times_file_;
+  std::vector<SensorTime> times_;  // of the frames; empty: by the rate
+  int next_ = 0;                   // number of the next frame
 };
 
 }  // namespace trailcast::agent

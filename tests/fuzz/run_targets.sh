@@ -17,6 +17,7 @@ run_target() {
   local target=$1 log="$findings/$1.log" status=0 seeds=()
   [[ ! -d $here/corpus/$target ]] || seeds+=("$here/corpus/$target")
   [[ $target != segment && $target != route_file ]] || seeds+=("$here/../golden")
+  [[ $target != bag ]] || seeds+=("$here/../unit/bag/others")
   mkdir -p "$build/corpus/$target"
   TMPDIR=$scratch "$build/bin/fuzz_$target" -max_total_time="$seconds" -timeout=20 \
     -rss_limit_mb=2048 -malloc_limit_mb=256 -print_final_stats=1 -artifact_prefix="$findings/$target-" \

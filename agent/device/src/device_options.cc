@@ -17,15 +17,51 @@ CLI::Option* AddRecordedOptions(CLI::App& command, RecordedRun& recorded) {
   frames->group(recording);
   command
       .add_option("--odometry", recorded.odometry,
-                  "CSV t_s,x_m,y_m,heading_rad, times counted from the first frame")
+                  "CSV t_s,x_m,y_m,heading_rad, times counted from the first frame, or by the same "
+                  "clock as --frame-times")
       ->needs(frames)
       ->group(recording);
+  CLI::Option* rate = command
+                          .add_option("--rate", recorded.rate_hz,
+                                      "Frames a second; default: the video's own, or 30")
+                          ->check(CLI::Range(0.1, 1000.0))
+                          ->needs(frames)
+                          ->group(recording);
   command
-      .add_option("--rate", recorded.rate_hz, "Frames a second; default: the video's own, or 30")
-      ->check(CLI::Range(0.1, 1000.0))
+      .add_option("--frame-times", recorded.frame_times,
+                  "CSV t_s: when each frame was taken, a line a frame, in their order")
       ->needs(frames)
+      ->excludes(rate)
       ->group(recording);
   return frames;
+}
+
+CLI::Option* AddBagOption(CLI::App& command, BagRun& run, CLI::Option* frames) {
+  auto* bag = command.add_option("--bag", run.bag,
+                                 "What a robot's own tools recorded: a rosbag2 folder, .db3 or "
+                                 ".mcap file; by --image-topic and --odom-topic, or the only ones "
+                                 "there are");
+  bag->group("Recorded run")->excludes(frames);
+  return bag;
+}
+
+// The topics' options are also a recording's, which finds its own where nothing is said.
+void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
+  for (const char* name : {"--image-topic", "--odom-topic"}) {
+    command.get_option(name)->remove_needs(ros2);
+  }
+  command.callback([&command, &options] {
+    const bool image = command.count("--image-topic") > 0;
+    const bool odometry = command.count("--odom-topic") > 0;
+    if (!options.is_recorded() && !options.is_simulated() && options.ros2.topics.robot.empty()) {
+      throw CLI::RequiredError("--frames, --bag, --sim or --ros2");
+    }
+    if ((image || odometry) && options.bag.bag.empty() && options.ros2.topics.robot.empty()) {
+      throw CLI::RequiresError(image ? "--image-topic" : "--odom-topic", "--ros2 or --bag");
+    }
+    if (image) options.bag.image_topic = options.ros2.topics.image;
+    if (odometry) options.bag.odom_topic = options.ros2.topics.odometry;
+  });
 }
 
 CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scout) {
@@ -150,13 +186,10 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   auto* frames = AddRecordedOptions(command, options.recorded);
   auto* world = AddSimulatedOptions(command, options, scout);
   auto* ros2 = AddRos2Options(command, options, scout);
-  world->excludes(frames);
-  ros2->excludes(frames)->excludes(world);
-  command.callback([&options] {
-    if (!options.is_recorded() && !options.is_simulated() && options.ros2.topics.robot.empty()) {
-      throw CLI::RequiredError("--frames, --sim or --ros2");
-    }
-  });
+  auto* bag = AddBagOption(command, options.bag, frames);
+  world->excludes(frames)->excludes(bag);
+  ros2->excludes(frames)->excludes(bag)->excludes(world);
+  ShareTopics(command, options, ros2);
 }
 
 Result<void> OpenedDevice::WriteTruth(const DeviceOptions& options) const {
@@ -180,9 +213,16 @@ Result<OpenedDevice> OpenDevice(const DeviceOptions& options,
     opened.device = std::move(*device);
     return opened;
   }
+  if (!options.bag.bag.empty()) {
+    auto device = BagDevice::Open(options.bag);
+    if (!device) return tl::unexpected(device.error());
+    spdlog::info("{}: {}", (*device)->camera(), (*device)->sources());
+    opened.device = std::move(*device);
+    return opened;
+  }
   auto device = RecordedDevice::Open(options.recorded);
   if (!device) return tl::unexpected(device.error());
-  spdlog::info("{}, {:g} frames a second{}", (*device)->camera(), (*device)->rate_hz(),
+  spdlog::info("{}, {}{}", (*device)->camera(), (*device)->timing(),
                (*device)->has_odometry() ? ", with odometry" : ", no odometry: vision only");
   opened.device = std::move(*device);
   return opened;

@@ -1,8 +1,6 @@
 #include "agent/device/odometry_file.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "services/base/angles.h"
@@ -37,7 +35,7 @@ Result<void> Follows(const NumberRow& before, const NumberRow& row, const std::s
 Result<OdometryFile> OdometryFile::Read(const std::filesystem::path& file) {
   const auto numbers = ReadNumbers(file, {"t_s", "x_m", "y_m", "heading_rad"});
   if (!numbers) return tl::unexpected(numbers.error());
-  std::vector<Row> rows;
+  PoseHistory poses(std::chrono::nanoseconds::max());
   for (std::size_t i = 0; i < numbers->size(); ++i) {
     const NumberRow& row = (*numbers)[i];
     if (i > 0) {
@@ -45,29 +43,24 @@ Result<OdometryFile> OdometryFile::Read(const std::filesystem::path& file) {
         return tl::unexpected(follows.error());
       }
     }
-    rows.push_back({row.cells[0], {row.cells[1], row.cells[2], row.cells[3]}});
+    poses.Add(FromSeconds(row.cells[0]), {row.cells[1], row.cells[2], row.cells[3]});
   }
-  if (rows.empty()) {
+  if (poses.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "{} holds no odometry, only a header", file.string());
   }
-  return OdometryFile(file, std::move(rows));
+  return OdometryFile(file, std::move(poses));
 }
 
 Result<motion::Pose2> OdometryFile::At(SensorTime time) const {
-  const double t_s = Seconds(time);
-  if (t_s < rows_.front().t_s - kSlack_s || t_s > rows_.back().t_s + kSlack_s) {
+  const SensorTime slack = FromSeconds(kSlack_s);
+  if (time < poses_.oldest() - slack || time > poses_.newest() + slack) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{} covers {:.2f} s to {:.2f} s, but a frame was taken at {:.2f} s: its times must "
-                "count from the first frame, and --rate must be the frames' rate",
-                file_.string(), rows_.front().t_s, rows_.back().t_s, t_s);
+                "count from the first frame, and --rate must be the frames' rate, or --frame-times "
+                "say when frames were taken by the same clock",
+                file_.string(), Seconds(poses_.oldest()), Seconds(poses_.newest()), Seconds(time));
   }
-  const auto after = std::lower_bound(rows_.begin(), rows_.end(), t_s,
-                                      [](const Row& row, double t) { return row.t_s < t; });
-  if (after == rows_.begin()) return rows_.front().pose;
-  if (after == rows_.end()) return rows_.back().pose;
-  const Row& before = *std::prev(after);
-  const double share = (t_s - before.t_s) / (after->t_s - before.t_s);
-  return motion::Interpolate(before.pose, after->pose, share);
+  return poses_.At(time);
 }
 
 }  // namespace trailcast::agent

@@ -3,23 +3,30 @@
 #include <algorithm>
 
 namespace trailcast::agent {
-namespace {
-
-constexpr std::chrono::seconds kKept{2};
-
-}  // namespace
 
 bool PoseHistory::Add(SensorTime stamp, const motion::Pose2& pose) {
   if (!samples_.empty() && stamp <= samples_.back().stamp) return false;
   samples_.push_back({stamp, pose});
-  while (stamp - samples_.front().stamp > kKept) samples_.pop_front();
+  while (stamp - samples_.front().stamp > kept_) samples_.pop_front();
   return true;
 }
 
+std::deque<PoseHistory::Sample>::const_iterator PoseHistory::NotBefore(SensorTime stamp) const {
+  return std::lower_bound(
+      samples_.begin(), samples_.end(), stamp,
+      [](const Sample& sample, SensorTime time) { return sample.stamp < time; });
+}
+
+std::chrono::nanoseconds PoseHistory::FromNearest(SensorTime stamp) const {
+  const auto after = NotBefore(stamp);
+  auto nearest = std::chrono::nanoseconds::max();
+  if (after != samples_.end()) nearest = after->stamp - stamp;
+  if (after != samples_.begin()) nearest = std::min(nearest, stamp - std::prev(after)->stamp);
+  return nearest;
+}
+
 motion::Pose2 PoseHistory::At(SensorTime stamp) const {
-  const auto after =
-      std::lower_bound(samples_.begin(), samples_.end(), stamp,
-                       [](const Sample& sample, SensorTime time) { return sample.stamp < time; });
+  const auto after = NotBefore(stamp);
   if (after == samples_.begin()) return samples_.front().pose;
   if (after == samples_.end()) return samples_.back().pose;
   const Sample& before = *std::prev(after);

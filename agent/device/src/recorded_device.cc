@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/base/number_table.h"
+
 namespace trailcast::agent {
 
 RecordedDevice::RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,
@@ -15,7 +17,34 @@ RecordedDevice::RecordedDevice(std::unique_ptr<image::FrameSequence> frames, ima
   first_ = std::move(first);
 }
 
+Result<void> RecordedDevice::ReadFrameTimes(const std::filesystem::path& file) {
+  times_file_ = file;
+  const auto rows = ReadNumbers(file, {"t_s"});
+  if (!rows) return tl::unexpected(rows.error());
+  for (const NumberRow& row : *rows) {
+    const SensorTime time = FromSeconds(row.cells[0]);
+    if (!times_.empty() && time <= times_.back()) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "{}, line {}: time {} s does not come after the line before", file.string(),
+                  row.line, row.cells[0]);
+    }
+    times_.push_back(time);
+  }
+  const auto frames = frames_->size();
+  if (times_.empty() || (frames && static_cast<std::size_t>(*frames) > times_.size())) {
+    return Fail(ErrorCode::kInvalidArgument, "{} has {} times for {} frames: expected one each",
+                file.string(), times_.size(), frames.value_or(0));
+  }
+  return {};
+}
+
 Result<std::unique_ptr<RecordedDevice>> RecordedDevice::Open(const RecordedRun& run) {
+  const std::string ending = run.frames.extension().string();
+  if (ending == ".db3" || ending == ".mcap") {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{} is a recording of topics: give it with --bag instead of --frames",
+                run.frames.string());
+  }
   auto frames = image::FrameSequence::Open(run.frames);
   if (!frames) return tl::unexpected(frames.error());
   auto first = (*frames)->Next();
@@ -30,8 +59,23 @@ Result<std::unique_ptr<RecordedDevice>> RecordedDevice::Open(const RecordedRun& 
     odometry = std::move(*read);
   }
   const double rate_hz = run.rate_hz.value_or((*frames)->rate_hz().value_or(kDefaultRate_hz));
-  return std::unique_ptr<RecordedDevice>(
+  std::unique_ptr<RecordedDevice> device(
       new RecordedDevice(std::move(*frames), std::move(**first), std::move(odometry), rate_hz));
+  if (!run.frame_times.empty()) {
+    if (auto read = device->ReadFrameTimes(run.frame_times); !read) {
+      return tl::unexpected(read.error());
+    }
+  }
+  return device;
+}
+
+Result<SensorTime> RecordedDevice::NextStamp() {
+  const int frame = next_++;
+  if (times_.empty()) return FromSeconds(frame / rate_hz_);
+  if (static_cast<std::size_t>(frame) < times_.size())
+    return times_[static_cast<std::size_t>(frame)];
+  return Fail(ErrorCode::kInvalidArgument, "{} has {} times, but there are more frames",
+              times_file_.string(), times_.size());
 }
 
 Result<std::optional<Observation>> RecordedDevice::Next() {
@@ -45,8 +89,9 @@ Result<std::optional<Observation>> RecordedDevice::Next() {
     if (!*frame) return std::nullopt;
     observation.image = std::move(**frame);
   }
-  observation.stamp = FromSeconds(next_ / rate_hz_);
-  ++next_;
+  const auto stamp = NextStamp();
+  if (!stamp) return tl::unexpected(stamp.error());
+  observation.stamp = *stamp;
   if (odometry_) {
     auto pose = odometry_->At(observation.stamp);
     if (!pose) return tl::unexpected(pose.error());
@@ -57,6 +102,11 @@ Result<std::optional<Observation>> RecordedDevice::Next() {
 
 std::string RecordedDevice::camera() const {
   return fmt::format("recorded {}x{}", width_, height_);
+}
+
+std::string RecordedDevice::timing() const {
+  if (!times_.empty()) return "frames by their own times";
+  return fmt::format("{:g} frames a second", rate_hz_);
 }
 
 std::optional<double> RecordedDevice::drive_progress() const {

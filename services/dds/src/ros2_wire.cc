@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ros2.h"
+#include "services/motion/attitude.h"
 
 namespace trailcast::dds {
 namespace {
@@ -44,13 +45,6 @@ geometry_msgs_msg_dds__Twist_ ToTwist(const motion::VelocityCommand& velocity) {
 std::optional<motion::VelocityCommand> FromTwist(const geometry_msgs_msg_dds__Twist_& twist) {
   if (!std::isfinite(twist.linear.x) || !std::isfinite(twist.angular.z)) return std::nullopt;
   return motion::VelocityCommand{twist.linear.x, twist.angular.z};
-}
-
-// The heading of a body of any attitude: where its x axis points, seen from above.
-std::optional<double> Heading(const geometry_msgs_msg_dds__Quaternion_& q) {
-  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  if (!std::isfinite(squared) || squared < 1e-6) return std::nullopt;
-  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
 }
 
 }  // namespace
@@ -129,7 +123,8 @@ Ros2Sensed ImageFromWire(const void* sample, bool compressed) {
 std::optional<Ros2Odometry> OdometryFromWire(const void* sample) {
   const auto& wire = *static_cast<const nav_msgs_msg_dds__Odometry_*>(sample);
   const auto& position = wire.pose.pose.position;
-  const auto heading_rad = Heading(wire.pose.pose.orientation);
+  const auto& attitude = wire.pose.pose.orientation;
+  const auto heading_rad = motion::Heading({attitude.x, attitude.y, attitude.z, attitude.w});
   if (!heading_rad || !std::isfinite(position.x) || !std::isfinite(position.y)) return std::nullopt;
   return Ros2Odometry{FromTime(wire.header.stamp), {position.x, position.y, *heading_rad}};
 }

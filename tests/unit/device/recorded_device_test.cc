@@ -43,6 +43,43 @@ TEST(RecordedDeviceTest, GivesEachFrameItsOdometry) {
   EXPECT_DOUBLE_EQ((*(*device)->Next())->odometry->x_m, 1.5);
 }
 
+TEST(RecordedDeviceTest, FramesOfTheirOwnTimesHaveTheOdometryOfThen) {
+  const test::TempDir folder;
+  test::WriteWalk(folder / "run", 3);
+  std::ofstream(folder / "odo.csv")
+      << "t_s,x_m,y_m,heading_rad\n1700000000,0,0,0\n1700000010,5,0,0\n";
+  std::ofstream(folder / "times.csv") << "name,t_s\n1,1700000001\n2,1700000001.5\n3,1700000004\n";
+  const RecordedRun run{folder / "run", folder / "odo.csv", std::nullopt, folder / "times.csv"};
+  const auto device = RecordedDevice::Open(run);
+  ASSERT_TRUE(device) << device.error().message;
+  for (const double metres : {0.5, 0.75, 2.0}) {
+    const auto next = (*device)->Next();
+    ASSERT_TRUE(next && *next);
+    EXPECT_NEAR((*next)->odometry->x_m, metres, 1e-6);
+  }
+  const auto end = (*device)->Next();
+  EXPECT_TRUE(end && !*end);
+}
+
+TEST(RecordedDeviceTest, TimesThatDoNotFitTheFramesAreRefused) {
+  const test::TempDir folder;
+  test::WriteWalk(folder / "run", 3);
+  const auto error_of = [&](const std::string& times) {
+    std::ofstream(folder / "times.csv") << times;
+    const auto device = RecordedDevice::Open({folder / "run", "", {}, folder / "times.csv"});
+    return device ? "no error" : device.error().message;
+  };
+  EXPECT_THAT(error_of("t_s\n1\n2\n"), HasSubstr("2 times for 3 frames"));
+  EXPECT_THAT(error_of("t_s\n1\n2\n2\n"), HasSubstr("line 4"));
+  EXPECT_THAT(error_of("seconds\n1\n"), HasSubstr("t_s"));
+}
+
+TEST(RecordedDeviceTest, ARecordingOfTopicsIsNoFolderOfFrames) {
+  const auto device = RecordedDevice::Open({"drive.mcap", "", std::nullopt});
+  ASSERT_FALSE(device);
+  EXPECT_THAT(device.error().message, HasSubstr("--bag"));
+}
+
 TEST(RecordedDeviceTest, FailsAtOpeningWhenFramesOrOdometryCannotBeRead) {
   const test::TempDir folder;
   test::WriteWalk(folder / "run", 1);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/device/device.h"
+
+namespace trailcast::agent {
+
+struct BagRun {
+  std::filesystem::path bag;               // a file, or the folder of a rosbag2 recording
+  std::optional<std::string> image_topic;  // nothing: the only one with pictures
+  std::optional<std::string> odom_topic;   // nothing: the only one, if any; empty: none
+};
+
+// A drive that a robot's own tools recorded (services/bag), as fast as it can be read. Frames have
+// the times that the robot gave them, and the odometry of those times. Pictures that cannot be
+// read, that come after a later one, or that were taken more than half a second from any odometry
+// are left out, and counted at the end. What it is told to drive has no effect.
+class BagDevice final : public RobotDevice {
+ public:
+  // Reads all odometry and the first picture already. Errors list the topics that there are.
+  [[nodiscard]] static Result<std::unique_ptr<BagDevice>> Open(const BagRun& run);
+  ~BagDevice() override;
+
+  [[nodiscard]] Result<std::optional<Observation>> Next() override;
+  [[nodiscard]] Result<void> Drive(const motion::VelocityCommand&) override { return {}; }
+  [[nodiscard]] std::string camera() const override;
+  [[nodiscard]] std::optional<double> drive_progress() const override;
+
+  // For people: which topics are read.
+  [[nodiscard]] std::string sources() const;
+
+ private:
+  struct State;
+  explicit BagDevice(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trailcast::agent

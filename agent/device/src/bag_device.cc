@@ -1,0 +1,265 @@
+#include "agent/device/bag_device.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "agent/device/src/bag_topics.h"
+#include "agent/device/src/pose_history.h"
+#include "services/bag/ros_messages.h"
+#include "services/image/files.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// Pictures further from any odometry are left out.
+constexpr std::chrono::milliseconds kOdometryNear{500};
+// Stamps whose distance from the recorder's clock differs by more are of different clocks.
+constexpr std::chrono::seconds kSameClock{2};
+
+// A message's times: what the sensor stamped (0: nothing), and when it was recorded.
+struct Times {
+  SensorTime stamp{};
+  nanoseconds logged_at{};
+};
+
+struct Sample {
+  Times times;
+  motion::Pose2 pose;
+};
+
+bool OfOneClock(const Times& a, const Times& b) {
+  return std::chrono::abs((a.stamp - a.logged_at) - (b.stamp - b.logged_at)) <= kSameClock;
+}
+
+struct LeftOut {
+  int unreadable = 0;
+  std::string why_unreadable;
+  int late = 0;
+  int without_odometry = 0;
+
+  [[nodiscard]] std::string Text() const {
+    std::vector<std::string> parts;
+    if (unreadable > 0) {
+      parts.push_back(fmt::format("{} that cannot be read ({})", unreadable, why_unreadable));
+    }
+    if (late > 0) parts.push_back(fmt::format("{} that come after later ones", late));
+    if (without_odometry > 0) {
+      parts.push_back(fmt::format("{} taken more than {:g} s from any odometry", without_odometry,
+                                  Seconds(kOdometryNear)));
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
+};
+
+}  // namespace
+
+struct BagDevice::State {
+  [[nodiscard]] Result<void> ReadOdometry();
+  [[nodiscard]] Result<void> ChooseClock();
+  [[nodiscard]] Result<Times> TimesOf(const bag::Message& message) const;
+  [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message) const;
+  [[nodiscard]] Result<std::optional<Observation>> Next();
+  [[nodiscard]] Result<std::optional<Observation>> Look(const bag::Message& message);
+  void TellDamage();
+  void TellEnd();
+
+  std::filesystem::path name;
+  std::unique_ptr<bag::Bag> bag;
+  BagTopics topics;
+  std::vector<Sample> odometry;
+  PoseHistory poses{nanoseconds::max()};
+  bool by_stamps = true;             // else by the times of recording
+  std::optional<Observation> first;  // until it is handed out
+  std::optional<SensorTime> last;
+  std::uint64_t pictures = 0;  // looked at
+  LeftOut left_out;
+  std::size_t damage_told = 0;
+  int width_px = 0;
+  int height_px = 0;
+};
+
+Result<void> BagDevice::State::ReadOdometry() {
+  if (!topics.odometry) return {};
+  bag->Begin(*topics.odometry);
+  int damaged = 0;
+  while (true) {
+    const auto message = bag->Next();
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) break;
+    if (const auto read = bag::ReadOdometry((*message)->bytes)) {
+      odometry.push_back({{read->stamp, (*message)->logged_at}, read->pose});
+    } else {
+      ++damaged;
+    }
+  }
+  if (odometry.empty()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{}: no message of {} can be read as odometry; --odom-topic '' does without",
+                name.string(), topics.odometry->name);
+  }
+  if (damaged > 0) {
+    spdlog::warn("{} damaged messages of {} are left out", damaged, topics.odometry->name);
+  }
+  return {};
+}
+
+Result<Times> BagDevice::State::TimesOf(const bag::Message& message) const {
+  const auto stamp =
+      topics.compressed
+          ? bag::ReadCompressedImage(message.bytes).map([](const auto& image) {
+              return image.stamp;
+            })
+          : bag::ReadImage(message.bytes).map([](const auto& image) { return image.stamp; });
+  if (!stamp) return tl::unexpected(stamp.error());
+  return Times{*stamp, message.logged_at};
+}
+
+// By the first picture that can be read: its stamp, if it has one, and odometry's is of one clock.
+Result<void> BagDevice::State::ChooseClock() {
+  bag->Begin(topics.image);
+  while (true) {
+    const auto message = bag->Next();
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) break;
+    const auto times = TimesOf(**message);
+    if (!times) continue;
+    by_stamps = times->stamp != SensorTime(0);
+    if (by_stamps && !odometry.empty() && !OfOneClock(*times, odometry.front().times)) {
+      spdlog::warn(
+          "stamps of pictures and odometry are of different clocks: taking the times at which they "
+          "were recorded");
+      by_stamps = false;
+    }
+    break;
+  }
+  for (const Sample& sample : odometry) {
+    poses.Add(by_stamps ? sample.times.stamp : sample.times.logged_at, sample.pose);
+  }
+  odometry = {};
+  bag->Begin(topics.image);
+  return {};
+}
+
+Result<image::GrayImage> BagDevice::State::Gray(const bag::Message& message) const {
+  if (topics.compressed) {
+    const auto image = bag::ReadCompressedImage(message.bytes);
+    if (!image) return tl::unexpected(image.error());
+    return image::DecodeGray(image->bytes, topics.image.name);
+  }
+  const auto image = bag::ReadImage(message.bytes);
+  if (!image) return tl::unexpected(image.error());
+  return image::GrayFromRaw(image->picture);
+}
+
+// Nothing: it is left out.
+Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& message) {
+  ++pictures;
+  const auto unreadable = [&](const Error& error) -> Result<std::optional<Observation>> {
+    if (error.code != ErrorCode::kCorrupt) return Wrap(error, topics.image.name);
+    if (left_out.unreadable++ == 0) left_out.why_unreadable = error.message;
+    return std::nullopt;
+  };
+  const auto times = TimesOf(message);
+  if (!times) return unreadable(times.error());
+  Observation observation;
+  observation.stamp = by_stamps ? times->stamp : times->logged_at;
+  if (last && observation.stamp <= *last) {
+    ++left_out.late;
+    return std::nullopt;
+  }
+  if (topics.odometry) {
+    if (poses.FromNearest(observation.stamp) > kOdometryNear) {
+      ++left_out.without_odometry;
+      return std::nullopt;
+    }
+    observation.odometry = poses.At(observation.stamp);
+  }
+  auto gray = Gray(message);
+  if (!gray) return unreadable(gray.error());
+  observation.image = std::move(*gray);
+  last = observation.stamp;
+  return observation;
+}
+
+Result<std::optional<Observation>> BagDevice::State::Next() {
+  while (true) {
+    const auto message = bag->Next();
+    TellDamage();
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) return std::nullopt;
+    auto observation = Look(**message);
+    if (!observation || *observation) return observation;
+  }
+}
+
+void BagDevice::State::TellDamage() {
+  for (; damage_told < bag->damage().size(); ++damage_told) {
+    spdlog::warn("{}", bag->damage()[damage_told]);
+  }
+}
+
+void BagDevice::State::TellEnd() {
+  const std::string text = std::exchange(left_out, {}).Text();
+  if (!text.empty()) spdlog::warn("of {} pictures are left out: {}", pictures, text);
+}
+
+BagDevice::BagDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
+BagDevice::~BagDevice() = default;
+
+Result<std::unique_ptr<BagDevice>> BagDevice::Open(const BagRun& run) {
+  auto state = std::make_unique<State>();
+  state->name = run.bag;
+  auto bag = bag::Bag::Open(run.bag, [](const std::string& what) { spdlog::info("{}", what); });
+  if (!bag) return tl::unexpected(bag.error());
+  state->bag = std::move(*bag);
+  state->TellDamage();
+  auto topics = ChooseTopics(state->bag->topics(), run);
+  if (!topics) return Wrap(topics.error(), run.bag.string());
+  state->topics = std::move(*topics);
+  if (state->topics.compressed) {
+    if (auto can = image::CanDecode(); !can) return Wrap(can.error(), state->topics.image.name);
+  }
+  if (auto read = state->ReadOdometry(); !read) return tl::unexpected(read.error());
+  if (auto chosen = state->ChooseClock(); !chosen) return tl::unexpected(chosen.error());
+  auto first = state->Next();
+  if (!first) return Wrap(first.error(), run.bag.string());
+  if (!*first) {
+    return Fail(ErrorCode::kInvalidArgument, "{}: {} gives no picture; left out are {}",
+                run.bag.string(), state->topics.image.name, state->left_out.Text());
+  }
+  state->width_px = (*first)->image.width;
+  state->height_px = (*first)->image.height;
+  state->first = std::move(*first);
+  return std::unique_ptr<BagDevice>(new BagDevice(std::move(state)));
+}
+
+Result<std::optional<Observation>> BagDevice::Next() {
+  if (state_->first) return std::exchange(state_->first, std::nullopt);
+  auto next = state_->Next();
+  if (next && !*next) state_->TellEnd();
+  return next;
+}
+
+std::string BagDevice::camera() const {
+  return fmt::format("recorded {}x{}", state_->width_px, state_->height_px);
+}
+
+std::optional<double> BagDevice::drive_progress() const {
+  const std::uint64_t all = state_->topics.image.messages;
+  if (all == 0) return std::nullopt;
+  return std::min(1.0, static_cast<double>(state_->pictures) / static_cast<double>(all));
+}
+
+std::string BagDevice::sources() const {
+  const BagTopics& topics = state_->topics;
+  return fmt::format(
+      "pictures of {}, {}", topics.image.name,
+      topics.odometry ? "odometry of " + topics.odometry->name : "no odometry: vision only");
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "services/bag/compression.h"
+#include "services/bag/src/bag_file.h"
+
+namespace trailcast::bag {
+
+// A file of rosbag2's SQLite storage, of any version: of its tables only the columns that all have
+// are looked at. Messages may be compressed one by one. Rows on damaged pages are left out.
+class Db3File final : public BagFile {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Db3File>> Open(const std::filesystem::path& file);
+
+  // How much of it are whole pages. SQLite reads one that was cut through, with zeros for the rest.
+  [[nodiscard]] static std::uintmax_t WholeBytes(std::uintmax_t size,
+                                                 std::span<const std::uint8_t> beginning);
+
+  [[nodiscard]] Result<Contents> Survey(const Bag::Tell& tell) override;
+  void Begin(const Topic& topic) override;
+  [[nodiscard]] Result<std::optional<Message>> Next() override;
+
+ private:
+  Db3File(std::unique_ptr<SQLite::Database> db, std::map<std::int64_t, Topic> topics)
+      : db_(std::move(db)), topics_(std::move(topics)) {}
+
+  // Steps to the next row of `rows_` that can be read; false at the end.
+  [[nodiscard]] bool Step();
+  [[nodiscard]] bool SkipDamage(const SQLite::Exception& damage);
+  void Select(const std::string& columns, const std::set<std::int64_t>& topics);
+  [[nodiscard]] std::optional<Message> Unpacked(std::span<const std::uint8_t> bytes);
+
+  std::unique_ptr<SQLite::Database> db_;
+  std::map<std::int64_t, Topic> topics_;  // by their ids
+  std::set<std::int64_t> wanted_;         // of them
+  std::unique_ptr<SQLite::Statement> rows_;
+  std::int64_t last_id_ = 0;
+  std::int64_t jump_ = 1;  // over rows that cannot be read
+  Bytes message_;
+};
+
+}  // namespace trailcast::bag

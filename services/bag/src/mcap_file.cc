@@ -1,0 +1,219 @@
+#include "services/bag/src/mcap_file.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "services/bag/src/byte_reader.h"
+#include "services/bag/src/crc32.h"
+
+namespace trailcast::bag {
+namespace {
+
+// More in one piece is damage, or no writer that anybody has.
+constexpr std::uint64_t kMostChunkBytes = std::uint64_t{100} << 20U;
+constexpr std::uint64_t kMostSummaryBytes = std::uint64_t{100} << 20U;
+constexpr std::uint64_t kFooterBytes = 20;
+
+std::chrono::nanoseconds Time(std::uint64_t ns) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(std::min(ns, kMost)));
+}
+
+// The record at the beginning of `bytes`, which then begin after it; nothing: it is not whole.
+struct Record {
+  Opcode opcode{};
+  std::span<const std::uint8_t> content;
+};
+std::optional<Record> TakeRecord(std::span<const std::uint8_t>& bytes) {
+  const auto head = ParseRecordHead(bytes);
+  if (!head || head->length > bytes.size() - kRecordHeadBytes) return std::nullopt;
+  const auto length = static_cast<std::size_t>(head->length);
+  const Record record{head->opcode, bytes.subspan(kRecordHeadBytes, length)};
+  bytes = bytes.subspan(kRecordHeadBytes + length);
+  return record;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<McapFile>> McapFile::Open(const std::filesystem::path& file) {
+  std::error_code failed;
+  const std::uint64_t size = std::filesystem::file_size(file, failed);
+  std::ifstream stream(file, std::ios::binary);
+  if (failed || !stream) {
+    return Fail(ErrorCode::kNotFound, "cannot read {}", file.string());
+  }
+  return std::unique_ptr<McapFile>(new McapFile(std::move(stream), file, size));
+}
+
+Result<Bytes> McapFile::ReadAt(std::uint64_t at, std::uint64_t count) {
+  Bytes bytes(static_cast<std::size_t>(count));
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(at));
+  stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) {
+    return Fail(ErrorCode::kUnavailable, "{} cannot be read at byte {}: is its disk damaged?",
+                file_.string(), at);
+  }
+  return bytes;
+}
+
+void McapFile::NoteDamageAt(const std::string& what) {
+  NoteDamage(fmt::format("at byte {}: {}", record_, what));
+}
+
+// The list of contents at the file's end, where there is one.
+std::optional<Contents> McapFile::ReadSummary() {
+  const std::uint64_t ending = kRecordHeadBytes + kFooterBytes + kMcapMagic.size();
+  if (size_ < kMcapMagic.size() + ending) return std::nullopt;
+  const std::uint64_t footer_at = size_ - ending;
+  const auto tail = ReadAt(footer_at, ending);
+  if (!tail || !std::equal(kMcapMagic.begin(), kMcapMagic.end(), tail->end() - kMcapMagic.size())) {
+    return std::nullopt;
+  }
+  std::span<const std::uint8_t> left(*tail);
+  const auto footer = TakeRecord(left);
+  if (!footer || footer->opcode != Opcode::kFooter) return std::nullopt;
+  const std::uint64_t begins = ByteReader(footer->content).Take<std::uint64_t>();
+  if (begins < kMcapMagic.size() || begins >= footer_at || footer_at - begins > kMostSummaryBytes) {
+    return std::nullopt;
+  }
+  const auto summary = ReadAt(begins, footer_at - begins);
+  if (!summary) return std::nullopt;
+  McapChannels channels;
+  std::optional<McapStatistics> statistics;
+  left = *summary;
+  while (const auto record = TakeRecord(left)) {
+    if (channels.Take(record->opcode, record->content)) continue;
+    if (record->opcode == Opcode::kStatistics) statistics = ParseStatistics(record->content);
+  }
+  if (!left.empty() || !statistics || channels.empty()) return std::nullopt;
+  for (const auto& count : statistics->counts) channels.Count(count.channel, count.messages);
+  channels_ = channels;
+  return Contents{channels.Topics(), Time(statistics->message_start_ns)};
+}
+
+Result<Contents> McapFile::Survey(const Bag::Tell& tell) {
+  if (auto contents = ReadSummary()) return *contents;
+  tell(fmt::format("{} has no list of contents (was it cut off?): reading all of it",
+                   file_.string()));
+  Begin({});
+  std::optional<std::chrono::nanoseconds> first;
+  while (true) {
+    const auto message = NextOf(&McapFile::IsAny);
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) break;
+    channels_.Count((*message)->channel, 1);
+    if (!first) first = Time((*message)->log_time_ns);
+  }
+  return Contents{channels_.Topics(), first.value_or(std::chrono::nanoseconds(0))};
+}
+
+void McapFile::Begin(const Topic& topic) {
+  topic_ = topic;
+  at_ = kMcapMagic.size();
+  ended_ = false;
+  in_chunk_ = {};
+}
+
+bool McapFile::IsOfTopic(const McapMessage& message) const {
+  const Topic* topic = channels_.Find(message.channel);
+  return topic != nullptr && topic->name == topic_.name && topic->type == topic_.type;
+}
+
+std::optional<RecordHead> McapFile::ReadHead() {
+  record_ = at_;
+  const std::uint64_t left = size_ - at_;
+  const auto bytes = ReadAt(at_, std::min<std::uint64_t>(left, kRecordHeadBytes));
+  const auto head = bytes ? ParseRecordHead(*bytes) : std::nullopt;
+  if (!head) NoteDamageAt("the file is cut off here");
+  return head;
+}
+
+std::optional<McapMessage> McapFile::NextInChunk(Wanted wanted) {
+  while (!in_chunk_.empty()) {
+    const auto record = TakeRecord(in_chunk_);
+    if (!record) {
+      NoteDamageAt("a chunk's last record is not whole");
+      in_chunk_ = {};
+      break;
+    }
+    if (channels_.Take(record->opcode, record->content)) continue;
+    if (record->opcode != Opcode::kMessage) continue;
+    const auto message = ParseMessage(record->content);
+    if (message && (this->*wanted)(*message)) return message;
+  }
+  return std::nullopt;
+}
+
+void McapFile::OpenChunk(std::span<const std::uint8_t> content, bool cut_off) {
+  const auto chunk = ParseChunk(content);
+  const auto compression = chunk ? FindCompression(chunk->compression) : std::nullopt;
+  if (!chunk || chunk->uncompressed_bytes > kMostChunkBytes) {
+    NoteDamageAt("a chunk that is none");
+    return;
+  }
+  if (!compression) {
+    NoteDamageAt(fmt::format("a chunk compressed by '{}': expected lz4, zstd or nothing",
+                             chunk->compression.substr(0, 20)));
+    return;
+  }
+  Decompressed records = Decompress(*compression, chunk->records, chunk->uncompressed_bytes);
+  const bool sound =
+      records.whole && records.bytes.size() == chunk->uncompressed_bytes &&
+      (chunk->uncompressed_crc == 0 || Crc32(records.bytes) == chunk->uncompressed_crc);
+  if (!cut_off && !sound) {
+    NoteDamageAt("a damaged chunk, left out");
+    return;
+  }
+  chunk_ = std::move(records.bytes);
+  in_chunk_ = chunk_;
+}
+
+// Of the file's next record what it holds is left to NextInChunk. False at the end.
+Result<bool> McapFile::ReadRecord() {
+  if (ended_) return false;
+  const auto head = ReadHead();
+  ended_ = !head || head->opcode == Opcode::kDataEnd || head->opcode == Opcode::kFooter;
+  if (ended_) return false;
+  const std::uint64_t left = size_ - record_ - kRecordHeadBytes;
+  const std::uint64_t length = std::min(head->length, left);
+  const bool cut_off = head->length > left;
+  if (cut_off) NoteDamageAt("the file is cut off within this record");
+  at_ = record_ + kRecordHeadBytes + length;
+  const bool chunk = head->opcode == Opcode::kChunk;
+  const bool whole =
+      !cut_off && (head->opcode == Opcode::kMessage || head->opcode == Opcode::kSchema ||
+                   head->opcode == Opcode::kChannel);
+  if (!chunk && !whole) return true;
+  if (length > (chunk ? kMostChunkBytes : kMostMessageBytes)) {
+    NoteDamageAt(fmt::format("a record of {} bytes, left out", length));
+    return true;
+  }
+  auto bytes = ReadAt(record_, kRecordHeadBytes + length);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (chunk) {
+    OpenChunk(std::span(*bytes).subspan(kRecordHeadBytes), cut_off);
+  } else {
+    chunk_ = std::move(*bytes);
+    in_chunk_ = chunk_;
+  }
+  return true;
+}
+
+Result<std::optional<McapMessage>> McapFile::NextOf(Wanted wanted) {
+  while (true) {
+    if (const auto message = NextInChunk(wanted)) return message;
+    const auto more = ReadRecord();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return std::nullopt;
+  }
+}
+
+Result<std::optional<Message>> McapFile::Next() {
+  const auto message = NextOf(&McapFile::IsOfTopic);
+  if (!message) return tl::unexpected(message.error());
+  if (!*message) return std::nullopt;
+  return Message{Time((*message)->log_time_ns), (*message)->bytes};
+}
+
+}  // namespace trailcast::bag

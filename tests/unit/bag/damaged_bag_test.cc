@@ -1,0 +1,186 @@
+// Recordings that were cut off, or have bad bytes in them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "services/bag/bag.h"
+#include "tests/support/bag_writers.h"
+#include "tests/support/temp_dir.h"
+#include "tests/unit/bag/bag_reading.h"
+
+namespace trailcast::bag {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr int kMessages = 60;
+constexpr const char* kTopic = "/camera";
+
+Bytes MessageNumber(int i) {
+  std::mt19937 random(static_cast<unsigned>(i));
+  Bytes bytes(700);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+void Record(test::BagWriter& writer, int i) {
+  writer.Put(kTopic, "sensor_msgs/msg/Image", milliseconds(i), MessageNumber(i));
+}
+
+class DamagedBag : public testing::Test {
+ protected:
+  // Six chunks of ten messages.
+  Bytes Mcap(Compression compression) {
+    {
+      test::McapBagWriter writer(folder_ / "whole.mcap", compression);
+      for (int i = 0; i < kMessages; ++i) {
+        Record(writer, i);
+        if (i % 10 == 9) writer.EndChunk();
+      }
+    }
+    return test::ReadBytes(folder_ / "whole.mcap");
+  }
+  Bytes Db3() {
+    {
+      test::Db3Writer writer(folder_ / "whole.db3");
+      for (int i = 0; i < kMessages; ++i) Record(writer, i);
+    }
+    return test::ReadBytes(folder_ / "whole.db3");
+  }
+
+  // How many messages are read; each is one that was recorded, none comes twice.
+  int CountWhole(const Bytes& file) {
+    test::WriteBytes(folder_ / "damaged", file);
+    auto bag = Bag::Open(folder_ / "damaged", [](const std::string&) {});
+    if (!bag) return -1;
+    damage_ = (*bag)->damage();
+    int last = -1;
+    int count = 0;
+    for (const Read& read : ReadAll(**bag, kTopic)) {
+      const int i = static_cast<int>(read.logged_at / milliseconds(1));
+      EXPECT_GT(i, last);
+      EXPECT_EQ(read.bytes, MessageNumber(i)) << i;
+      last = i;
+      ++count;
+    }
+    damage_ = (*bag)->damage();
+    return count;
+  }
+
+  test::TempDir folder_;
+  std::vector<std::string> damage_;
+};
+
+class CutMcap : public DamagedBag, public testing::WithParamInterface<Compression> {};
+
+TEST_P(CutMcap, GivesWhatIsWholeWhereverItWasCut) {
+  const Bytes whole = Mcap(GetParam());
+  std::mt19937 random(11);
+  int before = 0;
+  std::vector<std::size_t> cuts(40);
+  for (auto& cut : cuts) cut = 8 + random() % (whole.size() - 8);
+  std::sort(cuts.begin(), cuts.end());
+  for (const std::size_t cut : cuts) {
+    SCOPED_TRACE(cut);
+    const int count = CountWhole({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut)});
+    EXPECT_GE(count, before) << "longer files have more";
+    EXPECT_LE(count, kMessages);
+    // All but the last chunk: each is about 7 kB, whatever its compression.
+    EXPECT_GE(count, 10 * (static_cast<int>(cut) / 9000 - 1));
+    before = count;
+    if (count < kMessages) {
+      EXPECT_THAT(damage_, Contains(HasSubstr("cut off")));
+    }
+  }
+  EXPECT_EQ(CountWhole(whole), kMessages);
+  EXPECT_THAT(damage_, IsEmpty());
+}
+INSTANTIATE_TEST_SUITE_P(All, CutMcap,
+                         testing::Values(Compression::kNone, Compression::kLz4,
+                                         Compression::kZstd));
+
+TEST_F(DamagedBag, OfAChunkThatIsCutOffTheBeginningIsRead) {
+  const Bytes whole = Mcap(Compression::kNone);
+  // Within the first chunk's fourth message.
+  EXPECT_EQ(CountWhole({whole.begin(), whole.begin() + 2700}), 3);
+}
+
+TEST_F(DamagedBag, AChunkWithABadByteIsLeftOutAndTheRestRead) {
+  for (const Compression compression : {Compression::kNone, Compression::kLz4}) {
+    Bytes file = Mcap(compression);
+    file[10'000] ^= 0x10U;  // in the second of six chunks
+    EXPECT_EQ(CountWhole(file), kMessages - 10);
+    EXPECT_THAT(damage_, Contains(HasSubstr("a damaged chunk, left out")));
+  }
+}
+
+TEST_F(DamagedBag, LengthsThatLieCostNothing) {
+  Bytes file = Mcap(Compression::kZstd);
+  // The uncompressed size of the first chunk, after magic and header (9 + 21) and the chunk's own
+  // beginning.
+  const std::size_t chunk = 8 + 9 + 8 + 4 + 9;
+  ASSERT_EQ(file[chunk], 6);
+  file[chunk + 9 + 16 + 7] = 0x7F;
+  EXPECT_EQ(CountWhole(file), kMessages - 10);
+  file = Mcap(Compression::kZstd);
+  file[chunk + 1 + 7] = 0x7F;  // the length of its record
+  EXPECT_LE(CountWhole(file), 10);
+}
+
+TEST_F(DamagedBag, ADb3FileThatWasCutGivesWhatIsWhole) {
+  const Bytes whole = Db3();
+  EXPECT_EQ(CountWhole(whole), kMessages);
+  EXPECT_THAT(damage_, IsEmpty());
+  int before = 0;
+  for (std::size_t cut = 16'384; cut < whole.size(); cut += 5000) {
+    SCOPED_TRACE(cut);
+    const int count = CountWhole({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut)});
+    EXPECT_GE(count, before);
+    before = std::max(before, count);
+    if (count >= 0 && count < kMessages) {
+      EXPECT_THAT(damage_, Contains(HasSubstr("cut off")));
+    }
+  }
+  EXPECT_GT(before, kMessages / 2);
+}
+
+TEST_F(DamagedBag, ADb3FileWithABadPageGivesTheRest) {
+  Bytes file = Db3();
+  std::fill_n(file.begin() + 6 * 4096, 4096, 0xEE);
+  const int count = CountWhole(file);
+  EXPECT_GT(count, kMessages / 2);
+  EXPECT_LT(count, kMessages);
+  EXPECT_THAT(damage_, Contains(HasSubstr("damaged")));
+}
+
+TEST_F(DamagedBag, ACompressedFileThatBreaksOffGivesItsBeginning) {
+  constexpr int kMany = 600;  // four blocks of zstd's
+  {
+    test::McapBagWriter writer(folder_ / "whole.mcap", Compression::kNone);
+    for (int i = 0; i < kMany; ++i) Record(writer, i);
+  }
+  Bytes packed = Compress(Compression::kZstd, test::ReadBytes(folder_ / "whole.mcap"));
+  EXPECT_EQ(CountWhole(packed), kMany);
+  packed.erase(packed.end() - 20, packed.end());
+  const int count = CountWhole(packed);
+  EXPECT_GT(count, kMany / 2);
+  EXPECT_LT(count, kMany);
+  EXPECT_THAT(damage_, Contains(HasSubstr("its compression breaks off")));
+}
+
+TEST_F(DamagedBag, TheSameDamageIsToldOnce) {
+  Bytes file = Mcap(Compression::kLz4);
+  file[10'000] ^= 0x10U;
+  test::WriteBytes(folder_ / "damaged", file);
+  const auto bag = OpenBag(folder_ / "damaged");
+  ASSERT_TRUE(bag);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(ReadAll(*bag, kTopic).size(), 50U);
+  EXPECT_EQ(bag->damage().size(), 1U);
+}
+
+}  // namespace
+}  // namespace trailcast::bag

@@ -1,0 +1,93 @@
+#include "services/bag/ros_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/ros_messages.h"
+
+namespace trailcast::bag {
+namespace {
+
+using std::chrono::nanoseconds;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr nanoseconds kStamp{1'700'000'000'123'456'789};
+const image::GrayImage kPicture{3, 2, {1, 2, 3, 4, 5, 6}};
+
+TEST(ReadImage, GivesWhatTheCameraSaid) {
+  const Bytes message = test::ImageMessage(kStamp, kPicture);
+  const auto image = ReadImage(message);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->stamp, kStamp);
+  EXPECT_EQ(image->picture.width_px, 3U);
+  EXPECT_EQ(image->picture.height_px, 2U);
+  EXPECT_EQ(image->picture.encoding, "mono8");
+  EXPECT_EQ(image->picture.step, 3U);
+  EXPECT_EQ(Bytes(image->picture.bytes.begin(), image->picture.bytes.end()), kPicture.pixels);
+}
+
+TEST(ReadCompressedImage, GivesItsBytes) {
+  const Bytes bytes{9, 8, 7};
+  const Bytes message = test::CompressedImageMessage(kStamp, bytes);
+  const auto image = ReadCompressedImage(message);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->stamp, kStamp);
+  EXPECT_EQ(Bytes(image->bytes.begin(), image->bytes.end()), bytes);
+}
+
+TEST(ReadOdometry, OfEitherByteOrder) {
+  for (const bool little_endian : {true, false}) {
+    const auto odometry =
+        ReadOdometry(test::OdometryMessage(kStamp, {1.5, -2.5, 0.75}, little_endian));
+    ASSERT_TRUE(odometry);
+    EXPECT_EQ(odometry->stamp, kStamp);
+    EXPECT_DOUBLE_EQ(odometry->pose.x_m, 1.5);
+    EXPECT_DOUBLE_EQ(odometry->pose.y_m, -2.5);
+    EXPECT_NEAR(odometry->pose.heading_rad, 0.75, 1e-12);
+  }
+}
+
+// In the second encoding numbers of eight bytes are aligned to four.
+TEST(ReadOdometry, OfTheSecondEncoding) {
+  test::CdrWriter cdr;
+  cdr.PutHeader(kStamp, "odom");  // 8 + 4 + 5 bytes
+  cdr.PutText("base_lin");        // to byte 33, so that the doubles begin at 36
+  Bytes message = cdr.Message();
+  message[1] = 7;
+  message.resize(4 + 36);
+  for (const double number : {1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0}) {
+    const Bytes bytes = test::CdrWriter().PutDouble(number).Message();
+    message.insert(message.end(), bytes.begin() + 4, bytes.end());
+  }
+  const auto odometry = ReadOdometry(message);
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  EXPECT_DOUBLE_EQ(odometry->pose.x_m, 1.0);
+  EXPECT_DOUBLE_EQ(odometry->pose.y_m, 2.0);
+}
+
+TEST(ReadOdometry, NumbersThatAreNoneAreDamage) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(ReadOdometry(test::OdometryMessage(kStamp, {nan, 0.0, 0.0})));
+  EXPECT_FALSE(ReadOdometry(test::OdometryMessage(kStamp, {0.0, 0.0, nan})));
+}
+
+TEST(RosMessages, CutAnywhereAreDamage) {
+  const Bytes image = test::ImageMessage(kStamp, kPicture);
+  for (std::size_t size = 0; size < image.size(); ++size) {
+    const auto read = ReadImage(std::span(image).first(size));
+    ASSERT_FALSE(read) << size;
+    EXPECT_EQ(read.error().code, ErrorCode::kCorrupt);
+  }
+  Bytes other = image;
+  other[1] = 3;  // a parameter list
+  EXPECT_FALSE(ReadImage(other));
+}
+
+TEST(PlainType, IsTheSameForAllVersionsOfRos) {
+  EXPECT_EQ(PlainType("sensor_msgs/msg/Image"), kImageType);
+  EXPECT_EQ(PlainType("sensor_msgs/Image"), kImageType);
+}
+
+}  // namespace
+}  // namespace trailcast::bag

@@ -1,0 +1,186 @@
+#include "agent/device/bag_device.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/bag_writers.h"
+#include "tests/support/ros_messages.h"
+#include "tests/support/temp_dir.h"
+#include "tests/support/walk_frames.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kImage = "sensor_msgs/msg/Image";
+constexpr const char* kOdometry = "nav_msgs/msg/Odometry";
+constexpr nanoseconds kBegin = std::chrono::seconds(1'700'000'000);
+// How much later than it was stamped a message is recorded.
+constexpr milliseconds kDelay{20};
+
+class BagDeviceTest : public testing::Test {
+ protected:
+  test::BagWriter& Writer() {
+    if (!writer_) writer_ = std::make_unique<test::Db3Writer>(File());
+    return *writer_;
+  }
+  [[nodiscard]] std::filesystem::path File() const { return folder_ / "run.db3"; }
+
+  void Picture(milliseconds at, int number = 0, const std::string& topic = "/camera") {
+    Writer().Put(topic, kImage, kBegin + at + kDelay,
+                 test::ImageMessage(kBegin + at, test::WalkFrame(number)));
+  }
+  // A robot that drives one metre a second.
+  void Odometry(milliseconds at, nanoseconds clock = kBegin, const std::string& topic = "/odom") {
+    Writer().Put(topic, kOdometry, kBegin + at + kDelay,
+                 test::OdometryMessage(clock + at, {1e-3 * static_cast<double>(at.count()), 0, 0}));
+  }
+  Result<std::unique_ptr<BagDevice>> Open(BagRun run = {}) {
+    writer_.reset();
+    run.bag = File();
+    return BagDevice::Open(run);
+  }
+  std::string ErrorOf(const BagRun& run = {}) {
+    const auto device = Open(run);
+    return device ? "no error" : device.error().message;
+  }
+  static std::vector<Observation> All(BagDevice& device) {
+    std::vector<Observation> all;
+    while (true) {
+      auto next = device.Next();
+      EXPECT_TRUE(next) << next.error().message;
+      if (!next || !*next) return all;
+      all.push_back(std::move(**next));
+    }
+  }
+
+  test::TempDir folder_;
+  std::unique_ptr<test::BagWriter> writer_;
+};
+
+TEST_F(BagDeviceTest, PicturesHaveTheirOwnTimesAndTheOdometryOfThen) {
+  for (int i = 0; i < 5; ++i) Odometry(milliseconds(100 * i));
+  Picture(milliseconds(0), 0);
+  Picture(milliseconds(130), 1);
+  Picture(milliseconds(275), 2);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  EXPECT_EQ((*device)->camera(), "recorded 160x120");
+  EXPECT_THAT((*device)->sources(), AllOf(HasSubstr("/camera"), HasSubstr("/odom")));
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].stamp, kBegin + milliseconds(130));
+  EXPECT_EQ(all[1].image.pixels, test::WalkFrame(1).pixels);
+  EXPECT_NEAR(all[1].odometry->x_m, 0.130, 1e-6);
+  EXPECT_NEAR(all[2].odometry->x_m, 0.275, 1e-6);
+  EXPECT_DOUBLE_EQ(*(*device)->drive_progress(), 1.0);
+}
+
+TEST_F(BagDeviceTest, PicturesFarFromAnyOdometryAreLeftOut) {
+  for (int at = 1000; at <= 1400; at += 100) Odometry(milliseconds(at));
+  for (int at = 3000; at <= 3400; at += 100) Odometry(milliseconds(at));
+  for (int at = 0; at <= 4500; at += 100) Picture(milliseconds(at), at / 100);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 30U);
+  EXPECT_EQ(all.front().stamp, kBegin + milliseconds(500));
+  EXPECT_EQ(all.back().stamp, kBegin + milliseconds(3900));
+}
+
+TEST_F(BagDeviceTest, ClocksThatDifferAreReplacedByTheRecorders) {
+  for (int i = 0; i < 5; ++i) Odometry(milliseconds(100 * i), std::chrono::seconds(77));
+  Picture(milliseconds(250));
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].stamp, kBegin + milliseconds(250) + kDelay);
+  EXPECT_NEAR(all[0].odometry->x_m, 0.250, 1e-6);
+}
+
+TEST_F(BagDeviceTest, PicturesWithoutStampsHaveTheTimeOfRecording) {
+  Writer().Put("/camera", kImage, kBegin, test::ImageMessage({}, test::WalkFrame(0)));
+  Writer().Put("/camera", kImage, kBegin + milliseconds(50),
+               test::ImageMessage({}, test::WalkFrame(1)));
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].stamp, kBegin + milliseconds(50));
+  EXPECT_FALSE(all[1].odometry);
+}
+
+TEST_F(BagDeviceTest, DamagedAndLatePicturesAreLeftOut) {
+  Picture(milliseconds(0), 0);
+  Writer().Put("/camera", kImage, kBegin + milliseconds(50), {1, 2, 3});
+  Picture(milliseconds(200), 1);
+  Picture(milliseconds(100), 2);
+  Picture(milliseconds(300), 3);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[2].image.pixels, test::WalkFrame(3).pixels);
+}
+
+TEST_F(BagDeviceTest, CompressedPicturesAreDecoded) {
+  const auto jpeg = image::EncodeJpeg(test::WalkFrame(3), 100);
+  ASSERT_TRUE(jpeg);
+  Writer().Put("/camera/compressed", "sensor_msgs/msg/CompressedImage", kBegin,
+               test::CompressedImageMessage(kBegin, *jpeg));
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].image.pixels, image::DecodeGray(*jpeg, "")->pixels);
+}
+
+TEST_F(BagDeviceTest, TopicsThatAreNotThereAreAnsweredWithThoseThatAre) {
+  Picture(milliseconds(0));
+  Odometry(milliseconds(0));
+  EXPECT_THAT(
+      ErrorOf({{}, "/front", {}}),
+      AllOf(HasSubstr("no topic /front"), HasSubstr("/camera (sensor_msgs/msg/Image, 1 messages)"),
+            HasSubstr("/odom (nav_msgs/msg/Odometry, 1 messages)")));
+  EXPECT_THAT(ErrorOf({{}, "/odom", {}}), HasSubstr("pictures are sensor_msgs/Image"));
+  EXPECT_THAT(ErrorOf({{}, {}, "/wheels"}), HasSubstr("no topic /wheels"));
+  EXPECT_EQ(ErrorOf({{}, "camera", "odom"}), "no error") << "without the slash";
+}
+
+TEST_F(BagDeviceTest, WhereThereIsAChoiceItIsTheUsers) {
+  Picture(milliseconds(0), 0, "/left");
+  Picture(milliseconds(0), 1, "/right");
+  Odometry(milliseconds(0));
+  Odometry(milliseconds(0), kBegin, "/odometry/filtered");
+  EXPECT_THAT(ErrorOf(), AllOf(HasSubstr("--image-topic"), HasSubstr("/left"), HasSubstr("/right"),
+                               Not(HasSubstr("/odom"))));
+  EXPECT_THAT(ErrorOf({{}, "/right", {}}),
+              AllOf(HasSubstr("--odom-topic"), HasSubstr("/odometry/filtered")));
+  const auto device = Open({{}, "/right", ""});
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].image.pixels, test::WalkFrame(1).pixels);
+  EXPECT_FALSE(all[0].odometry);
+}
+
+TEST_F(BagDeviceTest, ARecordingWithoutPicturesSaysWhatItHas) {
+  Odometry(milliseconds(0));
+  EXPECT_THAT(ErrorOf(), AllOf(HasSubstr("no topic with pictures"), HasSubstr("/odom")));
+}
+
+TEST_F(BagDeviceTest, WhereNoPictureIsNearOdometryNothingBegins) {
+  Picture(milliseconds(0));
+  Picture(milliseconds(100));
+  Odometry(milliseconds(5000));
+  EXPECT_THAT(ErrorOf(), AllOf(HasSubstr("gives no picture"), HasSubstr("2 taken more than")));
+}
+
+}  // namespace
+}  // namespace trailcast::agent
