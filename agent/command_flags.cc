@@ -89,7 +89,8 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   command.add_option("--csv", replay.csv, "Writes one row a frame here");
   command.add_option("--log", replay.diagnosis.log,
                      "Writes what the robot saw and why it did what it did here, while it runs; "
-                     "'trailcast explain FILE' tells its story");
+                     "'trailcast explain FILE' tells its story; where FILE ends in .mcap, with "
+                     "pictures, for viewers as roboticists have them, too");
   CLI::Option* view =
       command.add_option("--view", replay.diagnosis.view,
                          "Draws what the robot saw: one picture a frame into this folder");

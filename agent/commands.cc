@@ -76,6 +76,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.speed_factor = replay.speed_factor;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
+  follower.diagnosis.patient = follower.open_loop;
   follower.session.anywhere = replay.start == "anywhere";
   follower.link.from_start = replay.from_start || replay.start != "left";
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.

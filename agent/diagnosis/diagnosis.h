@@ -11,10 +11,14 @@
 
 namespace trailcast::agent {
 
+class RunMcapFile;
+
 struct DiagnosisOptions {
-  std::filesystem::path log;   // a file; empty: none
+  std::filesystem::path log;   // a file, MCAP where its name ends in .mcap; empty: none
   std::filesystem::path view;  // a folder for pictures of the frames; empty: none
   int view_every = 1;          // frames
+  // Nothing drives: rather wait for a slow disk than leave frames out of a log as MCAP.
+  bool patient = false;
 };
 
 // What a replay tells of itself while it runs: a log, and pictures of what it saw. A disk that
@@ -22,6 +26,10 @@ struct DiagnosisOptions {
 // written by the caller's thread: for robots that have the time, recorded and simulated ones.
 class Diagnosis {
  public:
+  ~Diagnosis();
+  Diagnosis(Diagnosis&&) noexcept;
+  Diagnosis& operator=(Diagnosis&&) noexcept;
+
   // Errors: the log's file or the pictures' folder cannot be made.
   [[nodiscard]] static Result<Diagnosis> Open(const DiagnosisOptions& options);
 
@@ -33,11 +41,15 @@ class Diagnosis {
   [[nodiscard]] Result<void> End(const std::string& state, const std::string& reason);
 
  private:
-  explicit Diagnosis(DiagnosisOptions options) : options_(std::move(options)) {}
+  explicit Diagnosis(DiagnosisOptions options);
+  [[nodiscard]] Result<void> OpenLog();
+  void Log(const RunFrame& seen, const image::GrayImage& unrolled, const ReplaySession& session,
+           const ReplayStep& step);
   void Draw(const image::GrayImage& frame, const ReplaySession& session, const ReplayStep& step);
 
   DiagnosisOptions options_;
-  std::unique_ptr<RunLogFile> file_;
+  std::unique_ptr<RunLogFile> file_;   // the log as text, or
+  std::unique_ptr<RunMcapFile> mcap_;  // as MCAP
   RunRecorder recorder_;
   vision::DonutUnroller unroller_;  // features are where the session's own one puts them
   bool begun_ = false;

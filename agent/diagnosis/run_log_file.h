@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -12,33 +13,42 @@
 
 namespace trailcast::agent {
 
-// A text file that grows while the control loop drives: a thread of its own writes it, so that a
-// slow disk holds up nobody, and hands it to the system several times a second, so that a crash
-// loses less than a second. All calls from one thread.
+// A file that grows while the control loop drives: a thread of its own writes it, so that a slow
+// disk holds up nobody, and hands it to the system several times a second, so that a crash loses
+// less than a second. All calls from one thread.
 class RunLogFile {
  public:
-  // Replaces the file; the error names it.
-  [[nodiscard]] static Result<std::unique_ptr<RunLogFile>> Create(
-      const std::filesystem::path& file);
+  // What comes next into the file; called by its thread.
+  using Make = std::function<std::string()>;
+
+  // Replaces the file; the error names it. `capacity`: how much may wait for the disk; for texts,
+  // minutes of frames.
+  [[nodiscard]] static Result<std::unique_ptr<RunLogFile>> Create(const std::filesystem::path& file,
+                                                                  std::size_t capacity = 8192);
   ~RunLogFile();
   RunLogFile(const RunLogFile&) = delete;
   RunLogFile& operator=(const RunLogFile&) = delete;
 
-  // Never waits. Where the disk does not keep up, texts are dropped; the file says how many.
+  // Never waits. False, with `make` untouched: there is no room, since the disk does not keep up.
+  [[nodiscard]] bool TryPut(Make&& make) { return waiting_.TryPut(std::move(make)); }
+  // What was put is not to wait for its quarter of a second.
+  void Hurry() { bell_.Ring(); }
+  // A text; where the disk does not keep up, the file says how many were dropped.
   void Put(std::string text);
-  // Everything is written; the error says what was not.
-  [[nodiscard]] Result<void> Close();
+  // Everything is written, `last` behind it; the error says what was not.
+  [[nodiscard]] Result<void> Close(const Make& last = [] { return std::string(); });
 
  private:
-  explicit RunLogFile(std::FILE* stream, std::filesystem::path file);
+  RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_t capacity);
   void Write();
+  void WriteText(const std::string& text);
   void WriteWaiting();
 
   std::filesystem::path file_;
   std::FILE* stream_;
-  Mailbox<std::string> texts_{8192};  // minutes of frames
-  std::size_t dropped_ = 0;           // since the last one that found room
-  Bell ending_bell_;
+  Mailbox<Make> waiting_;
+  std::size_t dropped_ = 0;  // since the last one that found room
+  Bell bell_;
   std::atomic<bool> ending_{false};
   bool failed_ = false;  // the thread's until it has ended
   std::thread thread_;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "agent/diagnosis/run_log.h"
@@ -25,6 +27,13 @@ inline constexpr std::size_t kLongestLogLine = 2000;
 [[nodiscard]] std::string HeaderText(const Fields& header);  // with the columns
 [[nodiscard]] std::string RowText(const FrameRow& row);
 [[nodiscard]] std::string EventText(const RunEvent& event);
+// Of its text, what happened: without the frame, the time and the line's end.
+[[nodiscard]] std::string DescribeEvent(const RunEvent& event);
+
+// What a row holds, in the order of the columns; the phase as its number.
+using Cell = std::optional<std::variant<int, double>>;
+[[nodiscard]] std::vector<Cell> CellsOf(const FrameRow& row);
+[[nodiscard]] std::vector<std::string> ColumnNames();
 
 // Errors are kCorrupt and say what is wrong with the line.
 [[nodiscard]] Result<void> CheckFirstLine(std::string_view line);

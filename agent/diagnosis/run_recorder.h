@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/diagnosis/run_log.h"
 #include "agent/session/replay_session.h"
@@ -27,21 +28,25 @@ struct RunFrame {
   std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
 };
 
-// Makes a replay's log out of its steps: text, in the format of run_log_format.h. No disk, no
-// clock.
+// A frame's row, and the events in it.
+struct RecordedFrame {
+  FrameRow row;
+  std::vector<RunEvent> events;
+};
+
+// Makes a replay's log, as values, out of its steps. No disk, no clock.
 class RunRecorder {
  public:
-  [[nodiscard]] std::string Begin(const RunFacts& facts) const;
-  // The frame's row, and the events in it.
-  [[nodiscard]] std::string Add(const RunFrame& frame, const ReplayStep& step);
+  [[nodiscard]] static Fields Begin(const RunFacts& facts);
+  [[nodiscard]] RecordedFrame Add(const RunFrame& frame, const ReplayStep& step);
   // Something that the control loop alone knows of.
-  [[nodiscard]] std::string Note(const std::string& what, const std::string& text) const;
-  [[nodiscard]] std::string End(const std::string& state, const std::string& reason) const;
+  [[nodiscard]] RunEvent Note(const std::string& what, const std::string& text) const;
+  [[nodiscard]] RunEvent End(const std::string& state, const std::string& reason) const;
 
  private:
   [[nodiscard]] FrameRow RowOf(const RunFrame& frame, const ReplayStep& step) const;
   [[nodiscard]] RunEvent EventNow(const std::string& what) const;
-  [[nodiscard]] std::string SearchText(const Search& search, double magnification) const;
+  [[nodiscard]] RunEvent SearchEvent(const Search& search, double magnification) const;
 
   int frames_ = 0;
   double t_s_ = 0.0;

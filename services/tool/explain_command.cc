@@ -53,7 +53,8 @@ Command AddExplainCommand(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "explain", "Tell in plain words, and draw, what happened in a replay that wrote a log");
   app->footer(kExamples);
-  app->add_option("log", options->log, "What 'trailcast-agent replay --log' or 'trial --log' wrote")
+  app->add_option("log", options->log,
+                  "What 'trailcast-agent replay --log', as text or as MCAP, or 'trial --log' wrote")
       ->required();
   CLI::Option* plot =
       app->add_option("--plot", options->plot,

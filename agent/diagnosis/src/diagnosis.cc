@@ -2,17 +2,33 @@
 
 #include <fmt/format.h>
 
+#include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/src/frame_view.h"
+#include "agent/diagnosis/src/run_mcap_file.h"
 #include "services/image/files.h"
 
 namespace trailcast::agent {
 
+Diagnosis::Diagnosis(DiagnosisOptions options) : options_(std::move(options)) {}
+Diagnosis::~Diagnosis() = default;
+Diagnosis::Diagnosis(Diagnosis&&) noexcept = default;
+Diagnosis& Diagnosis::operator=(Diagnosis&&) noexcept = default;
+
+Result<void> Diagnosis::OpenLog() {
+  if (options_.log.extension() == ".mcap") {
+    return RunMcapFile::Create(options_.log).map([this](std::unique_ptr<RunMcapFile> file) {
+      mcap_ = std::move(file);
+    });
+  }
+  return RunLogFile::Create(options_.log).map([this](std::unique_ptr<RunLogFile> file) {
+    file_ = std::move(file);
+  });
+}
+
 Result<Diagnosis> Diagnosis::Open(const DiagnosisOptions& options) {
   Diagnosis diagnosis(options);
   if (!options.log.empty()) {
-    auto file = RunLogFile::Create(options.log);
-    if (!file) return tl::unexpected(file.error());
-    diagnosis.file_ = std::move(*file);
+    if (auto opened = diagnosis.OpenLog(); !opened) return tl::unexpected(opened.error());
   }
   std::error_code failed;
   if (!options.view.empty()) std::filesystem::create_directories(options.view, failed);
@@ -24,18 +40,37 @@ Result<Diagnosis> Diagnosis::Open(const DiagnosisOptions& options) {
 }
 
 void Diagnosis::Begin(const RunFacts& facts) {
-  if (file_) file_->Put(recorder_.Begin(facts));
+  std::string text = FirstLine() + HeaderText(RunRecorder::Begin(facts));
+  if (file_) file_->Put(std::move(text));
+  if (mcap_) mcap_->Put({.text = std::move(text)}, options_.patient);
   begun_ = true;
 }
 
 void Diagnosis::Add(const RunFrame& seen, const image::GrayImage& frame,
                     const ReplaySession& session, const ReplayStep& step) {
-  if (file_) file_->Put(recorder_.Add(seen, step));
-  if (!options_.view.empty()) {
-    const image::GrayImage& unrolled = unroller_.Unroll(frame);
-    if (frames_ % options_.view_every == 0) Draw(unrolled, session, step);
-  }
+  const bool looked_at = mcap_ || !options_.view.empty();
+  const image::GrayImage& unrolled = looked_at ? unroller_.Unroll(frame) : frame;
+  if (file_ || mcap_) Log(seen, unrolled, session, step);
+  if (!options_.view.empty() && frames_ % options_.view_every == 0) Draw(unrolled, session, step);
   ++frames_;
+}
+
+void Diagnosis::Log(const RunFrame& seen, const image::GrayImage& unrolled,
+                    const ReplaySession& session, const ReplayStep& step) {
+  RecordedFrame recorded = recorder_.Add(seen, step);
+  std::string text = RowText(recorded.row);
+  for (const RunEvent& event : recorded.events) text += EventText(event);
+  if (file_) file_->Put(std::move(text));
+  if (mcap_) {
+    mcap_->Put({.text = std::move(text),
+                .events = std::move(recorded.events),
+                .stamp = seen.stamp,
+                .row = recorded.row,
+                .odometry = seen.odometry,
+                .picture = unrolled,
+                .features = session.ViewFeatures(step)},
+               options_.patient);
+  }
 }
 
 void Diagnosis::Draw(const image::GrayImage& frame, const ReplaySession& session,
@@ -46,15 +81,20 @@ void Diagnosis::Draw(const image::GrayImage& frame, const ReplaySession& session
 }
 
 void Diagnosis::Note(const std::string& what, const std::string& text) {
-  if (file_ && begun_) file_->Put(recorder_.Note(what, text));
+  if (!begun_) return;
+  const RunEvent event = recorder_.Note(what, text);
+  if (file_) file_->Put(EventText(event));
+  if (mcap_) mcap_->Put({.text = EventText(event), .events = {event}}, options_.patient);
 }
 
 Result<void> Diagnosis::End(const std::string& state, const std::string& reason) {
-  if (!file_) return view_result_;
+  if (!file_ && !mcap_) return view_result_;
   // A run that found no route has a log all the same: it says why.
   if (!begun_) Begin({});
-  file_->Put(recorder_.End(state, reason));
-  auto closed = file_->Close();
+  const RunEvent event = recorder_.End(state, reason);
+  if (file_) file_->Put(EventText(event));
+  auto closed =
+      file_ ? file_->Close() : mcap_->Close({.text = EventText(event), .events = {event}});
   if (!closed) return closed;
   return view_result_;
 }

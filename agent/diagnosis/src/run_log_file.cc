@@ -11,18 +11,19 @@ constexpr std::chrono::milliseconds kWriteEvery{250};
 
 }  // namespace
 
-Result<std::unique_ptr<RunLogFile>> RunLogFile::Create(const std::filesystem::path& file) {
+Result<std::unique_ptr<RunLogFile>> RunLogFile::Create(const std::filesystem::path& file,
+                                                       std::size_t capacity) {
   std::FILE* stream = std::fopen(file.c_str(), "wb");
   if (stream == nullptr) {
     return Fail(ErrorCode::kUnavailable,
                 "cannot write {}: does its folder exist, and may this user write there?",
                 file.string());
   }
-  return std::unique_ptr<RunLogFile>(new RunLogFile(stream, file));
+  return std::unique_ptr<RunLogFile>(new RunLogFile(stream, file, capacity));
 }
 
-RunLogFile::RunLogFile(std::FILE* stream, std::filesystem::path file)
-    : file_(std::move(file)), stream_(stream), thread_([this] { Write(); }) {}
+RunLogFile::RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_t capacity)
+    : file_(std::move(file)), stream_(stream), waiting_(capacity), thread_([this] { Write(); }) {}
 
 RunLogFile::~RunLogFile() { std::ignore = Close(); }
 
@@ -30,30 +31,33 @@ void RunLogFile::Put(std::string text) {
   if (dropped_ > 0) {
     text = fmt::format("# dropped {} lines: the disk did not keep up\n", dropped_) + text;
   }
-  const bool put = texts_.TryPut(std::move(text));
+  const bool put = TryPut([text = std::move(text)] { return text; });
   dropped_ = put ? 0 : dropped_ + 1;
 }
 
+void RunLogFile::WriteText(const std::string& text) {
+  failed_ = failed_ || std::fwrite(text.data(), 1, text.size(), stream_) != text.size();
+}
+
 void RunLogFile::WriteWaiting() {
-  while (const auto text = texts_.TryGet()) {
-    failed_ = failed_ || std::fwrite(text->data(), 1, text->size(), stream_) != text->size();
-  }
+  while (const auto make = waiting_.TryGet()) WriteText((*make)());
   failed_ = std::fflush(stream_) != 0 || failed_;
 }
 
 void RunLogFile::Write() {
   while (!ending_.load()) {
-    ending_bell_.Wait(kWriteEvery);
+    bell_.Wait(kWriteEvery);
     WriteWaiting();
   }
   WriteWaiting();
 }
 
-Result<void> RunLogFile::Close() {
+Result<void> RunLogFile::Close(const Make& last) {
   if (thread_.joinable()) {
     ending_.store(true);
-    ending_bell_.Ring();
+    bell_.Ring();
     thread_.join();
+    WriteText(last());
     failed_ = std::fclose(stream_) != 0 || failed_;
   }
   if (!failed_) return {};

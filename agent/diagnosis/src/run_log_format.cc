@@ -153,12 +153,40 @@ std::string RowText(const FrameRow& row) {
 }
 
 std::string EventText(const RunEvent& event) {
-  std::string text = fmt::format("! {} {:.3f} {}", event.frame, event.t_s, OneWord(event.what));
+  return fmt::format("! {} {:.3f} {}\n", event.frame, event.t_s, DescribeEvent(event));
+}
+
+std::string DescribeEvent(const RunEvent& event) {
+  std::string text = OneWord(event.what);
   for (const auto& [key, value] : event.fields.all()) {
     text += fmt::format(" {}={}", OneWord(key), OneWord(value));
   }
   if (!event.text.empty()) text += " : " + OneLine(event.text);
-  return text + "\n";
+  return text;
+}
+
+std::vector<Cell> CellsOf(const FrameRow& row) {
+  std::vector<Cell> cells;
+  for (const Column& column : kColumns) {
+    Cell& cell = cells.emplace_back();
+    if (const auto* count = std::get_if<int FrameRow::*>(&column.member)) {
+      cell = row.**count;
+    } else if (const auto* phase = std::get_if<Phase FrameRow::*>(&column.member)) {
+      cell = static_cast<int>(row.**phase);
+    } else if (const auto* number = std::get_if<double FrameRow::*>(&column.member)) {
+      cell = row.**number;
+    } else {
+      const auto& value = row.*std::get<std::optional<double> FrameRow::*>(column.member);
+      if (value) cell = *value;
+    }
+  }
+  return cells;
+}
+
+std::vector<std::string> ColumnNames() {
+  std::vector<std::string> names;
+  for (const Column& column : kColumns) names.emplace_back(column.name);
+  return names;
 }
 
 Result<void> CheckFirstLine(std::string_view line) {

@@ -1,6 +1,5 @@
 #include "agent/diagnosis/run_log_reader.h"
 
-#include <fstream>
 #include <string>
 
 #include "agent/diagnosis/run_log_format.h"
@@ -118,16 +117,6 @@ Result<RunLog> ReadRunLog(std::istream& stream) {
     reader.Take(number, *line);
   }
   return std::move(reader).Finish();
-}
-
-Result<RunLog> ReadRunLog(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    return Fail(ErrorCode::kNotFound, "cannot read {}", file.string());
-  }
-  auto log = ReadRunLog(stream);
-  if (!log) return Wrap(log.error(), file.string());
-  return log;
 }
 
 }  // namespace trailcast::agent

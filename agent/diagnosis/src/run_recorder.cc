@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agent/diagnosis/run_log_format.h"
-
 namespace trailcast::agent {
 namespace {
 
@@ -65,7 +63,7 @@ void FillDecision(const replay::FollowStep& decision, bool odometry, FrameRow& r
 
 }  // namespace
 
-std::string RunRecorder::Begin(const RunFacts& facts) const {
+Fields RunRecorder::Begin(const RunFacts& facts) {
   const route::RouteInfo& route = facts.route;
   Fields header;
   header.Add("route", route.name);
@@ -77,7 +75,7 @@ std::string RunRecorder::Begin(const RunFacts& facts) const {
   header.Add("robot", facts.robot);
   header.Add("camera", facts.camera);
   header.Add("method", facts.method);
-  return FirstLine() + HeaderText(header);
+  return header;
 }
 
 FrameRow RunRecorder::RowOf(const RunFrame& frame, const ReplayStep& step) const {
@@ -125,7 +123,7 @@ RunEvent RunRecorder::EventNow(const std::string& what) const {
   return event;
 }
 
-std::string RunRecorder::SearchText(const Search& search, double magnification) const {
+RunEvent RunRecorder::SearchEvent(const Search& search, double magnification) const {
   RunEvent event = EventNow(WhatOf(search.kind));
   event.fields.Add("segment", std::to_string(search.segment.value()));
   event.fields.Add("found", std::to_string(search.found));
@@ -136,48 +134,50 @@ std::string RunRecorder::SearchText(const Search& search, double magnification) 
     event.fields.Add("speed_mps", fmt::format("{:.3f}", search.speed_mps));
     event.fields.Add("magnification", fmt::format("{:.3f}", magnification));
   }
-  return EventText(event);
+  return event;
 }
 
-std::string RunRecorder::Add(const RunFrame& frame, const ReplayStep& step) {
+RecordedFrame RunRecorder::Add(const RunFrame& frame, const ReplayStep& step) {
   t_s_ = Seconds(frame.stamp);
   if (frame.odometry && odometry_) {
     driven_m_ += std::abs(motion::IncrementBetween(*odometry_, *frame.odometry).distance_m);
   }
   odometry_ = frame.odometry;
-  const FrameRow row = RowOf(frame, step);
+  RecordedFrame recorded{RowOf(frame, step), {}};
+  const FrameRow& row = recorded.row;
   ++frames_;
-  std::string text = RowText(row);
   if (step.decision.carried_left_m) {
     RunEvent carried = EventNow("carried");
     carried.fields.Add("segment", std::to_string(row.segment));
     carried.fields.Add("left_m", fmt::format("{:.2f}", *step.decision.carried_left_m));
-    text += EventText(carried);
+    recorded.events.push_back(std::move(carried));
   }
-  for (const Search& search : step.sight.searches) text += SearchText(search, step.magnification);
+  for (const Search& search : step.sight.searches) {
+    recorded.events.push_back(SearchEvent(search, step.magnification));
+  }
   if (phase_ != row.phase) {
     RunEvent change = EventNow("phase");
     if (phase_) change.fields.Add("from", ToString(*phase_));
     change.fields.Add("to", ToString(row.phase));
     change.fields.Add("segment", std::to_string(row.segment));
     change.text = step.reason;
-    text += EventText(change);
+    recorded.events.push_back(std::move(change));
   }
   phase_ = row.phase;
-  return text;
+  return recorded;
 }
 
-std::string RunRecorder::Note(const std::string& what, const std::string& text) const {
+RunEvent RunRecorder::Note(const std::string& what, const std::string& text) const {
   RunEvent event = EventNow(what);
   event.text = text;
-  return EventText(event);
+  return event;
 }
 
-std::string RunRecorder::End(const std::string& state, const std::string& reason) const {
+RunEvent RunRecorder::End(const std::string& state, const std::string& reason) const {
   RunEvent event = EventNow("end");
   event.fields.Add("state", state);
   event.text = reason;
-  return EventText(event);
+  return event;
 }
 
 }  // namespace trailcast::agent

@@ -25,14 +25,15 @@ class FollowerLogTest : public testing::Test {
     EXPECT_TRUE(taught) << taught.error().message;
     FollowerOptions options = swarm_.FollowerNamed("robot");
     options.diagnosis = diagnosis_;
-    options.diagnosis.log = folder_ / "run.log";
+    options.diagnosis.log = folder_ / name_;
     const auto outcome = swarm_.Replay(device, options, false);
     EXPECT_TRUE(outcome && outcome->diagnosed);
     frames_ = outcome->log.frames();
-    auto log = ReadRunLog(folder_ / "run.log");
+    auto log = ReadRunLog(folder_ / name_);
     EXPECT_TRUE(log) << log.error().message;
     return *log;
   }
+  std::string name_ = "run.log";
   std::size_t frames_ = 0;
   DiagnosisOptions diagnosis_;
   test::TempDir folder_;
@@ -61,6 +62,19 @@ TEST_F(FollowerLogTest, TellsEveryFrameAndEverySegmentOfARunThatArrives) {
   EXPECT_EQ(CountEvents(log, "hand-over"), static_cast<std::size_t>(last.segment) + 1);
   EXPECT_TRUE(log.frames[50].left_m) << "the default method estimates its place";
   EXPECT_FALSE(log.frames[50].delta) << "and has no delta";
+}
+
+TEST_F(FollowerLogTest, AsMcapItTellsTheSame) {
+  name_ = "run.mcap";
+  diagnosis_.patient = true;
+  WalkDevice device(220);
+  const RunLog log = Follow(device);
+  EXPECT_EQ(log.header.Find("route"), "hall");
+  EXPECT_EQ(log.damaged_lines, 0U);
+  EXPECT_EQ(log.frames.size(), frames_);
+  EXPECT_EQ(log.frames.back().phase, Phase::kArrived);
+  ASSERT_TRUE(log.ending);
+  EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
 }
 
 TEST_F(FollowerLogTest, ProgressNeverRunsAheadByASegment) {

@@ -1,0 +1,97 @@
+#include "agent/diagnosis/run_mcap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/src/viewer_messages.h"
+#include "idl/run_log_description.h"
+#include "services/image/files.h"
+
+namespace trailcast::agent {
+namespace {
+
+constexpr int kJpegQuality = 85;
+// What a program that crashes loses at most.
+constexpr std::chrono::seconds kChunk{1};
+constexpr std::size_t kMostOfTheWay = 512;
+// How often the way so far is told.
+constexpr std::size_t kPosesAPath = 16;
+
+}  // namespace
+
+RunMcap::RunMcap()
+    : writer_(bag::Compression::kZstd, ""),
+      picture_(AddTopic("/camera/image", "foxglove.CompressedImage")),
+      features_(AddTopic("/camera/features", "foxglove.ImageAnnotations")),
+      pose_(AddTopic("/odometry/pose", "foxglove.PoseInFrame")),
+      path_(AddTopic("/odometry/path", "foxglove.PosesInFrame")),
+      states_(AddTopic("/replay/states", "foxglove.Log")),
+      frame_(AddTopic("/replay/frame", "trailcast.log.Frame")),
+      text_(AddTopic(kRunLogTopic, "trailcast.log.Text")) {}
+
+RunMcap::Channel RunMcap::AddTopic(const char* topic, const char* message) {
+  const auto schema = writer_.AddSchema(message, "protobuf", RunLogDescription());
+  return writer_.AddChannel(schema, topic, "protobuf");
+}
+
+void RunMcap::Put(Channel channel, const std::string& message) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.data());
+  writer_.Put(channel, at_, {bytes, message.size()});
+}
+
+void RunMcap::PutPicture(const RunMoment& moment) {
+  const auto jpeg = image::EncodeJpeg(moment.picture, kJpegQuality);
+  if (!jpeg) return;
+  Put(picture_, PictureMessage(at_, *jpeg));
+  Put(features_,
+      FeaturesMessage(at_, moment.features, moment.picture.width, moment.picture.height));
+}
+
+void RunMcap::PutPose(const motion::Pose2& pose) {
+  Put(pose_, PoseMessage(at_, pose));
+  if (!way_.empty()) {
+    const double driven_m = (motion::Position(pose) - motion::Position(way_.back())).norm();
+    if (driven_m < spacing_m_) return;
+  }
+  way_.push_back(pose);
+  if (way_.size() > kMostOfTheWay) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < way_.size(); i += 2) way_[kept++] = way_[i];
+    way_.resize(kept);
+    spacing_m_ *= 2.0;
+  }
+  if (++poses_since_path_ >= kPosesAPath) PutPath();
+}
+
+void RunMcap::PutPath() {
+  if (poses_since_path_ == 0) return;
+  poses_since_path_ = 0;
+  Put(path_, PathMessage(at_, way_));
+}
+
+void RunMcap::Add(const RunMoment& moment) {
+  if (!moment.stamp && !chunk_began_) {
+    early_text_ += moment.text;
+    return;
+  }
+  if (moment.stamp) at_ = std::max(*moment.stamp, SensorTime(0));
+  if (chunk_began_ && std::chrono::abs(at_ - *chunk_began_) >= kChunk) {
+    writer_.EndChunk();
+    chunk_began_.reset();
+  }
+  if (!chunk_began_) chunk_began_ = at_;
+  if (!moment.picture.empty()) PutPicture(moment);
+  if (moment.odometry) PutPose(*moment.odometry);
+  if (moment.row) Put(frame_, FrameMessage(*moment.row));
+  for (const RunEvent& event : moment.events) Put(states_, StateMessage(at_, event));
+  Put(text_, TextMessage(std::exchange(early_text_, {}) + moment.text));
+}
+
+void RunMcap::End() {
+  PutPath();
+  if (!early_text_.empty()) Put(text_, TextMessage(early_text_));
+  writer_.End();
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "agent/diagnosis/run_log_file.h"
+#include "agent/diagnosis/run_mcap.h"
+
+namespace trailcast::agent {
+
+// A replay's log as MCAP in a file, made and written by a thread of its own.
+class RunMcapFile {
+ public:
+  // Errors: the file cannot be made, or this installation encodes no pictures.
+  [[nodiscard]] static Result<std::unique_ptr<RunMcapFile>> Create(
+      const std::filesystem::path& file);
+
+  // Where making or writing does not keep up, this waits, or, unless `patient`, frames are dropped;
+  // the log says how many.
+  void Put(RunMoment moment, bool patient);
+  // `last` is never dropped.
+  [[nodiscard]] Result<void> Close(const RunMoment& last);
+
+ private:
+  explicit RunMcapFile(std::unique_ptr<RunLogFile> file) : file_(std::move(file)) {}
+
+  RunMcap mcap_;  // the file's thread's
+  std::unique_ptr<RunLogFile> file_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace trailcast::agent

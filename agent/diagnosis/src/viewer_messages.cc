@@ -1,0 +1,142 @@
+#include "agent/diagnosis/src/viewer_messages.h"
+
+#include <cmath>
+
+#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/src/frame_view.h"
+#include "agent/diagnosis/src/protobuf_writer.h"
+
+namespace trailcast::agent {
+namespace {
+
+constexpr std::uint64_t kLineList = 4;
+constexpr double kDisc_px = 5.0;
+constexpr std::uint64_t kDebug = 1;
+constexpr std::uint64_t kInfo = 2;
+constexpr std::uint64_t kWarning = 3;
+constexpr std::uint64_t kError = 4;
+constexpr std::uint32_t kTextField = 1;
+
+// google.protobuf.Timestamp, in field 1 of all of them. `at` is not negative.
+ProtobufWriter Stamped(SensorTime at) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(at);
+  ProtobufWriter timestamp;
+  timestamp.Number(1, static_cast<std::uint64_t>(seconds.count()));
+  timestamp.Number(2, static_cast<std::uint64_t>((at - seconds).count()));
+  return ProtobufWriter().Message(1, timestamp);
+}
+
+ProtobufWriter Point(double x, double y) { return ProtobufWriter().Double(1, x).Double(2, y); }
+
+ProtobufWriter ColorOf(replay::FeatureVerdict verdict) {
+  const image::Color color = VerdictColor(verdict);
+  return ProtobufWriter()
+      .Double(1, color[0] / 255.0)
+      .Double(2, color[1] / 255.0)
+      .Double(3, color[2] / 255.0)
+      .Double(4, 1.0);
+}
+
+ProtobufWriter PoseOf(const motion::Pose2& pose) {
+  ProtobufWriter orientation;
+  orientation.Double(3, std::sin(pose.heading_rad / 2)).Double(4, std::cos(pose.heading_rad / 2));
+  return ProtobufWriter().Message(1, Point(pose.x_m, pose.y_m)).Message(2, orientation);
+}
+
+std::uint64_t LevelOf(const RunEvent& event) {
+  if (event.what == "end") return event.fields.Find("state") == "ARRIVED" ? kInfo : kError;
+  if (event.what == "carried") return kWarning;
+  if (event.what != "phase") return event.text.empty() ? kDebug : kInfo;
+  const auto phase = ParsePhase(event.fields.Find("to").value_or(""));
+  if (phase == Phase::kLost) return kError;
+  const bool well = phase == Phase::kSure || phase == Phase::kArrived || phase == Phase::kWaiting;
+  return well ? kInfo : kWarning;
+}
+
+}  // namespace
+
+std::string PictureMessage(SensorTime at, std::span<const std::uint8_t> jpeg) {
+  return Stamped(at)
+      .Bytes(2, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()})
+      .Bytes(3, "jpeg")
+      .Bytes(4, "camera")
+      .bytes();
+}
+
+std::string FeaturesMessage(SensorTime at, std::span<const replay::FeatureView> features, int width,
+                            int height) {
+  const auto place = [&](const route::TrackedFeature& feature) {
+    return Point(feature.u_px + 0.5 * width, feature.v_px + 0.5 * height);
+  };
+  ProtobufWriter annotations;
+  ProtobufWriter lines = Stamped(at);
+  lines.Number(2, kLineList);
+  for (const replay::FeatureView& feature : features) {
+    const ProtobufWriter color = ColorOf(feature.verdict);
+    ProtobufWriter disc = Stamped(at);
+    disc.Message(2, place(feature.at)).Double(3, kDisc_px).Double(4, 1.0);
+    annotations.Message(1, disc.Message(5, color).Message(6, color));
+    const bool rejected = feature.verdict == replay::FeatureVerdict::kRejected;
+    lines.Message(3, place(feature.at));
+    lines.Message(3, place(rejected ? feature.expected : feature.milestone));
+    lines.Message(5, color);
+  }
+  return annotations.Message(2, lines.Double(7, 1.0)).bytes();
+}
+
+std::string PoseMessage(SensorTime at, const motion::Pose2& pose) {
+  return Stamped(at).Bytes(2, "odom").Message(3, PoseOf(pose)).bytes();
+}
+
+std::string PathMessage(SensorTime at, std::span<const motion::Pose2> poses) {
+  ProtobufWriter path = Stamped(at);
+  path.Bytes(2, "odom");
+  for (const motion::Pose2& pose : poses) path.Message(3, PoseOf(pose));
+  return path.bytes();
+}
+
+std::string StateMessage(SensorTime at, const RunEvent& event) {
+  return Stamped(at)
+      .Number(2, LevelOf(event))
+      .Bytes(3, DescribeEvent(event))
+      .Bytes(4, "trailcast")
+      .bytes();
+}
+
+// The columns' order gives the fields their numbers.
+std::string FrameMessage(const FrameRow& row) {
+  ProtobufWriter frame;
+  std::uint32_t field = 0;
+  for (const auto& cell : CellsOf(row)) {
+    ++field;
+    if (!cell) continue;
+    if (const auto* number = std::get_if<double>(&*cell)) {
+      frame.Double(field, *number);
+    } else {
+      // Protobuf has negative numbers in 64 bits.
+      frame.Number(field, static_cast<std::uint64_t>(std::int64_t{std::get<int>(*cell)}));
+    }
+  }
+  return frame.bytes();
+}
+
+std::string TextMessage(std::string_view text) {
+  return ProtobufWriter().Bytes(kTextField, text).bytes();
+}
+
+std::optional<std::string_view> ReadTextMessage(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kMostVarintBytes = 5;
+  if (bytes.empty() || bytes[0] != (kTextField << 3U | 2U)) return std::nullopt;
+  std::uint64_t size = 0;
+  for (std::size_t i = 0; i < kMostVarintBytes && 1 + i < bytes.size(); ++i) {
+    const std::uint8_t byte = bytes[1 + i];
+    size |= std::uint64_t{byte & 0x7FU} << (7U * i);
+    if ((byte & 0x80U) != 0) continue;
+    const auto text = bytes.subspan(2 + i);
+    if (size != text.size()) return std::nullopt;
+    return std::string_view(reinterpret_cast<const char*>(text.data()), text.size());
+  }
+  return std::nullopt;
+}
+
+}  // namespace trailcast::agent
