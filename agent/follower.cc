@@ -65,6 +65,7 @@ class Loop {
   std::optional<LeftAt> left_;
   std::optional<double> went_on_at_m_;  // where it then found itself
   bool fed_ = false;                    // since the last frame
+  bool held_ = false;                   // by something of the robot that has failed
   std::optional<ReplayStep> last_;
   std::string state_ = "WAITING";
   std::string reason_;
@@ -166,6 +167,10 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
+  if (observation.unknown.distance_m > 0.0) {
+    diagnosis_.Note("odometry", fmt::format("jumped: {:.2f} m may have been driven meanwhile",
+                                            observation.unknown.distance_m));
+  }
   log_.Add(observation.stamp, *step, cpu_ms);
   diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, observation.image,
                  *session_, *step);
@@ -175,7 +180,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
   }
-  if (!watch_.Stuck(observation.stamp, *last_)) return true;
+  if (!watch_.Stuck(observation.stamp, *last_, held_)) return true;
   return End("STUCK", fmt::format("no progress for {} s in segment {}",
                                   options_.stuck_after.count(), last_->segment.value()));
 }
@@ -197,6 +202,7 @@ void Loop::Tell(const ReplayStep& step) {
 // The robot stands, and may drive on when it is over; meanwhile there are no steps to report.
 void Loop::TellTrouble(const std::string& what) {
   diagnosis_.Note("robot", what.empty() ? "drives again" : what);
+  held_ = !what.empty();
   ReplayStep step = last_.value_or(ReplayStep{});
   step.command = {};
   step.robot_trouble = what;

@@ -14,10 +14,12 @@ class ProgressWatch {
  public:
   explicit ProgressWatch(std::chrono::seconds limit) : limit_(limit) {}
 
-  [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step) {
+  // `held`: the robot cannot go on, which is told and waited for elsewhere.
+  [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step, bool held) {
     const double place = step.segment.value() + step.fraction;
     const bool further = place > furthest_ + 1e-3;
-    const bool waits = step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding;
+    const bool waits =
+        held || step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding;
     if (further || waits || !since_) {
       furthest_ = std::max(furthest_, place);
       since_ = stamp;

@@ -25,7 +25,13 @@ struct Sighting {
   // to be; or of somewhere else on the route.
   bool recognised = false;
   bool elsewhere = false;
+  double dt_s = 1.0 / 30.0;  // since the last frame
 };
+
+// Of a frame that came so much later the robot saw nothing in between, rather than in vain.
+constexpr double kLongestFrame_s = 0.25;
+// So much more than a limit is beyond it: sums of periods come to it a little above or below.
+constexpr double kTimeSlack_s = 1e-6;
 
 // What a robot may do.
 enum class Trust {
@@ -74,24 +80,25 @@ struct ConfidenceOptions {
   // How far a robot that is not sure may go on, and how long one without odometry, or one that has
   // not found the route yet, may look around, before it is lost.
   double blind_limit_m = 2.5;
-  int blind_limit_frames = 90;
-  // A view of so many times the features it takes to be sure, gone within so many frames of one
+  double blind_limit_s = 3.0;
+  // A view of so many times the features it takes to be sure, gone within so many seconds of one
   // segment, was covered, if this share of its features vanished where they were: in a bend a
   // camera with a narrow view loses them as fast, over the picture's edge.
   bool stand_when_covered = true;
   double good_view = 1.5;
-  int covered_within_frames = 45;
+  double covered_within_s = 1.5;
   double vanished_share = 0.5;
-  int covered_limit_frames = 540;
-  // Whoever covered the view so many frames ago is still about: a view that is gone again, if only
+  double covered_limit_s = 18.0;
+  // Whoever covered the view so many seconds ago is still about: a view that is gone again, if only
   // at the next segment's start, was covered again.
-  int still_about_frames = 150;
+  double still_about_s = 5.0;
   // A good view that is going is not to be given up for the next segment's before it is clear
   // whether it is being covered.
-  int going_within_frames = 20;
+  double going_within_s = 20.0 / 30.0;
 };
 
-// Says frame by frame how far a robot may trust what it sees. No clock: frames and metres count.
+// Says frame by frame how far a robot may trust what it sees. No clock: the frames' own periods and
+// metres count.
 class Confidence {
  public:
   explicit Confidence(const ConfidenceOptions& options = {}) : options_(options) {}
@@ -105,10 +112,10 @@ class Confidence {
 
   // A good view of the segment is a moment ago, and it is not over the edge that its features went.
   [[nodiscard]] bool view_is_going() const {
-    return options_.stand_when_covered && frames_since_good_ && *frames_since_good_ > 0 &&
-           *frames_since_good_ <= options_.going_within_frames && VanishedInPlace();
+    return options_.stand_when_covered && since_good_s_ && *since_good_s_ > 0.0 &&
+           *since_good_s_ <= options_.going_within_s + kTimeSlack_s && VanishedInPlace();
   }
-  [[nodiscard]] int unsure_frames() const { return unsure_frames_; }  // since it was last sure
+  [[nodiscard]] double unsure_s() const { return unsure_s_; }  // since it was last sure
   // Not the segment's features, but the view as a whole says that the robot is on the path.
   [[nodiscard]] bool recognised_only() const { return recognised_only_; }
   [[nodiscard]] const ConfidenceOptions& options() const { return options_; }
@@ -136,14 +143,14 @@ class Confidence {
   int carries_ = 0;                     // before it had settled after the last
   // Since it was last sure.
   double unsure_m_ = 0.0;
-  int unsure_frames_ = 0;
+  double unsure_s_ = 0.0;
   bool recognised_only_ = false;
   bool covered_ = false;
-  std::optional<int> frames_since_covered_;
+  std::optional<double> since_covered_s_;
   std::uint32_t segment_ = 0;
-  std::optional<int> frames_since_good_;  // view of this segment; nothing: there was none
-  int good_features_ = 0;                 // then
-  int vanished_ = 0;                      // since then
+  std::optional<double> since_good_s_;  // view of this segment; nothing: there was none
+  int good_features_ = 0;               // then
+  int vanished_ = 0;                    // since then
 };
 
 }  // namespace trailcast::agent

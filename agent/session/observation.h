@@ -13,6 +13,9 @@ struct Observation {
   SensorTime stamp{0};
   image::GrayImage image;
   std::optional<motion::Pose2> odometry;  // in the odometry's own frame
+  // How far the robot may have driven and turned since the last frame, one way or the other,
+  // besides what odometry says: where that has jumped, or was silent.
+  motion::OdometryIncrement unknown{};
 };
 
 }  // namespace trailcast::agent

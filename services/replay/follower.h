@@ -17,6 +17,8 @@ struct FollowInput {
   std::vector<route::TrackedFeature> features;
   // Since the last step; nothing on robots without odometry.
   std::optional<motion::OdometryIncrement> odometry;
+  // How far it may have driven and turned besides, one way or the other.
+  motion::OdometryIncrement unknown{};
 };
 
 // Where the robot is beside the path as it was taught.

@@ -73,6 +73,9 @@ class PathEstimator {
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);
 
+  // It may have driven and turned so far besides, one way or the other.
+  void Widen(const motion::OdometryIncrement& unknown);
+
   // What it sees; returns how it agrees with the taught path.
   Agreement Update(const std::vector<route::TrackedFeature>& seen);
 

@@ -35,13 +35,13 @@ int Confidence::Wanted(const Sighting& seen) const {
 
 void Confidence::NoteView(const Sighting& seen) {
   if (seen.agreeing >= options_.good_view * Wanted(seen)) {
-    frames_since_good_ = 0;
+    since_good_s_ = 0.0;
     good_features_ = seen.agreeing;
     vanished_ = 0;
   } else if (seen.segment != segment_) {
-    frames_since_good_.reset();
-  } else if (frames_since_good_) {
-    ++*frames_since_good_;
+    since_good_s_.reset();
+  } else if (since_good_s_) {
+    *since_good_s_ += seen.dt_s;
     vanished_ += seen.vanished;
   }
   segment_ = seen.segment;
@@ -75,17 +75,17 @@ bool Confidence::CoveredNow(const Sighting& seen) const {
       seen.in_picture.value_or(seen.taught) < options_.covered_least_expected) {
     return false;
   }
-  if (frames_since_covered_ && *frames_since_covered_ <= options_.still_about_frames) return true;
-  return frames_since_good_ && *frames_since_good_ <= options_.covered_within_frames &&
+  if (since_covered_s_ && *since_covered_s_ <= options_.still_about_s + kTimeSlack_s) return true;
+  return since_good_s_ && *since_good_s_ <= options_.covered_within_s + kTimeSlack_s &&
          VanishedInPlace();
 }
 
 Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
   if (covered_) {
-    return unsure_frames_ > options_.covered_limit_frames ? Trust::kLost : Trust::kCovered;
+    return unsure_s_ > options_.covered_limit_s + kTimeSlack_s ? Trust::kLost : Trust::kCovered;
   }
   if (by_distance ? unsure_m_ > options_.blind_limit_m
-                  : unsure_frames_ > options_.blind_limit_frames) {
+                  : unsure_s_ > options_.blind_limit_s + kTimeSlack_s) {
     return Trust::kLost;
   }
   if (!sure_once_) return Trust::kSeeking;
@@ -97,7 +97,7 @@ std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
                            : sure_once_ ? ""
                                         : options_.not_found + ": ";
   const std::string since = by_distance && !covered_ ? fmt::format("{:.1f} m", unsure_m_)
-                                                     : fmt::format("{} frames", unsure_frames_);
+                                                     : fmt::format("{:.1f} s", unsure_s_);
   return fmt::format("{}{} of segment {}'s {} features in view for {}; {} are needed to be sure",
                      what, seen.agreeing, seen.segment, seen.taught, since, Wanted(seen));
 }
@@ -115,21 +115,21 @@ Verdict Confidence::Judge(const Sighting& seen,
     return {Trust::kSure, "this stretch was taught without features: on by odometry"};
   }
   NoteView(seen);
-  if (frames_since_covered_) ++*frames_since_covered_;
+  if (since_covered_s_) *since_covered_s_ += seen.dt_s;
   const bool agrees = seen.agreeing >= Wanted(seen) && seen.taught >= options_.min_features;
   recognised_only_ = false;
   if (agrees && !seen.elsewhere) {
     sure_once_ = true;
     covered_ = false;
     unsure_m_ = 0.0;
-    unsure_frames_ = 0;
+    unsure_s_ = 0.0;
     return JudgePlace(seen);
   }
   unsure_m_ += moved ? std::abs(moved->distance_m) : 0.0;
-  ++unsure_frames_;
+  unsure_s_ += seen.dt_s;
   const bool gone = seen.agreeing < options_.min_features;
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
-  if (covered_) frames_since_covered_ = 0;
+  if (covered_) since_covered_s_ = 0.0;
   const bool by_distance = moved.has_value() && sure_once_;
   const Trust trust = Decide(seen, by_distance);
   if (trust != Trust::kLost || covered_ || !seen.recognised) {

@@ -40,6 +40,7 @@ Result<Seen> Eyes::See(const Observation& observation) {
   Seen seen;
   seen.frame = &unroller_.Unroll(observation.image);
   seen.driven = Driven(observation);
+  seen.unknown = observation.unknown;
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
   const std::vector<route::TrackedFeature> before = tracker_.Current();

@@ -9,8 +9,8 @@
 namespace trailcast::agent {
 namespace {
 
-// Blind robots look for the route again every so many frames: the wide search costs time.
-constexpr int kLookAgain_frames = 5;
+// Blind robots look for the route again every so many seconds: the wide search costs time.
+constexpr double kLookAgain_s = 5.0 / 30.0;
 constexpr double kShareToSkip = 0.5;
 constexpr int kEnoughAgreed = 10;
 
@@ -47,8 +47,9 @@ replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
     search_.hand_over().SetRunMagnification(*magnification);
   }
   if (!follower_ || standing.state == ReplayState::kWaiting) {
-    if (!BeginNext(standing)) return {};
-    const replay::FollowStep first = follower_->Step({eyes_.tracker().Current(), seen.driven});
+    if (!BeginNext(seen.looked_s, standing)) return {};
+    const replay::FollowStep first =
+        follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
     Judge(first, seen, standing);
     return first;
   }
@@ -57,7 +58,7 @@ replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
 
 // On the spot, before a segment: as far as odometry says.
 replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
-  const replay::FollowStep step = follower_->Step({{}, seen.driven});
+  const replay::FollowStep step = follower_->Step({{}, seen.driven, seen.unknown});
   standing = {ReplayState::kFollowing, Trust::kSure, ""};
   if (!follower_->turning()) search_.HandOverTo(*follower_);
   return step;
@@ -65,10 +66,10 @@ replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
 
 replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   const SegmentIndex before = follower_->segment().index;
-  replay::FollowStep step = follower_->Step({seen.features, seen.driven});
+  replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
   Judge(step, seen, standing);
   if (!AsPrinted(options_.method)) {
-    search_.Refresh(*follower_, step.agreeing, step.carried_left_m.has_value());
+    search_.Refresh(*follower_, step.agreeing, seen.looked_s, step.carried_left_m.has_value());
   }
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
   // What covers this segment's features covers the next one's too.
@@ -88,6 +89,7 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
   const route::Segment& segment = follower_->segment();
   Sighting sighting{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
                     eyes_.tracker().losses().not_returned};
+  sighting.dt_s = seen.looked_s;
   sighting.carried_off = step.carried_left_m.has_value();
   if (step.offset) {
     sighting.left_sigma_m = step.offset->left_sigma_m;
@@ -113,7 +115,7 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
       std::exchange(sighting.elsewhere, sighting.elsewhere && AsPrinted(options_.method));
   Verdict verdict = confidence_.Judge(sighting, seen.driven);
   if (AsPrinted(options_.method)) {  // which know no doubt of their own
-    Verdict by_place = place_trust_.Judge(place_.where());
+    Verdict by_place = place_trust_.Judge(place_.where(), seen.looked_s);
     if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
   }
   standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
@@ -123,17 +125,19 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
   const bool astray = standing.trust == Trust::kBlind || standing.trust == Trust::kSeeking ||
                       (elsewhere && standing.trust == Trust::kUnsure) ||
                       confidence_.recognised_only();
+  if (confidence_.unsure_s() == 0.0) look_again_at_s_ = kLookAgain_s;
   if (astray && standing.state != ReplayState::kLost) LookAgain(step.fraction, elsewhere);
 }
 
 // Where the belief holds it to be, if that is somewhere else; otherwise about where it is thought
 // to be and at the next segment's start, by turns: what is near may be gone for good.
 void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
-  if (confidence_.unsure_frames() % kLookAgain_frames != 0) return;
+  if (confidence_.unsure_s() + kTimeSlack_s < look_again_at_s_) return;
+  const auto turn = static_cast<int>((confidence_.unsure_s() + kTimeSlack_s) / kLookAgain_s);
+  look_again_at_s_ = (turn + 1) * kLookAgain_s;
   const SegmentIndex index = follower_->segment().index;
   const std::size_t next = index.value() + 1;
-  const bool ahead =
-      !elsewhere && route_.has(next) && confidence_.unsure_frames() / kLookAgain_frames % 2 == 0;
+  const bool ahead = !elsewhere && route_.has(next) && turn % 2 == 0;
   const RoutePoint point = elsewhere ? place_.point()
                            : ahead   ? RoutePoint{route_.segments()[next].index, 0.0}
                                      : RoutePoint{index, fraction};

@@ -52,9 +52,9 @@ class FeatureFollower {
     return eyes_.has_odometry() && UsesOdometry(options_.method);
   }
   // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
-  [[nodiscard]] bool BeginNext(Standing& standing);
+  [[nodiscard]] bool BeginNext(double dt_s, Standing& standing);
   [[nodiscard]] bool BeginWhereLeft(Standing& standing);
-  [[nodiscard]] bool BeginAnywhere(Standing& standing);
+  [[nodiscard]] bool BeginAnywhere(double dt_s, Standing& standing);
   void Make(const route::Segment& first);
   void Begin(const route::Segment& segment);
   void EndSegment(Standing& standing);
@@ -78,6 +78,7 @@ class FeatureFollower {
   FeatureSearch search_;
   Confidence confidence_;
   PlaceTrust place_trust_;                      // of the printed methods
+  double look_again_at_s_ = 0.0;                // of being unsure
   std::optional<PlaceFinder> place_finder_;     // until it has found the place
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };

@@ -55,9 +55,9 @@ void FeatureFollower::Begin(const route::Segment& segment) {
 }
 
 // Of a robot that stands, for want of a segment to follow.
-bool FeatureFollower::BeginNext(Standing& standing) {
+bool FeatureFollower::BeginNext(double dt_s, Standing& standing) {
   if (place_finder_) return BeginWhereLeft(standing);
-  if (options_.anywhere && !follower_) return BeginAnywhere(standing);
+  if (options_.anywhere && !follower_) return BeginAnywhere(dt_s, standing);
   const std::size_t next = follower_ ? follower_->segment().index.value() + 1 : 0;
   if (route_.has(next)) {
     Begin(route_.segments()[next]);
@@ -98,8 +98,8 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
 }
 
 // The same, of one that may be anywhere on the route.
-bool FeatureFollower::BeginAnywhere(Standing& standing) {
-  Verdict verdict = place_trust_.Judge(place_.where());
+bool FeatureFollower::BeginAnywhere(double dt_s, Standing& standing) {
+  Verdict verdict = place_trust_.Judge(place_.where(), dt_s);
   const bool lost = verdict.trust == Trust::kLost;
   standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
               lost ? Trust::kLost : Trust::kSeeking,

@@ -1,11 +1,13 @@
 #include "agent/session/src/feature_search.h"
 
+#include "agent/session/confidence.h"
+
 namespace trailcast::agent {
 namespace {
 
 // With a smaller share of the segment's features than this they are sought again, every so often.
 constexpr double kEnoughShare = 0.5;
-constexpr int kRefresh_frames = 6;
+constexpr double kRefresh_s = 6.0 / 30.0;
 
 }  // namespace
 
@@ -35,7 +37,7 @@ void FeatureSearch::HandOverTo(replay::Follower& follower) {
                               }),
          follower);
   Note(SearchKind::kHandOver, segment, hand_over_.last_was_wide());
-  frames_since_find_ = 0;
+  since_find_s_ = 0.0;
 }
 
 std::vector<route::TrackedFeature> FeatureSearch::Recover(replay::Follower& follower,
@@ -58,12 +60,13 @@ void FeatureSearch::TakeUpWhereLeft(const vision::FindResult& seen, replay::Foll
   Note(SearchKind::kRecovered, follower.segment(), false);
 }
 
-void FeatureSearch::Refresh(const replay::Follower& follower, int agreeing, bool now) {
+void FeatureSearch::Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now) {
   const route::Segment& segment = follower.segment();
   const bool few = agreeing < kEnoughShare * static_cast<double>(segment.features.size());
-  const bool due = ++frames_since_find_ >= kRefresh_frames && few;
+  since_find_s_ += dt_s;
+  const bool due = since_find_s_ + kTimeSlack_s >= kRefresh_s && few;
   if (!due && !now) return;
-  frames_since_find_ = 0;
+  since_find_s_ = 0.0;
   const std::vector<route::TrackedFeature> found = hand_over_.Again(*frame_, follower);
   if (static_cast<int>(found.size()) <= agreeing) return;
   eyes_.tracker().Follow(found);

@@ -36,7 +36,7 @@ class FeatureSearch {
   void TakeUpWhereLeft(const vision::FindResult& seen, replay::Follower& follower);
   // Features once lost (blur, a passer-by) come back into view, and to a robot that was carried off
   // they are elsewhere: looks for them again, if that is due or `now`.
-  void Refresh(const replay::Follower& follower, int agreeing, bool now);
+  void Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now);
   // Nothing is followed.
   void Forget() { eyes_.tracker().Follow({}); }
 
@@ -54,7 +54,7 @@ class FeatureSearch {
   PlaceKeeper& place_;
   const image::GrayImage* frame_ = nullptr;
   std::vector<Search> searches_;
-  int frames_since_find_ = 0;
+  double since_find_s_ = 0.0;
 };
 
 }  // namespace trailcast::agent

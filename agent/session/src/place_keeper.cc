@@ -52,7 +52,7 @@ void PlaceKeeper::Move(const FrameMotion& moved) {
   }
   if (moved.odometry && metric()) {
     const double along_m = moved.odometry->distance_m;
-    place_.belief().Move({along_m, kOdometrySigma * std::abs(along_m), false});
+    place_.belief().Move({along_m, std::hypot(kOdometrySigma * along_m, moved.unknown_m), false});
   } else if (moved.flow > kStill_flow && moved.dt_s > 0.0) {
     const double speed = metric() ? speeds_mps_[point().segment.value()] : 1.0;
     place_.belief().Move({moved.dt_s * speed, 0.0, true});

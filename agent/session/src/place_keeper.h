@@ -17,6 +17,7 @@ struct FrameMotion {
   std::optional<motion::OdometryIncrement> odometry;
   double flow = 0.0;  // of most features in the picture, as a share of its width
   double dt_s = 0.0;
+  double unknown_m = 0.0;  // besides, one way or the other
 };
 
 // Keeps the belief in a robot's place on a route (route_belief.h) up to date with how it moves and

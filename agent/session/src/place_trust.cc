@@ -4,22 +4,23 @@
 
 namespace trailcast::agent {
 
-Verdict PlaceTrust::Judge(const belief::RouteBelief::Place& place, std::string_view doubt) {
+Verdict PlaceTrust::Judge(const belief::RouteBelief::Place& place, double dt_s,
+                          std::string_view doubt) {
   if (place.held && doubt.empty()) {
     ever_sure_ = true;
-    unsure_frames_ = 0;
+    unsure_s_ = 0.0;
     return {Trust::kSure, ""};
   }
-  ++unsure_frames_;
+  unsure_s_ += dt_s;
   const std::string why =
       place.held
           ? std::string(doubt)
           : fmt::format(
-                "{} for {} frames: {} features of the likeliest place in view, off the "
+                "{} for {:.1f} s: {} features of the likeliest place in view, off the "
                 "route with {:.0f} %",
                 ever_sure_ ? "the place on the route is not known" : "the route is not recognised",
-                unsure_frames_, place.agreed, 100.0 * place.off_route);
-  if (unsure_frames_ > options_.limit_frames) return {Trust::kLost, why};
+                unsure_s_, place.agreed, 100.0 * place.off_route);
+  if (unsure_s_ > options_.limit_s + kTimeSlack_s) return {Trust::kLost, why};
   return {ever_sure_ ? Trust::kBlind : Trust::kSeeking, why};
 }
 

@@ -10,7 +10,7 @@ namespace trailcast::agent {
 
 struct PlaceTrustOptions {
   // How long a robot that has lost its place may stand and look, before it is lost.
-  int limit_frames = 90;
+  double limit_s = 3.0;
 };
 
 // How far a robot without odometry may trust the belief in its place: it follows while the place is
@@ -19,14 +19,16 @@ class PlaceTrust {
  public:
   explicit PlaceTrust(const PlaceTrustOptions& options = {}) : options_(options) {}
 
-  // `doubt`: what speaks against following although the place is held; empty: nothing.
-  [[nodiscard]] Verdict Judge(const belief::RouteBelief::Place& place, std::string_view doubt = "");
+  // `dt_s`: since the last frame. `doubt`: what speaks against following although the place is
+  // held; empty: nothing.
+  [[nodiscard]] Verdict Judge(const belief::RouteBelief::Place& place, double dt_s,
+                              std::string_view doubt = "");
   [[nodiscard]] bool ever_sure() const { return ever_sure_; }
 
  private:
   PlaceTrustOptions options_;
   bool ever_sure_ = false;
-  int unsure_frames_ = 0;
+  double unsure_s_ = 0.0;
 };
 
 }  // namespace trailcast::agent

@@ -15,7 +15,8 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr int kMostWithoutPicture_frames = 90;
+constexpr double kMostWithoutPicture_s = 3.0;
+constexpr double kFirstFrame_s = 1.0 / 30.0;
 // How far from the route's start a robot may be that is put there, in the route's units.
 constexpr double kStart_sigma = 0.25;
 constexpr double kLeft_m = 0.5;  // and from where it was left
@@ -38,6 +39,7 @@ struct ReplaySession::State {
            !(eyes.has_odometry() && route.segments().front().has_odometry);
   }
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
+  void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
   void Locate(const Seen& seen);
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
@@ -51,7 +53,9 @@ struct ReplaySession::State {
   std::optional<LeftAt> left;
   bool begun = false;  // a frame was seen while something of the route was known
   Standing standing;
-  int frames_without_picture = 0;
+  std::optional<SensorTime> last_stamp;
+  double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
+  double without_picture_s = 0.0;
   ReplayStep last;
 };
 
@@ -59,7 +63,8 @@ struct ReplaySession::State {
 ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   if (standing.state == ReplayState::kArrived || standing.state == ReplayState::kLost) return last;
   ReplayStep report = last;
-  const bool lost = ++frames_without_picture > kMostWithoutPicture_frames;
+  without_picture_s += looked_s;
+  const bool lost = without_picture_s > kMostWithoutPicture_s + kTimeSlack_s;
   report.command = {};
   report.state = lost ? ReplayState::kLost : ReplayState::kBlind;
   report.trust = lost ? Trust::kLost : Trust::kBlind;
@@ -70,6 +75,11 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
     last = report;
   }
   return report;
+}
+
+void ReplaySession::State::NoteTime(SensorTime stamp) {
+  const auto before = std::exchange(last_stamp, stamp);
+  looked_s = before ? std::clamp(Seconds(stamp - *before), 0.0, kLongestFrame_s) : kFirstFrame_s;
 }
 
 void ReplaySession::State::StartPlace(int width_px) {
@@ -87,13 +97,13 @@ void ReplaySession::State::StartPlace(int width_px) {
 // A robot that is sure of its features asks what is recognised of the route only now and then.
 void ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
-  place.Move({seen.driven, seen.flow, seen.dt_s});
+  place.Move({seen.driven, seen.flow, seen.dt_s, seen.unknown.distance_m});
   if (ByViews() || standing.trust != Trust::kSure || place.LookIsDue()) place.LookAt(*seen.frame);
 }
 
 ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   if (!ByViews()) return by_features.Report(by_features.Step(seen, standing), standing);
-  ReplayStep step = by_views.Step();
+  ReplayStep step = by_views.Step(seen.looked_s);
   standing = {step.state, step.trust, step.reason};
   eyes.tracker().Detect();  // whose flow tells whether the robot moves
   return step;
@@ -130,12 +140,14 @@ double ReplaySession::known_m() const { return state_->route.length_m(); }
 
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
+  s.NoteTime(observation.stamp);
   auto seen = s.eyes.See(observation);
   if (!seen) {
     if (seen.error().code != ErrorCode::kInvalidArgument) return tl::unexpected(seen.error());
     return s.StepWithoutPicture(seen.error().message);
   }
-  s.frames_without_picture = 0;
+  s.without_picture_s = 0.0;
+  seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
   if (s.standing.state == ReplayState::kArrived) return s.last;
   if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);

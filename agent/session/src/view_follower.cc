@@ -58,9 +58,9 @@ bool ViewFollower::HasCome() const {
 }
 
 // `doubt`: what speaks against driving on although the place is held; empty: nothing.
-ReplayStep ViewFollower::Go(std::string_view doubt) {
+ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
   const belief::RouteBelief::Place& where = place_.where();
-  Verdict verdict = trust_.Judge(where, doubt);
+  Verdict verdict = trust_.Judge(where, dt_s, doubt);
   const RoutePoint point = place_.point();
   const route::Segment& here = route_.segment(point.segment);
   const double speed_mps = here.has_odometry ? here.speed_mps() : replay::kSpeedWithoutOdometry_mps;
@@ -95,10 +95,11 @@ void ViewFollower::EndAt(ReplayStep& step) const {
                                                 route_.segments().size());
 }
 
-ReplayStep ViewFollower::Step() {
+ReplayStep ViewFollower::Step(double dt_s) {
   const bool end_is_seen = SeesTheEnd();
   const bool end_is_reached = end_is_seen && HasCome();
-  ReplayStep step = Go(route_.complete() && end_is_seen && !end_is_reached ? kOnlyTheEnd : "");
+  ReplayStep step =
+      Go(dt_s, route_.complete() && end_is_seen && !end_is_reached ? kOnlyTheEnd : "");
   if (route_.complete() ? end_is_reached : end_is_seen) EndAt(step);
   return step;
 }

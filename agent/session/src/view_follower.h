@@ -31,14 +31,14 @@ class ViewFollower {
       : options_(options), route_(route), place_(place) {}
 
   // By the look that the place has just been taken by.
-  [[nodiscard]] ReplayStep Step();
+  [[nodiscard]] ReplayStep Step(double dt_s);
 
  private:
   // Whether what is seen is the end of what is known of the route, and whether the robot has come
   // there: what looks like the end from where it was put may be the beginning, of a lap, say.
   [[nodiscard]] bool SeesTheEnd() const;
   [[nodiscard]] bool HasCome() const;
-  [[nodiscard]] ReplayStep Go(std::string_view doubt);
+  [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);
   void EndAt(ReplayStep& step) const;
 
   ReplayMethodOptions options_;

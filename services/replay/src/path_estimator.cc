@@ -134,6 +134,12 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   state_[kPitch] = 0.0;
 }
 
+void PathEstimator::Widen(const motion::OdometryIncrement& unknown) {
+  covariance_(kAlong, kAlong) += Square(unknown.distance_m);
+  covariance_(kLeft, kLeft) += Square(unknown.distance_m * std::sin(unknown.heading_change_rad));
+  covariance_(kHeading, kHeading) += Square(unknown.heading_change_rad);
+}
+
 PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
                                                         const State& state) const {
   const double along_m = state[kAlong];

@@ -54,6 +54,7 @@ FollowStep PathFollower::TurnOnTheSpot() {
 
 FollowStep PathFollower::Step(const FollowInput& input) {
   if (input.odometry) estimator_.Predict(*input.odometry);
+  estimator_.Widen(input.unknown);
   if (turning_) return TurnOnTheSpot();
   FollowStep step;
   const Agreement agreement = estimator_.Update(input.features);

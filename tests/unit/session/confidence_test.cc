@@ -17,9 +17,15 @@ class ConfidenceTest : public ::testing::Test {
               std::optional<motion::OdometryIncrement> moved = kStep) {
     Verdict verdict;
     for (int i = 0; i < frames; ++i) {
-      verdict = confidence_.Judge({segment_, taught_, agreeing, std::exchange(vanish_, 0),
-                                   in_picture_, left_sigma_m_, std::exchange(carried_off_, false)},
-                                  moved);
+      Sighting seen{segment_,
+                    taught_,
+                    agreeing,
+                    std::exchange(vanish_, 0),
+                    in_picture_,
+                    left_sigma_m_,
+                    std::exchange(carried_off_, false)};
+      seen.dt_s = dt_s_;
+      verdict = confidence_.Judge(seen, moved);
     }
     return verdict;
   }
@@ -38,6 +44,7 @@ class ConfidenceTest : public ::testing::Test {
   int taught_ = kTaught;
   int vanish_ = 0;
   bool carried_off_ = false;  // in the next frame
+  double dt_s_ = 1.0 / 30.0;
 };
 
 TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
@@ -46,12 +53,21 @@ TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
   EXPECT_EQ(verdict.reason, "");
 }
 
+TEST_F(ConfidenceTest, SeeksForSecondsWhateverTheFrameRate) {
+  for (const double rate_hz : {5.0, 15.0, 60.0}) {
+    confidence_ = Confidence();
+    dt_s_ = 1.0 / rate_hz;
+    EXPECT_EQ(See(7, static_cast<int>(3.0 * rate_hz)).trust, Trust::kSeeking) << rate_hz;
+    EXPECT_EQ(See(7).trust, Trust::kLost) << rate_hz;
+  }
+}
+
 TEST_F(ConfidenceTest, SeeksTheRouteStartStandingAndIsLostWithoutIt) {
   EXPECT_EQ(See(7, 90).trust, Trust::kSeeking);
   const Verdict verdict = See(7);
   EXPECT_EQ(verdict.trust, Trust::kLost);
   EXPECT_EQ(verdict.reason,
-            "the route's start is not found: 7 of segment 0's 40 features in view for 91 frames; 8 "
+            "the route's start is not found: 7 of segment 0's 40 features in view for 3.0 s; 8 "
             "are needed to be sure");
 }
 
