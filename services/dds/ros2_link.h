@@ -19,9 +19,11 @@ namespace trailcast::dds {
 enum class Ros2CommandType : std::uint8_t { kTwist, kTwistStamped };
 
 struct Ros2Options {
-  std::uint32_t domain_id = 0;    // ROS_DOMAIN_ID
-  std::string discovery_tag;      // real ROS robots have none
-  std::string network_interface;  // empty: DDS chooses
+  std::uint32_t domain_id = 0;  // ROS_DOMAIN_ID
+  std::string discovery_tag;    // real ROS robots have none
+  // Empty: the driver looks on the network's interface, as DDS chooses it, and on the loopback, and
+  // meets nodes under any of ROS 2's usual settings (ros2_network.h).
+  std::string network_interface;
   // ROS names; those without a '/' in front are below `robot`, as in "/robot1".
   std::string robot;
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
@@ -90,6 +92,7 @@ class Ros2Driver {
     // A peer of one of the topics is there, but its quality of service does not go with ours:
     // which topic, and what policy. Empty: none.
     std::string mismatch;
+    std::string tried;  // on which network interfaces they are sought, for people
   };
   [[nodiscard]] Peers peers() const;
 

@@ -1,6 +1,7 @@
 #include "services/dds/src/domain_config.h"
 
 #include "services/base/ids.h"
+#include "services/dds/src/cyclone_uri.h"
 #include "services/security/folder_layout.h"
 
 namespace trailcast::dds {
@@ -97,6 +98,10 @@ Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeti
                   "\"{}\" is not the name of a network interface; `ip link` lists them",
                   options.network_interface);
     }
+  }
+  // Named in both places it would be there twice, which Cyclone refuses.
+  if (!options.network_interface.empty() &&
+      !ChoosesInterface(UriXml(cyclonedds_uri), options.network_interface)) {
     // Forced: the loopback interface does multicast although it does not say so.
     general = fmt::format(
         "<General><Interfaces>"

@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <utility>
 
+#include "services/dds/src/cyclone_uri.h"
 #include "services/dds/src/domain_config.h"
 #include "services/dds/src/entities.h"
+#include "services/dds/src/ros2_network.h"
 #include "services/dds/src/ros2_wire.h"
 
 namespace trailcast::dds {
@@ -53,6 +55,11 @@ Qos ReliableQos(int keep_last) {
   return qos;
 }
 
+std::string CycloneUri() {
+  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
+  return uri == nullptr ? "" : uri;
+}
+
 // A participant of the robot's domain, for either end.
 struct Node {
   Domain domain;
@@ -60,15 +67,16 @@ struct Node {
   std::vector<Topic> topics;
   WaitSet wait_set;
 
-  static Result<Node> Open(const Ros2Options& options) {
+  // `network_xml`: how it is to meet others, if not as any node does.
+  static Result<Node> Open(const Ros2Options& options, const std::string& network_xml = {}) {
     if (auto valid = options.Validate(); !valid) return tl::unexpected(valid.error());
     DdsOptions dds;
     dds.domain_id = options.domain_id;
     dds.discovery_tag = options.discovery_tag;
     dds.network_interface = options.network_interface;
     dds.extra_config_xml = kPictureSized;
-    const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-    const auto config = DomainConfig(dds, {}, uri == nullptr ? "" : uri);
+    if (!network_xml.empty()) dds.extra_config_xml += "," + network_xml;
+    const auto config = DomainConfig(dds, {}, CycloneUri());
     if (!config) return tl::unexpected(config.error());
     auto domain = Domain::Create(*config);
     if (!domain) return tl::unexpected(domain.error());
@@ -133,6 +141,7 @@ Result<void> Ros2Options::Validate() const {
 
 struct Ros2Driver::State {
   Ros2Options options;
+  Ros2Network network;
   Node node;
   Reader image;
   std::optional<Reader> odometry;
@@ -143,7 +152,8 @@ Ros2Driver::Ros2Driver(std::unique_ptr<State> state) : state_(std::move(state)) 
 Ros2Driver::~Ros2Driver() = default;
 
 Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options) {
-  auto node = Node::Open(options);
+  Ros2Network network = MeetRos2(options.network_interface, UriXml(CycloneUri()));
+  auto node = Node::Open(options, network.xml);
   if (!node) return tl::unexpected(node.error());
   auto image = node->Hear(ImageType(options.image_is_compressed()), options.ImageTopic(),
                           SensorQos(kNewestFrames));
@@ -157,8 +167,9 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
-  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(new State{
-      options, *std::move(node), *std::move(image), std::move(odometry), *std::move(command)})));
+  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
+      new State{options, std::move(network), *std::move(node), *std::move(image),
+                std::move(odometry), *std::move(command)})));
 }
 
 std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
@@ -189,6 +200,7 @@ Result<void> Ros2Driver::Publish(const Ros2Command& command) {
 Ros2Driver::Peers Ros2Driver::peers() const {
   const State& s = *state_;
   Peers peers;
+  peers.tried = s.network.tried;
   peers.cameras = s.image.matched();
   peers.bases = s.command.matched();
   std::vector<std::string> mismatches{
