@@ -20,6 +20,7 @@ struct DeviceOptions {
   Ros2Run ros2;
   double sensor_timeout_s = 0.3;
   double sensor_patience_s = 10.0;
+  double base_patience_s = 30.0;
   double still_at_end_s = 0.0;
   std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
 
@@ -33,6 +34,9 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
 
 // Those of them for a simulated robot. Returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// Those of them that say what the base of a real robot can do; they need the option `robot`.
+void AddDriveLimits(CLI::App& command, CLI::Option* robot, motion::DriveLimits& limits);
 
 // Those of them that say which topics a ROS 2 robot has; they need the option `robot`.
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,

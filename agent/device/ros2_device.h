@@ -8,6 +8,7 @@
 
 #include "agent/device/device.h"
 #include "services/dds/ros2_link.h"
+#include "services/motion/drive_limits.h"
 
 namespace trailcast::agent {
 
@@ -19,6 +20,11 @@ struct Ros2Run {
   std::chrono::milliseconds sensor_timeout{300};
   // How long a stopped robot waits for what fell silent, and the agent for the robot to appear.
   std::chrono::milliseconds patience{10'000};
+  // How long a base may stand against its commands (a safety stop, an emergency stop, an obstacle)
+  // until that is final. Meanwhile it is told to stand, and tried now and then, gently.
+  std::chrono::milliseconds base_patience{30'000};
+  // Commands are brought within these.
+  motion::DriveLimits limits;
   // The robot waits for a command with the stamp of its frame: answer each, even while teaching.
   bool lockstep = false;
   // The drive is over when the robot, after having moved, has stood for so long; 0: it never is.

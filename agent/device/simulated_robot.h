@@ -18,6 +18,8 @@ struct SimulatedRun {
   double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
   bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
   bool stays_at_end = false;      // the scout goes on looking where its drive ended
+  double rate_hz = 30.0;          // of its steps, each with odometry and a picture
+  double turn_radius_m = 0.0;     // it steers like a car, no tighter; 0: by two driven wheels
 };
 
 class SimulatedRobot : public RobotDevice {

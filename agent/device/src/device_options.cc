@@ -81,6 +81,13 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
   add("--sensor-patience", options.sensor_patience_s,
       "Seconds that a stopped robot waits for them to come back")
       ->check(CLI::Range(0.0, 3600.0));
+  if (!scout) {
+    add("--base-patience", options.base_patience_s,
+        "Seconds that a base may stand against its commands, held by a safety stop or blocked: it "
+        "is told to stand, and tried now and then, gently")
+        ->check(CLI::Range(0.0, 86400.0));
+    AddDriveLimits(command, ros2, options.ros2.limits);
+  }
   command
       .add_flag("--lockstep", options.ros2.lockstep,
                 "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
@@ -100,6 +107,7 @@ Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
   JoinNetwork(run.topics, network);
   run.sensor_timeout = ToMilliseconds(options.sensor_timeout_s);
   run.patience = ToMilliseconds(options.sensor_patience_s);
+  run.base_patience = ToMilliseconds(options.base_patience_s);
   run.still_at_end = ToMilliseconds(options.still_at_end_s);
   run.stop = [] { return program::StopSignal::requested(); };
   auto device = Ros2Device::Open(run);
@@ -146,6 +154,23 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
 
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network) {
   if (topics.network_interface.empty()) topics.network_interface = network.network_interface;
+}
+
+void AddDriveLimits(CLI::App& command, CLI::Option* robot, motion::DriveLimits& limits) {
+  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(robot)->group("What its base can do");
+  };
+  add("--max-speed", limits.speed_mps, "Metres a second; the turning rate is reduced with it")
+      ->check(CLI::Range(0.05, 10.0));
+  add("--max-turn-rate", limits.turn_rate_radps,
+      "Radians a second; the speed is reduced with it, so that the path stays the same")
+      ->check(CLI::Range(0.05, 10.0));
+  add("--max-acceleration", limits.acceleration_mps2,
+      "Metres a second, each second, when it speeds up")
+      ->check(CLI::Range(0.05, 10.0));
+  add("--min-turn-radius", limits.turn_radius_m,
+      "Metres, of a car with a steering axle; 0: it turns on the spot")
+      ->check(CLI::Range(0.0, 10.0));
 }
 
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "services/base/angles.h"
@@ -20,6 +21,9 @@ constexpr double kLeastShare = 0.1;
 constexpr double kLeastAsked_m = 0.01;
 // After less a picture without noise may be the same.
 constexpr double kLeastSeen_m = 0.01;
+// A base that stands is left alone for so long before it is tried again, each time twice as long.
+constexpr std::chrono::milliseconds kFirstRest{1000};
+constexpr std::chrono::milliseconds kLongestRest{4000};
 // Half a small robot's width: turns as ways.
 constexpr double kArm_m = 0.15;
 
@@ -56,7 +60,7 @@ void RobotWatch::SawOdometry(Time now, SensorTime stamp, const motion::Pose2& po
   pose_ = pose;
   if (!Drives(told_)) return;
   driven_.push_back({stamp, pose, told_});
-  JudgeBase();
+  JudgeBase(now);
 }
 
 void RobotWatch::Told(const motion::VelocityCommand& command) {
@@ -67,7 +71,7 @@ void RobotWatch::Told(const motion::VelocityCommand& command) {
 }
 
 // Looks back over the last while of driving: how far was asked for, and how far it went.
-void RobotWatch::JudgeBase() {
+void RobotWatch::JudgeBase(Time now) {
   const auto span = obeyed_ ? timeout_ : std::max(timeout_, kToGetGoing);
   while (driven_.size() > 2 && driven_.back().stamp - driven_[1].stamp >= span) {
     driven_.pop_front();
@@ -84,17 +88,29 @@ void RobotWatch::JudgeBase() {
   const double asked_m = Way({}, asked);
   if (asked_m < kLeastAsked_m) return;
   if (Way(first.pose, last.pose) < kLeastShare * asked_m) {
-    disobeyed_ = true;
+    NoteStand(now);
   } else {
     obeyed_ = true;
+    stand_.reset();
   }
+}
+
+void RobotWatch::NoteStand(Time now) {
+  if (!stand_) {
+    stand_ = Stand{now, now, kFirstRest};
+  } else {
+    stand_->rest = std::min(2 * stand_->rest, kLongestRest);
+  }
+  stand_->try_at = now + stand_->rest;
+  driven_.clear();
+  obeyed_ = false;
 }
 
 std::optional<RobotWatch::Trouble> RobotWatch::Check(Time now) {
   if (!frame_at_) return std::nullopt;
   if (auto camera = CheckCamera(now)) return camera;
   if (auto odometry = CheckOdometry(now)) return odometry;
-  return CheckBase();
+  return CheckBase(now);
 }
 
 std::optional<RobotWatch::Trouble> RobotWatch::CheckCamera(Time now) {
@@ -117,12 +133,11 @@ std::optional<RobotWatch::Trouble> RobotWatch::CheckOdometry(Time now) const {
                  fmt::format("no odometry for {:.1f} s", Seconds(timeout_))};
 }
 
-std::optional<RobotWatch::Trouble> RobotWatch::CheckBase() const {
-  if (!disobeyed_) return std::nullopt;
+std::optional<RobotWatch::Trouble> RobotWatch::CheckBase(Time now) const {
+  if (!stand_ || now >= stand_->try_at) return std::nullopt;
   return Trouble{Trouble::Part::kBase,
                  "told to drive, and by its odometry it stands: blocked, switched off, or held by "
-                 "an emergency stop",
-                 true};
+                 "a safety or emergency stop; it is tried again, gently"};
 }
 
 }  // namespace trailcast::agent

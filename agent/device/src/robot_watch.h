@@ -12,7 +12,8 @@ namespace trailcast::agent {
 
 // Notices that a robot's camera, odometry or base does no longer do its part: no picture, or the
 // same one again and again while the robot moves; no odometry; a base that stands although it was
-// told to drive. Told of all that comes and goes; reads no clock itself.
+// told to drive. Told of all that comes and goes; reads no clock itself. A base that stands is in
+// trouble for a second or a few; then it is to be tried: it has moved, or stands again.
 class RobotWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -31,14 +32,21 @@ class RobotWatch {
     enum class Part { kCamera, kOdometry, kBase };
     Part part = Part::kCamera;
     std::string what;  // one line for people
-    // Nobody should drive on by himself: a base that did not obey may be blocked, or be held by an
-    // emergency stop.
-    bool final = false;
   };
   // What is wrong now, if anything. Before the first frame nothing is.
   [[nodiscard]] std::optional<Trouble> Check(Time now);
+  // Since when the base has been standing against what it was told, tries included; nothing: it
+  // obeys.
+  [[nodiscard]] std::optional<Time> base_stands_since() const {
+    return stand_ ? std::optional(stand_->since) : std::nullopt;
+  }
 
  private:
+  struct Stand {
+    Time since;
+    Time try_at;
+    std::chrono::milliseconds rest;  // until then
+  };
   struct Sample {
     SensorTime stamp{};
     motion::Pose2 pose;
@@ -46,8 +54,9 @@ class RobotWatch {
   };
   [[nodiscard]] std::optional<Trouble> CheckCamera(Time now);
   [[nodiscard]] std::optional<Trouble> CheckOdometry(Time now) const;
-  [[nodiscard]] std::optional<Trouble> CheckBase() const;
-  void JudgeBase();
+  [[nodiscard]] std::optional<Trouble> CheckBase(Time now) const;
+  void JudgeBase(Time now);
+  void NoteStand(Time now);
   [[nodiscard]] bool StandsYet() const;
 
   std::chrono::milliseconds timeout_;
@@ -61,7 +70,7 @@ class RobotWatch {
   motion::Pose2 pose_;
   std::deque<Sample> driven_;  // since the base was told to drive
   bool obeyed_ = false;        // it has driven since
-  bool disobeyed_ = false;
+  std::optional<Stand> stand_;
 };
 
 }  // namespace trailcast::agent

@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "agent/device/src/pose_history.h"
 #include "agent/device/src/robot_watch.h"
 #include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/ros2_trouble.h"
+#include "agent/device/src/sensed_poses.h"
 #include "agent/device/src/still_watch.h"
 #include "services/image/files.h"
 
@@ -26,17 +27,29 @@ constexpr milliseconds kListen{20};
 constexpr std::chrono::hours kLockstepTimeout{24};
 // Odometry of a frame's own moment may arrive a little after the frame.
 constexpr milliseconds kOdometryLate{60};
-// Stamps further apart are of different clocks.
-constexpr std::chrono::seconds kSameClock{2};
 // That the robot shall stand is said so long: a base may miss what is said once.
 constexpr std::chrono::seconds kSayAgain{1};
+// A command that was given longer ago than a base needs to reach it is no more on its way.
+constexpr double kLongestRamp_s = 0.1;
+// So gently a base is tried that stood against its commands.
+constexpr double kTrySpeed_mps = 0.15;
+constexpr double kTryTurn_radps = 0.3;
+// No base that is driven by our commands or by a person does more; those told to be faster do.
+constexpr double kLeastGate_mps = 3.0;
+constexpr double kLeastGate_radps = 6.0;
 
 struct Frame {
   [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
 
   steady_clock::time_point came_at;
+  SensorTime taken{};
   Ros2Picture picture;
 };
+
+GateOptions GateOf(const motion::DriveLimits& limits) {
+  return {std::max(kLeastGate_mps, 2.0 * limits.speed_mps),
+          std::max(kLeastGate_radps, 2.0 * limits.turn_rate_radps)};
+}
 
 }  // namespace
 
@@ -47,6 +60,7 @@ struct Ros2Device::State {
         watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
                               : device.sensor_timeout,
               has_odometry()),
+        poses(GateOf(device.limits)),
         still(device.still_at_end) {}
 
   [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
@@ -56,22 +70,20 @@ struct Ros2Device::State {
   void Keep(dds::Ros2Sensed sensed, steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, steady_clock::time_point now);
   void StopIfInDoubt(steady_clock::time_point now);
-  [[nodiscard]] std::string NobodyListens() const;
 
   // Any thread, with the lock.
   Result<void> Tell(const motion::VelocityCommand& command);
   [[nodiscard]] SensorTime CommandStamp() const;
+  [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& wanted) const;
 
   // The driving thread's, with the lock.
   [[nodiscard]] bool ready(steady_clock::time_point now) const;
   [[nodiscard]] std::optional<Error> GiveUp(steady_clock::time_point now) const;
-  [[nodiscard]] std::string WhoIsMissing() const;
   [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
-  [[nodiscard]] bool OfOneClock(SensorTime stamp) const;
-  [[nodiscard]] motion::Pose2 PoseAt(SensorTime stamp);
   Result<std::optional<Frame>> Await(std::unique_lock<std::mutex>& guard);
   void Leave(const Error& damage);
   void ShareTrouble();
+  void ShareNews();
 
   Ros2Run run;
   std::unique_ptr<dds::Ros2Driver> driver;
@@ -81,12 +93,13 @@ struct Ros2Device::State {
   std::condition_variable news;
   bool ending = false;
   RobotWatch watch;
-  PoseHistory poses;
+  SensedPoses poses;
   bool odometry_stands = false;  // it comes, with stamps that do not advance
   std::optional<Frame> newest;
   steady_clock::time_point unserved_since;  // since when there has been a newest frame
   std::vector<std::uint8_t> last_bytes;     // of the frame before
-  std::optional<SensorTime> given;          // the last frame that Next took
+  std::optional<SensorTime> given;          // the last frame that Next took, by its stamp
+  std::optional<SensorTime> given_before;
   steady_clock::time_point given_came_at;
   bool answered = true;  // with a command
   int unreadable = 0;    // pictures that were left out
@@ -98,7 +111,6 @@ struct Ros2Device::State {
   std::optional<RobotWatch::Trouble> trouble;
   steady_clock::time_point waiting_since;  // for a frame
   std::string shared_trouble;
-  bool told_clocks = false;
   StillWatch still;
   int width_px = 0;
   int height_px = 0;
@@ -120,9 +132,8 @@ void Ros2Device::State::Hear() {
 
 void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point now) {
   if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
-    odometry_stands = !poses.Add(odometry->stamp, odometry->pose);
-    if (odometry_stands) return;
-    watch.SawOdometry(now, odometry->stamp, odometry->pose);
+    odometry_stands = !poses.AddOdometry(odometry->stamp, odometry->pose, now, told);
+    if (!odometry_stands) watch.SawOdometry(now, poses.newest(), poses.newest_pose());
     return;
   }
   if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
@@ -133,39 +144,32 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
 }
 
 void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
-  if (given && StampOf(picture) == *given) {
+  const std::vector<std::uint8_t>& bytes = BytesOf(picture);
+  const bool changed = bytes != last_bytes;
+  if (given && StampOf(picture) == *given && (run.lockstep || !changed)) {
     // In lockstep: the robot did not get the answer, or does not yet have it.
     if (run.lockstep && answered) (void)driver->Publish({*given, told});
     return;
   }
-  const std::vector<std::uint8_t>& bytes = BytesOf(picture);
-  watch.SawFrame(now, bytes != last_bytes);
+  const auto taken = poses.AddFrame(StampOf(picture), now);
+  if (!taken) return;
+  watch.SawFrame(now, changed);
   last_bytes = bytes;
   if (!newest) unserved_since = now;
-  newest = Frame{now, std::move(picture)};
+  newest = Frame{now, *taken, std::move(picture)};
 }
 
 // Also when the loop that drives does not come back: a command is good for sensor_timeout.
 void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   trouble = watch.Check(now);
   if (!trouble && drove && driver->peers().bases == 0) {
-    trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens()};
+    trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
   }
   const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
   if (!trouble && !stale) return;
   if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
   // What cannot be handed over is said again, too.
   if (now <= stop_said_until) (void)Tell({});
-}
-
-std::string Ros2Device::State::NobodyListens() const {
-  const bool plain = run.topics.command_type == dds::Ros2CommandType::kTwist;
-  std::string text = fmt::format("nobody listens to it as {}", plain ? "Twist" : "TwistStamped");
-  const std::string mismatch = driver->peers().mismatch;
-  if (!mismatch.empty()) {
-    text += fmt::format("; quality of service does not match: {}", mismatch);
-  }
-  return text + "; check --cmd-vel-topic and --cmd-vel-type";
 }
 
 Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
@@ -179,60 +183,42 @@ Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
 // A base in real time brakes at what is old by its own clock, which is its odometry's; a robot in
 // lockstep waits for the answer to its frame.
 SensorTime Ros2Device::State::CommandStamp() const {
-  if (!run.lockstep && !poses.empty()) return poses.newest();
+  if (!run.lockstep && poses.has_odometry()) return poses.newest_stamp();
   return given.value_or(SensorTime{});
 }
 
-bool Ros2Device::State::OfOneClock(SensorTime stamp) const {
-  return std::chrono::abs(poses.newest() - stamp) <= kSameClock;
+// Whoever had to be stopped speeds up again from standing.
+motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) const {
+  motion::DriveLimits limits = run.limits;
+  if (watch.base_stands_since()) {
+    limits.speed_mps = std::min(limits.speed_mps, kTrySpeed_mps);
+    limits.turn_rate_radps = std::min(limits.turn_rate_radps, kTryTurn_radps);
+  }
+  double since_s = kLongestRamp_s;
+  if (!run.lockstep) since_s = Seconds(steady_clock::now() - told_at);
+  if (run.lockstep && given_before) since_s = Seconds(*given - *given_before);
+  return motion::Shape(wanted, told, std::clamp(since_s, 0.0, kLongestRamp_s), limits);
 }
 
 bool Ros2Device::State::ready(steady_clock::time_point now) const {
   if (!newest || trouble) return false;
   if (!has_odometry()) return true;
-  if (poses.empty()) return false;
-  return !OfOneClock(newest->stamp()) || poses.newest() >= newest->stamp() ||
-         now - unserved_since > kOdometryLate;
+  if (!poses.has_odometry()) return false;
+  return poses.Reaches(newest->taken) || now - unserved_since > kOdometryLate;
 }
 
 Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
-  using Part = RobotWatch::Trouble::Part;
-  switch (what.part) {
-    case Part::kCamera:
-      return {ErrorCode::kUnavailable,
-              fmt::format("camera {}: {}", run.topics.ImageTopic(), what.what)};
-    case Part::kOdometry:
-      return {ErrorCode::kUnavailable,
-              fmt::format("odometry {}: {}{}", run.topics.OdometryTopic(), what.what,
-                          odometry_stands ? ": it comes, but its stamps do not advance" : "")};
-    case Part::kBase:
-      break;
-  }
-  return {ErrorCode::kUnavailable,
-          fmt::format("base {}: {}", run.topics.CommandTopic(), what.what)};
-}
-
-std::string Ros2Device::State::WhoIsMissing() const {
-  const dds::Ros2Driver::Peers peers = driver->peers();
-  std::string text;
-  if (peers.cameras == 0) {
-    text = fmt::format("nobody publishes {}", run.topics.ImageTopic());
-  } else if (!newest) {
-    text = fmt::format("no picture came on {}", run.topics.ImageTopic());
-  } else if (peers.odometers == 0) {
-    text = fmt::format("nobody publishes {}", run.topics.OdometryTopic());
-  } else {
-    text = fmt::format("no odometry came on {}", run.topics.OdometryTopic());
-  }
-  if (!peers.mismatch.empty()) {
-    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
-  }
-  return fmt::format("{} (ROS domain {}); check the robot's drivers, its namespace and domain",
-                     text, run.topics.domain_id);
+  return {ErrorCode::kUnavailable, TroubleText(run.topics, what, odometry_stands)};
 }
 
 std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) const {
-  if (trouble && trouble->final) return Failure(*trouble);
+  const auto stands_since = watch.base_stands_since();
+  if (trouble && stands_since && now - *stands_since > run.base_patience) {
+    return Error{ErrorCode::kUnavailable, fmt::format("{}, for {:g} s", Failure(*trouble).message,
+                                                      Seconds(run.base_patience))};
+  }
+  if (stands_since && trouble && trouble->part == RobotWatch::Trouble::Part::kBase)
+    return std::nullopt;
   // Without trouble it is the next frame that is waited for, which takes its time.
   const auto patience =
       trouble ? run.patience : std::max(run.patience, run.sensor_timeout + kOdometryLate);
@@ -248,22 +234,13 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) con
                  fmt::format("no picture could be read for {:g} s: {}", waited_s, why_unreadable)};
   }
   return Error{ErrorCode::kUnavailable,
-               fmt::format("the robot says nothing for {:g} s: {}", waited_s, WhoIsMissing())};
+               fmt::format("the robot says nothing for {:g} s: {}", waited_s,
+                           WhoIsMissing(run.topics, driver->peers(), newest.has_value()))};
 }
 
-motion::Pose2 Ros2Device::State::PoseAt(SensorTime stamp) {
-  if (OfOneClock(stamp)) return poses.At(stamp);
-  if (!std::exchange(told_clocks, true)) {
-    spdlog::warn(
-        "stamps of pictures and odometry are {:.1f} s apart, of different clocks: taking "
-        "the newest odometry for each picture",
-        Seconds(std::chrono::abs(poses.newest() - stamp)));
-  }
-  return poses.At(poses.newest());
-}
-
-// Tells who asked for it when trouble begins and ends.
+// Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.
 void Ros2Device::State::ShareTrouble() {
+  if (!trouble && watch.base_stands_since()) return;
   const std::string now = trouble ? Failure(*trouble).message : std::string();
   if (now == shared_trouble) return;
   if (now.empty()) {
@@ -273,6 +250,10 @@ void Ros2Device::State::ShareTrouble() {
   }
   shared_trouble = now;
   tell(now);
+}
+
+void Ros2Device::State::ShareNews() {
+  for (const std::string& line : poses.TakeNews()) spdlog::warn("{}", line);
 }
 
 Ros2Device::Ros2Device(std::unique_ptr<State> state) : state_(std::move(state)) {
@@ -315,13 +296,8 @@ Result<std::optional<Frame>> Ros2Device::State::Await(std::unique_lock<std::mute
   }
   ShareTrouble();
   Frame frame = *std::exchange(newest, std::nullopt);
-  if (given && frame.stamp() < *given) {
-    return Fail(ErrorCode::kUnavailable,
-                "camera {}: its clock went back from {:.3f} s to {:.3f} s: was the robot started "
-                "anew?",
-                run.topics.ImageTopic(), Seconds(*given), Seconds(frame.stamp()));
-  }
-  given = frame.stamp();
+  ShareNews();
+  given_before = std::exchange(given, frame.stamp());
   given_came_at = frame.came_at;
   answered = false;
   return frame;
@@ -344,10 +320,11 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     if (!*awaited) return std::nullopt;
     const Frame& frame = **awaited;
     Observation observation;
-    observation.stamp = frame.stamp();
+    observation.stamp = frame.taken;
     if (s.has_odometry()) {
-      observation.odometry = s.PoseAt(frame.stamp());
-      if (s.still.Over(frame.stamp(), *observation.odometry)) return std::nullopt;
+      observation.odometry = s.poses.At(frame.taken);
+      observation.unknown = s.poses.TakeUnknown();
+      if (s.still.Over(frame.taken, *observation.odometry)) return std::nullopt;
     }
     guard.unlock();
     auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
@@ -369,7 +346,7 @@ Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
   s.answered = true;
   // What an old picture led to is no more to be done.
   const bool old = !s.run.lockstep && steady_clock::now() - s.given_came_at > s.run.sensor_timeout;
-  return s.Tell(s.trouble || old ? motion::VelocityCommand{} : command);
+  return s.Tell(s.trouble || old ? motion::VelocityCommand{} : s.Within(command));
 }
 
 std::string Ros2Device::camera() const {

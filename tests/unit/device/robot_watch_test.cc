@@ -67,7 +67,6 @@ TEST_F(RobotWatchTest, MissesTheCameraAfterTheTimeout) {
   Run(milliseconds(2000));
   ASSERT_TRUE(trouble_);
   EXPECT_EQ(trouble_->part, Part::kCamera);
-  EXPECT_FALSE(trouble_->final);
   EXPECT_LT(now_ - began, kTimeout + 2 * kFrame);
   camera_ = true;
   Run(kFrame);
@@ -139,9 +138,36 @@ TEST_F(RobotWatchTest, NoticesABaseThatStopsObeying) {
     Run(milliseconds(2000));
     ASSERT_TRUE(trouble_);
     EXPECT_EQ(trouble_->part, Part::kBase);
-    EXPECT_TRUE(trouble_->final);
+    EXPECT_EQ(watch_.base_stands_since(), now_);
     EXPECT_LT(now_ - began, kTimeout + 3 * kFrame);
   }
+}
+
+TEST_F(RobotWatchTest, HasABaseThatStandsTriedAgainUntilItMoves) {
+  Tell(kAhead);
+  Run(milliseconds(2000));
+  base_ = false;
+  Run(milliseconds(2000));
+  ASSERT_TRUE(trouble_);
+  const auto since = now_;
+  for (const milliseconds rest : {milliseconds(1000), milliseconds(2000)}) {
+    const auto stood = now_;
+    Tell({});
+    while (trouble_) Run(kFrame);
+    EXPECT_GE(now_ - stood, rest);
+    EXPECT_LE(now_ - stood, rest + 2 * kFrame);
+    EXPECT_EQ(watch_.base_stands_since(), since) << "while it is tried, too";
+    Tell(kAhead);
+    Run(milliseconds(2000));
+    ASSERT_TRUE(trouble_) << "it stands still";
+  }
+  Tell({});
+  while (trouble_) Run(kFrame);
+  base_ = true;
+  Tell(kAhead);
+  Run(milliseconds(2000));
+  EXPECT_FALSE(trouble_);
+  EXPECT_FALSE(watch_.base_stands_since());
 }
 
 TEST_F(RobotWatchTest, GivesABaseASecondToGetGoing) {

@@ -1,0 +1,220 @@
+#include "agent/device/robot_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/stamp_clock.h"
+#include "agent/device/src/turn_series.h"
+#include "services/base/angles.h"
+#include "services/vision/feature_tracker.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kListen{10};
+constexpr milliseconds kAppear{5000};  // how long a robot may take to be discovered
+constexpr milliseconds kTurn{1500};    // each way
+constexpr milliseconds kSettle{500};
+constexpr double kTurns_rad = 0.02;  // more than odometry's noise
+constexpr int kFewFeatures = 8;
+
+double Seconds(steady_clock::time_point time) {
+  return trailcast::Seconds(time.time_since_epoch());
+}
+
+// How many a second, by their times.
+double Rate(int count, double first_s, double last_s) {
+  return count > 1 && last_s > first_s ? (count - 1) / (last_s - first_s) : 0.0;
+}
+
+// How far the features of the last picture have moved to the right, summed up, as a share of the
+// width.
+class PictureShift {
+ public:
+  double Add(const image::GrayImage& picture) {
+    const std::vector<route::TrackedFeature> before = tracker_.Current();
+    const std::vector<route::TrackedFeature> now = tracker_.Track(picture);
+    std::vector<double> moved;
+    std::size_t i = 0;
+    for (const route::TrackedFeature& feature : now) {
+      while (i < before.size() && before[i].id != feature.id) ++i;
+      if (i == before.size()) break;
+      moved.push_back(feature.u_px - before[i].u_px);
+    }
+    if (static_cast<int>(now.size()) < kFewFeatures) tracker_.Detect();
+    if (moved.empty()) return shift_;
+    const auto middle = moved.begin() + std::ssize(moved) / 2;
+    std::nth_element(moved.begin(), middle, moved.end());
+    return shift_ += *middle / picture.width;
+  }
+
+ private:
+  vision::FeatureTracker tracker_;
+  double shift_ = 0.0;
+};
+
+class Measuring {
+ public:
+  Measuring(dds::Ros2Driver& driver, const MeasureOptions& options)
+      : driver_(driver), options_(options) {}
+
+  [[nodiscard]] RobotMeasures Run();
+
+ private:
+  void Listen(milliseconds duration, const std::optional<motion::VelocityCommand>& command);
+  void Note(const dds::Ros2Odometry& odometry, steady_clock::time_point now);
+  void Note(const Ros2Picture& picture, steady_clock::time_point now);
+  [[nodiscard]] TurnMeasures Turn();
+
+  dds::Ros2Driver& driver_;
+  const MeasureOptions& options_;
+  RobotMeasures measures_;
+  StampClock frame_clock_;
+  StampClock odometry_clock_;
+  SensorTime odometry_stamp_{};
+  PictureShift shift_;
+  std::vector<double> came_s_;  // pictures
+  // By stamps; odometry's also by when it came.
+  std::vector<TimedValue> shifts_;
+  std::vector<TimedValue> headings_;
+  std::vector<TimedValue> headings_came_;
+};
+
+void Measuring::Note(const dds::Ros2Odometry& odometry, steady_clock::time_point now) {
+  const auto taken = odometry_clock_.Follow(odometry.stamp, now);
+  if (!taken) return;
+  odometry_stamp_ = odometry.stamp;
+  const double before = headings_.empty() ? odometry.pose.heading_rad : headings_.back().value;
+  const double heading_rad = before + WrapAngle(odometry.pose.heading_rad - before);
+  headings_.push_back({trailcast::Seconds(*taken), heading_rad});
+  headings_came_.push_back({Seconds(now), heading_rad});
+}
+
+void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
+  const auto taken = frame_clock_.Follow(StampOf(picture), now);
+  if (!taken) return;
+  came_s_.push_back(Seconds(now));
+  const auto gray = Gray(picture, options_.topics.ImageTopic());
+  if (!gray) {
+    measures_.unreadable = gray.error().message;
+    return;
+  }
+  measures_.width_px = gray->width;
+  measures_.height_px = gray->height;
+  measures_.picture = MeasurePicture(*gray);
+  shifts_.push_back({trailcast::Seconds(*taken), shift_.Add(*gray)});
+}
+
+void Measuring::Listen(milliseconds duration,
+                       const std::optional<motion::VelocityCommand>& command) {
+  const auto until = steady_clock::now() + duration;
+  auto said_at = steady_clock::time_point{};
+  while (steady_clock::now() < until && !options_.stop()) {
+    if (command && steady_clock::now() - said_at > milliseconds(50)) {
+      said_at = steady_clock::now();
+      (void)driver_.Publish({odometry_stamp_, *command});
+    }
+    for (dds::Ros2Sensed& sensed : driver_.Take(kListen)) {
+      const auto now = steady_clock::now();
+      if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
+        Note(*odometry, now);
+      } else if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
+        Note(Ros2Picture(std::move(*jpeg)), now);
+      } else {
+        Note(Ros2Picture(std::get<dds::Ros2Image>(std::move(sensed))), now);
+      }
+    }
+  }
+}
+
+// To the left, and back.
+TurnMeasures Measuring::Turn() {
+  const motion::VelocityCommand left = options_.turn_command;
+  TurnMeasures turn;
+  turn.told_rad = left.angular_radps * trailcast::Seconds(kTurn);
+  const double heading_rad = headings_.back().value;
+  const double shift = shifts_.back().value;
+  const double told_s = Seconds(steady_clock::now());
+  Listen(kTurn, left);
+  Listen(kSettle, motion::VelocityCommand{});
+  turn.odometry_rad = headings_.back().value - heading_rad;
+  turn.picture_share = shifts_.back().value - shift;
+  for (const TimedValue& each : headings_came_) {
+    if (each.t_s < told_s || std::abs(each.value - heading_rad) < kTurns_rad) continue;
+    turn.base_delay_s = each.t_s - told_s;
+    break;
+  }
+  Listen(kTurn, motion::VelocityCommand{-left.linear_mps, -left.angular_radps});
+  Listen(kSettle, motion::VelocityCommand{});
+  turn.stamps_late_s = LagOf(shifts_, headings_);
+  return turn;
+}
+
+RobotMeasures Measuring::Run() {
+  const auto until = steady_clock::now() + kAppear;
+  while (steady_clock::now() < until && !options_.stop() &&
+         (came_s_.empty() || headings_.empty())) {
+    Listen(kListen, std::nullopt);
+  }
+  (void)frame_clock_.TakeBehind();
+  (void)odometry_clock_.TakeBehind();
+  Listen(options_.look, std::nullopt);
+  const auto frames_behind = frame_clock_.TakeBehind();
+  const auto odometry_behind = odometry_clock_.TakeBehind();
+  if (frames_behind && odometry_behind) {
+    measures_.clocks_apart_s = trailcast::Seconds(*odometry_behind - *frames_behind);
+  }
+  measures_.peers = driver_.peers();
+  if (options_.turn && !shifts_.empty() && !headings_.empty()) measures_.turn = Turn();
+  measures_.pictures = static_cast<int>(came_s_.size());
+  measures_.odometry = static_cast<int>(headings_.size());
+  if (!came_s_.empty()) {
+    measures_.picture_rate_hz = Rate(measures_.pictures, came_s_.front(), came_s_.back());
+  }
+  if (!headings_.empty()) {
+    measures_.odometry_rate_hz =
+        Rate(measures_.odometry, headings_came_.front().t_s, headings_came_.back().t_s);
+  }
+  measures_.picture_stamps_stand = frame_clock_.stands();
+  measures_.odometry_stamps_stand = odometry_clock_.stands();
+  return measures_;
+}
+
+}  // namespace
+
+PictureMeasures MeasurePicture(const image::GrayImage& picture) {
+  constexpr int kWide = 4;
+  double sum = 0.0;
+  double squares = 0.0;
+  double steep = 0.0;
+  double wide = 0.0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int here = picture.at(x, y);
+      sum += here;
+      squares += here * here;
+      if (x + kWide >= picture.width) continue;
+      steep += std::abs(picture.at(x + 1, y) - here);
+      wide += std::abs(picture.at(x + kWide, y) - here);
+    }
+  }
+  const double pixels = std::max(1.0, static_cast<double>(picture.pixels.size()));
+  const double mean = sum / pixels;
+  return {mean, std::sqrt(std::max(0.0, squares / pixels - mean * mean)),
+          wide > 0.0 ? std::min(1.0, steep / wide) : 0.0};
+}
+
+Result<RobotMeasures> MeasureRobot(const MeasureOptions& options) {
+  auto driver = dds::Ros2Driver::Open(options.topics);
+  if (!driver) return Wrap(driver.error(), "the robot's topics");
+  return Measuring(**driver, options).Run();
+}
+
+}  // namespace trailcast::agent

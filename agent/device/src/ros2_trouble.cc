@@ -1,0 +1,53 @@
+#include "agent/device/src/ros2_trouble.h"
+
+#include <fmt/format.h>
+
+namespace trailcast::agent {
+
+std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Trouble& trouble,
+                        bool stamps_stand) {
+  using Part = RobotWatch::Trouble::Part;
+  switch (trouble.part) {
+    case Part::kCamera:
+      return fmt::format("camera {}: {}", topics.ImageTopic(), trouble.what);
+    case Part::kOdometry:
+      return fmt::format("odometry {}: {}{}", topics.OdometryTopic(), trouble.what,
+                         stamps_stand ? ": it comes, but its stamps do not advance" : "");
+    case Part::kBase:
+      break;
+  }
+  return fmt::format("base {}: {}", topics.CommandTopic(), trouble.what);
+}
+
+std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
+                         bool pictures) {
+  std::string text;
+  if (peers.cameras == 0) {
+    text = fmt::format("nobody publishes {}", topics.ImageTopic());
+  } else if (!pictures) {
+    text = fmt::format("no picture came on {}", topics.ImageTopic());
+  } else if (peers.odometers == 0) {
+    text = fmt::format("nobody publishes {}", topics.OdometryTopic());
+  } else {
+    text = fmt::format("no odometry came on {}", topics.OdometryTopic());
+  }
+  if (!peers.mismatch.empty()) {
+    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
+  }
+  if (peers.cameras == 0 && peers.odometers == 0 && peers.bases == 0) {
+    text += fmt::format("; looked on {}", peers.tried);
+  }
+  return fmt::format("{} (ROS domain {}); check the robot's drivers, its namespace and domain",
+                     text, topics.domain_id);
+}
+
+std::string NobodyListens(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers) {
+  const bool plain = topics.command_type == dds::Ros2CommandType::kTwist;
+  std::string text = fmt::format("nobody listens to it as {}", plain ? "Twist" : "TwistStamped");
+  if (!peers.mismatch.empty()) {
+    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
+  }
+  return text + "; check --cmd-vel-topic and --cmd-vel-type";
+}
+
+}  // namespace trailcast::agent

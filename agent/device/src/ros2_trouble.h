@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "agent/device/src/robot_watch.h"
+#include "services/dds/ros2_link.h"
+
+// What is wrong with a ROS 2 robot, in words: one line for people.
+namespace trailcast::agent {
+
+// `stamps_stand`: odometry comes, and says nothing new.
+[[nodiscard]] std::string TroubleText(const dds::Ros2Options& topics,
+                                      const RobotWatch::Trouble& trouble, bool stamps_stand);
+
+// Of a robot that is not there, or not all of it. `pictures`: those came.
+[[nodiscard]] std::string WhoIsMissing(const dds::Ros2Options& topics,
+                                       const dds::Ros2Driver::Peers& peers, bool pictures);
+
+// Of commands.
+[[nodiscard]] std::string NobodyListens(const dds::Ros2Options& topics,
+                                        const dds::Ros2Driver::Peers& peers);
+
+}  // namespace trailcast::agent

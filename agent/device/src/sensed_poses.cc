@@ -1,0 +1,101 @@
+#include "agent/device/src/sensed_poses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+// A picture may be under way for so long: what arrives that much later than its stamp says is of
+// the same clock all the same. Once they are taken for two, less makes them one again.
+constexpr milliseconds kSameClock{500};
+constexpr milliseconds kSameClockAgain{400};
+// Clocks are compared by the quickest samples of a period, and by the middle of some of these.
+constexpr milliseconds kPeriod{500};
+constexpr std::size_t kPeriods = 7;
+// Beyond, a base that was driven when its odometry fell silent has been stopped.
+constexpr double kLongestGap_s = 1.0;
+
+bool Same(const motion::Pose2& a, const motion::Pose2& b) {
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
+}
+
+void Tell(const char* whose, const std::string& news, std::vector<std::string>& to) {
+  if (!news.empty()) to.push_back(fmt::format("{}: {}", whose, news));
+}
+
+}  // namespace
+
+bool SensedPoses::AddOdometry(SensorTime stamp, const motion::Pose2& pose, Time came_at,
+                              const motion::VelocityCommand& told) {
+  const bool repeated = newest_raw_ && stamp == newest_stamp_ && Same(pose, *newest_raw_);
+  if (repeated && !odometry_clock_.stands()) return false;
+  const auto taken = odometry_clock_.Follow(stamp, came_at);
+  if (!taken) return false;
+  newest_stamp_ = stamp;
+  newest_raw_ = pose;
+  const OdometryGate::Passed passed = gate_.Pass(*taken, pose);
+  if (passed.gap) {
+    const double seconds = std::min(Seconds(*passed.gap), kLongestGap_s);
+    unknown_.distance_m +=
+        seconds * std::max(std::abs(told.linear_mps), std::abs(speed_.distance_m));
+    unknown_.heading_change_rad +=
+        seconds * std::max(std::abs(told.angular_radps), std::abs(speed_.heading_change_rad));
+    news_.push_back(fmt::format(
+        "odometry jumped by {:.2f} m in {:.2f} s, which no base drives: it goes on from "
+        "where it was, and vision tells the rest",
+        passed.jump_m, Seconds(*passed.gap)));
+  } else if (!poses_.empty()) {
+    const double seconds = Seconds(*taken - poses_.newest());
+    const auto moved = motion::IncrementBetween(poses_.At(poses_.newest()), passed.pose);
+    speed_ = {moved.distance_m / seconds, moved.heading_change_rad / seconds};
+  }
+  poses_.Add(*taken, passed.pose);
+  CompareClocks(came_at);
+  return true;
+}
+
+std::optional<SensorTime> SensedPoses::AddFrame(SensorTime stamp, Time came_at) {
+  const auto taken = frame_clock_.Follow(stamp, came_at);
+  CompareClocks(came_at);
+  return taken;
+}
+
+// Of one period each time: a simulator's clock that is slow does not set them apart.
+void SensedPoses::CompareClocks(Time now) {
+  if (now - period_from_ < kPeriod) return;
+  period_from_ = now;
+  const auto frames = frame_clock_.TakeBehind();
+  const auto odometry = odometry_clock_.TakeBehind();
+  if (!frames || !odometry) return;
+  apart_.push_back(*frames - *odometry);
+  if (apart_.size() > kPeriods) apart_.pop_front();
+  std::vector<nanoseconds> sorted(apart_.begin(), apart_.end());
+  std::sort(sorted.begin(), sorted.end());
+  const nanoseconds apart = sorted[sorted.size() / 2];
+  const bool were_apart = clocks_apart_ != nanoseconds(0);
+  const bool are_apart = std::chrono::abs(apart) > (were_apart ? kSameClockAgain : kSameClock);
+  clocks_apart_ = are_apart ? apart : nanoseconds(0);
+  if (are_apart && !were_apart) {
+    news_.push_back(
+        fmt::format("the stamps of pictures and odometry are of different clocks, {:.2f} s apart: "
+                    "goes by when they come",
+                    Seconds(std::chrono::abs(apart))));
+  }
+}
+
+motion::OdometryIncrement SensedPoses::TakeUnknown() { return std::exchange(unknown_, {}); }
+
+std::vector<std::string> SensedPoses::TakeNews() {
+  Tell("pictures", frame_clock_.TakeNews(), news_);
+  Tell("odometry", odometry_clock_.TakeNews(), news_);
+  return std::exchange(news_, {});
+}
+
+}  // namespace trailcast::agent
