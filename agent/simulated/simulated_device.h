@@ -19,6 +19,10 @@ class SimulatedDevice final : public SimulatedRobot {
 
   [[nodiscard]] Result<std::optional<Observation>> Next() override;
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
+  // The same as Next without a picture, for cameras that are slower than their base.
+  [[nodiscard]] Observation NextBlind();
+  // As in sim::SimulatedRobot.
+  void SetGrip(double left, double right);
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override;
 

@@ -1,33 +1,33 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "agent/diagnosis/summary.h"
+#include "agent/simulated/robot_faults.h"
 #include "agent/simulated/simulated_device.h"
 #include "services/dds/ros2_link.h"
 
 namespace trailcast::agent {
 
-// What goes wrong with a virtual robot, so many seconds after it was first told to drive.
-struct RobotFault {
-  enum class Kind { kCameraFreezes, kCameraStops, kOdometryStops, kBaseStops };
-  Kind kind = Kind::kCameraFreezes;
-  double after_s = 0.0;
+// How a virtual robot's camera and base are slower, or later, than one would wish.
+struct RobotTiming {
+  double rate_hz = 30.0;          // of the base: steps, odometry; the simulated robot's own
+  double picture_rate_hz = 30.0;  // no higher
+  double dropped = 0.0;           // share of the pictures that are lost, drawn
+  double picture_delay_s = 0.0;   // from when a picture is taken until it is said
+  double base_delay_s = 0.0;      // from when a command is heard until it is obeyed
+  double stamps_late_s = 0.0;     // of pictures, against odometry's
 };
-
-// From "camera-freezes@12.5", "camera-stops@…", "odometry-stops@…", "base-stops@…".
-[[nodiscard]] Result<RobotFault> ParseRobotFault(const std::string& text);
 
 struct VirtualRobotOptions {
   dds::Ros2Options topics;
   // Its time passes only when a frame is answered by a command with the frame's stamp; otherwise
-  // with the wall clock, as far as the machine keeps up.
+  // with the wall clock, as far as the machine keeps up. No timing, no faults then.
   bool lockstep = false;
-  double rate_hz = 30.0;
-  std::optional<RobotFault> fault;
+  RobotTiming timing;
+  std::vector<RobotFault> faults;
+  std::uint64_t seed = 1;  // of what is drawn
   std::function<bool()> stop = [] { return false; };
 };
 

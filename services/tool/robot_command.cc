@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "agent/device/device_options.h"
 #include "agent/simulated/virtual_robot.h"
@@ -14,6 +15,7 @@ struct RobotOptions {
   agent::DeviceOptions device;  // its simulated part
   agent::VirtualRobotOptions robot;
   bool scout = false;
+  double turn_radius_m = 0.0;
 };
 
 constexpr const char* kExamples =
@@ -23,6 +25,7 @@ constexpr const char* kExamples =
     "                        --store scout.db --server\n"
     "  trailcast robot --sim indoor --camera wide --seed 7 --ros2 /robot1 \\\n"
     "                  --fail camera-freezes@5      # and see its agent stop it\n"
+    "  trailcast robot --sim indoor --ros2 /robot1 --fail base-stops@4+3 --fail odometry-jumps@9\n"
     "It runs until a signal ends it, and then says what it heard from its agent.";
 
 CLI::Validator FaultValidator() {
@@ -33,14 +36,37 @@ CLI::Validator FaultValidator() {
           "FAULT@S"};
 }
 
+void AddTimingOptions(CLI::App& app, CLI::Option* lockstep, agent::RobotTiming& timing) {
+  const auto add = [&](const std::string& flag, double& value, const CLI::Validator& range,
+                       const std::string& text) {
+    app.add_option(flag, value, text)->check(range)->excludes(lockstep)->group("Timing");
+  };
+  add("--rate", timing.rate_hz, CLI::Range(1.0, 200.0), "Steps and odometry, a second");
+  add("--picture-rate", timing.picture_rate_hz, CLI::Range(1.0, 200.0), "Pictures a second");
+  add("--drop-pictures", timing.dropped, CLI::Range(0.0, 0.9), "Share of them that get lost");
+  add("--picture-delay", timing.picture_delay_s, CLI::Range(0.0, 5.0),
+      "Seconds from when one is taken until it is published");
+  add("--base-delay", timing.base_delay_s, CLI::Range(0.0, 5.0),
+      "Seconds from a command until the base obeys it");
+  add("--stamps-late", timing.stamps_late_s, CLI::Range(-10.0, 10.0),
+      "Seconds by which pictures' stamps are ahead of odometry's clock");
+}
+
 Result<void> Run(const program::CommonOptions& common, const RobotOptions& options) {
   const program::StopSignal stop;
   agent::SimulatedRun run = options.device.simulated;
   run.drives_itself = options.scout;
   run.stays_at_end = true;
+  if (options.robot.timing.picture_rate_hz > options.robot.timing.rate_hz) {
+    return Fail(ErrorCode::kInvalidArgument, "--picture-rate {:g} is above --rate {:g}",
+                options.robot.timing.picture_rate_hz, options.robot.timing.rate_hz);
+  }
+  run.rate_hz = options.robot.timing.rate_hz;
+  run.turn_radius_m = options.turn_radius_m;
   auto device = agent::SimulatedDevice::Open(run);
   if (!device) return tl::unexpected(device.error());
   agent::VirtualRobotOptions robot = options.robot;
+  robot.seed = run.seed;
   agent::JoinNetwork(robot.topics, common);
   robot.stop = [] { return program::StopSignal::requested(); };
   const auto summary = agent::RunVirtualRobot(**device, robot);
@@ -69,15 +95,25 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
       "--lockstep", options->robot.lockstep,
       "Wait for the answer to each frame ('trailcast-agent ... --lockstep'), so that a slow "
       "machine changes nothing but the time it takes");
-  app->add_option_function<std::string>(
+  app->add_option_function<std::vector<std::string>>(
          "--fail",
-         [options](const std::string& text) {
-           if (auto fault = agent::ParseRobotFault(text)) options->robot.fault = *fault;
+         [options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             if (auto fault = agent::ParseRobotFault(text)) options->robot.faults.push_back(*fault);
+           }
          },
-         "What goes wrong S seconds after it was first told to drive: camera-freezes, "
-         "camera-stops, odometry-stops, base-stops")
+         "What goes wrong S seconds after it was first told to drive, and with +S for how long; "
+         "may be given several times: " +
+             agent::RobotFaultNames())
       ->check(FaultValidator())
+      ->expected(1, 20)
+      ->take_all()
+      ->allow_extra_args(false)
       ->excludes(lockstep);
+  AddTimingOptions(*app, lockstep, options->robot.timing);
+  app->add_option("--turn-radius", options->turn_radius_m,
+                  "Its base steers like a car's, no tighter than so many metres; 0: by two wheels")
+      ->check(CLI::Range(0.0, 10.0));
   return {app, [app, options, &common] {
             program::SetUpLog(common);
             if (auto ran = Run(common, *options); !ran) return program::Complain(*app, ran.error());

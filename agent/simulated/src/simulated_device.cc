@@ -34,6 +34,7 @@ struct SimulatedDevice::State {
   motion::VelocityCommand command;
   std::vector<TruePose> truth;
 
+  [[nodiscard]] Observation Note(sim::Observation seen);
   [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
 };
 
@@ -53,6 +54,8 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   if (run.drives_itself) options.disturbances = sim::Disturbances::ForScout();
   options.disturbances.slip = place->slip;
   options.seed = run.seed;
+  options.rate_hz = run.rate_hz;
+  options.body.turn_radius_m = run.turn_radius_m;
   auto robot = sim::SimulatedRobot::Create(place->world, options);
   if (!robot) return tl::unexpected(robot.error());
   auto state = std::make_unique<State>();
@@ -74,14 +77,24 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
     s.command = s.operator_->Command(s.Pose());
     if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
   }
-  sim::Observation seen = s.robot->Step(s.command);
-  s.truth.push_back({seen.stamp, s.Pose()});
-  // Looked for near where it was: a loop passes some places twice.
-  s.along_m =
-      sim::Nearest(s.path, motion::Position(s.truth.back().pose), s.along_m - 1.0, s.along_m + 2.0)
-          .along_m;
-  return Observation{seen.stamp, std::move(seen.image), seen.odometry};
+  return s.Note(s.robot->Step(s.command));
 }
+
+Observation SimulatedDevice::NextBlind() {
+  State& s = *state_;
+  if (s.operator_ && !s.truth.empty()) s.command = s.operator_->Command(s.Pose());
+  return s.Note(s.robot->StepBlind(s.command));
+}
+
+Observation SimulatedDevice::State::Note(sim::Observation seen) {
+  truth.push_back({seen.stamp, Pose()});
+  // Looked for near where it was: a loop passes some places twice.
+  along_m =
+      sim::Nearest(path, motion::Position(truth.back().pose), along_m - 1.0, along_m + 2.0).along_m;
+  return {seen.stamp, std::move(seen.image), seen.odometry, {}};
+}
+
+void SimulatedDevice::SetGrip(double left, double right) { state_->robot->SetGrip(left, right); }
 
 Result<void> SimulatedDevice::Drive(const motion::VelocityCommand& command) {
   if (!state_->operator_) state_->command = command;

@@ -2,11 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <array>
-#include <charconv>
-#include <string_view>
+#include <cmath>
+#include <deque>
 #include <thread>
 #include <utility>
+
+#include "services/sim/core/random.h"
 
 namespace trailcast::agent {
 namespace {
@@ -19,15 +20,9 @@ constexpr milliseconds kCommandLife{500};
 constexpr milliseconds kListen{20};
 // In lockstep a frame that nobody answered is said again.
 constexpr milliseconds kSayAgain{500};
-
-struct FaultName {
-  Kind kind;
-  std::string_view name;
-};
-constexpr std::array kFaultNames{FaultName{Kind::kCameraFreezes, "camera-freezes"},
-                                 FaultName{Kind::kCameraStops, "camera-stops"},
-                                 FaultName{Kind::kOdometryStops, "odometry-stops"},
-                                 FaultName{Kind::kBaseStops, "base-stops"}};
+constexpr std::chrono::seconds kClockBack{5};
+const motion::Pose2 kJump{1.6, -1.2, 0.5};
+constexpr double kSlippingGrip = 0.3;
 
 dds::Ros2Image ToRos2(const Observation& seen) {
   const auto width = static_cast<std::uint32_t>(seen.image.width);
@@ -42,29 +37,48 @@ dds::Ros2Image ToRos2(const Observation& seen) {
 class VirtualRobot {
  public:
   VirtualRobot(SimulatedDevice& robot, dds::Ros2Robot& link, const VirtualRobotOptions& options)
-      : robot_(robot), link_(link), options_(options) {}
+      : robot_(robot),
+        link_(link),
+        options_(options),
+        faults_(options.faults),
+        drops_(options.seed, "dropped pictures") {}
 
   [[nodiscard]] Result<void> Run();
   [[nodiscard]] Summary Tell() const;
 
  private:
+  struct Heard {
+    steady_clock::time_point at;
+    motion::VelocityCommand command;
+  };
+  struct Taken {
+    steady_clock::time_point at;
+    dds::Ros2Image image;
+  };
+  [[nodiscard]] Result<std::optional<Observation>> Sense();
+  [[nodiscard]] motion::VelocityCommand Obey(steady_clock::time_point now);
   [[nodiscard]] Result<void> Say(const Observation& seen);
+  [[nodiscard]] Result<void> SayOdometry(const Observation& seen);
+  [[nodiscard]] Result<void> SayPictures(const Observation& seen);
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
   void Hear(const dds::Ros2Command& command);
-  [[nodiscard]] bool failed(Kind kind) const {
-    return failed_at_ && options_.fault && options_.fault->kind == kind;
-  }
   void Fail(steady_clock::time_point now);
 
   SimulatedDevice& robot_;
   dds::Ros2Robot& link_;
   const VirtualRobotOptions& options_;
-  motion::VelocityCommand command_;
-  steady_clock::time_point told_at_{};
-  std::optional<steady_clock::time_point> drove_at_;          // first told to drive
-  std::optional<steady_clock::time_point> failed_at_;         // the fault began
-  std::optional<steady_clock::time_point> told_to_stand_at_;  // first after it
+  RobotFaults faults_;
+  sim::Random drops_;
+  std::deque<Heard> heard_;  // and not yet obeyed; the first one is
+  std::deque<Taken> taken_;  // and not yet said
+  double pictures_due_ = 1.0;
+  motion::Pose2 odometry_from_;  // where what is said begins
+  std::optional<motion::Pose2> odometry_;
+  SensorTime odometry_back_{0};
+  SensorTime pictures_back_{0};
+  std::optional<SensorTime> stands_at_;                       // the pictures' stamps
+  std::optional<steady_clock::time_point> told_to_stand_at_;  // first after a fault
   std::vector<std::uint8_t> frozen_;
   steady_clock::time_point next_tick_ = steady_clock::now();
   std::size_t frames_ = 0;
@@ -76,20 +90,11 @@ Result<void> VirtualRobot::Run() {
   while (!options_.stop()) {
     const auto now = steady_clock::now();
     Fail(now);
-    const bool fresh = options_.lockstep || now - told_at_ <= kCommandLife;
-    const bool obeys = fresh && !failed(Kind::kBaseStops);
-    if (auto driven = robot_.Drive(obeys ? command_ : motion::VelocityCommand{}); !driven) {
-      return driven;
-    }
-    auto seen = robot_.Next();
+    if (auto driven = robot_.Drive(Obey(now)); !driven) return driven;
+    auto seen = Sense();
     if (!seen) return tl::unexpected(seen.error());
     if (!*seen) return {};
-    if (failed(Kind::kCameraFreezes)) {
-      if (frozen_.empty()) frozen_ = (*seen)->image.pixels;
-      (*seen)->image.pixels = frozen_;
-    }
     if (auto said = Say(**seen); !said) return said;
-    ++frames_;
     if (options_.lockstep) {
       WaitForAnswer(**seen);
     } else {
@@ -99,22 +104,77 @@ Result<void> VirtualRobot::Run() {
   return {};
 }
 
-// The fault begins when its time has come.
+// What was heard a base's delay ago, unless that is too old.
+motion::VelocityCommand VirtualRobot::Obey(steady_clock::time_point now) {
+  const auto delay = FromSeconds(options_.timing.base_delay_s);
+  while (heard_.size() > 1 && now - heard_[1].at >= delay) heard_.pop_front();
+  if (heard_.empty() || faults_.active(Kind::kBaseStops)) return {};
+  if (options_.lockstep) return heard_.back().command;
+  const auto age = now - heard_.front().at;
+  return age >= delay && age <= kCommandLife + delay ? heard_.front().command
+                                                     : motion::VelocityCommand{};
+}
+
+// A camera that is slower than the base has no picture now.
+Result<std::optional<Observation>> VirtualRobot::Sense() {
+  if (!options_.lockstep) {
+    pictures_due_ += options_.timing.picture_rate_hz / options_.timing.rate_hz;
+    if (pictures_due_ < 1.0) return std::optional(robot_.NextBlind());
+    pictures_due_ -= 1.0;
+    if (drops_.Uniform(0.0, 1.0) < options_.timing.dropped)
+      return std::optional(robot_.NextBlind());
+  }
+  ++frames_;
+  return robot_.Next();
+}
+
+// Faults begin when their time has come.
 void VirtualRobot::Fail(steady_clock::time_point now) {
-  if (!options_.fault || failed_at_ || !drove_at_) return;
-  if (Seconds(now - *drove_at_) < options_.fault->after_s) return;
-  failed_at_ = now;
-  spdlog::warn("from now on: {}", kFaultNames[static_cast<std::size_t>(options_.fault->kind)].name);
+  for (const std::string& name : faults_.Advance(now)) {
+    spdlog::warn("from now on: {}", name);
+    if (name == "odometry-restarts") odometry_from_ = odometry_.value_or(motion::Pose2{});
+    if (name == "odometry-jumps") odometry_from_ = motion::Compose(odometry_from_, kJump);
+    if (name == "odometry-clock-back") odometry_back_ += kClockBack;
+    if (name == "camera-clock-back") pictures_back_ += kClockBack;
+  }
+  const double grip = faults_.active(Kind::kWheelSlips) ? kSlippingGrip : 1.0;
+  robot_.SetGrip(grip, 1.0);
 }
 
 Result<void> VirtualRobot::Say(const Observation& seen) {
   // Odometry first: it is there when the frame comes.
-  if (seen.odometry && !failed(Kind::kOdometryStops)) {
-    if (auto said = link_.Publish(dds::Ros2Odometry{seen.stamp, *seen.odometry}); !said)
-      return said;
+  if (auto said = SayOdometry(seen); !said) return said;
+  return SayPictures(seen);
+}
+
+Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
+  odometry_ = seen.odometry;
+  if (!odometry_ || faults_.active(Kind::kOdometryStops)) return {};
+  return link_.Publish(
+      dds::Ros2Odometry{seen.stamp - odometry_back_, motion::Between(odometry_from_, *odometry_)});
+}
+
+Result<void> VirtualRobot::SayPictures(const Observation& seen) {
+  const auto now = steady_clock::now();
+  if (!seen.image.empty() && !faults_.active(Kind::kCameraStops)) {
+    dds::Ros2Image image = ToRos2(seen);
+    image.stamp += FromSeconds(options_.timing.stamps_late_s) - pictures_back_;
+    if (faults_.active(Kind::kCameraStampsStand)) {
+      if (!stands_at_) stands_at_ = image.stamp;
+      image.stamp = *stands_at_;
+    }
+    if (faults_.active(Kind::kCameraFreezes)) {
+      if (frozen_.empty()) frozen_ = image.data;
+      image.data = frozen_;
+    }
+    taken_.push_back({now, std::move(image)});
   }
-  if (failed(Kind::kCameraStops)) return {};
-  return link_.Publish(ToRos2(seen));
+  while (!taken_.empty() &&
+         now - taken_.front().at >= FromSeconds(options_.timing.picture_delay_s)) {
+    if (auto said = link_.Publish(taken_.front().image); !said) return said;
+    taken_.pop_front();
+  }
+  return {};
 }
 
 void VirtualRobot::WaitForAnswer(const Observation& seen) {
@@ -135,7 +195,7 @@ void VirtualRobot::WaitForAnswer(const Observation& seen) {
 
 void VirtualRobot::WaitForTick() {
   const auto period = std::chrono::duration_cast<steady_clock::duration>(
-      std::chrono::duration<double>(1.0 / options_.rate_hz));
+      std::chrono::duration<double>(1.0 / options_.timing.rate_hz));
   next_tick_ = std::max(next_tick_ + period, steady_clock::now());
   while (true) {
     const auto left = std::chrono::ceil<milliseconds>(next_tick_ - steady_clock::now());
@@ -147,12 +207,11 @@ void VirtualRobot::WaitForTick() {
 
 void VirtualRobot::Hear(const dds::Ros2Command& command) {
   const auto now = steady_clock::now();
-  command_ = command.velocity;
-  told_at_ = now;
+  heard_.push_back({now, command.velocity});
   ++commands_;
-  const bool stand = command_ == motion::VelocityCommand{};
-  if (!stand && !drove_at_) drove_at_ = now;
-  if (stand && failed_at_ && !told_to_stand_at_) told_to_stand_at_ = now;
+  const bool stand = command.velocity == motion::VelocityCommand{};
+  if (!stand) faults_.DroveAt(now);
+  if (stand && faults_.first_began_at() && !told_to_stand_at_) told_to_stand_at_ = now;
 }
 
 Summary VirtualRobot::Tell() const {
@@ -160,34 +219,15 @@ Summary VirtualRobot::Tell() const {
   summary.Add("frames", std::to_string(frames_));
   summary.Add("commands", std::to_string(commands_));
   summary.Add("said_again", std::to_string(said_again_));
-  if (failed_at_) {
-    summary.Add("told_to_stand_after_s",
-                told_to_stand_at_ ? fmt::format("{:.3f}", Seconds(*told_to_stand_at_ - *failed_at_))
-                                  : "never");
+  if (const auto began = faults_.first_began_at()) {
+    summary.Add(
+        "told_to_stand_after_s",
+        told_to_stand_at_ ? fmt::format("{:.3f}", Seconds(*told_to_stand_at_ - *began)) : "never");
   }
   return summary;
 }
 
 }  // namespace
-
-Result<RobotFault> ParseRobotFault(const std::string& text) {
-  const std::size_t at = text.find('@');
-  const std::string_view word = std::string_view(text).substr(0, at);
-  for (const FaultName& fault : kFaultNames) {
-    if (fault.name != word || at == std::string::npos) continue;
-    double after_s = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [next, error] = std::from_chars(text.data() + at + 1, end, after_s);
-    if (error == std::errc{} && next == end && after_s >= 0.0) {
-      return RobotFault{fault.kind, after_s};
-    }
-  }
-  return trailcast::Fail(ErrorCode::kInvalidArgument,
-                         "'{}' is no fault: expected camera-freezes@S, camera-stops@S, "
-                         "odometry-stops@S or base-stops@S, S seconds after the robot was first "
-                         "told to drive",
-                         text);
-}
 
 Result<Summary> RunVirtualRobot(SimulatedDevice& robot, const VirtualRobotOptions& options) {
   auto link = dds::Ros2Robot::Open(options.topics);

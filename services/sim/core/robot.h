@@ -19,9 +19,12 @@ struct RobotBody {
   double radius_m = 0.20;      // of what bumps into things
   double top_speed_mps = 1.0;  // of a wheel
   double acceleration_mps2 = 1.2;
+  // Steers like a car, no tighter than this; 0: by its two driven wheels.
+  double turn_radius_m = 0.0;
 };
 
-// A robot on two driven wheels: where it truly is, and what its wheels tell it.
+// A robot on two driven wheels, or with a steering axle in front of them: where it truly is, and
+// what its wheels tell it.
 class DifferentialDriveRobot {
  public:
   // Stands at `start` (world frame), on the surface below `z_max_m`.
@@ -48,8 +51,16 @@ class DifferentialDriveRobot {
   [[nodiscard]] bool blocked_by_actor() const { return blocked_by_ == Obstacle::kActor; }
   // Carried to another place by hand; odometry does not notice.
   void PlaceAt(const motion::Pose2& pose);
+  // So much of what each wheel turns moves the robot, 1 on good ground; odometry does not notice.
+  void SetGrip(double left, double right) { grip_ = {left, right}; }
 
  private:
+  struct Wheels {
+    double left = 0.0;
+    double right = 0.0;
+  };
+  [[nodiscard]] Wheels Wanted(const motion::VelocityCommand& command, double duration_s);
+  [[nodiscard]] double Steer(const motion::VelocityCommand& command, double duration_s);
   enum class Obstacle { kNone, kWorld, kActor };
   [[nodiscard]] Obstacle FeelAhead(double step_m, const Stage* actors) const;
   void StandOnGround();
@@ -63,6 +74,8 @@ class DifferentialDriveRobot {
   motion::VelocityCommand velocity_;
   double left_mps_ = 0.0;  // wheel speeds as the encoders see them
   double right_mps_ = 0.0;
+  double curvature_per_m_ = 0.0;  // a steering axle's
+  Wheels grip_{1.0, 1.0};
   double z_m_ = 0.0;
   double roll_rad_ = 0.0;   // right side down is positive
   double pitch_rad_ = 0.0;  // nose down is positive

@@ -54,6 +54,11 @@ class SimulatedRobot {
   // Obeys `command` for one period of the clock, then looks. A first Step({}) is a look at the
   // start, standing.
   [[nodiscard]] Observation Step(const motion::VelocityCommand& command);
+  // The same without looking: `image` is empty.
+  [[nodiscard]] Observation StepBlind(const motion::VelocityCommand& command);
+
+  // So much of what each wheel turns moves the robot, 1 on good ground.
+  void SetGrip(double left, double right) { robot_.SetGrip(left, right); }
 
  private:
   friend class Judge;

@@ -20,6 +20,10 @@ constexpr int kBumperRays = 24;
 // Surfaces less steep than this are driven over.
 constexpr float kSteepNormalZ = 0.6F;
 
+// A steering axle: from the middle to its stop; and below what speed it does not turn.
+constexpr double kToFullLock_s = 0.4;
+constexpr double kStands_mps = 0.01;
+
 double Approach(double value, double target, double largest_change) {
   return value + std::clamp(target - value, -largest_change, largest_change);
 }
@@ -39,25 +43,47 @@ DifferentialDriveRobot::DifferentialDriveRobot(std::shared_ptr<const World> worl
   StandOnGround();
 }
 
-void DifferentialDriveRobot::Drive(const motion::VelocityCommand& command, double duration_s,
-                                   const Stage* actors) {
+// The axle turns towards what is asked for while the robot drives, and stays where it is while it
+// stands. Returns its curvature.
+double DifferentialDriveRobot::Steer(const motion::VelocityCommand& command, double duration_s) {
+  const double tightest_per_m = 1.0 / body_.turn_radius_m;
+  if (std::abs(command.linear_mps) > kStands_mps) {
+    const double wanted_per_m =
+        std::clamp(command.angular_radps / command.linear_mps, -tightest_per_m, tightest_per_m);
+    curvature_per_m_ =
+        Approach(curvature_per_m_, wanted_per_m, tightest_per_m * duration_s / kToFullLock_s);
+  }
+  return curvature_per_m_;
+}
+
+DifferentialDriveRobot::Wheels DifferentialDriveRobot::Wanted(
+    const motion::VelocityCommand& command, double duration_s) {
   const double half_base_m = body_.wheel_base_m / 2.0;
-  const double turning_mps = command.angular_radps * half_base_m;
+  double turning_mps = command.angular_radps * half_base_m;
+  if (body_.turn_radius_m > 0.0) {
+    turning_mps = Steer(command, duration_s) * command.linear_mps * half_base_m;
+  }
   // Turning comes first: what the wheels cannot do is taken from the speed ahead.
   const double room_mps = std::max(0.0, body_.top_speed_mps - std::abs(turning_mps));
   const double ahead_mps = std::clamp(command.linear_mps, -room_mps, room_mps);
+  return {ahead_mps - turning_mps, ahead_mps + turning_mps};
+}
+
+void DifferentialDriveRobot::Drive(const motion::VelocityCommand& command, double duration_s,
+                                   const Stage* actors) {
+  const Wheels wanted = Wanted(command, duration_s);
   const double change_mps = body_.acceleration_mps2 * duration_s;
-  left_mps_ = Approach(left_mps_, ahead_mps - turning_mps, change_mps);
-  right_mps_ = Approach(right_mps_, ahead_mps + turning_mps, change_mps);
+  left_mps_ = Approach(left_mps_, wanted.left, change_mps);
+  right_mps_ = Approach(right_mps_, wanted.right, change_mps);
   const double left_m = left_mps_ * duration_s;
   const double right_m = right_mps_ * duration_s;
   odometry_ = motion::Advance(odometry_,
                               {(left_m + right_m) / 2.0, (right_m - left_m) / body_.wheel_base_m});
 
   const double true_left_m =
-      left_m * errors_.odometry_scale * (1.0 + errors_.slip * slip_.Normal());
+      left_m * grip_.left * errors_.odometry_scale * (1.0 + errors_.slip * slip_.Normal());
   const double true_right_m =
-      right_m * errors_.odometry_scale * (1.0 + errors_.slip * slip_.Normal());
+      right_m * grip_.right * errors_.odometry_scale * (1.0 + errors_.slip * slip_.Normal());
   motion::OdometryIncrement step{
       (true_left_m + true_right_m) / 2.0,
       (true_right_m - true_left_m) / (body_.wheel_base_m * errors_.wheel_base)};

@@ -64,6 +64,12 @@ SimulatedRobot::SimulatedRobot(const std::shared_ptr<const World>& world,
       noise_(options.seed, "pixels") {}
 
 Observation SimulatedRobot::Step(const motion::VelocityCommand& command) {
+  Observation observation = StepBlind(command);
+  observation.image = Look();
+  return observation;
+}
+
+Observation SimulatedRobot::StepBlind(const motion::VelocityCommand& command) {
   robot_.Drive(command, period_s_, &stage_);
   const double time_s = static_cast<double>(steps_) * period_s_;
   stage_.Advance(time_s, robot_.true_pose());
@@ -71,7 +77,6 @@ Observation SimulatedRobot::Step(const motion::VelocityCommand& command) {
   observation.stamp = FromSeconds(time_s);
   observation.odometry = robot_.odometry();
   observation.blocked = robot_.blocked();
-  observation.image = Look();
   ++steps_;
   return observation;
 }
