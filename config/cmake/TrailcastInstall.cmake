@@ -12,7 +12,8 @@ install(TARGETS trailcast_codecs trailcast_simulated_module LIBRARY DESTINATION 
 install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/system
         COMPONENT server)
 install(FILES config/route_server/server.toml DESTINATION share/trailcast COMPONENT server)
-install(FILES config/agent/agent.toml config/agent/camera.toml DESTINATION share/trailcast
+install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.toml
+              config/agent/differential.toml config/agent/tracked.toml DESTINATION share/trailcast
         COMPONENT agent)
 
 # The rooms that are offered: to teach and follow, to store, share and look for routes.
