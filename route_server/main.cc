@@ -26,7 +26,11 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-server --name server-2 --store postgresql://trailcast@db.site/trailcast
 
 Runs until SIGINT, SIGTERM or SIGHUP. A server killed at any instant comes back with everything
-it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
+it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage;
+of check: 0 the store is whole, or was made whole, 1 it is damaged, or could not be read,
+4 it is sound, or was made so, but something that it held is lost.)";
+
+constexpr int kExitIncomplete = 4;  // of check
 
 struct HttpOptions {
   std::string host = "127.0.0.1";
@@ -142,9 +146,11 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
 }
 
 int CheckStore(const CLI::App& app, const std::string& location, bool repair) {
-  const auto whole = trailcast::server::Check(location, repair);
-  if (!whole) return program::Complain(app, whole.error());
-  return *whole ? program::kExitOk : program::kExitFailure;
+  using trailcast::server::Condition;
+  const auto condition = trailcast::server::Check(location, repair);
+  if (!condition) return program::Complain(app, condition.error());
+  if (*condition == Condition::kIncomplete) return kExitIncomplete;
+  return *condition == Condition::kWhole ? program::kExitOk : program::kExitFailure;
 }
 
 int Run(int argc, char** argv) {

@@ -32,6 +32,13 @@ struct KnownTeaching {
   std::int64_t grown_unix_ms = 0;
 };
 
+// A teaching of which segments are held.
+struct HeldTeaching {
+  route::RouteKey key;
+  std::uint64_t segments = 0;
+  bool known = false;  // what is known of it, its route's name and all, is held too
+};
+
 // Durable routes: their infos and their segments' bytes. One process opens a file for writing,
 // several may share a database; not thread-safe. Every read of a segment checks its digest. Errors
 // name the file or database.
@@ -62,6 +69,10 @@ class RouteStore {
   [[nodiscard]] virtual Result<void> AppendSegments(
       std::span<const route::SegmentPiece> pieces) = 0;
 
+  // Forgets all segments of a revision, not what is known of it; they may be stored again, with
+  // other bytes too.
+  [[nodiscard]] virtual Result<void> DropSegments(const route::RouteKey& key) = 0;
+
   // kNotFound, or kCorrupt when the bytes on disk fail their digest.
   [[nodiscard]] virtual Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key,
                                                                 SegmentIndex index) = 0;
@@ -72,6 +83,10 @@ class RouteStore {
   // left out. That the bytes are still whole only reading them tells.
   [[nodiscard]] virtual Result<std::vector<HeldSegment>> SegmentDigests(
       const route::RouteKey& key) = 0;
+  // Teachings of which segments are held, by key: the first `most` after this one. None is before
+  // the one of an empty route id.
+  [[nodiscard]] virtual Result<std::vector<HeldTeaching>> ListHeld(const route::RouteKey& after,
+                                                                   std::size_t most) = 0;
   // Bytes with this digest, whole, whichever route's segment they are; nothing if none are held.
   [[nodiscard]] virtual Result<std::optional<route::Bytes>> FindContent(
       const route::Digest& digest) = 0;
@@ -115,6 +130,10 @@ class RouteStore {
                                                    std::span<const SegmentIndex> indices) = 0;
   [[nodiscard]] virtual Result<std::vector<SegmentIndex>> UnreceiptedSegments(
       const route::RouteKey& key) = 0;
+
+  // kUnavailable while nothing can be read or written, as when a database is away. Cheap; a file is
+  // there as long as it is open.
+  [[nodiscard]] virtual Result<void> CheckReachable() { return {}; }
 
   // Runs `work`, which reads and writes this store. Where several processes share it, no other's
   // Exclusively comes between, what is written is there when this returns, all or nothing, and

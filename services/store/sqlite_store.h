@@ -21,9 +21,12 @@ class SqliteRouteStore final : public RouteStore {
 
   Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override;
   Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
+  Result<void> DropSegments(const route::RouteKey& key) override;
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
   Result<std::vector<HeldSegment>> SegmentDigests(const route::RouteKey& key) override;
+  Result<std::vector<HeldTeaching>> ListHeld(const route::RouteKey& after,
+                                             std::size_t most) override;
   Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override;
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
   Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override;
@@ -58,6 +61,8 @@ class SqliteRouteStore final : public RouteStore {
   Result<void> PutNews(const route::RouteInfo& info);
   void Put(const route::RouteInfo& info);
   void Bury(const route::RouteInfo& info);
+  // Within the caller's transaction; bytes that others rely on go to them.
+  void PartWith(const route::RouteKey& key);
   // Puts the row into one of the two tables; returns its id.
   std::int64_t PutRow(const std::string& table, const route::RouteInfo& info);
   void ForgetPlaceAndTags(std::int64_t id);

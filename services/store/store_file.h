@@ -25,7 +25,7 @@ class StoreFile {
     kDamaged,  // for whoever saves what is left of it
   };
   // Creates the file if there is none. Errors as for OpenSqliteStore; a file that is refused is
-  // left as it was.
+  // left as it was. A repair that was cut off is finished first.
   [[nodiscard]] static Result<StoreFile> Acquire(const std::filesystem::path& path,
                                                  Condition condition = Condition::kWhole);
 
@@ -41,7 +41,9 @@ class StoreFile {
  private:
   StoreFile(std::filesystem::path path, int descriptor)
       : path_(std::move(path)), descriptor_(descriptor) {}
+  [[nodiscard]] static Result<StoreFile> OpenLocked(const std::filesystem::path& path);
   [[nodiscard]] Result<void> Lock() const;
+  [[nodiscard]] bool IsStillThere() const;  // under its name
   [[nodiscard]] Result<void> Inspect() const;
 
   std::filesystem::path path_;

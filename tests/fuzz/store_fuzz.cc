@@ -1,6 +1,6 @@
-// A store's file with changed bytes and a changed end: whatever is read of it is whole, and what is
-// salvaged is a store without damage. An input is not the file but what happened to it: places and
-// the bytes put there.
+// A store's file, with or without a log, with changed bytes and a changed end: whatever is read of
+// it is whole, and what is salvaged is a store without damage. An input is not the file but what
+// happened to it: places and the bytes put there.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -27,7 +27,19 @@ route::SegmentPiece PieceOf(const route::RouteKey& key, std::uint32_t index) {
   return piece;
 }
 
-Bytes WholeStore(const std::filesystem::path& file) {
+Bytes Read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Whole {
+  Bytes file;
+  Bytes log;  // that has what is not in `beginning`
+  Bytes beginning;
+};
+
+Whole WholeStore(const std::filesystem::path& file) {
+  Whole whole;
   {
     const auto store = store::OpenSqliteStore(file).value();
     for (unsigned route = 0; route < 3; ++route) {
@@ -44,16 +56,19 @@ Bytes WholeStore(const std::filesystem::path& file) {
       info.place = {route::Place::Frame::kSite, 1.0 * route, 2.0};
       Require(store->AppendSegments(pieces) && store->PutRoute(info), "the store was made");
     }
+    whole.beginning = Read(file);
+    whole.log = Read(file.string() + "-wal");
   }
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  whole.file = Read(file);
+  return whole;
 }
 
 Bytes Damaged(Bytes file, FuzzedDataProvider& input) {
   if (input.ConsumeIntegral<std::uint8_t>() == 0) {
     file.resize(input.ConsumeIntegralInRange<std::size_t>(0, file.size()));
   }
-  while (input.remaining_bytes() > 0 && !file.empty()) {
+  const auto changes = input.ConsumeIntegral<std::uint8_t>();
+  for (int i = 0; i < changes && input.remaining_bytes() > 0 && !file.empty(); ++i) {
     const auto at = input.ConsumeIntegralInRange<std::size_t>(0, file.size() - 1);
     const auto bytes = input.ConsumeBytes<std::uint8_t>(
         std::min(input.ConsumeIntegralInRange<std::size_t>(1, 8), file.size() - at));
@@ -103,11 +118,13 @@ void SalvageAll(const std::filesystem::path& from, const std::filesystem::path& 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   static const trailcast::test::TempDir folder;
-  static const Bytes whole = WholeStore(folder / "whole.db");
+  static const Whole whole = WholeStore(folder / "whole.db");
   FuzzedDataProvider input(data, size);
-  const Bytes damaged = Damaged(whole, input);
+  const bool with_log = input.ConsumeBool();
+  const Bytes damaged = Damaged(with_log ? whole.beginning : whole.file, input);
   const std::filesystem::path file = AsFile(damaged, "store.db");
   for (const char* log : {"-wal", "-journal"}) std::filesystem::remove(file.string() + log);
+  if (with_log) AsFile(Damaged(whole.log, input), "store.db-wal");
   SalvageAll(file, folder / "salvaged.db");
   if (const auto store = trailcast::store::OpenSqliteStore(file)) ReadAll(**store);
   return 0;

@@ -57,6 +57,11 @@ class MemoryStore : public store::RouteStore {
     return {};
   }
 
+  Result<void> DropSegments(const route::RouteKey& key) override {
+    std::erase_if(segments_, [&](const auto& entry) { return entry.first.first == key; });
+    return {};
+  }
+
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override {
     const auto found = segments_.find({key, index});
     if (found == segments_.end()) {
@@ -82,6 +87,23 @@ class MemoryStore : public store::RouteStore {
       if (where.first == key) held.push_back({where.second, piece.digest});
     }
     return held;
+  }
+
+  Result<std::vector<store::HeldTeaching>> ListHeld(const route::RouteKey& after,
+                                                    std::size_t most) override {
+    std::map<route::RouteKey, store::HeldTeaching> held;
+    for (const auto& [where, piece] : segments_) {
+      if (where.first <= after) continue;
+      store::HeldTeaching& teaching = held[where.first];
+      teaching.key = where.first;
+      teaching.known = routes_.contains(where.first);
+      ++teaching.segments;
+    }
+    std::vector<store::HeldTeaching> first;
+    for (const auto& [key, teaching] : held) {
+      if (first.size() < most) first.push_back(teaching);
+    }
+    return first;
   }
 
   Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override {

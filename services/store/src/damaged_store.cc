@@ -34,6 +34,7 @@ class ReadOnlyStore final : public RouteStore {
 
   Result<void> PutRoutes(std::span<const RouteInfo>) override { return Refuse(); }
   Result<void> AppendSegments(std::span<const route::SegmentPiece>) override { return Refuse(); }
+  Result<void> DropSegments(const RouteKey&) override { return Refuse(); }
   Result<void> MarkReceipted(const RouteKey&, std::span<const SegmentIndex>) override {
     return Refuse();
   }
@@ -46,6 +47,9 @@ class ReadOnlyStore final : public RouteStore {
   }
   Result<std::vector<HeldSegment>> SegmentDigests(const RouteKey& key) override {
     return store_->SegmentDigests(key);
+  }
+  Result<std::vector<HeldTeaching>> ListHeld(const RouteKey& after, std::size_t most) override {
+    return store_->ListHeld(after, most);
   }
   Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override {
     return store_->FindContent(digest);

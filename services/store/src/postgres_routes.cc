@@ -139,6 +139,17 @@ Result<void> PostgresRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
       [&](Transaction& transaction) { return Put(transaction, infos); });
 }
 
+Result<void> PostgresRouteStore::DropSegments(const RouteKey& key) {
+  return session_->Run(Kind::kWrite, "dropping the segments of " + Describe(key),
+                       [&](Transaction& transaction) -> Result<void> {
+                         Lock(transaction, {key});
+                         PostgresValues values;
+                         values.Add(key);
+                         DeleteSegments(transaction, values);
+                         return {};
+                       });
+}
+
 Result<void> PostgresRouteStore::Put(Transaction& transaction, std::span<const RouteInfo> infos) {
   Keys keys;
   for (const RouteInfo& info : infos) keys.insert(info.key);

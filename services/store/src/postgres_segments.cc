@@ -10,6 +10,23 @@
 namespace trailcast::store {
 namespace {
 
+// From one key to the next, whatever lies between: of a hundred thousand segments of one teaching
+// only the first is looked at.
+constexpr const char* kListHeld = R"(
+WITH RECURSIVE held AS (
+  (SELECT route, teaching, 1 AS number FROM segment WHERE (route, teaching) > (?, ?)
+   ORDER BY route, teaching LIMIT 1)
+  UNION ALL
+  SELECT next.route, next.teaching, held.number + 1 FROM held, LATERAL (
+    SELECT route, teaching FROM segment WHERE (route, teaching) > (held.route, held.teaching)
+    ORDER BY route, teaching LIMIT 1) AS next
+  WHERE held.number < ?)
+SELECT route, teaching,
+  (SELECT count(*) FROM segment WHERE (segment.route, segment.teaching) = (held.route, held.teaching)),
+  EXISTS (SELECT FROM route WHERE (route.route, route.teaching) = (held.route, held.teaching))
+FROM held ORDER BY number
+)";
+
 using route::RouteKey;
 using route::SegmentPiece;
 
@@ -174,6 +191,22 @@ Result<std::vector<HeldSegment>> PostgresRouteStore::SegmentDigests(const RouteK
                          }
                          return held;
                        });
+}
+
+Result<std::vector<HeldTeaching>> PostgresRouteStore::ListHeld(const RouteKey& after,
+                                                               std::size_t most) {
+  return session_->Run(
+      Kind::kRead, "listing the teachings of which it has segments",
+      [&](Transaction& transaction) -> Result<std::vector<HeldTeaching>> {
+        PostgresValues values;
+        values.Add(after);
+        values.Add(static_cast<std::int64_t>(most));
+        std::vector<HeldTeaching> held;
+        for (const pqxx::row& row : values.Execute(transaction, kListHeld)) {
+          held.push_back({ReadKey(row), row[2].as<std::uint64_t>(), row[3].as<bool>()});
+        }
+        return held;
+      });
 }
 
 Result<std::optional<route::Bytes>> PostgresRouteStore::FindContent(const route::Digest& digest) {

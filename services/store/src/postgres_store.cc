@@ -8,6 +8,14 @@ namespace trailcast::store {
 
 using route::RouteKey;
 
+Result<void> PostgresRouteStore::CheckReachable() {
+  return session_->Run(Kind::kRead, "seeing whether it is there",
+                       [](Transaction& transaction) -> Result<void> {
+                         transaction.exec("SELECT");
+                         return {};
+                       });
+}
+
 Result<void> PostgresRouteStore::Exclusively(const std::function<Result<void>()>& work) {
   return session_->Run(Kind::kWrite, "changing what servers share",
                        [&](Transaction& transaction) -> Result<void> {

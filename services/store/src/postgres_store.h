@@ -24,9 +24,12 @@ class PostgresRouteStore final : public RouteStore {
 
   Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override;
   Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
+  Result<void> DropSegments(const route::RouteKey& key) override;
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
   Result<std::vector<HeldSegment>> SegmentDigests(const route::RouteKey& key) override;
+  Result<std::vector<HeldTeaching>> ListHeld(const route::RouteKey& after,
+                                             std::size_t most) override;
   Result<std::optional<route::Bytes>> FindContent(const route::Digest& digest) override;
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
   Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override;
@@ -38,6 +41,7 @@ class PostgresRouteStore final : public RouteStore {
   Result<void> MarkReceipted(const route::RouteKey& key,
                              std::span<const SegmentIndex> indices) override;
   Result<std::vector<SegmentIndex>> UnreceiptedSegments(const route::RouteKey& key) override;
+  Result<void> CheckReachable() override;
   Result<void> Exclusively(const std::function<Result<void>()>& work) override;
   Result<std::optional<std::string>> FindAnswer(const std::string& request) override;
   Result<void> RememberAnswer(const std::string& request, const std::string& answer) override;

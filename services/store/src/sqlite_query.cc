@@ -24,6 +24,15 @@ WHERE substr(digest, 1, 4) IN (SELECT substr(digest, 1, 4) FROM leaving)
                AND digest = heir.digest AND NOT (route = ?1 AND teaching = ?2)) AND bytes IS NULL
 )";
 
+// From one key to the next, whatever lies between.
+constexpr const char* kNextHeld = R"(
+SELECT route, teaching,
+  (SELECT COUNT(*) FROM segment WHERE route = next.route AND teaching = next.teaching),
+  EXISTS (SELECT 1 FROM route WHERE route = next.route AND teaching = next.teaching)
+FROM (SELECT route, teaching FROM segment WHERE (route, teaching) > (?1, ?2)
+      ORDER BY route, teaching LIMIT 1) AS next
+)";
+
 void BindSize(SQLite::Statement& statement, int parameter, std::size_t size) {
   statement.bind(parameter, static_cast<std::int64_t>(size));
 }
@@ -56,14 +65,47 @@ void SqliteRouteStore::Bury(const RouteInfo& info) {
   BindKey(*find, info.key);
   if (find->executeStep()) ForgetPlaceAndTags(find->getColumn(0).getInt64());
   find->reset();
+  PartWith(info.key);
+  auto forget = compiled_.Take("DELETE FROM route WHERE route = ? AND teaching = ?");
+  BindKey(*forget, info.key);
+  forget->exec();
+  PutRow("tombstone", info);
+}
+
+void SqliteRouteStore::PartWith(const route::RouteKey& key) {
   for (const char* parting : {kBequeath, "DELETE FROM segment WHERE route = ? AND teaching = ?",
-                              "DELETE FROM receipt WHERE route = ? AND teaching = ?",
-                              "DELETE FROM route WHERE route = ? AND teaching = ?"}) {
+                              "DELETE FROM receipt WHERE route = ? AND teaching = ?"}) {
     auto part = compiled_.Take(parting);
-    BindKey(*part, info.key);
+    BindKey(*part, key);
     part->exec();
   }
-  PutRow("tombstone", info);
+}
+
+Result<void> SqliteRouteStore::DropSegments(const route::RouteKey& key) {
+  return Guarded("dropping the segments of " + Describe(key), [&]() -> Result<void> {
+    SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
+    PartWith(key);
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<std::vector<HeldTeaching>> SqliteRouteStore::ListHeld(const route::RouteKey& after,
+                                                             std::size_t most) {
+  return Guarded(
+      "listing the teachings of which it has segments", [&]() -> Result<std::vector<HeldTeaching>> {
+        std::vector<HeldTeaching> held;
+        route::RouteKey last = after;
+        while (held.size() < most) {
+          auto next = compiled_.Take(kNextHeld);
+          BindKey(*next, last);
+          if (!next->executeStep()) break;
+          last = {RouteId(next->getColumn(0).getString()), TeachingOf(next->getColumn(1))};
+          const auto segments = static_cast<std::uint64_t>(next->getColumn(2).getInt64());
+          held.push_back({last, segments, next->getColumn(3).getInt() != 0});
+        }
+        return held;
+      });
 }
 
 void SqliteRouteStore::Put(const RouteInfo& info) {

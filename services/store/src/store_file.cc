@@ -10,6 +10,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "services/store/src/big_endian.h"
+#include "services/store/src/replacement.h"
+
 namespace trailcast::store {
 namespace {
 
@@ -22,12 +25,11 @@ constexpr std::size_t kPageCountAt = 28;
 constexpr std::size_t kUserVersionAt = 60;
 constexpr std::size_t kApplicationIdAt = 68;
 constexpr std::size_t kPageCountValidForAt = 92;
+constexpr int kAttempts = 10;
 using Header = std::array<std::uint8_t, kHeaderBytes>;
 
-std::uint32_t Number(const Header& header, std::size_t at, int bytes) {
-  std::uint32_t value = 0;
-  for (int i = 0; i < bytes; ++i) value = value << 8U | header[at + static_cast<std::size_t>(i)];
-  return value;
+std::uint32_t Number(const Header& header, std::size_t at, std::size_t bytes) {
+  return static_cast<std::uint32_t>(BigEndian(header, at, bytes));
 }
 
 std::string Reason(int error) { return std::generic_category().message(error); }
@@ -52,6 +54,24 @@ Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Conditio
     return Fail(ErrorCode::kCorrupt, "{} is no file (a folder or a device), expected a route store",
                 path.string());
   }
+  // Another file may be put in its place before it is locked, or is to be by now.
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    Result<StoreFile> file = OpenLocked(path);
+    if (!file) return file;
+    if (!file->IsStillThere()) continue;
+    if (const Replacement replacement(path); replacement.IsBegun()) {
+      if (auto finished = replacement.Finish(); !finished) return tl::unexpected(finished.error());
+      continue;
+    }
+    if (condition == Condition::kDamaged) return file;
+    if (Result<void> fit = file->Inspect(); !fit) return tl::unexpected(fit.error());
+    return file;
+  }
+  return Fail(ErrorCode::kConflict, "route store {} is being replaced by another process",
+              path.string());
+}
+
+Result<StoreFile> StoreFile::OpenLocked(const std::filesystem::path& path) {
   const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     const int error = errno;
@@ -61,9 +81,14 @@ Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Conditio
   }
   StoreFile file(path, descriptor);
   if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());
-  if (condition == Condition::kDamaged) return file;
-  if (Result<void> fit = file.Inspect(); !fit) return tl::unexpected(fit.error());
   return file;
+}
+
+bool StoreFile::IsStillThere() const {
+  struct stat locked {};
+  struct stat named {};
+  return fstat(descriptor_, &locked) == 0 && stat(path_.c_str(), &named) == 0 &&
+         locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 // Closed after SQLite's own descriptors, since closing any of them drops SQLite's record locks.

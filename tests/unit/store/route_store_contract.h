@@ -250,6 +250,46 @@ TEST_P(RouteStoreContract, SegmentsThatAreAlikeOutliveEachOther) {
   EXPECT_THAT(store_->Verify().value(), testing::IsEmpty());
 }
 
+TEST_P(RouteStoreContract, DroppedSegmentsAreGoneAndTheirRouteAndWhatOthersHaveOfThemStay) {
+  route::SegmentPiece again = Piece(0);
+  again.key.teaching = TeachingId(2);
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0, 1})));
+  ASSERT_TRUE(store_->AppendSegments({&again, 1}));
+  ASSERT_TRUE(store_->PutRoute(Complete(2)));
+  ASSERT_TRUE(store_->DropSegments(kYard));
+  Reopen();
+  EXPECT_THAT(store_->HeldSegments(kYard).value(), IsEmpty());
+  EXPECT_EQ(store_->FindRoute(kYard).value(), Complete(2));
+  EXPECT_EQ(store_->ReadSegment(again.key, again.index).value(), again);
+  EXPECT_EQ(store_->FindContent(Piece(1).digest).value(), std::nullopt);
+  const route::SegmentPiece other = Piece(0, 5);
+  EXPECT_TRUE(store_->AppendSegments({&other, 1})) << "with other bytes too";
+  EXPECT_TRUE(store_->DropSegments({RouteId("nowhere"), TeachingId(1)}));
+}
+
+TEST_P(RouteStoreContract, TeachingsWithSegmentsAreListedByKeyKnownOrNot) {
+  std::vector<route::SegmentPiece> pieces = Pieces({0, 1, 2, 0, 0});
+  pieces[3].key.teaching = TeachingId(2);
+  pieces[4].key.route = RouteId("f" + kYard.route.value().substr(1));
+  ASSERT_TRUE(store_->AppendSegments(pieces));
+  ASSERT_TRUE(store_->PutRoute(Teaching(3)));
+  const auto list = [&](const route::RouteKey& after, std::size_t most) {
+    std::vector<std::string> listed;
+    const std::vector<HeldTeaching> held = store_->ListHeld(after, most).value();
+    for (const HeldTeaching& each : held) {
+      listed.push_back(fmt::format("{}/{} {}{}", each.key.route.value().substr(0, 2),
+                                   each.key.teaching.value(), each.segments,
+                                   each.known ? " known" : ""));
+    }
+    return listed;
+  };
+  const route::RouteKey before_all{RouteId(), TeachingId()};
+  EXPECT_THAT(list(before_all, 10), ElementsAre("01/1 3 known", "01/2 1", "f1/1 1"));
+  EXPECT_THAT(list(before_all, 1), ElementsAre("01/1 3 known"));
+  EXPECT_THAT(list(kYard, 10), ElementsAre("01/2 1", "f1/1 1"));
+  EXPECT_THAT(list(pieces[4].key, 10), IsEmpty());
+}
+
 TEST_P(RouteStoreContract, ImpossibleRoutesAreRefusedNamingTheField) {
   const auto message = [this](auto&& spoil) {
     route::RouteInfo info = Complete(1);

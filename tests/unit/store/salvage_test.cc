@@ -2,22 +2,27 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <fstream>
 #include <iterator>
 
+#include "services/store/lacking.h"
 #include "services/store/route_store.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/store/golden_route.h"
 #include "tests/unit/store/pieces.h"
 
 namespace trailcast::store {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr std::uint32_t kSegments = 40;
+constexpr std::size_t kPage = 4096;
 
 class SalvageTest : public testing::Test {
  protected:
@@ -32,6 +37,20 @@ class SalvageTest : public testing::Test {
   [[nodiscard]] std::string Read() const {
     std::ifstream in(file_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  // The number of a table's or an index' first page.
+  [[nodiscard]] std::size_t Root(const std::string& of) const {
+    sqlite3* db = nullptr;
+    EXPECT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    std::size_t root = 0;
+    const auto note = [](void* into, int, char** values, char**) {
+      *static_cast<std::size_t*>(into) = std::stoul(values[0]);
+      return 0;
+    };
+    const std::string sql = "SELECT rootpage FROM sqlite_schema WHERE name = '" + of + "'";
+    EXPECT_EQ(sqlite3_exec(db, sql.c_str(), note, &root, nullptr), SQLITE_OK);
+    sqlite3_close(db);
+    return root;
   }
   void Write(const std::string& bytes) const { std::ofstream(file_, std::ios::binary) << bytes; }
 
@@ -65,33 +84,59 @@ TEST_F(SalvageTest, AFlippedByteCostsTheSegmentItIsIn) {
   const auto salvaged = Salvage(file_, saved_);
   ASSERT_TRUE(salvaged) << salvaged.error().message;
   EXPECT_EQ(salvaged->segments, kSegments - 1);
-  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("segment 7 of teaching 1 of route")));
+  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("segment 7 of route 'yard'")));
   EXPECT_EQ(OpenSqliteStore(saved_).value()->HeldSegments(kYard).value().size(), kSegments - 1);
 }
 
-TEST_F(SalvageTest, DamagedPagesCostWhatIsOnThem) {
-  constexpr std::size_t kPage = 4096;
+// As when a sector of the disk is lost: at a page's beginning is what makes it a page.
+TEST_F(SalvageTest, SixtyFourLostBytesCostAFewSegmentsAndEachIsNamed) {
   const std::string whole = Read();
-  std::size_t mended = 0;
-  // The first pages define the tables: without them it is no store.
-  for (std::size_t page = 20; page * kPage < whole.size(); page += 7) {
+  std::size_t harmless = 0;
+  std::size_t costly = 0;
+  for (std::size_t page = 0; page * kPage < whole.size(); ++page) {
     std::string bytes = whole;
-    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page * kPage), kPage, '\x5A');
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page * kPage), 64, '\x5A');
     Write(bytes);
     const auto salvaged = Salvage(file_, saved_);
     ASSERT_TRUE(salvaged) << "page " << page << ": " << salvaged.error().message;
-    EXPECT_GE(salvaged->segments, kSegments / 2) << "page " << page;
+    EXPECT_GE(salvaged->segments, kSegments - 8) << "page " << page;
+    // The file's own header is not needed.
+    EXPECT_EQ(salvaged->lost.empty(), page == 0) << "page " << page;
     const auto saved = OpenSqliteStore(saved_).value();
     EXPECT_THAT(saved->Verify().value(), IsEmpty());
-    mended += salvaged->segments < kSegments ? 1 : 0;
+    const auto lacking = FindLacking(*saved).value();
+    if (salvaged->routes == 0) {
+      EXPECT_THAT(salvaged->lost, Contains(HasSubstr("what is known of teaching 1")));
+      EXPECT_EQ(salvaged->segments, kSegments);
+    } else if (salvaged->segments < kSegments) {
+      ASSERT_EQ(lacking.size(), 1U) << "page " << page;
+      EXPECT_EQ(lacking[0].segments.size() + salvaged->segments, kSegments);
+      EXPECT_THAT(salvaged->lost, Contains(Describe(lacking[0])));
+    }
+    ++(salvaged->segments < kSegments || salvaged->routes == 0 ? costly : harmless);
     std::filesystem::remove(saved_);
   }
-  EXPECT_GE(mended, 3U) << "hardly any page held a segment: nothing was tested";
+  EXPECT_GE(harmless, 5U) << "roots and indices cost nothing";
+  EXPECT_GE(costly, kSegments) << "hardly any page held a segment: nothing was tested";
 }
 
-// A row's number that lies before those on the page before would lead the walk round and round.
-TEST_F(SalvageTest, ARowThatLiesAboutItsPlaceCostsItselfAlone) {
-  constexpr std::size_t kPage = 4096;
+TEST_F(SalvageTest, WithoutTheRootsOfItsTablesAndTheFilesHeaderEverythingIsSaved) {
+  std::string bytes = Read();
+  for (const char* of : {"segment", "segment_by_digest"}) {
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>((Root(of) - 1) * kPage), kPage, '\0');
+  }
+  std::fill_n(bytes.begin(), kPage, '\0');
+  Write(bytes);
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments);
+  EXPECT_THAT(salvaged->lost, ElementsAre(HasSubstr("3 of the file's")));
+  const auto saved = OpenSqliteStore(saved_).value();
+  EXPECT_EQ(saved->FindRoute(kYard).value(), Complete(kSegments));
+  EXPECT_EQ(saved->UnreceiptedSegments(kYard).value().size(), kSegments - 2);
+}
+
+TEST_F(SalvageTest, ARowWhoseNumberIsDamagedIsSaved) {
   const std::string whole = Read();
   std::size_t damaged = 0;
   for (std::size_t page = kPage; page < whole.size(); page += kPage) {
@@ -107,7 +152,7 @@ TEST_F(SalvageTest, ARowThatLiesAboutItsPlaceCostsItselfAlone) {
     Write(bytes);
     const auto salvaged = Salvage(file_, saved_);
     ASSERT_TRUE(salvaged) << salvaged.error().message;
-    EXPECT_EQ(salvaged->segments, kSegments - 1) << "page at " << page;
+    EXPECT_EQ(salvaged->segments, kSegments) << "page at " << page;
     EXPECT_THAT(OpenSqliteStore(saved_).value()->Verify().value(), IsEmpty());
     std::filesystem::remove(saved_);
     ++damaged;
@@ -147,14 +192,93 @@ TEST_F(SalvageTest, SegmentsThatRelyOnOthersBytesAreSavedWithThem) {
   {
     const auto store = OpenSqliteStore(file_).value();
     ASSERT_TRUE(store->AppendSegments({&again, 1}));
-    ASSERT_TRUE(store->MarkReceipted(again.key, {&again.index, 1}));
   }
   const auto salvaged = Salvage(file_, saved_);
   ASSERT_TRUE(salvaged) << salvaged.error().message;
   EXPECT_EQ(salvaged->segments, kSegments + 1);
   const auto saved = OpenSqliteStore(saved_).value();
   EXPECT_EQ(saved->ReadSegment(again.key, again.index).value(), again);
-  EXPECT_THAT(saved->UnreceiptedSegments(again.key).value(), IsEmpty());
+}
+
+TEST_F(SalvageTest, BytesOfARowThatDoesNotSayAnyMoreWhoseTheyAreAreFoundByTheirDigest) {
+  route::SegmentPiece again = Piece(3);
+  again.key.teaching = TeachingId(2);
+  ASSERT_TRUE(OpenSqliteStore(file_).value()->AppendSegments({&again, 1}));
+  std::string bytes = Read();
+  // The route's id, in the row that has the bytes.
+  const std::size_t content =
+      bytes.find(std::string(again.bytes.begin(), again.bytes.begin() + 40));
+  ASSERT_NE(content, std::string::npos);
+  const std::size_t id = bytes.rfind(kYard.route.value(), content);
+  ASSERT_LT(content - id, 120U);
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(id), 8, '#');
+  Write(bytes);
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments);
+  EXPECT_THAT(salvaged->lost, Contains(HasSubstr("segment 3 of route 'yard'")));
+  EXPECT_EQ(OpenSqliteStore(saved_).value()->ReadSegment(again.key, again.index).value(), again);
+}
+
+TEST_F(SalvageTest, WhatTheLogHasIsSavedAlthoughTheLogIsDamagedToo) {
+  const std::filesystem::path other = dir_ / "other.db";
+  {
+    const auto store = OpenSqliteStore(other).value();
+    ASSERT_TRUE(store->PutRoute(Complete(kSegments)));
+    for (std::uint32_t i = 0; i < kSegments; ++i) ASSERT_TRUE(store->AppendSegments(Pieces({i})));
+    for (const char* part : {"", "-wal"}) {
+      std::filesystem::copy_file(other.string() + part, file_.string() + part,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  ASSERT_GT(std::filesystem::file_size(file_.string() + "-wal"), kSegments * kPage);
+  Write("");  // what was in the file has to come from the log
+  std::fstream log(file_.string() + "-wal", std::ios::in | std::ios::out | std::ios::binary);
+  log.write(std::string(32, '#').data(), 32);
+  log.close();
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments);
+  EXPECT_EQ(salvaged->routes, 1U);
+}
+
+TEST_F(SalvageTest, WithItsLogAWholeStoreLosesNothing) {
+  const auto store = OpenSqliteStore(dir_ / "other.db").value();
+  for (std::uint32_t i = 0; i < kSegments; ++i) ASSERT_TRUE(store->AppendSegments(Pieces({i})));
+  ASSERT_TRUE(store->PutRoute(Complete(kSegments)));
+  for (const char* part : {"", "-wal"}) {
+    std::filesystem::copy_file((dir_ / "other.db").string() + part, file_.string() + part,
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+  const auto salvaged = Salvage(file_, saved_);
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->segments, kSegments);
+  EXPECT_THAT(salvaged->lost, IsEmpty());
+}
+
+TEST_F(SalvageTest, StoresOfVersionsBeforeAreSavedToo) {
+  for (const int version : {4, 5}) {
+    std::filesystem::copy_file(std::filesystem::path(TRAILCAST_SOURCE_DIR) /
+                                   fmt::format("tests/golden/routes-v{}.db", version),
+                               file_, std::filesystem::copy_options::overwrite_existing);
+    const auto salvaged = Salvage(file_, saved_);
+    ASSERT_TRUE(salvaged) << salvaged.error().message;
+    EXPECT_THAT(salvaged->lost, IsEmpty()) << version;
+    const test::TaughtRoute taught = version == 4 ? test::TeachSamples(2) : GoldenRoute();
+    {
+      const auto saved = OpenSqliteStore(saved_).value();
+      EXPECT_EQ(saved->ListRoutes().value(), std::vector{taught.info});
+      for (const route::SegmentPiece& piece : taught.pieces) {
+        EXPECT_EQ(saved->ReadSegment(piece.key, piece.index).value(), piece);
+      }
+      if (version == 5) {
+        EXPECT_EQ(saved->FindRoute(GoldenTombstone().key).value(), GoldenTombstone());
+        EXPECT_THAT(saved->UnreceiptedSegments(taught.info.key).value(),
+                    ElementsAre(SegmentIndex(1)));
+      }
+    }
+    std::filesystem::remove(saved_);
+  }
 }
 
 TEST_F(SalvageTest, WithoutRoomForItNothingIsMade) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::store {
+
+// A complete route of which not all segments are here: it is served in part.
+struct LackingRoute {
+  route::RouteInfo info;
+  std::vector<SegmentIndex> segments;  // that are not here, rising
+};
+
+// Whether the route, if it is complete, lacks any. What lies on the disk is not read.
+[[nodiscard]] Result<std::vector<SegmentIndex>> FindLacking(RouteStore& store,
+                                                            const route::RouteInfo& info);
+// All routes of a store.
+[[nodiscard]] Result<std::vector<LackingRoute>> FindLacking(RouteStore& store);
+
+// "segments 3 to 5, 9 and 12 to 40"; a long list ends with how many more there are.
+[[nodiscard]] std::string DescribeSegments(const std::vector<SegmentIndex>& rising);
+// "segments 3 to 5 of route 'hall' revision 2 (teaching 1f of route 0123..)"
+[[nodiscard]] std::string Describe(const LackingRoute& lacking);
+
+}  // namespace trailcast::store

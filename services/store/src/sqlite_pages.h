@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "services/route/route.h"
+
+namespace trailcast::store {
+
+using PageNumber = std::uint32_t;  // from 1 on
+
+// The pages of an SQLite file as they lie there, and those in the log beside it, for whoever saves
+// what is left of them: nothing in either is believed, and no SQLite is needed to read it.
+// https://www.sqlite.org/fileformat.html
+class SqlitePages {
+ public:
+  // How many of the log's frames, counted from the oldest, are taken to have happened. 0: the file
+  // alone.
+  using Moment = std::size_t;
+
+  // A file that cannot be read has no pages.
+  explicit SqlitePages(const std::filesystem::path& file);
+
+  // The header says that it is one of our stores, whatever the rest of it says.
+  [[nodiscard]] bool is_store() const { return is_store_; }
+  [[nodiscard]] std::uint32_t usable_bytes() const { return usable_bytes_; }  // of a page
+  // That should be there: in the file, or as its header says of one that was cut short.
+  [[nodiscard]] PageNumber pages() const { return pages_; }
+  [[nodiscard]] PageNumber first_free() const { return first_free_; }  // 0: none
+
+  // That SQLite leaves out, in a file that is large enough to have it.
+  [[nodiscard]] PageNumber lock_page() const { return (1U << 30U) / page_bytes_ + 1; }
+
+  [[nodiscard]] Moment latest() const { return frames_.size(); }
+  // The page that the log's `moment`th frame has.
+  [[nodiscard]] PageNumber PageAt(Moment moment) const { return frames_[moment - 1].page; }
+  [[nodiscard]] Moment LastChangeOf(PageNumber page) const;
+  // Nothing for a page that is not there, or that the disk does not give.
+  [[nodiscard]] std::optional<route::Bytes> Read(PageNumber page, Moment moment);
+
+ private:
+  struct Frame {
+    PageNumber page;
+    std::uint64_t offset;
+  };
+  void ReadHeader(std::uint64_t file_bytes);
+  void ListFrames(std::uint64_t log_bytes);
+  [[nodiscard]] std::optional<route::Bytes> ReadAt(std::ifstream& from, std::uint64_t offset) const;
+
+  std::ifstream file_;
+  std::ifstream log_;
+  bool is_store_ = false;
+  std::uint32_t page_bytes_ = 4096;  // what SQLite makes unless told otherwise
+  std::uint32_t usable_bytes_ = 4096;
+  PageNumber pages_ = 0;
+  PageNumber first_free_ = 0;
+  std::vector<Frame> frames_;                          // oldest first
+  std::map<PageNumber, std::vector<Moment>> page_at_;  // the moments that changed a page, rising
+};
+
+}  // namespace trailcast::store
