@@ -88,10 +88,12 @@ class FollowerLink {
   [[nodiscard]] Result<std::optional<route::RouteInfo>> FindOwn();
   [[nodiscard]] Result<bool> Asked(Time began, const std::optional<route::RouteInfo>& own);
   [[nodiscard]] Result<void> StartFetching();
+  [[nodiscard]] Result<void> MakeFetcher(const std::vector<exchange::RouteFetcher::Held>& held);
   [[nodiscard]] Result<void> Follow();
   void Trade();
   void Say(Time now);  // what the fetcher or the finder, and whoever lends, have to say
   [[nodiscard]] Result<void> StoreArrived();
+  [[nodiscard]] Result<void> DropWrong(std::uint32_t count);
   [[nodiscard]] Result<void> StoreNews();
   [[nodiscard]] Result<void> TellHeld();
   [[nodiscard]] Result<void> CountHeld();
@@ -128,6 +130,7 @@ class FollowerLink {
   std::atomic<std::uint32_t> held_before_ = 0;
   std::atomic<std::uint32_t> fetched_ = 0;
   bool fed_all_ = false;
+  bool dropped_wrong_ = false;  // once is enough: then it is whoever sends them
   std::string waiting_for_ = "starting";
   std::optional<AgentId> told_server_;
 

@@ -74,6 +74,8 @@ class RouteFetcher {
   [[nodiscard]] std::optional<SegmentIndex> NextMissing() const { return want_.first(); }
   [[nodiscard]] FetchProgress Progress(Time now) const;
   [[nodiscard]] bool Complete() const { return verdict_ == FetchState::kComplete; }
+  // Who sent pieces that were new here.
+  [[nodiscard]] const std::set<AgentId>& senders() const { return senders_; }
   // A holder said that the revision was deleted: what is missing will not come.
   [[nodiscard]] bool deleted() const { return deleted_; }
   // The best announcement so far.
@@ -110,6 +112,7 @@ class RouteFetcher {
   Time heard_at_;                        // of a holder of this route; at first: creation
   Time inquire_at_;                      // when to ask who has it
   bool deleted_ = false;
+  std::set<AgentId> senders_;
   FetchProgress counts_;
 };
 

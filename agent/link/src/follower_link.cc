@@ -111,25 +111,7 @@ Result<void> FollowerLink::StartFetching() {
                route_->segment_count, held.size());
   held_before_ = static_cast<std::uint32_t>(held.size());
   if (exchange_) {
-    const auto now = steady_clock::now();
-    auto others = store_->FindRevisions(key.route);
-    if (!others) return tl::unexpected(others.error());
-    std::erase_if(*others, [&](const route::RouteInfo& info) { return info.key == key; });
-    exchange::RouteFetcherOptions options;
-    if (!others->empty()) {
-      options.own_content = [this](const route::Digest& digest) {
-        return store_->FindContent(digest).value_or(std::nullopt);
-      };
-    }
-    fetcher_.emplace(options_.agent, key, held,
-                     exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now, options);
-    fetcher_->Learn(*route_, now);
-    // What the own store knows may be more than what the finder heard.
-    auto own = store_->FindRoute(key);
-    if (!own) return tl::unexpected(own.error());
-    stored_ = *own;
-    if (stored_) fetcher_->Learn(*stored_, now);
-    Say(now);  // its first requests, at once
+    if (auto made = MakeFetcher(held); !made) return made;
   } else if (route_->state == route::RouteState::kTeaching) {
     spdlog::warn("'{}' is unfinished in {}: following what is there", route_->name,
                  options_.store_file);
@@ -203,12 +185,7 @@ Result<void> FollowerLink::StoreArrived() {
     if (auto counted = CountHeld(); !counted) return counted;
   }
   const auto progress = fetcher_->Progress(steady_clock::now());
-  if (progress.state == exchange::FetchState::kWrong) {
-    return Fail(ErrorCode::kCorrupt,
-                "the {} segments of route '{}' in {} are not those that its scout announced: move "
-                "that file away and fetch the route anew",
-                progress.held, route_->name, options_.store_file);
-  }
+  if (progress.state == exchange::FetchState::kWrong) return DropWrong(progress.held);
   if (fetcher_->deleted() && !fetcher_->Complete()) {
     return Fail(ErrorCode::kNotFound,
                 "revision {} of route '{}' was deleted by an operator: {} of its {} segments are "

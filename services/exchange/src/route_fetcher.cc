@@ -62,11 +62,13 @@ void RouteFetcher::Handle(const Message& message, Time now) {
 void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key != key_) continue;
+    const std::size_t before = held_.size() + borrowed_.size();
     if (batch.IsLent(info_ ? std::optional(info_->scout) : std::nullopt)) {
       Borrow(piece, now);
     } else {
       piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);
     }
+    if (held_.size() + borrowed_.size() > before) senders_.insert(batch.sender);
   }
 }
 

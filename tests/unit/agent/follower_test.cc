@@ -30,8 +30,38 @@ class FollowerTest : public testing::Test {
     const auto summary = swarm_.Teach(scout, swarm_.ScoutNamed(agent), false);
     ASSERT_TRUE(summary) << summary.error().message;
   }
+  // The route, and its segments, in a store.
+  std::optional<route::RouteInfo> RouteIn(store::RouteStore& store) {
+    const auto routes = store.FindRoutesByName("hall").value();
+    return routes.empty() ? std::nullopt : std::optional(routes[0]);
+  }
+  std::vector<route::SegmentPiece> PiecesIn(const std::string& agent) {
+    const auto store = swarm_.OpenStore(agent);
+    const auto info = RouteIn(*store);
+    std::vector<route::SegmentPiece> pieces;
+    const std::vector<SegmentIndex> held = store->HeldSegments(info->key).value();
+    for (const SegmentIndex index : held) {
+      pieces.push_back(store->ReadSegment(info->key, index).value());
+    }
+    info_ = info;
+    return pieces;
+  }
+  // Each whole, and at another's place.
+  void StoreWrongly(const std::string& agent, std::vector<route::SegmentPiece> pieces) {
+    ASSERT_GT(pieces.size(), 1U);
+    std::swap(pieces[0].index, pieces[1].index);
+    const auto store = swarm_.OpenStore(agent);
+    ASSERT_TRUE(store->AppendSegments(pieces));
+    ASSERT_TRUE(store->PutRoute(*info_));
+  }
+  Result<Summary> FetchInto(const std::string& agent) {
+    return Fetch(swarm_.FollowerNamed(agent).link, swarm_.OpenStore(agent),
+                 swarm_.Join(exchange::FollowerTopics()));
+  }
+
   test::Swarm swarm_;
   WalkDevice device_{kFollowerFrames};
+  std::optional<route::RouteInfo> info_;  // that PiecesIn found
 };
 
 TEST_F(FollowerTest, ArrivesAtTheEndOfARouteFromItsOwnStore) {
@@ -136,6 +166,28 @@ TEST_F(FollowerTest, FollowsFromItsOwnStoreByTheBeginningOfTheRoutesId) {
   const auto outcome = swarm_.Replay(device_, options, false);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_TRUE(outcome->success) << outcome->reason;
+}
+
+TEST_F(FollowerTest, WrongSegmentsInItsOwnStoreAreFetchedAnew) {
+  TeachInto("server");
+  const auto pieces = PiecesIn("server");
+  StoreWrongly("robot", pieces);
+  swarm_.StartServer();
+  const auto fetched = FetchInto("robot");
+  ASSERT_TRUE(fetched) << fetched.error().message;
+  EXPECT_EQ(PiecesIn("robot"), pieces);
+}
+
+TEST_F(FollowerTest, WhoSendsWrongSegmentsIsNamed) {
+  TeachInto("scout");
+  StoreWrongly("server", PiecesIn("scout"));
+  StoreWrongly("robot", PiecesIn("scout"));
+  swarm_.StartServer();
+  const auto fetched = FetchInto("robot");
+  ASSERT_FALSE(fetched);
+  EXPECT_EQ(fetched.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(fetched.error().message, HasSubstr("'server' sent them"));
+  EXPECT_TRUE(PiecesIn("robot").empty());
 }
 
 TEST_F(FollowerTest, NamesTheRoutesThereAreWhenItsOwnIsNotAmongThem) {

@@ -1,0 +1,71 @@
+// How FollowerLink comes by a route: its fetcher, and what becomes of segments that prove wrong.
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <set>
+#include <vector>
+
+#include "agent/link/follower_link.h"
+#include "services/route/digest.h"
+#include "services/route/labels.h"
+
+namespace trailcast::agent {
+namespace {
+
+std::string Names(const std::set<AgentId>& senders) {
+  std::vector<std::string> names;
+  for (const AgentId& sender : senders) names.push_back("'" + sender.value() + "'");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+Result<void> FollowerLink::MakeFetcher(const std::vector<exchange::RouteFetcher::Held>& held) {
+  const auto now = std::chrono::steady_clock::now();
+  const route::RouteKey key = route_->key;
+  auto others = store_->FindRevisions(key.route);
+  if (!others) return tl::unexpected(others.error());
+  std::erase_if(*others, [&](const route::RouteInfo& info) { return info.key == key; });
+  exchange::RouteFetcherOptions options;
+  if (!others->empty()) {
+    options.own_content = [this](const route::Digest& digest) {
+      return store_->FindContent(digest).value_or(std::nullopt);
+    };
+  }
+  fetcher_.emplace(options_.agent, key, held,
+                   exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now, options);
+  fetcher_->Learn(*route_, now);
+  // What the own store knows may be more than what the finder heard.
+  auto own = store_->FindRoute(key);
+  if (!own) return tl::unexpected(own.error());
+  stored_ = *own;
+  if (stored_) fetcher_->Learn(*stored_, now);
+  Say(now);  // its first requests, at once
+  return {};
+}
+
+// Each is whole, and together they are another route than the scout announced.
+Result<void> FollowerLink::DropWrong(std::uint32_t count) {
+  const std::set<AgentId> senders = fetcher_->senders();
+  if (auto dropped = store_->DropSegments(route_->key); !dropped) return dropped;
+  const std::string wrong =
+      fmt::format("the {} segments of {} in {} are not those that its scout announced", count,
+                  route::Describe(*route_), options_.store_file);
+  if (dropped_wrong_ || held_before_ == 0) {
+    return Fail(ErrorCode::kCorrupt,
+                "{}, and were dropped: {} sent them and has others than the scout '{}'; delete the "
+                "revision there, or have it taught again",
+                wrong, Names(senders), route_->scout.value());
+  }
+  if (next_feed_ > 0) {
+    return Fail(ErrorCode::kCorrupt,
+                "{}: they were dropped; start again, and the route is fetched anew", wrong);
+  }
+  spdlog::warn("{}: fetching them anew", wrong);
+  dropped_wrong_ = true;
+  damaged_.clear();
+  held_ = held_before_ = 0;
+  return MakeFetcher({});
+}
+
+}  // namespace trailcast::agent
