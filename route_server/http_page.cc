@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 struct HttpPage::State {
   std::chrono::milliseconds stale_after{};
   std::mutex mutex;  // guards the next two
-  std::string metrics;
+  Shown shown;
   Clock::time_point shown_at = Clock::now();
   int port = 0;
   HttpServer server;
@@ -22,14 +22,18 @@ struct HttpPage::State {
   void Answer() {
     server.Get("/metrics", [this](const httplib::Request&, httplib::Response& response) {
       const std::scoped_lock lock(mutex);
-      response.set_content(metrics, "text/plain; version=0.0.4");
+      response.set_content(shown.metrics, "text/plain; version=0.0.4");
     });
     server.Get("/health", [this](const httplib::Request&, httplib::Response& response) {
       const std::scoped_lock lock(mutex);
-      const bool well = Clock::now() < shown_at + stale_after;
-      response.status = well ? 200 : 503;
-      response.set_content(well ? "ok\n" : "the server's loop does not run\n", "text/plain");
+      const bool runs = Clock::now() < shown_at + stale_after;
+      response.status = runs && shown.trouble.empty() ? 200 : 503;
+      response.set_content(runs ? Health() : "the server's loop does not run\n", "text/plain");
     });
+  }
+  [[nodiscard]] std::string Health() const {
+    if (!shown.trouble.empty()) return "the store is away: " + shown.trouble + "\n";
+    return shown.degraded.empty() ? "ok\n" : "degraded: " + shown.degraded + "\n";
   }
 };
 
@@ -67,9 +71,9 @@ HttpPage::HttpPage(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 HttpPage::~HttpPage() { state_->server.stop(); }
 
-void HttpPage::Show(std::string metrics) {
+void HttpPage::Show(Shown shown) {
   const std::scoped_lock lock(state_->mutex);
-  state_->metrics = std::move(metrics);
+  state_->shown = std::move(shown);
   state_->shown_at = Clock::now();
 }
 

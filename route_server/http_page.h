@@ -9,7 +9,8 @@
 namespace trailcast::server {
 
 // GET /metrics and GET /health over HTTP, on a thread of its own. /health is 200 as long as Show
-// was called within `stale_after`, and 503 from then on: a server whose loop hangs is not well.
+// was called within `stale_after` and told of no trouble, and 503 else: a server whose loop hangs
+// is not well, nor is one that can serve nobody.
 class HttpPage {
  public:
   // Port 0: any that is free. kUnavailable when it cannot be listened on.
@@ -20,8 +21,13 @@ class HttpPage {
   HttpPage(const HttpPage&) = delete;
   HttpPage& operator=(const HttpPage&) = delete;
 
-  // What /metrics says from now on. From any thread.
-  void Show(std::string metrics);
+  struct Shown {
+    std::string metrics;
+    std::string trouble{};   // why nobody can be served; empty: they can
+    std::string degraded{};  // what is not as it should be while all are served
+  };
+  // What the two say from now on. From any thread.
+  void Show(Shown shown);
   [[nodiscard]] int port() const;
 
  private:

@@ -44,6 +44,11 @@ std::string Metrics::Text() const {
   std::string text =
       Line("routes", kGauge, "Routes in the store, all revisions.", routes) +
       Line("agents", kGauge, "Agents present: the server's DDS peers.", agents) +
+      Line("store_reachable", kGauge, "1 while the store can be read and written, else 0.",
+           store_reachable ? 1 : 0) +
+      Line("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
+           partial_routes) +
+      Line("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments) +
       Line("backlog_segments", kGauge, "Segments announced and not durable yet.", backlog) +
       Line("segments_stored_total", kCounter, "Segments made durable.", keeper.appended) +
       Line("segment_bytes_stored_total", kCounter, "Bytes of these.", keeper.appended_bytes) +
@@ -70,6 +75,9 @@ std::string Metrics::Text() const {
            over_quota.routes) +
       Line("over_quota_requests_total", kCounter, "Requests refused for a quota.",
            over_quota.requests) +
+      Line("segments_stray_dropped_total", kCounter,
+           "Stored segments dropped because nobody announced their teaching for a day.",
+           dropped_strays) +
       Line("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
   text += fmt::format(

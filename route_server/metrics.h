@@ -40,9 +40,13 @@ struct Metrics {
     std::uint64_t routes = 0;    // announcements that were not taken
     std::uint64_t requests = 0;
   } over_quota{};
-  std::size_t routes = 0;                           // in the store
-  std::size_t backlog = 0;                          // segments announced, not durable yet
-  std::size_t agents = 0;                           // present
+  std::size_t routes = 0;   // in the store
+  std::size_t backlog = 0;  // segments announced, not durable yet
+  std::size_t agents = 0;   // present
+  bool store_reachable = true;
+  std::size_t partial_routes = 0;                   // complete ones that lack segments here
+  std::size_t lacking_segments = 0;                 // of these
+  std::uint64_t dropped_strays = 0;                 // segments that nobody announced
   std::map<std::string, LatencyHistogram> queries;  // by kind
 
   [[nodiscard]] std::string Text() const;

@@ -4,7 +4,9 @@
 
 #include <utility>
 
+#include "services/base/text.h"
 #include "services/catalog/editing.h"
+#include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
 
@@ -65,6 +67,7 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
                                   exchange::Integrity{route::CheckDigest, route::ManifestDigest});
   if (!keeper) return tl::unexpected(keeper.error());
   server->keeper_ = std::move(*keeper);
+  server->upkeep_.emplace(*server->store_, *server->keeper_);
   return server;
 }
 
@@ -120,9 +123,8 @@ void Server::Serve() {
   const auto outgoing = Say(now);
   TellTroubles();
   FillViews(outgoing);
-  ShowStatus(exchange::AgentMode::kWaiting,
-             fmt::format("serving: {} segments stored, {} sent", keeper_->counters().appended,
-                         keeper_->counters().answered));
+  upkeep_->Tick(now);
+  ShowWhatItDoes();
   presence_.Tick(now);
   if (retention_ && now >= retention_due_) {
     retention_due_ = now + kRetentionEvery;
@@ -169,7 +171,11 @@ void Server::TellTroubles() {
 
 // What was appended is on the disk, and what was announced as deleted is not.
 void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
-  for (const auto& [key, segment] : keeper_->TakeAppended()) views_.Note(key, segment);
+  for (const auto& [key, segment] : keeper_->TakeAppended()) {
+    views_.Note(key, segment);
+    upkeep_->NoteStored(key, segment);
+  }
+  for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {
     const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
     if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
@@ -213,7 +219,26 @@ void Server::ShowMetrics() {
   metrics_.backlog = keeper_->backlog();
   metrics_.agents = journal_.agents();
   if (const auto page = store_->QueryRoutes({.page_size = 1})) metrics_.routes = page->total;
-  page_->Show(metrics_.Text());
+  metrics_.store_reachable = upkeep_->store_trouble().empty();
+  metrics_.partial_routes = upkeep_->partial_routes();
+  metrics_.lacking_segments = upkeep_->lacking_segments();
+  metrics_.dropped_strays = upkeep_->dropped_strays();
+  page_->Show({metrics_.Text(), upkeep_->store_trouble(), upkeep_->Degraded()});
+}
+
+void Server::ShowWhatItDoes() {
+  if (!upkeep_->store_trouble().empty()) {
+    ShowStatus(
+        exchange::AgentMode::kFault,
+        PlainText("the store is away: " + upkeep_->store_trouble(), exchange::kMaxLineBytes));
+    return;
+  }
+  std::string detail = fmt::format("serving: {} segments stored, {} sent",
+                                   keeper_->counters().appended, keeper_->counters().answered);
+  if (const std::string degraded = upkeep_->Degraded(); !degraded.empty()) {
+    detail += "; " + degraded;
+  }
+  ShowStatus(exchange::AgentMode::kWaiting, detail);
 }
 
 void Server::ShowStatus(exchange::AgentMode mode, const std::string& detail) {

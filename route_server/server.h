@@ -11,6 +11,7 @@
 #include "route_server/metrics.h"
 #include "route_server/quotas.h"
 #include "route_server/request_queue.h"
+#include "route_server/upkeep.h"
 #include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
@@ -63,12 +64,14 @@ class Server {
   void FillViews(const std::vector<exchange::Message>& outgoing);
   void DeleteOutdated();
   void ShowMetrics();
+  void ShowWhatItDoes();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   std::unique_ptr<store::RouteStore> store_;
   catalog::ViewCatalog views_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::unique_ptr<exchange::RouteKeeper> keeper_;
+  std::optional<Upkeep> upkeep_;  // once there is a keeper
   program::Presence presence_;
   Journal journal_;
   Holders holders_;

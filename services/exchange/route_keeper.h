@@ -96,8 +96,14 @@ class RouteKeeper {
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);
   // Reading the segment found it damaged: it is asked for, of any holder.
   void NoteDamage(const route::RouteKey& key, SegmentIndex index, Time now);
+  // The stored route lacks segments: it is taken up, which has them asked for.
+  void Attend(const route::RouteKey& key, Time now) { (void)Find(key, now, Which::kStored); }
+  // Drops the segments of a teaching that nobody announced. False if somebody has by now.
+  [[nodiscard]] Result<bool> DropStray(const route::RouteKey& key);
   // Segments stored since the last call, repaired ones among them.
   [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeAppended();
+  // Segments found damaged since the last call.
+  [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeDamaged();
   // Somebody waits for segments: Tick soon.
   [[nodiscard]] bool answering() const { return !answers_.empty(); }
 
@@ -173,6 +179,7 @@ class RouteKeeper {
   std::map<route::RouteKey, KeptRoute> routes_;
   std::vector<route::SegmentPiece> arrived_;                        // since the last Tick
   std::vector<std::pair<route::RouteKey, SegmentIndex>> appended_;  // that nobody was told of yet
+  std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;   // as well
   std::vector<Message> replies_;  // to the catalog's clients; digests
   AnswerQueue answers_;
   StandIn stand_in_;

@@ -183,6 +183,29 @@ TEST_F(SharedStore, PostgresKilledIsToldWaitedForAndLosesNothing) {
   EXPECT_TRUE(Await([&] { return follower.complete(); })) << follower.held();
 }
 
+TEST_F(SharedStore, AServerThatNobodyAsksAnythingTellsThatPostgresIsAway) {
+  const std::string beat = (folder_ / "beat").string();
+  Process server(Words("trailcast-server", {"--store", url_, "--heartbeat", beat}),
+                 folder_ / "idle.log");
+  const auto health = [&] {
+    Process asked(
+        {std::string(TRAILCAST_BINARY_DIR) + "/trailcast-server", "health", "--heartbeat", beat},
+        folder_ / "health.log");
+    const auto status = asked.Wait();
+    return std::pair(status, asked.output());
+  };
+  ASSERT_TRUE(server.WaitForOutput("ready")) << server.output();
+  ASSERT_TRUE(Await([&] { return health().first == 0; })) << health().second;
+  postgres_.Stop(SIGKILL);
+  ASSERT_TRUE(server.WaitForOutput("the store is away")) << server.output();
+  ASSERT_TRUE(Await([&] { return health().first == 1; })) << health().second;
+  EXPECT_THAT(health().second, HasSubstr("is PostgreSQL running there"));
+  postgres_.Start();
+  ASSERT_TRUE(server.WaitForOutput("the store is there again")) << server.output();
+  EXPECT_TRUE(Await([&] { return health().first == 0; })) << health().second;
+  EXPECT_THAT(server.output(), Not(HasSubstr(PostgresServer::kPassword)));
+}
+
 TEST_F(SharedStore, AnEditThatBothHearIsCarriedOutOnce) {
   constexpr std::uint32_t kRevisions = 3;
   auto store = store::OpenPostgresStore(url_).value();

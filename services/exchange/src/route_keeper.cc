@@ -5,6 +5,7 @@
 
 #include "services/exchange/batches.h"
 #include "services/route/labels.h"
+#include "services/store/lacking.h"
 
 namespace trailcast::exchange {
 using route::RouteInfo;
@@ -57,8 +58,13 @@ void RouteKeeper::Handle(const Message& message, Time now) {
 bool RouteKeeper::IsSettled(const route::RouteKey& key) {
   const auto info = store_.FindRoute(key);
   if (!info) return true;  // the store's trouble is told elsewhere
-  return *info && ((*info)->state == route::RouteState::kComplete ||
-                   (*info)->standing == route::Standing::kDeleted);
+  if (!*info) return false;
+  if ((*info)->standing == route::Standing::kDeleted) return true;
+  if ((*info)->state != route::RouteState::kComplete) return false;
+  const auto kept = routes_.find(key);
+  if (kept != routes_.end() && !kept->second.Damaged().empty()) return false;
+  const auto lacking = store::FindLacking(store_, **info);
+  return !lacking || lacking->empty();
 }
 
 void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time now) {
@@ -205,6 +211,10 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
 
 std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeAppended() {
   return std::exchange(appended_, {});
+}
+
+std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeDamaged() {
+  return std::exchange(damaged_, {});
 }
 
 std::size_t RouteKeeper::backlog() const {

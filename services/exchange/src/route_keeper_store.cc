@@ -168,6 +168,7 @@ void RouteKeeper::NoteDamage(const RouteKey& key, SegmentIndex index, Time now) 
   KeptRoute* kept = Find(key, now, Which::kStored);
   if (kept == nullptr || !kept->Holds(index)) return;
   ++counters_.damaged;
+  damaged_.emplace_back(key, index);
   kept->MarkDamaged(index, now);
   AddNote(
       Note::Severity::kWarning, fmt::format("damaged/{}/{}", Describe(key), index.value()),
@@ -175,6 +176,14 @@ void RouteKeeper::NoteDamage(const RouteKey& key, SegmentIndex index, Time now) 
                   "followers for it",
                   index.value(), Describe(key)),
       now);
+}
+
+Result<bool> RouteKeeper::DropStray(const RouteKey& key) {
+  const auto found = routes_.find(key);
+  if (found != routes_.end() && found->second.scout()) return false;
+  if (auto dropped = store_.DropSegments(key); !dropped) return tl::unexpected(dropped.error());
+  if (found != routes_.end()) routes_.erase(found);
+  return true;
 }
 
 // Their scouts are to know that nothing is taken, and why.

@@ -114,6 +114,17 @@ TEST_F(RouteKeeperTest, AsksWhoHasWhatAgentsHoldAndItLacks) {
   EXPECT_EQ(asked, (std::vector{SegmentRequest{AgentId("server-1"), lost, {}}}));
 }
 
+TEST_F(RouteKeeperTest, AsksWhoHasACompleteRouteThatItHasInPartOnly) {
+  ASSERT_TRUE(store_.AppendSegments(std::vector{pieces_[0]}));
+  ASSERT_TRUE(store_.PutRoute(Info(3, RouteState::kComplete)));
+  keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, {}, test::ToyIntegrity(),
+                              {.announced_at_start = 0})
+                .value();
+  keeper_->Handle(AgentStatus{.agent = AgentId("robot"), .held = {key_}}, now_);
+  const auto asked = Only<SegmentRequest>(Tick());
+  EXPECT_EQ(asked, (std::vector{SegmentRequest{AgentId("server-1"), key_, {}}}));
+}
+
 TEST_F(RouteKeeperTest, ARouteIsNotCompletedWithFewerSegmentsThanItHas) {
   Announce(3);
   Deliver({pieces_[0], pieces_[1], pieces_[2]});
@@ -455,6 +466,7 @@ TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
   ASSERT_EQ(asked.size(), 1U);
   EXPECT_EQ(asked[0].lacking, Indices(1, 2));
   EXPECT_EQ(keeper_->counters().damaged, 1U);
+  EXPECT_EQ(keeper_->TakeDamaged(), (std::vector{std::pair(key_, SegmentIndex(1))}));
   EXPECT_THAT(keeper_->TakeNotes().at(0).text, testing::HasSubstr("is damaged on the disk"));
   // Another's content for it is refused, whoever sends it.
   route::SegmentPiece forged = pieces_[2];
@@ -470,6 +482,33 @@ TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
   EXPECT_EQ(keeper_->counters().repaired, 1U);
   EXPECT_EQ(keeper_->TakeAppended(), (std::vector{std::pair(key_, SegmentIndex(1))}));
   EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
+}
+
+TEST_F(RouteKeeperTest, WhatARouteThatIsNotAtHandLacksIsAskedForOnceItIsAttendedTo) {
+  ASSERT_TRUE(store_.AppendSegments(std::vector{pieces_[0]}));
+  ASSERT_TRUE(store_.PutRoute(Info(3, RouteState::kComplete)));
+  keeper_ = RouteKeeper::Open(AgentId("server-1"), store_, {}, test::ToyIntegrity(),
+                              {.announced_at_start = 0})
+                .value();
+  EXPECT_TRUE(Tick().empty());
+  keeper_->Attend(key_, now_);
+  const auto asked = Only<SegmentRequest>(Tick());
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].lacking, Indices(1, 3));
+}
+
+TEST_F(RouteKeeperTest, SegmentsThatNobodyAnnouncedCanBeDroppedAndOthersCannot) {
+  Deliver({pieces_[0], pieces_[1]});
+  Tick();
+  EXPECT_EQ(keeper_->DropStray(key_).value(), true);
+  EXPECT_THAT(store_.HeldSegments(key_).value(), testing::IsEmpty());
+  Announce(2);
+  Deliver({pieces_[0]});
+  const auto receipts = Only<Receipt>(Tick());
+  ASSERT_EQ(receipts.size(), 1U);
+  EXPECT_EQ(receipts[0].durable_prefix, 1U) << "what was dropped is not confirmed any more";
+  EXPECT_EQ(keeper_->DropStray(key_).value(), false);
+  EXPECT_EQ(store_.HeldSegments(key_).value().size(), 1U);
 }
 
 TEST_F(RouteKeeperTest, OfWhatIsLentOnlyWhatWasHereBeforeIsTaken) {

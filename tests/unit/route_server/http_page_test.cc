@@ -18,8 +18,8 @@ using std::chrono::milliseconds;
 TEST(HttpPage, ShowsTheLatestMetrics) {
   const auto page = HttpPage::Open("127.0.0.1", 0).value();
   httplib::Client client("127.0.0.1", page->port());
-  page->Show("a 1\n");
-  page->Show("a 2\n");
+  page->Show({"a 1\n"});
+  page->Show({"a 2\n"});
   const auto got = client.Get("/metrics");
   ASSERT_TRUE(got);
   EXPECT_EQ(got->status, 200);
@@ -35,15 +35,28 @@ TEST(HttpPage, IsNotWellOnceNothingIsShownAnyMore) {
     const auto got = client.Get("/health");
     return got ? got->status : 0;
   };
-  page->Show("");
+  page->Show({""});
   EXPECT_EQ(status(), 200);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (status() == 200 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(milliseconds(10));
   }
   EXPECT_EQ(status(), 503);
-  page->Show("");
+  page->Show({""});
   EXPECT_EQ(status(), 200);
+}
+
+TEST(HttpPage, SaysWhyNobodyCanBeServedAndWhatIsServedInPart) {
+  const auto page = HttpPage::Open("127.0.0.1", 0).value();
+  httplib::Client client("127.0.0.1", page->port());
+  page->Show({"", "no database", "1 route"});
+  EXPECT_EQ(client.Get("/health")->status, 503);
+  EXPECT_EQ(client.Get("/health")->body, "the store is away: no database\n");
+  page->Show({"", "", "1 route"});
+  EXPECT_EQ(client.Get("/health")->status, 200);
+  EXPECT_EQ(client.Get("/health")->body, "degraded: 1 route\n");
+  page->Show({"", "", ""});
+  EXPECT_EQ(client.Get("/health")->body, "ok\n");
 }
 
 TEST(HttpPage, APortThatIsTakenIsRefused) {
@@ -88,7 +101,7 @@ Endless SendForEver(int port, const std::string& beginning, const std::string& m
 
 TEST(HttpPage, RequestsWithoutEndAreCutOff) {
   const auto page = HttpPage::Open("127.0.0.1", 0).value();
-  page->Show("");
+  page->Show({""});
   const std::string chunk = "1000\r\n" + std::string(0x1000, 'x') + "\r\n";
   const std::string post = "POST /metrics HTTP/1.1\r\nHost: x\r\n";
   constexpr std::size_t kWithSocketBuffers = 16U << 20U;
