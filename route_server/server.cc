@@ -171,9 +171,11 @@ void Server::TellTroubles() {
 
 // What was appended is on the disk, and what was announced as deleted is not.
 void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
-  for (const auto& [key, segment] : keeper_->TakeAppended()) {
-    views_.Note(key, segment);
-    upkeep_->NoteStored(key, segment);
+  for (const route::SegmentPiece& piece : keeper_->TakeAppended()) {
+    if (const auto added = views_.Add(piece); !added) {
+      spdlog::warn("left out of the index of views: {}", added.error().message);
+    }
+    upkeep_->NoteStored(piece.key, piece.index);
   }
   for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {

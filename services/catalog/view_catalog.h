@@ -28,8 +28,9 @@ class ViewCatalog {
 
   // More of this route has been stored, nobody knows which segments.
   void Note(const route::RouteKey& key);
-  // This segment has been stored, or repaired.
-  void Note(const route::RouteKey& key, SegmentIndex segment);
+  // Indexes a segment that has been stored, or repaired. kCorrupt if it is left out because its
+  // bytes mean nothing.
+  [[nodiscard]] Result<void> Add(const route::SegmentPiece& piece);
   // Segments that could not be read, for their damage, since the last call: in filling, or for an
   // answer.
   [[nodiscard]] std::vector<view::ViewIndex::Place> TakeDamaged();
@@ -49,6 +50,7 @@ class ViewCatalog {
   [[nodiscard]] Result<void> ReadPage();
   [[nodiscard]] Result<void> LookAt(const route::RouteKey& key);
   [[nodiscard]] Result<void> IndexNext();
+  [[nodiscard]] Result<void> Index(const Place& place, const Result<route::Segment>& segment);
   [[nodiscard]] Result<route::Segment> Read(const Place& place);
   [[nodiscard]] Result<std::vector<route::FoundPlace>> Find(const route::View& view);
   [[nodiscard]] Result<void> FillReply(exchange::CatalogReply& reply,

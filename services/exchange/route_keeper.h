@@ -23,8 +23,9 @@ struct RouteKeeperOptions {
   WantList::Options want{};
   std::chrono::milliseconds fresh_grace{200};  // as in RouteFetcherOptions
   AnswerQueue::Options answers{};
-  std::chrono::milliseconds announce_every{250};    // at most so often while a route grows
-  std::chrono::milliseconds receipt_again{500};     // at most so often when nothing new is durable
+  std::chrono::milliseconds announce_every{250};     // at most so often while a route grows
+  std::chrono::milliseconds announced_together{50};  // those due within so long: one commit
+  std::chrono::milliseconds receipt_again{500};      // at most so often when nothing new is durable
   std::chrono::milliseconds note_again{10'000};     // the same trouble is reported at most so often
   std::chrono::milliseconds over_quota_told{5000};  // after the last of it was refused
   std::chrono::milliseconds refresh_again{1000};  // the store is looked at again for another's work
@@ -101,7 +102,7 @@ class RouteKeeper {
   // Drops the segments of a teaching that nobody announced. False if somebody has by now.
   [[nodiscard]] Result<bool> DropStray(const route::RouteKey& key);
   // Segments stored since the last call, repaired ones among them.
-  [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeAppended();
+  [[nodiscard]] std::vector<route::SegmentPiece> TakeAppended();
   // Segments found damaged since the last call.
   [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeDamaged();
   // Somebody waits for segments: Tick soon.
@@ -149,17 +150,18 @@ class RouteKeeper {
                                                   Time now);
 
   [[nodiscard]] bool IsNew(const route::SegmentPiece& piece, Time now);
-  void MarkAppended(const route::SegmentPiece& piece, Time now);
+  void MarkAppended(route::SegmentPiece& piece, Time now);  // it is moved away
   void Commit(Time now);
-  void Append(std::span<const route::SegmentPiece> pieces, Time now);
+  void Append(std::span<route::SegmentPiece> pieces, Time now);
   void TellFull(std::span<const route::SegmentPiece> pieces, const Error& error);
   void Refuse(const Error& error, const route::RouteKey& key, Time now);
   // True if the announced manifest is that of the segments held.
   [[nodiscard]] bool ManifestIsRight(const route::RouteInfo& info, const KeptRoute& kept, Time now);
   // Stores what has become durable of routes' infos, in one commit, and announces it.
   void Announce(Time now, std::vector<Message>& out);
-  // What is to be announced of the route now, if anything.
-  [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now);
+  // What is to be announced of the route now, if anything; `grown_too`: also of one that has been
+  // announced before.
+  [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now, bool grown_too);
   // A route's first complete revision is the active one.
   [[nodiscard]] Result<void> ActivateFirst(std::vector<route::RouteInfo>& completing);
   [[nodiscard]] Result<void> Put(std::span<const route::RouteInfo> infos, bool completing);
@@ -177,10 +179,11 @@ class RouteKeeper {
   RouteKeeperOptions options_;
 
   std::map<route::RouteKey, KeptRoute> routes_;
-  std::vector<route::SegmentPiece> arrived_;                        // since the last Tick
-  std::vector<std::pair<route::RouteKey, SegmentIndex>> appended_;  // that nobody was told of yet
-  std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;   // as well
-  std::vector<Message> replies_;  // to the catalog's clients; digests
+  std::vector<route::SegmentPiece> arrived_;   // since the last Tick
+  std::vector<route::SegmentPiece> appended_;  // that nobody was told of yet
+  std::vector<Message> replies_;               // to the catalog's clients; digests
+  Time grown_due_{};                           // when infos of routes that grow are stored again
+  std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;  // that nobody was told of yet
   AnswerQueue answers_;
   StandIn stand_in_;
   MissingRoutes missing_;

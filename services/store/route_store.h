@@ -73,6 +73,15 @@ class RouteStore {
   // other bytes too.
   [[nodiscard]] virtual Result<void> DropSegments(const route::RouteKey& key) = 0;
 
+  // The same of what another agent is to deliver: counts as receipted.
+  [[nodiscard]] virtual Result<void> AppendFetched(std::span<const route::SegmentPiece> pieces) {
+    if (auto appended = AppendSegments(pieces); !appended) return appended;
+    for (const route::SegmentPiece& piece : pieces) {
+      if (auto marked = MarkReceipted(piece.key, {&piece.index, 1}); !marked) return marked;
+    }
+    return {};
+  }
+
   // kNotFound, or kCorrupt when the bytes on disk fail their digest.
   [[nodiscard]] virtual Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key,
                                                                 SegmentIndex index) = 0;
@@ -135,6 +144,8 @@ class RouteStore {
   // there as long as it is open.
   [[nodiscard]] virtual Result<void> CheckReachable() { return {}; }
 
+  // Whether other processes write to it, too: what was read once may have changed since.
+  [[nodiscard]] virtual bool shared() const { return false; }
   // Runs `work`, which reads and writes this store. Where several processes share it, no other's
   // Exclusively comes between, what is written is there when this returns, all or nothing, and
   // `work` may be run again when something else did. With a store of one process it is just run.
@@ -168,6 +179,11 @@ class RouteStore {
 };
 
 struct SqliteOptions {
+  // When appended segments are on the disk: when AppendSegments returns, or when the next PutRoutes
+  // does, so that of what is stored as complete nothing is missing. The latter is for copies of
+  // what others hold: a power cut may cost the last of them, and nothing that was there before.
+  enum class Durability : std::uint8_t { kAtOnce, kWithRoutes };
+  Durability durability = Durability::kAtOnce;
   // How large the file may grow, in bytes; 0 is as large as the disk. The log beside it comes on
   // top, some 4 MiB. Appending beyond gives kUnavailable; nothing held is lost.
   std::uint64_t max_bytes = 0;

@@ -16,12 +16,14 @@ namespace trailcast::store {
 // RouteStore in one SQLite file; made by OpenSqliteStore.
 class SqliteRouteStore final : public RouteStore {
  public:
-  SqliteRouteStore(StoreFile file, std::unique_ptr<SQLite::Database> db)
-      : file_(std::move(file)), db_(std::move(db)) {}
+  SqliteRouteStore(StoreFile file, std::unique_ptr<SQLite::Database> db,
+                   SqliteOptions::Durability durability)
+      : file_(std::move(file)), db_(std::move(db)), durability_(durability) {}
 
   Result<void> PutRoutes(std::span<const route::RouteInfo> infos) override;
   Result<void> AppendSegments(std::span<const route::SegmentPiece> pieces) override;
   Result<void> DropSegments(const route::RouteKey& key) override;
+  Result<void> AppendFetched(std::span<const route::SegmentPiece> pieces) override;
   Result<route::SegmentPiece> ReadSegment(const route::RouteKey& key, SegmentIndex index) override;
   Result<std::vector<SegmentIndex>> HeldSegments(const route::RouteKey& key) override;
   Result<std::vector<HeldSegment>> SegmentDigests(const route::RouteKey& key) override;
@@ -52,9 +54,8 @@ class SqliteRouteStore final : public RouteStore {
   }
 
   // One transaction: if `store` fails for one of them, none is stored.
-  template <typename Item>
-  Result<void> StoreAll(const std::string& doing, std::span<const Item> items,
-                        Result<void> (SqliteRouteStore::*store)(const Item&));
+  template <typename Item, typename Store>
+  Result<void> StoreAll(const std::string& doing, std::span<const Item> items, const Store& store);
   [[nodiscard]] std::string RareTag(const route::RouteQuery& query);
   // Stores what is new of a route within the caller's transaction; the others write it: what it is,
   // and by what it is found; or its tombstone.
@@ -66,9 +67,15 @@ class SqliteRouteStore final : public RouteStore {
   // Puts the row into one of the two tables; returns its id.
   std::int64_t PutRow(const std::string& table, const route::RouteInfo& info);
   void ForgetPlaceAndTags(std::int64_t id);
-  [[nodiscard]] bool IsBuried(const route::RouteKey& key);
+  [[nodiscard]] Result<void> RefuseBuried(const route::RouteKey& key);
+  // One transaction: pieces, and what `then` does with each.
+  Result<void> AppendAll(std::span<const route::SegmentPiece> pieces,
+                         const std::function<void(const route::SegmentPiece&)>& then);
+  void NoteReceipt(const route::RouteKey& key, SegmentIndex index);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);
+  // Whether that changed something.
+  bool Execute(const std::string& sql, const route::SegmentPiece& piece);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
   // The rows of one of the two tables that fulfil `where`, whose parameters `bind` fills in.
   Result<std::vector<route::RouteInfo>> SelectRoutes(
@@ -81,6 +88,7 @@ class SqliteRouteStore final : public RouteStore {
 
   StoreFile file_;  // outlives db_: see ~StoreFile
   std::unique_ptr<SQLite::Database> db_;
+  SqliteOptions::Durability durability_;
   CompiledStatements compiled_{*db_};
 };
 

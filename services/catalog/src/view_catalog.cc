@@ -17,6 +17,13 @@ constexpr std::size_t kCompared = 100;
 constexpr std::size_t kComparedOnceSure = 30;
 constexpr double kSure = 0.5;
 
+// Bytes that are whole and mean nothing are as their scout sent them.
+Result<route::Segment> Decoded(const route::SegmentPiece& piece) {
+  auto segment = route::Decode(piece.bytes);
+  if (segment) segment->index = piece.index;
+  return segment;
+}
+
 }  // namespace
 
 ViewCatalog::ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options)
@@ -77,7 +84,17 @@ Result<void> ViewCatalog::IndexNext() {
   const Place place = std::move(segments_.front());
   segments_.pop_front();
   if (index_.Holds(place)) return {};
-  const auto segment = Read(place);
+  return Index(place, Read(place));
+}
+
+Result<void> ViewCatalog::Add(const route::SegmentPiece& piece) {
+  const Place place{piece.key, piece.index};
+  unreadable_.erase(place);
+  if (index_.full() || index_.Holds(place)) return {};
+  return Index(place, Decoded(piece));
+}
+
+Result<void> ViewCatalog::Index(const Place& place, const Result<route::Segment>& segment) {
   if (!segment) {
     if (segment.error().code == ErrorCode::kUnavailable) {
       segments_.push_front(place);
@@ -96,10 +113,7 @@ Result<route::Segment> ViewCatalog::Read(const Place& place) {
     if (piece.error().code == ErrorCode::kCorrupt) damaged_.push_back(place);
     return tl::unexpected(piece.error());
   }
-  // Bytes that are whole and mean nothing are as their scout sent them.
-  auto segment = route::Decode(piece->bytes);
-  if (segment) segment->index = place.segment;
-  return segment;
+  return Decoded(*piece);
 }
 
 void ViewCatalog::Note(const route::RouteKey& key) {
@@ -110,11 +124,6 @@ void ViewCatalog::Note(const route::RouteKey& key) {
 
 std::vector<view::ViewIndex::Place> ViewCatalog::TakeDamaged() {
   return std::exchange(damaged_, {});
-}
-
-void ViewCatalog::Note(const route::RouteKey& key, SegmentIndex segment) {
-  unreadable_.erase({key, segment});
-  if (!index_.full()) segments_.push_back({key, segment});
 }
 
 void ViewCatalog::Forget(const route::RouteKey& key) {

@@ -209,9 +209,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   return out;
 }
 
-std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeAppended() {
-  return std::exchange(appended_, {});
-}
+std::vector<SegmentPiece> RouteKeeper::TakeAppended() { return std::exchange(appended_, {}); }
 
 std::vector<std::pair<route::RouteKey, SegmentIndex>> RouteKeeper::TakeDamaged() {
   return std::exchange(damaged_, {});

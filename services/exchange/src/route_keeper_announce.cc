@@ -31,8 +31,10 @@ void RouteKeeper::Announce(Time now, std::vector<Message>& out) {
   std::vector<RouteInfo> again;
   std::vector<RouteInfo> grown;
   std::vector<RouteInfo> completing;
+  const bool grown_too = now >= grown_due_;
+  if (grown_too) grown_due_ = now + options_.announced_together;
   for (auto& [key, kept] : routes_) {
-    auto info = News(kept, now);
+    auto info = News(kept, now, grown_too);
     if (!info) continue;
     const bool stored_already = info == kept.stored();
     const bool completes = !kept.complete() && info->state == RouteState::kComplete;
@@ -71,8 +73,9 @@ Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
   return {};
 }
 
-std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now) {
-  const bool too_soon = kept.announced_at && now < *kept.announced_at + options_.announce_every;
+std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now, bool grown_too) {
+  const bool too_soon =
+      kept.announced_at && (!grown_too || now < *kept.announced_at + options_.announce_every);
   if (!kept.announce_due || too_soon) return std::nullopt;
   kept.announce_due = false;
   std::optional<RouteInfo> durable = kept.DurableInfo();

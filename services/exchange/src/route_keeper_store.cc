@@ -42,15 +42,16 @@ KeptRoute* RouteKeeper::Find(const RouteKey& key, Time now, Which which) {
 void RouteKeeper::Refresh(const RouteKey& key, KeptRoute& kept, Time now) {
   if (now < kept.refreshed_at + options_.refresh_again) return;
   kept.refreshed_at = now;
+  for (const SegmentIndex index : kept.Damaged()) {
+    if (const auto mended = store_.ReadSegment(key, index))
+      kept.MarkHeld(index, mended->digest, now);
+  }
+  if (!store_.shared()) return;
   const auto info = store_.FindRoute(key);
   const auto held = store_.SegmentDigests(key);
   if (!info || !held) {
     Refuse(info ? held.error() : info.error(), key, now);
     return;
-  }
-  for (const SegmentIndex index : kept.Damaged()) {
-    if (const auto mended = store_.ReadSegment(key, index))
-      kept.MarkHeld(index, mended->digest, now);
   }
   if (kept.TakeUp(*info, *held, now, now + options_.fresh_grace)) {
     kept.receipt_due = kept.announce_due = kept.resend_due = true;
@@ -124,7 +125,7 @@ void RouteKeeper::Commit(Time now) {
 
 // One commit. When the store refuses the group for a piece in it, halves are tried, so that the
 // rest is kept all the same.
-void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
+void RouteKeeper::Append(std::span<SegmentPiece> pieces, Time now) {
   if (pieces.empty()) return;
   if (const auto stored = store_.AppendSegments(pieces); !stored) {
     const ErrorCode code = stored.error().code;
@@ -141,14 +142,13 @@ void RouteKeeper::Append(std::span<const SegmentPiece> pieces, Time now) {
     return;
   }
   counters_.appended += pieces.size();
-  for (const SegmentPiece& piece : pieces) {
+  for (SegmentPiece& piece : pieces) {
     counters_.appended_bytes += piece.bytes.size();
     MarkAppended(piece, now);
   }
 }
 
-void RouteKeeper::MarkAppended(const SegmentPiece& piece, Time now) {
-  appended_.emplace_back(piece.key, piece.index);
+void RouteKeeper::MarkAppended(SegmentPiece& piece, Time now) {
   KeptRoute& kept = routes_.at(piece.key);
   if (kept.IsDamaged(piece.index)) {
     ++counters_.repaired;
@@ -162,6 +162,7 @@ void RouteKeeper::MarkAppended(const SegmentPiece& piece, Time now) {
   kept.MarkRoom();
   kept.announce_due = kept.receipt_due = true;
   kept.receipt_at.reset();  // something new is durable: not held back
+  appended_.push_back(std::move(piece));
 }
 
 void RouteKeeper::NoteDamage(const RouteKey& key, SegmentIndex index, Time now) {

@@ -9,6 +9,15 @@
 #include "services/route/labels.h"
 
 namespace trailcast::route {
+namespace {
+
+// Looked up once: OpenSSL takes as long for that as for a short text.
+const EVP_MD* Algorithm() {
+  static const EVP_MD* const found = EVP_MD_fetch(nullptr, "SHA256", nullptr);
+  return found;
+}
+
+}  // namespace
 
 struct Sha256Stream::State {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(),
@@ -17,7 +26,7 @@ struct Sha256Stream::State {
 
 // OpenSSL refuses only when it cannot allocate.
 Sha256Stream::Sha256Stream() : state_(std::make_unique<State>()) {
-  if (!state_->context || EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) != 1) {
+  if (!state_->context || EVP_DigestInit_ex(state_->context.get(), Algorithm(), nullptr) != 1) {
     throw std::bad_alloc();
   }
 }
@@ -44,7 +53,7 @@ Digest Sha256(std::span<const std::uint8_t> bytes) {
   Digest digest{};
   unsigned int length = 0;
   // Refuses only when it cannot allocate.
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1 ||
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, Algorithm(), nullptr) != 1 ||
       length != digest.size()) {
     throw std::bad_alloc();
   }
@@ -60,7 +69,16 @@ Digest ChainDigest(const Digest& before, const Digest& next) {
   return ManifestDigest(std::array{before, next});
 }
 
-std::string ToHex(const Digest& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
+std::string ToHex(const Digest& digest) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string hex;
+  hex.reserve(2 * digest.size());
+  for (const std::uint8_t byte : digest) {
+    hex += kDigits[byte >> 4U];
+    hex += kDigits[byte & 15U];
+  }
+  return hex;
+}
 
 SegmentPiece MakePiece(const RouteKey& key, const Segment& segment) {
   SegmentPiece piece{key, segment.index, {}, Encode(segment)};

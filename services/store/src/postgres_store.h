@@ -42,6 +42,7 @@ class PostgresRouteStore final : public RouteStore {
                              std::span<const SegmentIndex> indices) override;
   Result<std::vector<SegmentIndex>> UnreceiptedSegments(const route::RouteKey& key) override;
   Result<void> CheckReachable() override;
+  [[nodiscard]] bool shared() const override { return true; }
   Result<void> Exclusively(const std::function<Result<void>()>& work) override;
   Result<std::optional<std::string>> FindAnswer(const std::string& request) override;
   Result<void> RememberAnswer(const std::string& request, const std::string& answer) override;

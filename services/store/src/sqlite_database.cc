@@ -29,7 +29,9 @@ void Configure(SQLite::Database& db, const SqliteOptions& options) {
   if (db.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
     throw SQLite::Exception("the file system does not support a write-ahead log", SQLITE_CANTOPEN);
   }
-  db.exec("PRAGMA synchronous = FULL");  // on the disk when a commit returns, not soon after
+  // FULL: on the disk when a commit returns. NORMAL: soon after, in the order of the commits.
+  db.exec(options.durability == SqliteOptions::Durability::kAtOnce ? "PRAGMA synchronous = FULL"
+                                                                   : "PRAGMA synchronous = NORMAL");
   db.exec("PRAGMA journal_size_limit = 4194304");
   db.exec("PRAGMA cache_size = -2048");  // KiB
   db.exec("PRAGMA cell_size_check = ON");

@@ -16,6 +16,23 @@ using route::RouteInfo;
 using route::RouteKey;
 using route::SegmentPiece;
 
+// What is committed while this is there is on the disk, and with it all that was committed before.
+class AtOnce {
+ public:
+  AtOnce(SQLite::Database& db, SqliteOptions::Durability usual) : db_(db), usual_(usual) {
+    if (usual_ != SqliteOptions::Durability::kAtOnce) db_.exec("PRAGMA synchronous = FULL");
+  }
+  ~AtOnce() {
+    if (usual_ != SqliteOptions::Durability::kAtOnce) db_.tryExec("PRAGMA synchronous = NORMAL");
+  }
+  AtOnce(const AtOnce&) = delete;
+  AtOnce& operator=(const AtOnce&) = delete;
+
+ private:
+  SQLite::Database& db_;
+  SqliteOptions::Durability usual_;
+};
+
 template <typename Item>
 Result<void> CheckAll(std::span<const Item> items, Result<void> (*check)(const Item&)) {
   for (const Item& item : items) {
@@ -26,13 +43,13 @@ Result<void> CheckAll(std::span<const Item> items, Result<void> (*check)(const I
 
 }  // namespace
 
-template <typename Item>
+template <typename Item, typename Store>
 Result<void> SqliteRouteStore::StoreAll(const std::string& doing, std::span<const Item> items,
-                                        Result<void> (SqliteRouteStore::*store)(const Item&)) {
+                                        const Store& store) {
   return Guarded(doing, [&]() -> Result<void> {
     SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
     for (const Item& item : items) {
-      if (Result<void> stored = (this->*store)(item); !stored) return stored;
+      if (Result<void> stored = store(item); !stored) return stored;
     }
     transaction.commit();
     return {};
@@ -42,9 +59,12 @@ Result<void> SqliteRouteStore::StoreAll(const std::string& doing, std::span<cons
 Result<void> SqliteRouteStore::PutRoutes(std::span<const RouteInfo> infos) {
   if (Result<void> possible = CheckAll(infos, &CheckRoute); !possible) return possible;
   if (infos.empty()) return {};
-  return StoreAll(
-      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key)), infos,
-      &SqliteRouteStore::PutNews);
+  const std::string doing =
+      fmt::format("storing {} routes, {} first", infos.size(), Describe(infos.front().key));
+  return Guarded(doing, [&]() -> Result<void> {
+    const AtOnce at_once(*db_, durability_);
+    return StoreAll(doing, infos, [&](const RouteInfo& info) { return PutNews(info); });
+  });
 }
 
 Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
@@ -62,46 +82,71 @@ Result<void> SqliteRouteStore::PutNews(const RouteInfo& info) {
 }
 
 Result<void> SqliteRouteStore::AppendSegments(std::span<const SegmentPiece> pieces) {
+  return AppendAll(pieces, [](const SegmentPiece&) {});
+}
+
+Result<void> SqliteRouteStore::AppendFetched(std::span<const SegmentPiece> pieces) {
+  return AppendAll(pieces,
+                   [this](const SegmentPiece& piece) { NoteReceipt(piece.key, piece.index); });
+}
+
+Result<void> SqliteRouteStore::AppendAll(std::span<const SegmentPiece> pieces,
+                                         const std::function<void(const SegmentPiece&)>& then) {
   if (Result<void> whole = CheckAll(pieces, &CheckSegment); !whole) return whole;
   if (pieces.empty()) return {};
+  const RouteKey* living = nullptr;  // a scout's pieces come one after the other
   return StoreAll(
       fmt::format("storing {} segments of {}", pieces.size(), Describe(pieces.front().key)), pieces,
-      &SqliteRouteStore::Append);
+      [&](const SegmentPiece& piece) -> Result<void> {
+        if (living == nullptr || *living != piece.key) {
+          if (auto possible = RefuseBuried(piece.key); !possible) return possible;
+          living = &piece.key;
+        }
+        if (auto appended = Append(piece); !appended) return appended;
+        then(piece);
+        return {};
+      });
 }
 
-bool SqliteRouteStore::IsBuried(const RouteKey& key) {
+Result<void> SqliteRouteStore::RefuseBuried(const RouteKey& key) {
   auto select = compiled_.Take("SELECT 1 FROM tombstone WHERE route = ? AND teaching = ?");
   BindKey(*select, key);
-  return select->executeStep();
+  if (!select->executeStep()) return {};
+  return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
+              file_.path().string(), Describe(key));
 }
 
+// Nearly always it is new: what is held is read only when the database says that something is.
 Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
-  if (IsBuried(piece.key)) {
-    return Fail(ErrorCode::kConflict, "route store {}: {} was deleted and takes no segments",
-                file_.path().string(), Describe(piece.key));
-  }
-  const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
-  if (held) {
-    if (held->digest == piece.digest) return {};
-    return Fail(ErrorCode::kConflict,
-                "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
-                "two scouts may be teaching under one route id",
-                file_.path().string(), Describe(piece.key, piece.index), route::ToHex(held->digest),
-                route::ToHex(piece.digest));
-  }
-  if (held.error().code != ErrorCode::kNotFound && held.error().code != ErrorCode::kCorrupt) {
-    return tl::unexpected(held.error());
-  }
+  static const std::string insert =
+      "INSERT INTO segment (route, teaching, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
+      "ON CONFLICT DO ";
+  static const std::string insert_new = insert + "NOTHING";
+  static const std::string replace =
+      insert + "UPDATE SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes";
   const auto content = FindContent(piece.digest);
   if (!content) return tl::unexpected(content.error());
-  auto insert = compiled_.Take(
-      "INSERT INTO segment (route, teaching, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
-      "ON CONFLICT DO UPDATE "
-      "SET digest = excluded.digest, seal = excluded.seal, bytes = excluded.bytes");
   const SegmentPiece relying{piece.key, piece.index, piece.digest, {}};
-  BindSegment(*insert, *content ? relying : piece);
-  insert->exec();
-  return {};
+  if (Execute(insert_new, *content ? relying : piece)) return {};
+  const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
+  if (!held && held.error().code == ErrorCode::kCorrupt) {
+    // With its bytes: those that were found may have been its own.
+    Execute(replace, piece);
+    return {};
+  }
+  if (!held) return tl::unexpected(held.error());
+  if (held->digest == piece.digest) return {};
+  return Fail(ErrorCode::kConflict,
+              "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
+              "two scouts may be teaching under one route id",
+              file_.path().string(), Describe(piece.key, piece.index), route::ToHex(held->digest),
+              route::ToHex(piece.digest));
+}
+
+bool SqliteRouteStore::Execute(const std::string& sql, const SegmentPiece& piece) {
+  auto insert = compiled_.Take(sql);
+  BindSegment(*insert, piece);
+  return insert->exec() > 0;
 }
 
 Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {
@@ -147,8 +192,9 @@ Result<std::vector<HeldSegment>> SqliteRouteStore::SegmentDigests(const RouteKey
 
 Result<std::optional<route::Bytes>> SqliteRouteStore::FindContent(const route::Digest& digest) {
   return Guarded("looking up a segment's bytes", [&]() -> Result<std::optional<route::Bytes>> {
-    auto select = compiled_.Take(
-        fmt::format("SELECT bytes FROM segment WHERE {} AND bytes IS NOT NULL", kOfDigest));
+    static const std::string sql =
+        fmt::format("SELECT bytes FROM segment WHERE {} AND bytes IS NOT NULL", kOfDigest);
+    auto select = compiled_.Take(sql);
     BindDigest(*select, 1, digest);
     while (select->executeStep()) {
       const SQLite::Column column = select->getColumn(0);
@@ -247,18 +293,19 @@ Result<void> SqliteRouteStore::MarkReceipted(const RouteKey& key,
   if (indices.empty()) return {};
   return Guarded("noting receipts of " + Describe(key), [&]() -> Result<void> {
     SQLite::Transaction transaction(*db_, SQLite::TransactionBehavior::IMMEDIATE);
-    auto insert = compiled_.Take(
-        "INSERT OR IGNORE INTO receipt SELECT route, teaching, number FROM segment WHERE "
-        "route = ? AND teaching = ? AND number = ?");
-    BindKey(*insert, key);
-    for (const SegmentIndex index : indices) {
-      insert->bind(3, index.value());
-      insert->exec();
-      insert->reset();
-    }
+    for (const SegmentIndex index : indices) NoteReceipt(key, index);
     transaction.commit();
     return {};
   });
+}
+
+void SqliteRouteStore::NoteReceipt(const RouteKey& key, SegmentIndex index) {
+  auto insert = compiled_.Take(
+      "INSERT OR IGNORE INTO receipt SELECT route, teaching, number FROM segment WHERE "
+      "route = ? AND teaching = ? AND number = ?");
+  BindKey(*insert, key);
+  insert->bind(3, index.value());
+  insert->exec();
 }
 
 Result<std::unique_ptr<RouteStore>> OpenSqliteStore(const std::filesystem::path& file,
@@ -267,7 +314,7 @@ Result<std::unique_ptr<RouteStore>> OpenSqliteStore(const std::filesystem::path&
   if (!locked) return tl::unexpected(locked.error());
   auto db = OpenDatabase(file, options);
   if (!db) return tl::unexpected(db.error());
-  return std::make_unique<SqliteRouteStore>(std::move(*locked), std::move(*db));
+  return std::make_unique<SqliteRouteStore>(std::move(*locked), std::move(*db), options.durability);
 }
 
 }  // namespace trailcast::store

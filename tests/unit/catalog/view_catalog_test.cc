@@ -116,11 +116,13 @@ TEST_F(ViewCatalogTest, LearnsWhatIsTaughtMeanwhile) {
 TEST_F(ViewCatalogTest, LearnsSegmentsThatItIsToldOfOnceEach) {
   Put(1, 0, 6);
   ViewCatalog views(*store_, {.most_segments = 20});
-  for (const unsigned segment : {4U, 2U, 4U}) views.Note(KeyNumber(1), SegmentIndex(segment));
-  ASSERT_TRUE(views.Fill(3));
+  const auto add = [&](std::uint32_t segment) {
+    EXPECT_TRUE(views.Add(store_->ReadSegment(KeyNumber(1), SegmentIndex(segment)).value()));
+  };
+  for (const std::uint32_t segment : {4U, 2U, 4U}) add(segment);
   EXPECT_EQ(views.index().size(), 2U);
   FillAll(views);
-  views.Note(KeyNumber(1), SegmentIndex(4));
+  add(4);
   FillAll(views);
   EXPECT_EQ(views.index().size(), 6U);
 }
@@ -165,6 +167,7 @@ TEST_F(ViewCatalogTest, ASegmentThatIsNoneIsLeftOutAndCounted) {
   EXPECT_EQ(AskFor(views, 10).coverage, (route::ViewCoverage{3, 4, 0}));
   views.Note(KeyNumber(1));
   EXPECT_TRUE(views.Fill(100)) << "told once";
+  EXPECT_EQ(views.Add(piece).error().code, ErrorCode::kCorrupt);
   EXPECT_THAT(views.TakeDamaged(), IsEmpty()) << "it is as it was sent";
 }
 

@@ -480,7 +480,7 @@ TEST_F(RouteKeeperTest, WhatIsDamagedOnTheDiskIsAskedForAndMendedByAnyHolder) {
   ASSERT_EQ(receipts.size(), 1U);
   EXPECT_EQ(receipts[0].durable_prefix, 3U);
   EXPECT_EQ(keeper_->counters().repaired, 1U);
-  EXPECT_EQ(keeper_->TakeAppended(), (std::vector{std::pair(key_, SegmentIndex(1))}));
+  EXPECT_EQ(keeper_->TakeAppended(), std::vector{pieces_[1]});
   EXPECT_EQ(store_.ReadSegment(key_, SegmentIndex(1)).value(), pieces_[1]);
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "services/store/route_store.h"
+#include "services/store/src/row_values.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/store/pieces.h"
 
@@ -75,6 +76,18 @@ TEST_F(StoreDamage, DamagedSegmentMendsWhenItIsAppendedAgain) {
   Write(Flipped(Locate(7)));
   auto store = OpenSqliteStore(file_).value();
   ASSERT_TRUE(store->AppendSegments(Pieces({6, 7})));
+  EXPECT_EQ(store->ReadSegment(kYard, SegmentIndex(7)).value(), Piece(7));
+  EXPECT_THAT(store->Verify().value(), IsEmpty());
+}
+
+TEST_F(StoreDamage, ADamagedRowAroundWholeBytesMendsWithThem) {
+  const route::Digest seal = Seal(Piece(7));
+  const std::size_t at = whole_.find(std::string(seal.begin(), seal.end()));
+  ASSERT_NE(at, std::string::npos);
+  Write(Flipped(at));
+  auto store = OpenSqliteStore(file_).value();
+  EXPECT_EQ(store->ReadSegment(kYard, SegmentIndex(7)).error().code, ErrorCode::kCorrupt);
+  ASSERT_TRUE(store->AppendSegments(Pieces({7})));
   EXPECT_EQ(store->ReadSegment(kYard, SegmentIndex(7)).value(), Piece(7));
   EXPECT_THAT(store->Verify().value(), IsEmpty());
 }

@@ -341,6 +341,17 @@ TEST_P(RouteStoreContract, ReceiptsAreRememberedPerSegmentAlsoAfterReopening) {
   EXPECT_EQ(store_->UnreceiptedSegments(kYard).value(), Indices({1, 3, 4}));
 }
 
+TEST_P(RouteStoreContract, WhatWasFetchedIsStoredLikeTheRestAndCountsAsReceipted) {
+  ASSERT_TRUE(store_->AppendSegments(Pieces({0})));
+  ASSERT_TRUE(store_->AppendFetched(Pieces({0, 1, 2})));
+  EXPECT_EQ(CodeOf(store_->AppendFetched(std::vector{Piece(3), Piece(1, 7)})),
+            ErrorCode::kConflict);
+  Reopen();
+  EXPECT_EQ(store_->HeldSegments(kYard).value(), Indices({0, 1, 2}));
+  EXPECT_EQ(store_->ReadSegment(kYard, SegmentIndex(2)).value(), Piece(2));
+  EXPECT_THAT(store_->UnreceiptedSegments(kYard).value(), IsEmpty());
+}
+
 TEST_P(RouteStoreContract, VerifyFindsACompleteRouteOfOtherSegments) {
   ASSERT_TRUE(store_->AppendSegments(std::vector{Piece(0), Piece(1, 5)}));
   ASSERT_TRUE(store_->PutRoute(Complete(2)));
