@@ -18,6 +18,11 @@
 namespace trailcast::agent {
 namespace {
 
+// A follower's process writes nothing but copies: what was taught into the same file is on the
+// disk.
+constexpr store::SqliteOptions kOfCopies{.durability =
+                                             store::SqliteOptions::Durability::kWithRoutes};
+
 Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
                                                       const exchange::TopicUse& use) {
   if (!options.server) return nullptr;
@@ -136,7 +141,7 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
   const auto ref = program::WithRevision(fetch.route, fetch.revision);
   if (!ref) return tl::unexpected(ref.error());
   if (auto can = program::CanBeWritten(options.report); !can) return tl::unexpected(can.error());
-  auto store = store::OpenSqliteStore(options.store_file);
+  auto store = store::OpenSqliteStore(options.store_file, kOfCopies);
   if (!store) return tl::unexpected(store.error());
   auto exchange =
       program::OpenExchange(options.common, program::WithAgents(FollowersTopics(options)));
@@ -161,7 +166,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   }
   auto opened = OpenDevice(replay.device, options.common);
   if (!opened) return tl::unexpected(opened.error());
-  auto store = store::OpenSqliteStore(options.store_file);
+  auto store = store::OpenSqliteStore(options.store_file, kOfCopies);
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, FollowersTopics(options));
   if (!exchange) return tl::unexpected(exchange.error());

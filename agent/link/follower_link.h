@@ -96,7 +96,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> DropWrong(std::uint32_t count);
   [[nodiscard]] Result<void> StoreNews();
   [[nodiscard]] Result<void> TellHeld();
-  [[nodiscard]] Result<void> CountHeld();
+  void CountHeld(SegmentIndex stored);
   [[nodiscard]] Result<void> FeedAll();
   [[nodiscard]] bool all_known() const;
   [[nodiscard]] bool TryPut(Feed item);
@@ -124,8 +124,8 @@ class FollowerLink {
   Neighbours neighbours_;
   std::vector<Neighbour> told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;
-  std::set<SegmentIndex> damaged_;  // in the own store: fetched anew
-  std::uint32_t held_ = 0;          // segments in the own store without a gap
+  std::uint32_t held_ = 0;         // segments in the own store without a gap
+  std::set<SegmentIndex> beyond_;  // those after the first gap
   std::uint32_t next_feed_ = 0;
   std::atomic<std::uint32_t> held_before_ = 0;
   std::atomic<std::uint32_t> fetched_ = 0;

@@ -99,9 +99,9 @@ Result<void> FollowerLink::StartFetching() {
     auto piece = store_->ReadSegment(key, index);
     if (piece) {
       held.push_back({index, piece->digest});
+      CountHeld(index);
     } else if (exchange_ && piece.error().code == ErrorCode::kCorrupt) {
       spdlog::warn("fetching it anew: {}", piece.error().message);
-      damaged_.insert(index);
     } else {
       return tl::unexpected(piece.error());
     }
@@ -120,7 +120,7 @@ Result<void> FollowerLink::StartFetching() {
   if (const auto left = ReadPlace()) {
     while (!over() && !TryPut(*left)) reported_.Wait(kWait);
   }
-  return CountHeld();
+  return {};
 }
 
 Result<void> FollowerLink::Follow() {
@@ -172,17 +172,10 @@ void FollowerLink::Say(steady_clock::time_point now) {
 Result<void> FollowerLink::StoreArrived() {
   const auto arrived = fetcher_->TakeArrived();
   if (!arrived.empty()) {
-    if (auto appended = store_->AppendSegments(arrived); !appended) return appended;
-    // These are another agent's to deliver: never ours.
-    std::vector<SegmentIndex> indices;
-    indices.reserve(arrived.size());
-    for (const route::SegmentPiece& piece : arrived) {
-      indices.push_back(piece.index);
-      damaged_.erase(piece.index);
-    }
-    if (auto marked = store_->MarkReceipted(route_->key, indices); !marked) return marked;
+    if (auto appended = store_->AppendFetched(arrived); !appended) return appended;
+    for (const route::SegmentPiece& piece : arrived) CountHeld(piece.index);
     fetched_ += static_cast<std::uint32_t>(arrived.size());
-    if (auto counted = CountHeld(); !counted) return counted;
+    spdlog::debug("{} segments of '{}' are here", held_, route_->name);
   }
   const auto progress = fetcher_->Progress(steady_clock::now());
   if (progress.state == exchange::FetchState::kWrong) return DropWrong(progress.held);
@@ -218,13 +211,9 @@ Result<void> FollowerLink::TellHeld() {
   return {};
 }
 
-Result<void> FollowerLink::CountHeld() {
-  auto indices = store_->HeldSegments(route_->key);
-  if (!indices) return tl::unexpected(indices.error());
-  std::erase_if(*indices, [this](SegmentIndex index) { return damaged_.contains(index); });
-  while (held_ < indices->size() && (*indices)[held_].value() == held_) ++held_;
-  if (exchange_) spdlog::debug("{} segments of '{}' are here", held_, route_->name);
-  return {};
+void FollowerLink::CountHeld(SegmentIndex stored) {
+  beyond_.insert(stored);
+  while (beyond_.erase(SegmentIndex(held_)) > 0) ++held_;
 }
 
 bool FollowerLink::all_known() const {
