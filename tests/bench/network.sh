@@ -241,12 +241,20 @@ wire() {
   lab_host 1
   lab_host 2
   robots=(2)
-  make_route 500
-  start_server 1 "$work/server.db"
-  printf '| link | fetch of 500, Mbit/s | ddsperf, Mbit/s | share |\n'
+  printf '| link | fetch, Mbit/s | ddsperf, Mbit/s | share |\n'
   for rate in 20mbit 100mbit ''; do
-    [[ -z $rate ]] && on 1 tc qdisc del dev eth0 root || lab_rate 1 "$rate"
+    rm -f "$work"/server.db*
+    if [[ -n $rate ]]; then
+      lab_rate 1 "$rate"
+      make_route 500
+    else
+      on 1 tc qdisc del dev eth0 root
+      make_route 25000 # 100 MB: less is over before it is under way
+    fi
+    start_server 1 "$work/server.db"
     seconds=$(medians fetch_all | cut -d' ' -f1)
+    kill "$server"
+    wait "$server" || true
     awk -v link="${rate:-unlimited}" -v bytes="$route_bytes" -v s="$seconds" -v wire="$(medians wire_rate)" \
       'BEGIN { ours = bytes * 8 / s / 1e6; printf "| %s | %.1f | %.1f | %.2f |\n", link, ours, wire, ours / wire }'
   done
