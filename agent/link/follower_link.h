@@ -91,6 +91,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> MakeFetcher(const std::vector<exchange::RouteFetcher::Held>& held);
   [[nodiscard]] Result<void> Follow();
   void Trade();
+  [[nodiscard]] Result<void> Listen(Time now);
   void Say(Time now);  // what the fetcher or the finder, and whoever lends, have to say
   [[nodiscard]] Result<void> StoreArrived();
   [[nodiscard]] Result<void> DropWrong(std::uint32_t count);

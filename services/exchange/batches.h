@@ -14,7 +14,8 @@ inline constexpr std::size_t kBatchBytes = 48U << 10U;
 // What a piece costs on the wire: its bytes, its digest, its route.
 [[nodiscard]] std::size_t WireSize(const route::SegmentPiece& piece);
 
-// The same pieces in the same order, in batches of at most kBatchBytes; a larger piece is alone.
+// The same pieces in the same order, in batches of one route and at most kBatchBytes each; a larger
+// piece is alone.
 [[nodiscard]] std::vector<SegmentBatch> SplitBatch(SegmentBatch batch);
 
 }  // namespace trailcast::exchange

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <set>
 #include <vector>
 
 #include "services/base/result.h"
@@ -22,6 +23,7 @@ enum class Topic : std::uint8_t {
 };
 
 struct TopicUse {
+  // Segments: from the announcement of their route on.
   std::vector<Topic> write;
   std::vector<Topic> read;
   // Read best-effort, from the join on: for what many say again and again to many, where the
@@ -30,10 +32,13 @@ struct TopicUse {
   // Written, but by few who could: the writer comes to be with the first message, which nobody may
   // hear yet. For what is said again when it is asked for again.
   std::vector<Topic> write_rarely = {};
+  // Read of those routes alone that RouteExchange::Listen names, and only while it names them.
+  std::vector<Topic> listen = {};
 
   [[nodiscard]] bool Writes(Topic topic) const;
   [[nodiscard]] bool Reads(Topic topic) const;
-  [[nodiscard]] bool Hears(Topic topic) const;  // reads or overhears
+  [[nodiscard]] bool Hears(Topic topic) const;    // reads or overhears
+  [[nodiscard]] bool Listens(Topic topic) const;  // to some routes
 };
 
 [[nodiscard]] TopicUse ScoutTopics();
@@ -62,6 +67,12 @@ class RouteExchange {
   // key of the routes, receipts and agents topics; other topics start at the join. Messages that
   // cannot be decoded are dropped and counted (dropped()).
   [[nodiscard]] virtual std::vector<Message> Take(std::chrono::milliseconds max_wait) = 0;
+
+  // From now on the topics of TopicUse::listen are read of these routes and no others. Who writes
+  // notices that in the background, within milliseconds or a second; what it wrote before that is
+  // not received, and nothing but hearing it tells that it is over (RouteFetcher knocks). Costs
+  // nothing when the routes are those of the last call.
+  [[nodiscard]] virtual Result<void> Listen(const std::set<route::RouteKey>& routes) = 0;
 
   // Samples received and thrown away because they were out of bounds or could not be decoded.
   [[nodiscard]] virtual std::uint64_t dropped() const = 0;

@@ -21,6 +21,12 @@ struct RouteFetcherOptions {
   // Above the scout's announce_every: a scout in range is never taken for nobody. After so long a
   // silence the fetcher asks who has the route, and again each time it has passed.
   std::chrono::milliseconds quiet_after{5000};
+  // Who has only just begun to listen to a route is not sent its segments yet, and nothing tells
+  // when it is. So while none came, or none for `silent_after`, the fetcher asks for the digest of
+  // one that it lacks, so often, until something comes; it goes on without after `knock_for`.
+  std::chrono::milliseconds knock_every{100};
+  std::chrono::milliseconds knock_for{1000};
+  std::chrono::milliseconds silent_after{1000};
   // Bytes with this digest that the owner has already, in other revisions of the route. If set,
   // digests are asked for first, and bytes only of what is new.
   std::function<std::optional<route::Bytes>(const route::Digest&)> own_content{};
@@ -92,6 +98,8 @@ class RouteFetcher {
   void WantMissing(Time ask_at);
   void Judge(Time now);
   [[nodiscard]] bool IsInquiryDue(Time now);
+  // Segments are not to be asked for yet: it knocks, and here is with what.
+  [[nodiscard]] bool Knocks(Time now, std::vector<Message>& messages);
 
   AgentId self_;
   route::RouteKey key_;
@@ -111,6 +119,9 @@ class RouteFetcher {
   std::optional<FetchState> verdict_;    // kComplete or kWrong, once all is held
   Time heard_at_;                        // of a holder of this route; at first: creation
   Time inquire_at_;                      // when to ask who has it
+  std::optional<Time> came_at_;          // any of its segments, or a digest of one
+  std::optional<Time> knocking_since_;
+  Time knock_at_{};
   bool deleted_ = false;
   std::set<AgentId> senders_;
   FetchProgress counts_;

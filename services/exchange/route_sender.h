@@ -72,6 +72,7 @@ class RouteSender {
 
  private:
   void HandleRequest(const SegmentRequest& request, Time now);
+  void TellDigests(const std::vector<SegmentIndex>& indices);
   void HandleReceipt(const Receipt& receipt);
   void MarkReceipted(SegmentIndex index);
   // ChainDigest of the first `count` segments; nothing while one of them is not known here.

@@ -18,6 +18,8 @@ struct SpareHolderOptions {
   // so that of many spare holders one answers and the others hear it.
   std::chrono::milliseconds patience{300};
   std::size_t answer_bytes_per_tick = 64U << 10U;
+  // How long it listens to what others answer, once it was asked in vain.
+  std::chrono::milliseconds listen_for{10'000};
 };
 
 // A follower that has whole revisions in its own store, and lends them: to a server, whose copy
@@ -44,9 +46,15 @@ class SpareHolder {
   // Of what Tick returned, this could not be handed over: a later Tick returns it again, unless
   // somebody else answers meanwhile.
   void NotSent(const Message& message, Time now);
+  // Whose segments it has to hear, to leave to others what they answer.
+  [[nodiscard]] std::set<route::RouteKey> ListensTo(Time now) const;
 
  private:
   using Place = std::pair<route::RouteKey, SegmentIndex>;
+  struct Due {
+    Time at;  // unless somebody else answers
+    bool digest_only = false;
+  };
 
   void HandleRequest(const SegmentRequest& request, Time now);
   void HandleStatus(const AgentStatus& status);
@@ -59,7 +67,8 @@ class SpareHolder {
   std::set<route::RouteKey> held_;
   std::set<std::pair<AgentId, std::uint64_t>> servers_;  // present, and their instances
   std::set<std::pair<AgentId, Place>> asked_once_;
-  std::map<Place, Time> to_answer_;  // and when, unless somebody else does
+  std::map<Place, Due> to_answer_;
+  std::map<route::RouteKey, Time> listens_until_;
   std::map<route::RouteKey, Time> to_announce_;
 };
 

@@ -10,6 +10,13 @@ namespace trailcast::exchange {
 // The topic a message travels on; empty for AgentGone, which no one publishes.
 [[nodiscard]] std::optional<Topic> TopicOf(const Message& message);
 
+// One may listen to it by route: segments.
+[[nodiscard]] bool IsOfRoutes(Topic topic);
+
+// The route that a message of a topic is about to which one listens by route (segments); null for
+// messages of other topics.
+[[nodiscard]] const route::RouteKey* RouteOf(const Message& message);
+
 // As on the wire: "trailcast/routes".
 [[nodiscard]] const char* NameOf(Topic topic);
 

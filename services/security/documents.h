@@ -24,8 +24,13 @@ struct Validity {
 // encrypted, and every topic is open only to whom its permissions let in.
 [[nodiscard]] std::string GovernanceXml();
 
-// What one member may write, in its own partition, and read (RightsOf its role); nothing else.
+// What one member may write, in its own partition and those below, and read (RightsOf its role);
+// nothing else.
 [[nodiscard]] std::string PermissionsXml(const Member& member, const Validity& validity);
+
+// True of permissions that allow the partitions below the member's own, as those from before there
+// were any do not.
+[[nodiscard]] bool AllowsScopes(const std::string& permissions_xml, const Member& member);
 
 // The value of the only element of that name; nothing if there is none, or several.
 [[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);

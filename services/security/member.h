@@ -25,10 +25,12 @@ struct Member {
 // As Cyclone compares it with the permissions: "CN=scout.4f2a9c0d11223344.3".
 [[nodiscard]] std::string SubjectOf(const Member& member);
 
-// The DDS partition in which the member writes: "scout/4f2a9c0d11223344". No one else may, so who
-// reads a sample knows whose it is. Readers read all partitions, "*".
+// The DDS partition in which the member writes: "scout/4f2a9c0d11223344"; and in those below it,
+// "scout/4f2a9c0d11223344/1f". No one else may, so who reads a sample knows whose it is.
 [[nodiscard]] std::string PartitionOf(const Member& member);
-// Without generation.
+// The members' own partitions without those below, to those who read.
+inline constexpr const char* kPartitionsWithoutScope = "*/????????????????";
+// Whose partition it is, or is below; without generation.
 [[nodiscard]] std::optional<Member> ParsePartition(std::string_view text);
 
 // `name_key`: the fleet's, which every member has and nobody else.

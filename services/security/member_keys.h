@@ -17,6 +17,7 @@ struct MemberKeys {
   std::string name_key{};  // the fleet's: which id stands for which name
   Member member{};
   Time expires{};
+  bool scoped = false;  // its permissions allow partitions below its own (PartitionOf)
 };
 
 // Errors say which file is wrong, and what to do: kNotFound for what is not there, kCorrupt for

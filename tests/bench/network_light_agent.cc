@@ -69,6 +69,7 @@ class LightAgent {
                        exchange::Integrity{route::CheckDigest, route::ManifestDigest},
                        Clock::now());
       fetcher_->Learn(info, Clock::now());
+      (void)exchange_.Listen({info.key});  // unheard, it never says "fetched"
     }
     if (fetcher_) fetcher_->Handle(message, Clock::now());
   }
@@ -77,7 +78,10 @@ class LightAgent {
     if (fetcher_) {
       outgoing = fetcher_->Tick(now);
       [[maybe_unused]] const auto arrived = fetcher_->TakeArrived();
-      if (fetcher_->Complete() && !std::exchange(fetched_, true)) Say("fetched");
+      if (fetcher_->Complete() && !std::exchange(fetched_, true)) {
+        Say("fetched");
+        (void)exchange_.Listen({});
+      }
     } else if (now >= ask_at_) {
       constexpr std::chrono::seconds kAskAgain{1};
       outgoing.emplace_back(

@@ -42,7 +42,7 @@ class DdsNetwork : public Network {
 };
 
 Message ProbeFor(Topic topic) {
-  const route::RouteKey key = KeyNumber(0xABCDEF);
+  const route::RouteKey key = ProbeRoute();
   switch (topic) {
     case Topic::kRoutes:
       return exchange::RouteAnnouncement{kProbe, InfoOf(key, {}, route::RouteState::kTeaching)};
@@ -65,6 +65,8 @@ Message ProbeFor(Topic topic) {
 }
 
 }  // namespace
+
+route::RouteKey ProbeRoute() { return KeyNumber(0xABCDEF); }
 
 bool IsProbe(const Message& message) {
   struct Sender {

@@ -35,9 +35,11 @@ enum class NetworkKind { kInProcess, kDds };
                              const std::function<bool()>& done);
 
 // Endpoints find each other in the background: publishes probes on the topic until each of
-// `readers` has got one, then takes what is left of them. False if that takes too long.
+// `readers` has got one, then takes what is left of them. False if that takes too long. Who listens
+// by route has to listen to the probes' one.
 [[nodiscard]] bool Connect(exchange::RouteExchange& writer, exchange::Topic topic,
                            const std::vector<exchange::RouteExchange*>& readers);
+[[nodiscard]] route::RouteKey ProbeRoute();
 [[nodiscard]] bool IsProbe(const exchange::Message& message);
 
 }  // namespace trailcast::test

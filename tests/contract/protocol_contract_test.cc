@@ -134,6 +134,35 @@ TEST_P(ProtocolContract, RefusedPublishesAreMadeUpFor) {
   EXPECT_TRUE(swarm.HoldsExactly(follower.arrived));
 }
 
+TEST_P(ProtocolContract, AFetchGoesOnWithAServerThatIsAnotherProcessNow) {
+  test::Swarm swarm = MakeSwarm({});
+  swarm.StartServer();
+  swarm.StartScout();
+  for (int i = 0; i < 50; ++i) swarm.Teach();
+  swarm.TeachLast();
+  ASSERT_TRUE(swarm.StepUntil([&] { return swarm.EverythingArrived(); }));
+  swarm.StopScout();
+  const auto& follower = swarm.AddFollower();
+  ASSERT_TRUE(swarm.StepUntil([&] { return !follower.arrived.empty(); }));
+  ASSERT_FALSE(follower.fetcher->Complete());
+  swarm.StopServer();
+  swarm.StepFor(seconds(2));
+  swarm.StartServer();
+  ASSERT_TRUE(swarm.StepUntil([&] { return follower.fetcher->Complete(); }));
+  EXPECT_TRUE(swarm.HoldsExactly(follower.arrived));
+}
+
+TEST_P(ProtocolContract, AFollowerLendsWhatNobodyElseHas) {
+  test::Swarm swarm = MakeSwarm({});
+  for (int i = 0; i < 10; ++i) swarm.Teach();
+  swarm.TeachLast();
+  swarm.AddLender();
+  const auto& follower = swarm.AddFollower();
+  follower.fetcher->Learn(swarm.Info(), swarm.now());
+  ASSERT_TRUE(swarm.StepUntil([&] { return follower.fetcher->Complete(); }));
+  EXPECT_TRUE(swarm.HoldsExactly(follower.arrived));
+}
+
 INSTANTIATE_TEST_SUITE_P(On, ProtocolContract,
                          testing::Values(test::NetworkKind::kInProcess, test::NetworkKind::kDds),
                          [](const auto& param) { return test::NameOf(param.param); });

@@ -185,6 +185,7 @@ TEST_P(RouteExchangeContract, DeliversFiveHundredSegmentsToTwoReadersInOrder) {
   const auto scout = Open(ScoutTopics());
   const auto server = Open(ServerTopics());
   const auto follower = Open(FollowerTopics());
+  ASSERT_TRUE(follower->Listen({KeyNumber(1), test::ProbeRoute()}));
   ASSERT_TRUE(Connect(*scout, Topic::kSegments, {server.get(), follower.get()}));
   const auto sent = test::PiecesOf(KeyNumber(1), 500, 4096);
   ASSERT_TRUE(scout->Publish(SegmentBatch{AgentId("scout-1"), sent}));

@@ -66,11 +66,21 @@ void Swarm::StartServer() {
 Swarm::Follower& Swarm::AddFollower() {
   auto follower = std::make_unique<Follower>();
   follower->exchange = Open(exchange::FollowerTopics());
+  if (!follower->exchange->Listen({key_})) throw std::runtime_error("cannot listen");
   const AgentId name(fmt::format("follower-{}", followers_.size() + 1));
   follower->fetcher = std::make_unique<exchange::RouteFetcher>(
       name, key_, std::vector<exchange::RouteFetcher::Held>(), ToyIntegrity(), now_);
   followers_.push_back(std::move(follower));
   return *followers_.back();
+}
+
+void Swarm::AddLender() {
+  lenders_exchange_ = Open(exchange::FollowerTopics());
+  lender_ = std::make_unique<exchange::SpareHolder>(
+      AgentId("lender"), [this](const route::RouteKey& key, SegmentIndex index) {
+        return scout_store_.ReadSegment(key, index);
+      });
+  lender_->Hold({key_});
 }
 
 void Swarm::Teach(bool last) {
@@ -92,6 +102,12 @@ void Swarm::Step() {
     }
   }
   if (keeper_) Turn(*keeper_, *server_, now_, wait_);
+  if (lender_) {
+    if (!lenders_exchange_->Listen(lender_->ListensTo(now_))) {
+      throw std::runtime_error("cannot listen");
+    }
+    Turn(*lender_, *lenders_exchange_, now_, wait_);
+  }
   for (const auto& follower : followers_) {
     Turn(*follower->fetcher, *follower->exchange, now_, wait_);
     for (route::SegmentPiece& piece : follower->fetcher->TakeArrived()) {

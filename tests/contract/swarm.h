@@ -6,6 +6,7 @@
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_keeper.h"
 #include "services/exchange/route_sender.h"
+#include "services/exchange/spare_holder.h"
 #include "tests/contract/network.h"
 #include "tests/support/faulty_exchange.h"
 #include "tests/support/memory_store.h"
@@ -32,6 +33,7 @@ class Swarm {
   void StopScout() { sender_.reset(), scout_.reset(); }
   void StopServer() { keeper_.reset(), server_.reset(); }
   Follower& AddFollower();
+  void AddLender();  // has all that was taught
 
   // Stores and streams one more segment; TeachLast also completes the route.
   void Teach(bool last = false);
@@ -58,12 +60,12 @@ class Swarm {
   [[nodiscard]] MemoryStore& server_store() { return server_store_; }
   [[nodiscard]] const std::vector<route::SegmentPiece>& taught() const { return taught_; }
   [[nodiscard]] std::chrono::steady_clock::time_point now() const { return now_; }
+  [[nodiscard]] route::RouteInfo Info() const;
 
   static constexpr std::chrono::seconds kLimit{120};
 
  private:
   std::unique_ptr<exchange::FaultyExchange> Open(const exchange::TopicUse& use);
-  [[nodiscard]] route::RouteInfo Info() const;
 
   std::unique_ptr<Network> network_;
   std::chrono::milliseconds wait_;  // real time for a real network
@@ -82,6 +84,8 @@ class Swarm {
   std::unique_ptr<exchange::RouteSender> sender_;
   std::unique_ptr<exchange::RouteKeeper> keeper_;
   std::vector<std::unique_ptr<Follower>> followers_;
+  std::unique_ptr<exchange::FaultyExchange> lenders_exchange_;
+  std::unique_ptr<exchange::SpareHolder> lender_;
 };
 
 }  // namespace trailcast::test

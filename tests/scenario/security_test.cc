@@ -8,6 +8,7 @@
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/secured_fleet.h"
 #include "tests/support/network_lab.h"
+#include "tests/support/old_keys.h"
 #include "tests/support/sniffer.h"
 
 namespace trailcast::test {
@@ -40,6 +41,17 @@ TEST_F(SecurityTest, AFleetTeachesFollowsLooksAndEdits) {
       RunAs(operator_keys_, "trailcast", {"routes", "retire", "hall", "--timeout", "20"});
   EXPECT_EQ(retired.status, 0) << retired.output;
   EXPECT_THAT(server->output(), Not(HasSubstr("kept out")));
+}
+
+TEST_F(SecurityTest, MembersWithKeysFromBeforeSegmentsHadScopesTakePart) {
+  MakeOfBeforeScopes(authority_.folder(), scout_keys_);
+  MakeOfBeforeScopes(authority_.folder(), server_keys_);
+  const auto server = SecuredServer();
+  EXPECT_THAT(server->output(), HasSubstr("trailcast keys renew server"));
+  const Ended scout = Teach(scout_keys_);
+  EXPECT_THAT(scout.output, HasSubstr("unreceipted=0")) << scout.output;
+  const Ended follower = RunAs(follower_keys_, "trailcast-agent", FetchWords("follower.db"));
+  EXPECT_EQ(follower.status, 0) << follower.output;
 }
 
 TEST_F(SecurityTest, EachRoleIsToldWhatItsKeysDoNotAllow) {

@@ -151,11 +151,20 @@ void FollowerLink::Trade() {
       finder_.Handle(message);
     }
   }
+  if (auto listening = Listen(now); !listening) spdlog::debug("{}", listening.error().message);
   Say(now);
   HearServer();
   TellNeighbours(now);
   ShowStatus();
   presence_->Tick(now);
+}
+
+// Segments come of what it fetches, while it does, and of what it lends unless others do.
+Result<void> FollowerLink::Listen(Time now) {
+  std::set<route::RouteKey> routes = spare_.ListensTo(now);
+  const bool fetches = fetcher_ && !fetcher_->Complete() && !fetcher_->deleted();
+  if (fetches) routes.insert(route_->key);
+  return exchange_->Listen(routes);
 }
 
 void FollowerLink::Say(steady_clock::time_point now) {

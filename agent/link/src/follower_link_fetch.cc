@@ -40,6 +40,7 @@ Result<void> FollowerLink::MakeFetcher(const std::vector<exchange::RouteFetcher:
   if (!own) return tl::unexpected(own.error());
   stored_ = *own;
   if (stored_) fetcher_->Learn(*stored_, now);
+  if (auto listening = Listen(now); !listening) return listening;
   Say(now);  // its first requests, at once
   return {};
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -57,11 +58,16 @@ class DdsExchange : public exchange::RouteExchange {
 
   Result<void> Publish(const Message& message) override;
   std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
+  Result<void> Listen(const std::set<route::RouteKey>& routes) override;
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
 
  private:
   Result<void> Write(exchange::Topic topic, const Message& message);
-  void TakeFrom(exchange::Topic topic, std::vector<Message>& messages);
+  Result<void> OpenForSegmentsOf(const route::RouteKey& route);
+  Result<void> OpenScopes();
+  void TakeFrom(const Place& place, Reader& reader, std::vector<Message>& messages);
+  // Leaves what is of the routes that are listened to; false if nothing is.
+  [[nodiscard]] bool KeepListenedTo(const Place& place, Message& message) const;
   void NoteWhoIsHeard(const Message& message);
   void SayGoodBye();
 
@@ -81,6 +87,7 @@ class DdsExchange : public exchange::RouteExchange {
   DdsOptions options_;
   exchange::TopicUse use_;
   std::optional<Joined> joined_;
+  std::set<route::RouteKey> listening_;
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
 
@@ -107,6 +114,24 @@ Result<void> DdsExchange::Join() {
     TellOfDiscovery(
         "another program has a route server's ports of this domain: robots that are told this "
         "machine's address do not find this server; those with multicast do");
+  }
+  return OpenScopes();
+}
+
+Result<void> DdsExchange::Listen(const std::set<route::RouteKey>& routes) {
+  if (routes == listening_) return {};
+  listening_ = routes;
+  auto opened = OpenScopes();
+  if (!opened) listening_.clear();  // to be tried again
+  return opened;
+}
+
+Result<void> DdsExchange::OpenScopes() {
+  if (!joined_) return {};
+  std::set<std::string> scopes;
+  for (const route::RouteKey& route : listening_) scopes.insert(ScopeOf(route));
+  for (const exchange::Topic topic : use_.listen) {
+    if (auto opened = joined_->Listen(topic, scopes, options_); !opened) return opened;
   }
   return {};
 }
@@ -136,11 +161,26 @@ Result<void> DdsExchange::Publish(const Message& message) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     said_.insert_or_assign(exchange::InstanceOf(message), *status);
   }
+  if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
+    if (auto opened = OpenForSegmentsOf(announcement->info.key); !opened) return opened;
+  }
   return Write(*topic, message);
 }
 
+// Who announces a route is soon asked for its segments, and shall be heard by then.
+Result<void> DdsExchange::OpenForSegmentsOf(const route::RouteKey& route) {
+  for (const exchange::Topic topic : use_.write) {
+    if (!exchange::IsOfRoutes(topic)) continue;
+    const auto writer = joined_->WriterIn({topic, ScopeOf(route)}, options_);
+    if (!writer) return tl::unexpected(writer.error());
+  }
+  return {};
+}
+
 Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
-  const auto writer = joined_->WriterOf(topic, options_);
+  const route::RouteKey* route = exchange::RouteOf(message);
+  const Place place{topic, route == nullptr ? kEverybody : ScopeOf(*route)};
+  const auto writer = joined_->WriterIn(place, options_);
   if (!writer) return tl::unexpected(writer.error());
   // Replies are an instance for each client, and clients that ask once come by the thousand: their
   // instances would be kept for ever.
@@ -162,22 +202,32 @@ std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
   }
   // A failed wait leaves nothing to take, and is tried again with the next call.
   if (!joined_->wait_set.Wait(max_wait)) return messages;
-  for (const auto& [topic, reader] : joined_->readers) TakeFrom(topic, messages);
+  for (auto& [place, reader] : joined_->readers) TakeFrom(place, reader, messages);
   return messages;
 }
 
-void DdsExchange::TakeFrom(exchange::Topic topic, std::vector<Message>& messages) {
+// Scopes are shared, and who writes for everybody may have mixed routes in a batch.
+bool DdsExchange::KeepListenedTo(const Place& place, Message& message) const {
+  auto* batch = std::get_if<exchange::SegmentBatch>(&message);
+  if (batch == nullptr || place.scope == kEverybody) return true;
+  std::erase_if(batch->pieces,
+                [this](const auto& piece) { return !listening_.contains(piece.key); });
+  return !batch->pieces.empty();
+}
+
+void DdsExchange::TakeFrom(const Place& place, Reader& reader, std::vector<Message>& messages) {
+  const exchange::Topic topic = place.topic;
   struct Received {
     dds_time_t sent_at;
     Message message;
   };
   std::vector<Received> received;
   const bool agents = topic == exchange::Topic::kAgents;
-  Reader& reader = joined_->readers.at(topic);
   const auto keep = [&](const dds_sample_info_t& info, Result<Message> message) {
     if (!message) {
       ++dropped_;
-    } else if (IsAuthentic(reader, info.publication_handle, *message)) {
+    } else if (KeepListenedTo(place, *message) &&
+               IsAuthentic(reader, info.publication_handle, *message)) {
       received.push_back({info.source_timestamp, *std::move(message)});
     }
   };
@@ -216,14 +266,14 @@ void DdsExchange::NoteWhoIsHeard(const Message& message) {
 void DdsExchange::SayGoodBye() {
   if (!joined_) return;
   auto& writers = joined_->writers;
-  if (const auto agents = writers.find(exchange::Topic::kAgents); agents != writers.end()) {
+  if (const auto agents = writers.find({exchange::Topic::kAgents}); agents != writers.end()) {
     for (const auto& [instance, status] : said_) {
       // Best effort: without it the others notice when the lease is over.
       (void)WithWire(status, [&](const void* sample) { return agents->second.Dispose(sample); });
     }
   }
   const auto deadline = Clock::now() + options_.close_timeout;
-  for (auto& [topic, writer] : writers) {
+  for (auto& [place, writer] : writers) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     (void)writer.WaitForAcks(std::max(left, std::chrono::milliseconds(0)));

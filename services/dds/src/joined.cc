@@ -63,32 +63,32 @@ Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) {
   return &joined.topics.emplace(topic, *std::move(made)).first->second;
 }
 
-Result<void> Read(Joined& joined, exchange::Topic topic, const Qos& qos) {
-  const auto found = Find(joined, topic);
+Result<void> Read(Joined& joined, const Place& place, const Qos& qos) {
+  const auto found = Find(joined, place.topic);
   if (!found) return tl::unexpected(found.error());
   auto reader = Reader::Create(joined.participant, **found, qos);
-  if (!reader) return Wrap(reader.error(), exchange::NameOf(topic));
+  if (!reader) return Wrap(reader.error(), exchange::NameOf(place.topic));
   if (auto ok = joined.wait_set.Attach(*reader); !ok) {
-    return Wrap(ok.error(), exchange::NameOf(topic));
+    return Wrap(ok.error(), exchange::NameOf(place.topic));
   }
-  joined.readers.emplace(topic, *std::move(reader));
+  joined.readers.emplace(place, *std::move(reader));
   return {};
 }
 
 Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchange::TopicUse& use) {
   for (const exchange::Topic topic : use.write) {
-    if (auto writer = joined.WriterOf(topic, options); !writer) {
+    if (exchange::IsOfRoutes(topic)) continue;
+    if (auto writer = joined.WriterIn({topic}, options); !writer) {
       return tl::unexpected(writer.error());
     }
   }
-  const std::string everybody = options.keys ? "*" : "";
   for (const exchange::Topic topic : use.read) {
-    const Qos qos = MakeQos(QosOf(topic), everybody);
-    if (auto read = Read(joined, topic, qos); !read) return read;
+    const Qos qos = MakeQos(QosOf(topic), ReadersPartitions(options, topic));
+    if (auto read = Read(joined, {topic}, qos); !read) return read;
   }
   for (const exchange::Topic topic : use.overhear) {
-    const Qos qos = MakeOverhearingQos(QosOf(topic), everybody);
-    if (auto read = Read(joined, topic, qos); !read) return read;
+    const Qos qos = MakeOverhearingQos(QosOf(topic), ReadersPartitions(options, topic));
+    if (auto read = Read(joined, {topic}, qos); !read) return read;
   }
   return {};
 }
@@ -126,20 +126,34 @@ StarOrMesh::Seen Joined::Look() {
   // Servers alone write these.
   for (const exchange::Topic topic :
        {exchange::Topic::kReceipts, exchange::Topic::kCatalogReplies}) {
-    const auto reader = readers.find(topic);
+    const auto reader = readers.find({topic});
     seen.server = seen.server || (reader != readers.end() && reader->second.matched() > 0);
   }
   return seen;
 }
 
-Result<Writer*> Joined::WriterOf(exchange::Topic topic, const DdsOptions& options) {
-  if (const auto found = writers.find(topic); found != writers.end()) return &found->second;
-  const auto found = Find(*this, topic);
+Result<Writer*> Joined::WriterIn(const Place& place, const DdsOptions& options) {
+  if (const auto found = writers.find(place); found != writers.end()) return &found->second;
+  const auto found = Find(*this, place.topic);
   if (!found) return tl::unexpected(found.error());
-  const std::string own = options.keys ? security::PartitionOf(options.keys->member) : "";
-  auto writer = Writer::Create(participant, **found, MakeQos(QosOf(topic), own));
-  if (!writer) return Wrap(writer.error(), exchange::NameOf(topic));
-  return &writers.emplace(topic, *std::move(writer)).first->second;
+  auto writer = Writer::Create(
+      participant, **found, MakeQos(QosOf(place.topic), {WritersPartition(options, place.scope)}));
+  if (!writer) return Wrap(writer.error(), exchange::NameOf(place.topic));
+  return &writers.emplace(place, *std::move(writer)).first->second;
+}
+
+Result<void> Joined::Listen(exchange::Topic topic, const std::set<std::string>& scopes,
+                            const DdsOptions& options) {
+  std::erase_if(readers, [&](const auto& entry) {
+    const Place& place = entry.first;
+    return place.topic == topic && place.scope != kEverybody && !scopes.contains(place.scope);
+  });
+  for (const std::string& scope : scopes) {
+    if (readers.contains({topic, scope})) continue;
+    const Qos qos = MakeQos(QosOf(topic), ListenersPartitions(options, scope));
+    if (auto read = Read(*this, {topic, scope}, qos); !read) return read;
+  }
+  return {};
 }
 
 }  // namespace trailcast::dds

@@ -4,16 +4,25 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "services/dds/dds_exchange.h"
 #include "services/dds/src/cyclone_log.h"
 #include "services/dds/src/discovery_config.h"
 #include "services/dds/src/entities.h"
 #include "services/dds/src/peers.h"
+#include "services/dds/src/scope.h"
 #include "services/dds/src/star_or_mesh.h"
 #include "services/security/member.h"
 
 namespace trailcast::dds {
+
+// A writer or reader of a topic: for everybody (kEverybody), or in a scope.
+struct Place {
+  exchange::Topic topic;
+  std::string scope = kEverybody;
+  auto operator<=>(const Place&) const = default;
+};
 
 // What an exchange has open on the network; deleted from the end.
 struct Joined {
@@ -24,21 +33,25 @@ struct Joined {
   std::optional<Peers> peers;  // with keys
   WaitSet wait_set;
   std::map<exchange::Topic, Topic> topics{};
-  std::map<exchange::Topic, Writer> writers{};
-  std::map<exchange::Topic, Reader> readers{};
+  std::map<Place, Writer> writers{};
+  std::map<Place, Reader> readers{};
   std::map<dds_instance_handle_t, security::Member> senders{};  // with keys: who writes what
   std::optional<Reader> participants{};                         // unless it is in a mesh for good
   std::set<dds_instance_handle_t> present{};                    // of these, itself included
 
-  // With keys: writers in the member's own partition, readers in all. A route server takes the
-  // fixed ports if it can: `meeting` says whether it has.
+  // With keys: writers in the member's own partition and those below, readers in all. Of topics to
+  // which one listens by route nothing is open at first. A route server takes the fixed ports if it
+  // can: `meeting` says whether it has.
   [[nodiscard]] static Result<Joined> Open(const DdsOptions& options, const exchange::TopicUse& use,
                                            bool star);
   // Who is connected at present.
   [[nodiscard]] StarOrMesh::Seen Look();
 
   // Opened now if it was not.
-  [[nodiscard]] Result<Writer*> WriterOf(exchange::Topic topic, const DdsOptions& options);
+  [[nodiscard]] Result<Writer*> WriterIn(const Place& place, const DdsOptions& options);
+  // Reads `topic` in these scopes and no others.
+  [[nodiscard]] Result<void> Listen(exchange::Topic topic, const std::set<std::string>& scopes,
+                                    const DdsOptions& options);
 };
 
 }  // namespace trailcast::dds

@@ -42,7 +42,7 @@ static_assert(RowsAreInTopicOrder());
 
 const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)]; }
 
-Qos MakeQos(const TopicQos& row, const std::string& partition) {
+Qos MakeQos(const TopicQos& row, const std::vector<std::string>& partitions) {
   const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
   Qos qos = MakeQos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
@@ -57,13 +57,15 @@ Qos MakeQos(const TopicQos& row, const std::string& partition) {
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(row.liveliness));
   }
   dds_qset_writer_data_lifecycle(qos.get(), true);
-  if (!partition.empty()) dds_qset_partition1(qos.get(), partition.c_str());
+  std::vector<const char*> names;  // "" alone is what there is without any
+  for (const std::string& partition : partitions) names.push_back(partition.c_str());
+  dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }
 
-Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition) {
-  Qos qos = MakeQos(row, partition);
+Qos MakeOverhearingQos(const TopicQos& row, const std::vector<std::string>& partitions) {
+  Qos qos = MakeQos(row, partitions);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   return qos;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "services/dds/src/entities.h"
 #include "services/exchange/route_exchange.h"
@@ -19,9 +20,10 @@ struct TopicQos {
 
 [[nodiscard]] const TopicQos& QosOf(exchange::Topic topic);
 
-// `partition`: in which it writes or reads; empty: the default one.
-[[nodiscard]] Qos MakeQos(const TopicQos& row, const std::string& partition = "");
+// `partitions`: in which it writes or reads; "" is the default one.
+[[nodiscard]] Qos MakeQos(const TopicQos& row, const std::vector<std::string>& partitions = {""});
 // For a reader that overhears: best-effort, and nothing of what was written before it.
-[[nodiscard]] Qos MakeOverhearingQos(const TopicQos& row, const std::string& partition = "");
+[[nodiscard]] Qos MakeOverhearingQos(const TopicQos& row,
+                                     const std::vector<std::string>& partitions = {""});
 
 }  // namespace trailcast::dds

@@ -14,7 +14,8 @@ std::vector<SegmentBatch> SplitBatch(SegmentBatch batch) {
   std::size_t size = 0;
   for (route::SegmentPiece& piece : batch.pieces) {
     const std::size_t piece_size = WireSize(piece);
-    if (batches.empty() || size + piece_size > kBatchBytes) {
+    if (batches.empty() || size + piece_size > kBatchBytes ||
+        batches.back().pieces.front().key != piece.key) {
       batches.push_back({.sender = batch.sender, .pieces = {}});
       size = 0;
     }

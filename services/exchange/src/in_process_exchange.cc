@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -50,7 +51,14 @@ class Inbox {
 };
 
 struct Member {
+  [[nodiscard]] bool Hears(Topic topic, const Message& message) const {
+    if (use.Hears(topic)) return true;
+    const route::RouteKey* route = RouteOf(message);
+    return use.Listens(topic) && route != nullptr && listening.contains(*route);
+  }
+
   TopicUse use;
+  std::set<route::RouteKey> listening;
   Inbox inbox;
   std::map<std::string, Message>
       latest;  // what it published on transient-local topics, by instance
@@ -91,7 +99,7 @@ struct InProcessBus::State {
   void Send(const Member& sender, Topic topic, const std::string& instance,
             const Message& message) {
     for (Member* member : members) {
-      if (member != &sender && member->use.Hears(topic)) {
+      if (member != &sender && member->Hears(topic, message)) {
         member->inbox.Push(topic, instance, message);
       }
     }
@@ -103,7 +111,7 @@ namespace {
 class InProcessExchange : public RouteExchange {
  public:
   InProcessExchange(std::shared_ptr<InProcessBus::State> bus, const TopicUse& use)
-      : bus_(std::move(bus)), self_{.use = use, .inbox = {}, .latest = {}} {
+      : bus_(std::move(bus)), self_{.use = use, .listening = {}, .inbox = {}, .latest = {}} {
     bus_->Join(self_);
   }
   ~InProcessExchange() override { bus_->Leave(self_); }
@@ -133,6 +141,12 @@ class InProcessExchange : public RouteExchange {
     std::unique_lock lock(bus_->mutex);
     bus_->arrived.wait_for(lock, max_wait, [this] { return !self_.inbox.empty(); });
     return self_.inbox.TakeAll();
+  }
+
+  Result<void> Listen(const std::set<route::RouteKey>& routes) override {
+    const std::scoped_lock lock(bus_->mutex);
+    self_.listening = routes;
+    return {};
   }
 
   // Publish checks bounds, so nothing out of bounds ever arrives.

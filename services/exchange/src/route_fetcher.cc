@@ -54,7 +54,12 @@ void RouteFetcher::Handle(const Message& message, Time now) {
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     const bool known_before = info_.has_value();
     Learn(announcement->info, now);
-    if (known_before && announcement->info.key == key_) want_.Hurry(now);
+    if (known_before && announcement->info.key == key_) {
+      want_.Hurry(now);
+      // Perhaps a holder that is new.
+      const bool in_vain = knocking_since_ && now >= *knocking_since_ + options_.knock_for;
+      if (in_vain) knocking_since_.reset();
+    }
   }
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) HandleBatch(*batch, now);
 }
@@ -63,6 +68,7 @@ void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.key != key_) continue;
     const std::size_t before = held_.size() + borrowed_.size();
+    came_at_ = now;
     if (batch.IsLent(info_ ? std::optional(info_->scout) : std::nullopt)) {
       Borrow(piece, now);
     } else {
@@ -164,6 +170,11 @@ void RouteFetcher::Judge(Time now) {
 }
 
 std::vector<Message> RouteFetcher::Tick(Time now) {
+  std::vector<Message> messages;
+  if (IsInquiryDue(now)) {
+    messages.emplace_back(SegmentRequest{.requester = self_, .key = key_, .lacking = {}});
+  }
+  if (Knocks(now, messages)) return messages;
   std::vector<SegmentIndex> bytes = want_.Due(now);
   std::vector<SegmentIndex> digests;
   if (options_.own_content) {
@@ -173,13 +184,25 @@ std::vector<Message> RouteFetcher::Tick(Time now) {
     bytes.erase(first_asked, bytes.end());
     asked_digest_.insert(digests.begin(), digests.end());
   }
-  std::vector<Message> messages;
-  if (IsInquiryDue(now)) {
-    messages.emplace_back(SegmentRequest{.requester = self_, .key = key_, .lacking = {}});
-  }
   Ask(digests, true, messages);
   Ask(bytes, false, messages);
   return messages;
+}
+
+bool RouteFetcher::Knocks(Time now, std::vector<Message>& messages) {
+  const auto first = want_.first();
+  if (!first || (came_at_ && now < *came_at_ + options_.silent_after)) {
+    knocking_since_.reset();
+    return false;
+  }
+  if (!knocking_since_) knocking_since_ = knock_at_ = now;
+  if (now >= *knocking_since_ + options_.knock_for) return false;
+  if (now >= knock_at_) {
+    Ask({*first}, true, messages);
+    asked_digest_.insert(*first);
+    knock_at_ = now + options_.knock_every;
+  }
+  return true;
 }
 
 void RouteFetcher::Ask(const std::vector<SegmentIndex>& lacking, bool digests_only,

@@ -59,7 +59,19 @@ void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
       wanted.push_back(index);
     }
   }
-  answers_.Ask(info_.key, wanted, now);
+  if (request.digests_only) {
+    TellDigests(wanted);
+  } else {
+    answers_.Ask(info_.key, wanted, now);
+  }
+}
+
+void RouteSender::TellDigests(const std::vector<SegmentIndex>& indices) {
+  for (const SegmentIndex index : indices) {
+    if (to_stream_.size() >= kMaxPiecesPerBatch) return;  // a blocked link; who lacks it asks again
+    const route::Digest* digest = digests_.Find(index);
+    if (digest != nullptr) to_stream_.push_back({info_.key, index, *digest, {}});
+  }
 }
 
 void RouteSender::HandleReceipt(const Receipt& receipt) {

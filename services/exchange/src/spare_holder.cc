@@ -36,7 +36,9 @@ void SpareHolder::Handle(const Message& message, Time now) {
   if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const route::SegmentPiece& piece : batch->pieces) {
-      if (!piece.bytes.empty()) to_answer_.erase({piece.key, piece.index});
+      const auto due = to_answer_.find({piece.key, piece.index});
+      if (due == to_answer_.end()) continue;
+      if (due->second.digest_only || !piece.bytes.empty()) to_answer_.erase(due);
     }
   }
   if (const auto* news = std::get_if<RouteAnnouncement>(&message)) {
@@ -58,7 +60,7 @@ void SpareHolder::HandleStatus(const AgentStatus& status) {
 }
 
 void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
-  if (!held_.contains(request.key) || request.digests_only) return;
+  if (!held_.contains(request.key)) return;
   const bool of_server = std::any_of(servers_.begin(), servers_.end(), [&](const auto& server) {
     return server.first == request.requester;
   });
@@ -72,20 +74,32 @@ void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
     if (asked_once_.emplace(request.requester, place).second) continue;
     asked_once_.erase({request.requester, place});
     if (to_answer_.size() >= kMostToAnswer) return;  // whoever lacks it asks again
-    to_answer_.try_emplace(place, now + patience_);
+    const Due due{.at = now + patience_, .digest_only = request.digests_only};
+    to_answer_.try_emplace(place, due).first->second.digest_only &= request.digests_only;
+    listens_until_[request.key] = now + options_.listen_for;
   }
 }
 
+std::set<route::RouteKey> SpareHolder::ListensTo(Time now) const {
+  std::set<route::RouteKey> routes;
+  for (const auto& [key, until] : listens_until_) {
+    if (now < until) routes.insert(key);
+  }
+  return routes;
+}
+
 std::vector<Message> SpareHolder::Tick(Time now) {
+  std::erase_if(listens_until_, [now](const auto& entry) { return now >= entry.second; });
   SegmentBatch batch{.sender = self_, .pieces = {}};
   std::size_t bytes = 0;
   for (auto at = to_answer_.begin();
        at != to_answer_.end() && bytes < options_.answer_bytes_per_tick;) {
-    if (now < at->second) {
+    if (now < at->second.at) {
       ++at;
       continue;
     }
     if (auto piece = read_(at->first.first, at->first.second)) {
+      if (at->second.digest_only) piece->bytes.clear();
       bytes += piece->bytes.size();
       batch.pieces.push_back(*std::move(piece));
     }
@@ -110,7 +124,8 @@ std::vector<Message> SpareHolder::Tick(Time now) {
 void SpareHolder::NotSent(const Message& message, Time now) {
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const route::SegmentPiece& piece : batch->pieces) {
-      to_answer_.try_emplace({piece.key, piece.index}, now + kAgainAfter);
+      to_answer_.try_emplace({piece.key, piece.index},
+                             Due{.at = now + kAgainAfter, .digest_only = piece.bytes.empty()});
     }
   } else if (const auto* announced = std::get_if<RouteAnnouncement>(&message)) {
     to_announce_.try_emplace(announced->info.key, now + kAgainAfter);

@@ -20,6 +20,7 @@ bool TopicUse::Writes(Topic topic) const {
 }
 bool TopicUse::Reads(Topic topic) const { return Contains(read, topic); }
 bool TopicUse::Hears(Topic topic) const { return Reads(topic) || Contains(overhear, topic); }
+bool TopicUse::Listens(Topic topic) const { return Contains(listen, topic); }
 
 TopicUse ScoutTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kAgents},
@@ -28,17 +29,19 @@ TopicUse ScoutTopics() {
 
 TopicUse FollowerTopics() {
   return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kCatalogReplies},
+          .read = {Topic::kRoutes, Topic::kCatalogReplies},
           // What it may lend (SpareHolder) is asked for more than once.
           .overhear = {Topic::kSegmentRequests},
-          .write_rarely = {Topic::kSegments}};
+          .write_rarely = {Topic::kSegments},
+          .listen = {Topic::kSegments}};
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kReceipts,
+  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
                     Topic::kCatalogReplies, Topic::kAgents},
           .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
-                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits}};
+                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits},
+          .write_rarely = {Topic::kSegments}};
 }
 
 TopicUse OperatorTopics() {
@@ -59,6 +62,13 @@ std::optional<Topic> TopicOf(const Message& message) {
       Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kRouteEdits};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
+}
+
+bool IsOfRoutes(Topic topic) { return topic == Topic::kSegments; }
+
+const route::RouteKey* RouteOf(const Message& message) {
+  const auto* batch = std::get_if<SegmentBatch>(&message);
+  return batch == nullptr || batch->pieces.empty() ? nullptr : &batch->pieces.front().key;
 }
 
 const char* NameOf(Topic topic) {

@@ -45,6 +45,9 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
     Beat();
     return exchange_->Take(max_wait);
   }
+  Result<void> Listen(const std::set<route::RouteKey>& routes) override {
+    return exchange_->Listen(routes);
+  }
   [[nodiscard]] std::uint64_t dropped() const override { return exchange_->dropped(); }
 
  private:

@@ -33,6 +33,13 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
     spdlog::warn("the keys in {} expire on {}: 'trailcast keys renew {}' where the authority is",
                  options.security, security::ToText(keys->expires), keys->name);
   }
+  if (!keys->scoped) {
+    spdlog::warn(
+        "the keys in {} are from before segments went only to those who fetch their route: what "
+        "this program sends goes to all who fetch any; 'trailcast keys renew {}' where the "
+        "authority is",
+        options.security, keys->name);
+  }
   return keys;
 }
 

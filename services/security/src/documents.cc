@@ -16,6 +16,10 @@ constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_{}.xsd">
 )";
 
+std::string Partition(const std::string& name) { return "<partition>" + name + "</partition>"; }
+
+std::string Below(const Member& member) { return Partition(PartitionOf(member) + "/*"); }
+
 std::string Topics(const std::vector<exchange::Topic>& topics) {
   std::string text;
   for (const exchange::Topic topic : topics) {
@@ -75,7 +79,7 @@ std::string PermissionsXml(const Member& member, const Validity& validity) {
       {}
       <publish>
         <topics>{}</topics>
-        <partitions><partition>{}</partition></partitions>
+        <partitions>{}</partitions>
       </publish>
       <subscribe>
         <topics>{}</topics>
@@ -88,8 +92,12 @@ std::string PermissionsXml(const Member& member, const Validity& validity) {
 </dds>
 )",
                      NameOf(member.role), SubjectOf(member), ToText(validity.from),
-                     ToText(validity.until), kDomains, Topics(rights.write), PartitionOf(member),
-                     Topics(rights.read));
+                     ToText(validity.until), kDomains, Topics(rights.write),
+                     Partition(PartitionOf(member)) + Below(member), Topics(rights.read));
+}
+
+bool AllowsScopes(const std::string& permissions_xml, const Member& member) {
+  return permissions_xml.find(Below(member)) != std::string::npos;
 }
 
 std::optional<std::string> ElementOf(const std::string& xml, const std::string& name) {

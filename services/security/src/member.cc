@@ -55,7 +55,7 @@ std::string PartitionOf(const Member& member) {
 
 std::optional<Member> ParsePartition(std::string_view text) {
   auto member = TakeRoleAndId(text, '/');
-  return member && text.empty() ? member : std::nullopt;
+  return member && (text.empty() || text.starts_with('/')) ? member : std::nullopt;
 }
 
 std::string MemberIdOf(std::string_view name_key, std::string_view name) {

@@ -127,7 +127,8 @@ Result<void> CheckRevoked(const MemberKeys& keys, const Contents& contents,
               keys.folder.string(), keys.name);
 }
 
-Result<void> CheckDocuments(const MemberKeys& keys, const Contents& contents) {
+// Reads the permissions, too.
+Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
   const auto governance = OpenSigned(contents.governance, contents.authority);
   if (!governance) return Wrong(keys.folder / kGovernanceFile, governance.error().message);
   const fs::path file = keys.folder / kPermissionsFile;
@@ -138,6 +139,7 @@ Result<void> CheckDocuments(const MemberKeys& keys, const Contents& contents) {
     return Wrong(file, fmt::format("is for {}, and identity.pem for {}", subject.value_or("nobody"),
                                    SubjectOf(keys.member)));
   }
+  keys.scoped = AllowsScopes(*permissions, keys.member);
   return {};
 }
 

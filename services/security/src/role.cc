@@ -27,6 +27,7 @@ TopicUse Together(TopicUse use, const TopicUse& more) {
   Add(use.write, more.write_rarely);
   Add(use.read, more.read);
   Add(use.read, more.overhear);
+  Add(use.read, more.listen);
   return use;
 }
 
@@ -95,6 +96,7 @@ std::string BeyondRights(Role role, const TopicUse& use) {
   AppendBeyond(use.write_rarely, rights.write, "write", beyond);
   AppendBeyond(use.read, rights.read, "read", beyond);
   AppendBeyond(use.overhear, rights.read, "read", beyond);
+  AppendBeyond(use.listen, rights.read, "read", beyond);
   return beyond;
 }
 

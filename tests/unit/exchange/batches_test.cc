@@ -22,6 +22,16 @@ TEST(SplitBatch, KeepsPiecesInOrderAndBatchesSmall) {
   EXPECT_EQ(batches.size(), 7U);  // 15 pieces of 3096 bytes fit 48 KiB
 }
 
+TEST(SplitBatch, DoesNotMixRoutes) {
+  const auto hall = test::KeyNumber(1);
+  const auto yard = test::KeyNumber(1, 2);
+  const auto batches = SplitBatch(
+      {AgentId("s"), {test::PieceOf(hall, 0), test::PieceOf(hall, 1), test::PieceOf(yard, 0)}});
+  ASSERT_EQ(batches.size(), 2U);
+  EXPECT_EQ(batches[0].pieces.size(), 2U);
+  EXPECT_EQ(batches[1].pieces, std::vector{test::PieceOf(yard, 0)});
+}
+
 TEST(SplitBatch, SendsALargePieceAlone) {
   const auto key = test::KeyNumber(1);
   const auto batches =

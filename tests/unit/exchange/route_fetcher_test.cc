@@ -20,7 +20,30 @@ class RouteFetcherTest : public testing::Test {
     for (std::uint32_t i = 0; i < held; ++i) {
       pieces.push_back({SegmentIndex(i), pieces_[i].digest});
     }
-    return {AgentId("follower-1"), key_, pieces, test::ToyIntegrity(), now_};
+    RouteFetcherOptions options;
+    options.knock_for = milliseconds(0);
+    return {AgentId("follower-1"), key_, pieces, test::ToyIntegrity(), now_, options};
+  }
+  // One that has just begun to listen.
+  RouteFetcher NewListener() {
+    return {AgentId("follower-1"), key_, {}, test::ToyIntegrity(), now_};
+  }
+  // What it asks for, a digest alone with a '?': "0?", "0 1 2".
+  std::string SaidAfter(RouteFetcher& fetcher, milliseconds passed) {
+    now_ += passed;
+    std::string said;
+    for (const auto& request : Only<SegmentRequest>(fetcher.Tick(now_))) {
+      for (const SegmentIndex index : request.lacking) {
+        said += (said.empty() ? "" : " ") + std::to_string(index.value());
+        if (request.digests_only) said += "?";
+      }
+    }
+    return said;
+  }
+  void DeliverDigest(RouteFetcher& fetcher, std::uint32_t index) {
+    route::SegmentPiece named = pieces_[index];
+    named.bytes.clear();
+    Deliver(fetcher, named);
   }
   void Announce(RouteFetcher& fetcher, std::uint32_t count,
                 RouteState state = RouteState::kTeaching) {
@@ -55,6 +78,7 @@ class RouteFetcherTest : public testing::Test {
 
 TEST_F(RouteFetcherTest, OfWhatAnotherRevisionHasItAsksForDigestsOnly) {
   RouteFetcherOptions options;
+  options.knock_for = milliseconds(0);
   options.own_content = [this](const route::Digest& digest) -> std::optional<route::Bytes> {
     if (digest == pieces_[1].digest) return pieces_[1].bytes;
     return std::nullopt;
@@ -82,6 +106,46 @@ TEST_F(RouteFetcherTest, OfWhatAnotherRevisionHasItAsksForDigestsOnly) {
   EXPECT_FALSE(asked[0].digests_only);
   for (const std::uint32_t i : {0U, 2U}) Deliver(fetcher, pieces_[i]);
   EXPECT_TRUE(fetcher.Complete());
+}
+
+TEST_F(RouteFetcherTest, KnocksUntilAHolderIsHeardAndThenAsks) {
+  RouteFetcher fetcher = NewListener();
+  Announce(fetcher, 3, RouteState::kComplete);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(0)), "0?");
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(99)), "");
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(1)), "0?");
+  DeliverDigest(fetcher, 0);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(10)), "0 1 2");
+}
+
+TEST_F(RouteFetcherTest, WhatNobodyTellsTheDigestOfIsAskedForAfterASecond) {
+  RouteFetcher fetcher = NewListener();
+  Announce(fetcher, 2, RouteState::kComplete);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(SaidAfter(fetcher, milliseconds(i > 0 ? 100 : 0)), "0?");
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(100)), "0 1");
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(500)), "") << "knocked long enough";
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(500)), "0 1");
+}
+
+TEST_F(RouteFetcherTest, KnocksAgainAfterSilenceWhenAHolderShowsUp) {
+  RouteFetcher fetcher = NewListener();
+  Announce(fetcher, 2, RouteState::kComplete);
+  Deliver(fetcher, pieces_[0]);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(10)), "1");
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(1000)), "1?") << "its writer may be gone";
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(1000)), "1");
+  now_ += milliseconds(1500);
+  Announce(fetcher, 2, RouteState::kComplete);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(10)), "1?") << "another one's is not known yet";
+  DeliverDigest(fetcher, 1);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(10)), "1");
+}
+
+TEST_F(RouteFetcherTest, DoesNotKnockWhenItLacksNothing) {
+  RouteFetcher fetcher = NewListener();
+  Deliver(fetcher, pieces_[0]);
+  Announce(fetcher, 1);
+  EXPECT_EQ(SaidAfter(fetcher, milliseconds(3000)), "");
 }
 
 TEST_F(RouteFetcherTest, WhatIsLentIsGivenOutOnceTheManifestProvesIt) {

@@ -174,6 +174,16 @@ TEST_F(RouteSenderTest, LeavesWhatAServerHasToTheServerUnlessAskedAgain) {
   EXPECT_EQ(test::PiecesIn(TickAfter(sender, milliseconds(100))), pieces_);
 }
 
+TEST_F(RouteSenderTest, TellsDigestsAtOnceOfWhatOnlyItHas) {
+  RouteSender sender = Sender();
+  for (int i = 0; i < 2; ++i) Teach(sender);
+  (void)sender.Tick(now_);
+  sender.Handle(SegmentRequest{AgentId("follower-1"), key_, Indices(1, 9), true}, now_);
+  route::SegmentPiece named = pieces_[1];
+  named.bytes.clear();
+  EXPECT_EQ(test::PiecesIn(sender.Tick(now_)), std::vector{named});
+}
+
 TEST_F(RouteSenderTest, AnnouncesToWhoAsksWhoHasTheRoute) {
   RouteSender sender = Sender();
   (void)sender.Tick(now_);

@@ -77,6 +77,37 @@ TEST_F(SpareHolderTest, LeavesItToWhoeverAnswersFirst) {
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[1]});
 }
 
+TEST_F(SpareHolderTest, ListensToOthersForAWhileOnceItWasAskedInVain) {
+  EXPECT_THAT(holder_.ListensTo(now_), IsEmpty());
+  Ask("server", key_, 0, 1);
+  EXPECT_THAT(holder_.ListensTo(now_), IsEmpty()) << "left to others, who need not be heard";
+  Ask("server", key_, 0, 1);
+  EXPECT_THAT(holder_.ListensTo(now_), testing::ElementsAre(key_));
+  EXPECT_THAT(holder_.ListensTo(now_ + milliseconds(9999)), testing::ElementsAre(key_));
+  EXPECT_THAT(holder_.ListensTo(now_ + milliseconds(10'000)), IsEmpty());
+}
+
+TEST_F(SpareHolderTest, TellsADigestThatWasAskedForInVainUnlessAnotherDoes) {
+  const SegmentRequest knock{AgentId("robot-1"), key_, Indices(2, 3), true};
+  route::SegmentPiece named = pieces_[2];
+  named.bytes.clear();
+  for (int time = 0; time < 2; ++time) holder_.Handle(knock, now_);
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{named});
+  for (int time = 0; time < 2; ++time) holder_.Handle(knock, now_);
+  holder_.Handle(SegmentBatch{AgentId("robot-2"), {named}}, now_);
+  EXPECT_THAT(SentAfter(milliseconds(200)), IsEmpty());
+}
+
+TEST_F(SpareHolderTest, ADigestIsNoAnswerToWhoAskedForTheSegment) {
+  for (const bool digests_only : {true, false, true, false}) {
+    holder_.Handle(SegmentRequest{AgentId("robot-1"), key_, Indices(2, 3), digests_only}, now_);
+  }
+  route::SegmentPiece named = pieces_[2];
+  named.bytes.clear();
+  holder_.Handle(SegmentBatch{AgentId("robot-2"), {named}}, now_);
+  EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[2]});
+}
+
 TEST_F(SpareHolderTest, WhileAServerIsThereItLendsToServersOnly) {
   AgentStatus server;
   server.agent = AgentId("server");

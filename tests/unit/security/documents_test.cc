@@ -31,7 +31,9 @@ TEST(Documents, PermissionsGrantARoleItsTopicsInItsPartitionUntilTheyEnd) {
   EXPECT_EQ(ElementOf(xml, "not_after"), "2026-11-22T17:00:00Z");
   EXPECT_EQ(ElementOf(xml, "default"), "DENY");
   const std::string publish = ElementOf(xml, "publish").value();
-  EXPECT_EQ(ElementOf(publish, "partition"), "follower/4f2a9c0d11223344");
+  EXPECT_EQ(ElementOf(publish, "partitions"),
+            "<partition>follower/4f2a9c0d11223344</partition>"
+            "<partition>follower/4f2a9c0d11223344/*</partition>");
   EXPECT_THAT(publish, HasSubstr("<topic>trailcast/segment_requests</topic>"));
   EXPECT_THAT(publish, Not(HasSubstr("trailcast/routes")));
   EXPECT_THAT(ElementOf(xml, "subscribe").value(), HasSubstr("<topic>trailcast/routes</topic>"));

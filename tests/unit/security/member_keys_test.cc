@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "services/security/authority.h"
+#include "tests/support/old_keys.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::security {
@@ -37,6 +38,14 @@ TEST_F(MemberKeysTest, AreThoseOfTheMemberTheyWereGivenTo) {
   EXPECT_EQ(keys->member.role, Role::kScout);
   EXPECT_EQ(keys->member.id, MemberIdOf(keys->name_key, "robot1"));
   EXPECT_EQ(NameInKeys(scout_).value(), "robot1");
+}
+
+TEST_F(MemberKeysTest, FromBeforeSegmentsHadScopesHoldAndSaySo) {
+  EXPECT_TRUE(LoadMemberKeys(scout_, now_)->scoped);
+  test::MakeOfBeforeScopes(authority_.folder(), scout_);
+  const auto keys = LoadMemberKeys(scout_, now_);
+  ASSERT_TRUE(keys) << keys.error().message;
+  EXPECT_FALSE(keys->scoped);
 }
 
 TEST_F(MemberKeysTest, TellWhatIsMissing) {

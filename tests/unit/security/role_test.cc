@@ -55,13 +55,14 @@ TEST(Member, IsInItsCertificateAndItsPartition) {
   EXPECT_EQ(ParseCommonName(CommonNameOf(member)), member);
   EXPECT_EQ(PartitionOf(member), "scout/4f2a9c0d11223344");
   EXPECT_EQ(ParsePartition(PartitionOf(member)), (Member{Role::kScout, "4f2a9c0d11223344", 1}));
+  EXPECT_EQ(ParsePartition("scout/4f2a9c0d11223344/1f"), ParsePartition(PartitionOf(member)));
   for (const char* wrong :
        {"", "scout", "scout.4f2a.3", "admin.4f2a9c0d11223344.3", "scout.4F2A9C0D11223344.3",
         "scout.4f2a9c0d11223344", "scout.4f2a9c0d11223344.", "scout.4f2a9c0d11223344.x",
         "scout.4f2a9c0d11223344.3.4"}) {
     EXPECT_EQ(ParseCommonName(wrong), std::nullopt) << wrong;
   }
-  for (const char* wrong : {"", "*", "scout/*", "scout/4f2a9c0d11223344/x", "scout"}) {
+  for (const char* wrong : {"", "*", "scout/*", "scout/4f2a9c0d11223344x", "scout"}) {
     EXPECT_EQ(ParsePartition(wrong), std::nullopt) << wrong;
   }
 }
