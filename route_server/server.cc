@@ -49,7 +49,9 @@ Server::Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
     : store_(std::move(store)),
       views_(*store_),
       exchange_(std::move(exchange)),
-      presence_(*exchange_, ServerStatus(name), kStatusEvery) {}
+      presence_(*exchange_, ServerStatus(name), kStatusEvery),
+      fleet_(name),
+      followers_(name) {}
 
 Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
                                              std::unique_ptr<store::RouteStore> store,
@@ -95,6 +97,8 @@ void Server::Receive(const exchange::Message& message) {
     return;
   }
   presence_.Handle(message);
+  fleet_.Handle(message);
+  followers_.Handle(message, steady_clock::now());
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     holders_.Note(*status, steady_clock::now());
@@ -124,6 +128,7 @@ void Server::Serve() {
   TellTroubles();
   FillViews(outgoing);
   upkeep_->Tick(now);
+  TellAgents();
   ShowWhatItDoes();
   presence_.Tick(now);
   if (retention_ && now >= retention_due_) {
@@ -167,6 +172,19 @@ void Server::TellTroubles() {
     told_dropped_ = exchange_->dropped();
     spdlog::warn("{} messages so far were out of bounds or unreadable, and dropped", told_dropped_);
   }
+}
+
+// What agents that hear nobody else need to know of each other.
+void Server::TellAgents() {
+  const auto now = steady_clock::now();
+  std::vector<exchange::Message> told;
+  if (auto fleet = fleet_.Due(now)) told.emplace_back(*std::move(fleet));
+  for (exchange::RouteFollowers& followers : followers_.Due(now)) {
+    told.emplace_back(std::move(followers));
+  }
+  // What cannot be handed over is told anew soon.
+  (void)exchange::PublishAll(*exchange_, told);
+  for (const std::string& note : fleet_.TakeNotes()) spdlog::warn("{}", note);
 }
 
 // What was appended is on the disk, and what was announced as deleted is not.
@@ -240,6 +258,7 @@ void Server::ShowWhatItDoes() {
   if (const std::string degraded = upkeep_->Degraded(); !degraded.empty()) {
     detail += "; " + degraded;
   }
+  if (const std::string trouble = fleet_.NameTrouble(); !trouble.empty()) detail += "; " + trouble;
   ShowStatus(exchange::AgentMode::kWaiting, detail);
 }
 

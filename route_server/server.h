@@ -5,12 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "route_server/fleet_news.h"
 #include "route_server/holders.h"
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
 #include "route_server/quotas.h"
 #include "route_server/request_queue.h"
+#include "route_server/route_followers.h"
 #include "route_server/upkeep.h"
 #include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
@@ -60,6 +62,7 @@ class Server {
   void TellTroubles();
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
+  void TellAgents();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
   void DeleteOutdated();
@@ -78,6 +81,8 @@ class Server {
   std::optional<Quotas> quotas_;  // none: everybody may use what there is
   RequestQueue requests_;
   std::vector<exchange::Message> refusals_;  // of requests, to be sent
+  FleetNews fleet_;
+  RouteFollowersBoard followers_;
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct Neighbour {
   bool operator==(const Neighbour&) const = default;
 };
 
-// Who else is on the route, from the statuses that agents publish. Owned by the thread that owns
-// the exchange.
+// Who else is on the route, from the statuses that agents publish, and, where agents do not hear
+// each other, from what servers tell. Owned by the thread that owns the exchange.
 //
 // Whoever arrived is taken to make room. Whoever ended anywhere else, or is no longer heard, is
 // taken to stand where it last was, until it tells of another place or for kRemembered: somebody
@@ -51,9 +52,12 @@ class Neighbours {
     std::uint64_t instance = 0;
     route::RouteKey route;
     Neighbour neighbour;
+    std::optional<AgentId> told_by{};  // a server; none: it spoke itself
   };
   void Handle(const exchange::AgentStatus& status, Time now);
   void MakeRoom();
+  void Handle(const exchange::AgentGone& gone);
+  void Handle(const exchange::RouteFollowers& told, Time now);
 
   AgentId self_;
   std::map<AgentId, Known> known_;

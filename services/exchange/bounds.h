@@ -19,6 +19,8 @@ inline constexpr std::size_t kMaxSimilarNames = 16;
 inline constexpr std::size_t kMaxHeldTold = 64;  // by one agent
 inline constexpr std::size_t kMaxHoldingsPerReply = 1024;
 inline constexpr std::size_t kMaxPlacesPerReply = 16;  // by view
+inline constexpr std::size_t kMaxClaimedNames = 64;    // told at once
+inline constexpr std::size_t kMaxFollowersTold = 1024;
 inline constexpr std::size_t kMaxCursorBytes = 256;
 inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
 

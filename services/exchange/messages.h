@@ -163,6 +163,40 @@ struct AgentStatus {
   bool operator==(const AgentStatus&) const = default;
 };
 
+// A name that two running processes have.
+struct ClaimedName {
+  AgentId agent{};
+  std::uint64_t claims = 0;  // the instance that came to the name last
+  std::uint64_t keeps = 0;   // the one whose it is; 0: the other has not spoken since
+  bool operator==(const ClaimedName&) const = default;
+};
+
+// trailcast/fleet: what a server tells agents of all others, who do not hear each other.
+struct Fleet {
+  AgentId server{};
+  std::uint32_t agents = 0;  // that the server hears
+  std::vector<ClaimedName> claimed{};
+  bool operator==(const Fleet&) const = default;
+};
+
+struct RouteFollower {
+  AgentId agent{};
+  double along_m = 0.0;
+  double speed_mps = 0.0;
+  bool heard = true;  // false: its agent has ended or is out of reach; it may stand there yet
+  std::chrono::milliseconds age{0};  // since it told of that
+  bool operator==(const RouteFollower&) const = default;
+};
+
+// trailcast/neighbours: a server to the followers of a route, who do not hear each other: where
+// all of them are that have not arrived.
+struct RouteFollowers {
+  AgentId server{};
+  route::RouteKey key{};
+  std::vector<RouteFollower> followers{};
+  bool operator==(const RouteFollowers&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -172,6 +206,6 @@ struct AgentGone {
 
 using Message =
     std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
-                 CatalogReply, AgentStatus, RouteEditRequest, AgentGone>;
+                 CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, AgentGone>;
 
 }  // namespace trailcast::exchange

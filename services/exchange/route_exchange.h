@@ -20,6 +20,8 @@ enum class Topic : std::uint8_t {
   kCatalogReplies,
   kAgents,
   kRouteEdits,
+  kFleet,
+  kNeighbours,
 };
 
 struct TopicUse {
@@ -68,11 +70,12 @@ class RouteExchange {
   // cannot be decoded are dropped and counted (dropped()).
   [[nodiscard]] virtual std::vector<Message> Take(std::chrono::milliseconds max_wait) = 0;
 
-  // From now on the topics of TopicUse::listen are read of these routes and no others. Who writes
+  // From now on `topic`, one of TopicUse::listen, is read of these routes and no others. Who writes
   // notices that in the background, within milliseconds or a second; what it wrote before that is
   // not received, and nothing but hearing it tells that it is over (RouteFetcher knocks). Costs
   // nothing when the routes are those of the last call.
-  [[nodiscard]] virtual Result<void> Listen(const std::set<route::RouteKey>& routes) = 0;
+  [[nodiscard]] virtual Result<void> Listen(Topic topic,
+                                            const std::set<route::RouteKey>& routes) = 0;
 
   // Samples received and thrown away because they were out of bounds or could not be decoded.
   [[nodiscard]] virtual std::uint64_t dropped() const = 0;

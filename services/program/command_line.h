@@ -23,7 +23,7 @@ struct CommonOptions {
   int domain = 0;    // DDS domain
   std::string dds_tag;
   std::string network_interface;
-  std::string discovery = "mesh";             // "auto", "star" or "mesh"
+  std::string discovery = "auto";             // "auto", "star" or "mesh"
   std::vector<std::string> server_addresses;  // of route servers, where multicast does not lead
   std::string security;   // folder with this member's keys; empty: DDS without security
   std::string heartbeat;  // file; empty: none, as with programs that do not offer one

@@ -21,8 +21,12 @@ class NameClaim {
 
   // kConflict when `status` comes from another process that has the name and keeps it.
   [[nodiscard]] Result<void> See(const exchange::AgentStatus& status) const;
+  // The same as a server tells it, to who does not hear the other process.
+  [[nodiscard]] Result<void> See(const exchange::ClaimedName& claimed) const;
 
  private:
+  [[nodiscard]] Result<void> Refuse(std::uint64_t other) const;
+
   AgentId agent_;
   std::uint64_t instance_;
 };

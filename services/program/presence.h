@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,7 +36,8 @@ class Presence {
   // running process has the name. Ends early, without error, when `stop` says so.
   [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
 
-  // Notes whether a server speaks, and how many agents there are; answers who claims the name.
+  // Notes whether a server speaks, how many agents there are and who else has the name; answers who
+  // claims it. What servers tell of others counts as if it was heard.
   void Handle(const exchange::Message& message);
 
   // The status to be published from now on; agent, role and instance stay.
@@ -49,11 +52,20 @@ class Presence {
   [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
   // All of these.
   [[nodiscard]] std::set<AgentId> servers() const;
+  // That another running process has the name, which was not found out when it started; empty: none
+  // has. Published with the status, and told in the log.
+  [[nodiscard]] std::string NameTrouble() const;
 
  private:
-  void HandleServer(const AgentId& agent, std::uint64_t instance, bool is_there);
+  // kConflict when somebody else keeps the name.
+  [[nodiscard]] Result<void> See(const exchange::Message& message) const;
   // Who claims this one's name did not hear what it said before: tells whose the name is.
   void AnswerClaim(const exchange::AgentStatus& status);
+  void Hear(const exchange::AgentStatus& status);
+  void Hear(const exchange::AgentGone& gone);
+  void Hear(const exchange::Fleet& fleet);
+  void HearServer(const AgentId& agent, std::uint64_t instance, bool is_there);
+  void TellNameTrouble();
 
   exchange::RouteExchange& exchange_;
   exchange::AgentStatus status_;
@@ -64,10 +76,18 @@ class Presence {
   std::optional<AgentId> server_;                        // one of those
   std::set<std::pair<AgentId, std::uint64_t>> servers_;  // heard and not gone, and their instances
   std::set<AgentId> others_;                             // heard, and not gone since
+  // What each server tells of those who are not heard.
+  struct Told {
+    std::uint32_t agents = 0;
+    std::uint64_t namesake = 0;  // the instance of another process of this name; 0: none
+  };
+  std::map<AgentId, Told> told_;
+  std::uint64_t namesake_ = 0;  // heard
+  std::string name_trouble_;    // as it was told in the log last
 };
 
-// Topics of a role, and the statuses of all agents, overheard where the role does not read them: a
-// process must see whether its name is taken.
+// Topics of a role, and the statuses of all agents, overheard where the role does not read them,
+// and what servers tell of those who are not heard: a process must see whether its name is taken.
 [[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
 
 }  // namespace trailcast::program

@@ -70,9 +70,12 @@ int Run(int argc, char** argv) {
   load->add_option("--duration", ingest.duration_s);
   load->add_option("--route-segments", ingest.segments_a_route);
   bench::LightAgentOptions light;
-  CLI::App* agent = app.add_subcommand("light-agent", "An agent without a robot, until a signal");
+  CLI::App* agent = app.add_subcommand("light-agent", "Agents without robots, until a signal");
   agent->add_option("--name", light.name)->required();
-  agent->add_option("--route", light.route)->required();
+  agent->add_option("--route", light.route);
+  agent->add_option("--discovery", light.discovery);
+  agent->add_option("--count", light.count);
+  agent->add_flag("--follow", light.follow);
   agent->add_option("--network-interface", light.network_interface);
   agent->add_option("--agents", light.agents);
   CLI::App* commits = app.add_subcommand("commits", "Bare SQLite group commits");
@@ -89,7 +92,7 @@ int Run(int argc, char** argv) {
   if (million->parsed()) done = bench::MakeMillion(file);
   if (latency->parsed()) done = bench::MeasureLatency(samples, secured);
   if (load->parsed()) done = bench::MeasureIngest(ingest);
-  if (agent->parsed()) done = bench::RunLightAgent(light);
+  if (agent->parsed()) done = bench::RunLightAgents(light);
   if (commits->parsed()) done = bench::MeasureCommits(file, group);
   if (write->parsed()) done = bench::WriteTransientLocal(samples);
   if (read->parsed()) done = bench::ReadTransientLocal(samples);

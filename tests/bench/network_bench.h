@@ -34,15 +34,19 @@ struct IngestOptions {
 [[nodiscard]] Result<void> MeasureIngest(const IngestOptions& options);
 
 struct LightAgentOptions {
-  std::string name;
-  std::string route;
+  std::string name;   // of the first; others have a number behind
+  std::string route;  // empty: none is fetched
   std::string network_interface = "eth0";
-  std::size_t agents = 100;  // of them, with this one
+  std::string discovery = "auto";
+  std::size_t agents = 100;  // all there are, on all hosts
+  std::size_t count = 1;     // of these in this process, a participant each
+  bool follow = false;       // tells of a place on a route, and listens to its neighbours there
 };
-// Joins, finds the route in the catalog, fetches it, and stays until a signal. Says on stdout when,
-// in seconds since the machine started: joined, heard-all (a status of every other agent and the
-// server), answered, fetched.
-[[nodiscard]] Result<void> RunLightAgent(const LightAgentOptions& options);
+// Each joins, finds the route in the catalog, fetches it, and stays until a signal. Says on stdout
+// when, in seconds since the machine started: joined, met (a server's status), heard-all (a status
+// of every other agent and the server), answered, fetched. At the end, if it follows: how often
+// each was told of its neighbours, and how old what was told was.
+[[nodiscard]] Result<void> RunLightAgents(const LightAgentOptions& options);
 
 // Group commits of pieces by SQLite's own interface, nothing of ours around it.
 [[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);

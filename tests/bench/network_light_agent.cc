@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <deque>
+#include <future>
 #include <optional>
 #include <set>
 #include <utility>
@@ -28,6 +30,11 @@ exchange::AgentStatus Beginning(const std::string& name) {
   return status;
 }
 
+// A route that nobody taught, on which all followers are.
+const route::RouteKey kFollowed{RouteId(std::string(32, 'f')), TeachingId(1)};
+
+double Now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
 class LightAgent {
  public:
   LightAgent(const LightAgentOptions& options, exchange::RouteExchange& exchange)
@@ -40,8 +47,12 @@ class LightAgent {
     Say("joined");
     const auto hear = [this](const exchange::Message& message) { Hear(message); };
     if (auto claimed = presence_.Claim(hear, stop); !claimed) return claimed;
+    if (options_.follow) {
+      if (auto listens = exchange_.Listen(exchange::Topic::kNeighbours, {kFollowed}); !listens)
+        return listens;
+    }
     while (!stop()) {
-      for (const exchange::Message& message : exchange_.Take(std::chrono::milliseconds(20))) {
+      for (const exchange::Message& message : exchange_.Take(std::chrono::milliseconds(100))) {
         presence_.Handle(message);
         Hear(message);
       }
@@ -50,14 +61,21 @@ class LightAgent {
     return {};
   }
 
+  // Of its neighbours: how old what was told of each was, and when it was told.
+  [[nodiscard]] const std::vector<double>& ages_s() const { return ages_s_; }
+  [[nodiscard]] double told_every_s() const {
+    return times_told_ < 2 ? 0.0 : (last_told_s_ - first_told_s_) / (times_told_ - 1);
+  }
+
  private:
   void Say(const char* what) {
-    const std::chrono::duration<double> since_boot = Clock::now().time_since_epoch();
-    fmt::print("{} {:.3f}\n", what, since_boot.count());
+    fmt::print("{} {:.3f}\n", what, Now_s());
     std::fflush(stdout);
   }
   void Hear(const exchange::Message& message) {
     if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+      const bool server = status->role == exchange::AgentRole::kServer;
+      if (server && !std::exchange(met_, true)) Say("met");
       const bool last = others_.insert(status->agent.value()).second && others_.size() == others();
       if (last) Say("heard-all");
     }
@@ -69,9 +87,18 @@ class LightAgent {
                        exchange::Integrity{route::CheckDigest, route::ManifestDigest},
                        Clock::now());
       fetcher_->Learn(info, Clock::now());
-      (void)exchange_.Listen({info.key});  // unheard, it never says "fetched"
+      (void)exchange_.Listen(exchange::Topic::kSegments,
+                             {info.key});  // unheard, it never says "fetched"
     }
     if (fetcher_) fetcher_->Handle(message, Clock::now());
+    if (const auto* told = std::get_if<exchange::RouteFollowers>(&message)) Hear(*told);
+  }
+  void Hear(const exchange::RouteFollowers& told) {
+    last_told_s_ = Now_s();
+    if (times_told_++ == 0) first_told_s_ = last_told_s_;
+    for (const exchange::RouteFollower& one : told.followers) {
+      if (one.agent != self_) ages_s_.push_back(last_told_s_ - one.along_m);
+    }
   }
   void Act(Clock::time_point now) {
     std::vector<exchange::Message> outgoing;
@@ -80,9 +107,9 @@ class LightAgent {
       [[maybe_unused]] const auto arrived = fetcher_->TakeArrived();
       if (fetcher_->Complete() && !std::exchange(fetched_, true)) {
         Say("fetched");
-        (void)exchange_.Listen({});
+        (void)exchange_.Listen(exchange::Topic::kSegments, {});
       }
-    } else if (now >= ask_at_) {
+    } else if (!options_.route.empty() && now >= ask_at_) {
       constexpr std::chrono::seconds kAskAgain{1};
       outgoing.emplace_back(
           exchange::CatalogRequest{.client = self_,
@@ -94,6 +121,8 @@ class LightAgent {
     (void)exchange::PublishAll(exchange_, outgoing);
     exchange::AgentStatus status = presence_.status();
     status.mode = exchange::AgentMode::kWaiting;
+    // One clock for all processes of this machine: how old what is told of it is can be seen.
+    if (options_.follow) status.place = exchange::PlaceOnRoute{kFollowed, Now_s()};
     presence_.Set(std::move(status));
     presence_.Tick(now);
   }
@@ -105,22 +134,60 @@ class LightAgent {
   exchange::RouteExchange& exchange_;
   program::Presence presence_;
   std::set<std::string> others_;
+  bool met_ = false;
   std::optional<exchange::RouteFetcher> fetcher_;
   bool fetched_ = false;
   std::uint64_t asked_ = 0;
   Clock::time_point ask_at_{};
+  std::vector<double> ages_s_;
+  int times_told_ = 0;
+  double first_told_s_ = 0.0;
+  double last_told_s_ = 0.0;
 };
+
+void TellOfNeighbours(const std::vector<LightAgent*>& agents) {
+  std::vector<double> ages_s;
+  std::vector<double> every_s;
+  for (const LightAgent* agent : agents) {
+    ages_s.insert(ages_s.end(), agent->ages_s().begin(), agent->ages_s().end());
+    every_s.push_back(agent->told_every_s());
+  }
+  if (ages_s.empty()) return;
+  fmt::print("neighbours told every {:.2f} s (p99 {:.2f}), age p50 {:.2f} s, p99 {:.2f} s\n",
+             Percentile(every_s, 0.5), Percentile(every_s, 0.99), Percentile(ages_s, 0.5),
+             Percentile(ages_s, 0.99));
+}
 
 }  // namespace
 
-Result<void> RunLightAgent(const LightAgentOptions& options) {
-  program::CommonOptions common;
-  common.name = options.name;
-  common.network_interface = options.network_interface;
+Result<void> RunLightAgents(const LightAgentOptions& options) {
   const program::StopSignal stop;
-  auto exchange = program::OpenExchange(common, program::WithAgents(exchange::FollowerTopics()));
-  if (!exchange) return tl::unexpected(exchange.error());
-  return LightAgent(options, **exchange).Run([] { return program::StopSignal::requested(); });
+  std::deque<LightAgentOptions> each;
+  std::deque<std::unique_ptr<exchange::RouteExchange>> exchanges;
+  std::deque<LightAgent> agents;
+  std::vector<LightAgent*> all;
+  std::vector<std::future<Result<void>>> running;
+  for (std::size_t i = 0; i < options.count; ++i) {
+    LightAgentOptions& own = each.emplace_back(options);
+    if (options.count > 1) own.name += fmt::format("-{}", i);
+    program::CommonOptions common;
+    common.name = own.name;
+    common.network_interface = options.network_interface;
+    common.discovery = options.discovery;
+    auto exchange = program::OpenExchange(common, program::WithAgents(exchange::FollowerTopics()));
+    if (!exchange) return tl::unexpected(exchange.error());
+    exchanges.push_back(*std::move(exchange));
+    all.push_back(&agents.emplace_back(own, *exchanges.back()));
+    running.push_back(std::async(std::launch::async, [agent = all.back()] {
+      return agent->Run([] { return program::StopSignal::requested(); });
+    }));
+  }
+  Result<void> result;
+  for (std::future<Result<void>>& one : running) {
+    if (auto ended = one.get(); !ended) result = ended;
+  }
+  if (options.follow) TellOfNeighbours(all);
+  return result;
 }
 
 }  // namespace trailcast::bench

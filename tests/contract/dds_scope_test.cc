@@ -77,7 +77,8 @@ class EightFollowers {
   double TimesSent(std::size_t listening) {
     for (std::size_t i = 0; i < followers_.size(); ++i) {
       const std::set<route::RouteKey> route{key_};
-      EXPECT_TRUE(followers_[i]->Listen(i < listening ? route : std::set<route::RouteKey>()));
+      EXPECT_TRUE(followers_[i]->Listen(exchange::Topic::kSegments,
+                                        i < listening ? route : std::set<route::RouteKey>()));
     }
     for (std::size_t i = 0; i < listening; ++i) {
       EXPECT_TRUE(HearsAll(

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/exchange/bounds.h"
 #include "tests/contract/network.h"
 #include "tests/support/pieces.h"
 
@@ -25,7 +26,7 @@ class ListeningContract : public testing::TestWithParam<test::NetworkKind> {
   std::unique_ptr<RouteExchange> Open(const TopicUse& use) { return network_->Open(use); }
   Listener Listening(const std::set<RouteKey>& routes) {
     Listener listener{Open(FollowerTopics())};
-    EXPECT_TRUE(listener.exchange->Listen(routes));
+    EXPECT_TRUE(listener.exchange->Listen(Topic::kSegments, routes));
     return listener;
   }
 
@@ -126,13 +127,13 @@ TEST_P(ListeningContract, WhoStopsListeningGetsNoMoreUntilItListensAgain) {
   Listener leaves = Listening({hall_});
   Listener stays = Listening({hall_});
   ASSERT_TRUE(Reaches(hall_, leaves));
-  ASSERT_TRUE(leaves.exchange->Listen({}));
+  ASSERT_TRUE(leaves.exchange->Listen(Topic::kSegments, {}));
   (void)leaves.exchange->Take(std::chrono::milliseconds(0));
   leaves.got.clear();
   ASSERT_TRUE(Reaches(hall_, stays));
   ASSERT_TRUE(TakeTheRest(leaves));
   EXPECT_THAT(leaves.got, IsEmpty());
-  ASSERT_TRUE(leaves.exchange->Listen({hall_}));
+  ASSERT_TRUE(leaves.exchange->Listen(Topic::kSegments, {hall_}));
   EXPECT_TRUE(Reaches(hall_, leaves));
 }
 
@@ -142,6 +143,28 @@ TEST_P(ListeningContract, AHolderThatIsAnotherProcessNowIsHeardAgain) {
   scout_ = Open(ScoutTopics());
   follower.got.clear();
   EXPECT_TRUE(Reaches(hall_, follower));
+}
+
+TEST_P(ListeningContract, NeighboursAreToldToThoseOnTheRoute) {
+  const auto server = Open(ServerTopics());
+  const auto on_it = Open(FollowerTopics());
+  const auto elsewhere = Open(FollowerTopics());
+  const RouteFollowers told{.server = AgentId("s"),
+                            .key = hall_,
+                            .followers = std::vector<RouteFollower>(
+                                kMaxFollowersTold, {AgentId(std::string(64, 'f')), 1e7, -1000.0,
+                                                    false, std::chrono::milliseconds(~0U)})};
+  ASSERT_TRUE(on_it->Listen(Topic::kNeighbours, {hall_}));
+  ASSERT_TRUE(elsewhere->Listen(Topic::kNeighbours, {KeyNumber(77)}));
+  std::vector<Message> got;
+  EXPECT_TRUE(TakeUntil(
+      *on_it, [&](const Message& message) { got.push_back(message); },
+      [&] {
+        (void)server->Publish(told);
+        return !got.empty();
+      }));
+  EXPECT_EQ(got.front(), Message(told));
+  EXPECT_THAT(elsewhere->Take(std::chrono::milliseconds(50)), IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(On, ListeningContract,

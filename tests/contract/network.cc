@@ -58,6 +58,10 @@ Message ProbeFor(Topic topic) {
       return exchange::CatalogReply{.server = kProbe, .client = kProbe};
     case Topic::kRouteEdits:
       return exchange::RouteEditRequest{.client = kProbe};
+    case Topic::kFleet:
+      return exchange::Fleet{.server = kProbe};
+    case Topic::kNeighbours:
+      return exchange::RouteFollowers{.server = kProbe, .key = key};
     case Topic::kAgents:
       break;
   }
@@ -78,6 +82,8 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::CatalogRequest& m) { return m.client; }
     AgentId operator()(const exchange::CatalogReply& m) { return m.server; }
     AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }
+    AgentId operator()(const exchange::Fleet& m) { return m.server; }
+    AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;
@@ -103,7 +109,7 @@ dds::DdsOptions LoopbackOptions(const std::string& tag) {
 exchange::TopicUse EveryTopic() {
   const std::vector<Topic> all = {
       Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
-      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents};
+      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kFleet};
   return {.write = all, .read = all};
 }
 

@@ -165,6 +165,12 @@ TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
   ExpectRoundTrip(AgentStatus{.agent = AgentId("nowhere")}, Topic::kAgents);
 }
 
+TEST_P(RouteExchangeContract, CarriesWhatIsToldOfTheLargestFleet) {
+  exchange::Fleet fleet{.server = AgentId("s"), .agents = ~0U, .claimed = {}};
+  fleet.claimed.assign(exchange::kMaxClaimedNames, {AgentId(std::string(64, 'n')), ~0ULL, 1});
+  ExpectRoundTrip(fleet, Topic::kFleet);
+}
+
 TEST_P(RouteExchangeContract, CarriesAnEditOfExtremes) {
   const route::RouteEdit edit{.action = route::EditAction::kDelete,
                               .route = std::string(64, 'x'),
@@ -185,7 +191,7 @@ TEST_P(RouteExchangeContract, DeliversFiveHundredSegmentsToTwoReadersInOrder) {
   const auto scout = Open(ScoutTopics());
   const auto server = Open(ServerTopics());
   const auto follower = Open(FollowerTopics());
-  ASSERT_TRUE(follower->Listen({KeyNumber(1), test::ProbeRoute()}));
+  ASSERT_TRUE(follower->Listen(Topic::kSegments, {KeyNumber(1), test::ProbeRoute()}));
   ASSERT_TRUE(Connect(*scout, Topic::kSegments, {server.get(), follower.get()}));
   const auto sent = test::PiecesOf(KeyNumber(1), 500, 4096);
   ASSERT_TRUE(scout->Publish(SegmentBatch{AgentId("scout-1"), sent}));

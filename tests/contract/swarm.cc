@@ -66,7 +66,8 @@ void Swarm::StartServer() {
 Swarm::Follower& Swarm::AddFollower() {
   auto follower = std::make_unique<Follower>();
   follower->exchange = Open(exchange::FollowerTopics());
-  if (!follower->exchange->Listen({key_})) throw std::runtime_error("cannot listen");
+  if (!follower->exchange->Listen(exchange::Topic::kSegments, {key_}))
+    throw std::runtime_error("cannot listen");
   const AgentId name(fmt::format("follower-{}", followers_.size() + 1));
   follower->fetcher = std::make_unique<exchange::RouteFetcher>(
       name, key_, std::vector<exchange::RouteFetcher::Held>(), ToyIntegrity(), now_);
@@ -103,7 +104,7 @@ void Swarm::Step() {
   }
   if (keeper_) Turn(*keeper_, *server_, now_, wait_);
   if (lender_) {
-    if (!lenders_exchange_->Listen(lender_->ListensTo(now_))) {
+    if (!lenders_exchange_->Listen(exchange::Topic::kSegments, lender_->ListensTo(now_))) {
       throw std::runtime_error("cannot listen");
     }
     Turn(*lender_, *lenders_exchange_, now_, wait_);

@@ -134,6 +134,30 @@ class Samples {
     Fill(wire.on);
     wire.along_m = Real();
   }
+  void Fill(trailcast_wire_Fleet& wire) {
+    wire.server = Name();
+    wire.agents = Number();
+    wire.claimed._length = Count();
+    wire.claimed._buffer = Many<trailcast_wire_ClaimedName>(claimed_, wire.claimed._length);
+  }
+  void Fill(trailcast_wire_ClaimedName& wire) {
+    wire.agent = Name();
+    wire.claims = input_.ConsumeIntegral<std::uint64_t>();
+    wire.keeps = input_.ConsumeIntegral<std::uint64_t>();
+  }
+  void Fill(trailcast_wire_RouteFollowers& wire) {
+    wire.server = Name();
+    Fill(wire.key);
+    wire.followers._length = Count();
+    wire.followers._buffer = Many<trailcast_wire_RouteFollower>(followers_, wire.followers._length);
+  }
+  void Fill(trailcast_wire_RouteFollower& wire) {
+    wire.agent = Name();
+    wire.along_m = Real();
+    wire.speed_mps = Real();
+    wire.heard = Octet();
+    wire.age_ms = Number();
+  }
 
  private:
   void Fill(trailcast_wire_RouteKey& wire) {
@@ -232,6 +256,8 @@ class Samples {
   std::deque<std::vector<trailcast_wire_NamedSegment>> named_;
   std::deque<std::vector<trailcast_wire_RouteKey>> keys_;
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
+  std::deque<std::vector<trailcast_wire_ClaimedName>> claimed_;
+  std::deque<std::vector<trailcast_wire_RouteFollower>> followers_;
 };
 
 // A query is judged when it is answered; one with no number in it equals nothing, itself included.
@@ -272,7 +298,7 @@ void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   FuzzedDataProvider input(data, size);
-  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 7))) {
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 9))) {
     case Topic::kRoutes:
       FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
       break;
@@ -296,6 +322,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kRouteEdits:
       FillAndTakeIn<trailcast_wire_RouteEditRequest>(topic, input);
+      break;
+    case Topic::kFleet:
+      FillAndTakeIn<trailcast_wire_Fleet>(topic, input);
+      break;
+    case Topic::kNeighbours:
+      FillAndTakeIn<trailcast_wire_RouteFollowers>(topic, input);
       break;
   }
   return 0;

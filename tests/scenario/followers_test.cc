@@ -80,16 +80,21 @@ TEST_F(FollowersTest, KilledAndCarriedAwayAFollowerSaysWhyItCannotGoOn) {
   EXPECT_THAT(again->output(), HasSubstr("not where it was left"));
 }
 
-TEST_F(FollowersTest, TheSecondStopsBehindTheFirstThatHangsAndBothGoOnAfter) {
+// Without a server, and by what it tells them.
+class FollowersTogether : public FollowersTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(FollowersTogether, TheSecondStopsBehindTheFirstThatHangsAndBothGoOnAfter) {
   Teach("first.db");
+  const Words way{"--server", "--discovery", GetParam()};
+  const auto server = GetParam() == std::string("star") ? Server() : nullptr;
   std::filesystem::copy_file(Path("first.db"), Path("second.db"));
   Observer observer(tag_);
   // In real time: in lockstep the first is at the route's end before the others have found it
   // again.
   const auto first_robot = Robot("robot1", {});
   const auto second_robot = Robot("robot2", {"--seed", "2"});
-  const auto first = Follow("robot1", "first.db", {"--server", "--name", "first"}, "first");
-  const auto second = Follow("robot2", "second.db", {"--server", "--name", "second"}, "second");
+  const auto first = Follow("robot1", "first.db", With(way, {"--name", "first"}), "first");
+  const auto second = Follow("robot2", "second.db", With(way, {"--name", "second"}), "second");
   // Whoever comes first: the other one waits for it.
   AgentId ahead;
   ASSERT_TRUE(observer.See([&](const AgentStatus& status) {
@@ -112,6 +117,9 @@ TEST_F(FollowersTest, TheSecondStopsBehindTheFirstThatHangsAndBothGoOnAfter) {
   EXPECT_EQ(End(*first).status, 0) << first->output();
   EXPECT_EQ(End(*second).status, 0) << second->output();
 }
+
+INSTANTIATE_TEST_SUITE_P(Ways, FollowersTogether, testing::Values("mesh", "star"),
+                         [](const auto& way) { return std::string(way.param); });
 
 }  // namespace
 }  // namespace trailcast::test

@@ -136,7 +136,7 @@ TEST_F(StoreAndForward, DeliversWhatWasTaughtOutOfRangeFromStartToEnd) {
   StartServer();
   lab_->Cut(kRobot);
   const auto scout = RobotAt(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"),
-                                  {"--server", "--delivery-timeout", "60"}));
+                                  {"--server", "--delivery-timeout", "60", "--discovery", "star"}));
   ASSERT_TRUE(scout->WaitForOutput("waiting for a server's receipts")) << scout->output();
   ASSERT_TRUE(scout->WaitForOutput("no server heard yet")) << scout->output();
   lab_->Join(kRobot);

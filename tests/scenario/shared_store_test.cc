@@ -49,7 +49,7 @@ class KillFollower {
     options.network_interface = "lo";
     options.self = AgentId(fmt::format("follower-{}", route_));
     const auto exchange = dds::OpenDdsExchange(options, exchange::FollowerTopics());
-    if (!exchange || !(*exchange)->Listen({KeyNumber(route_)})) return;
+    if (!exchange || !(*exchange)->Listen(exchange::Topic::kSegments, {KeyNumber(route_)})) return;
     exchange::RouteFetcher fetcher(options.self, KeyNumber(route_), {},
                                    {route::CheckDigest, route::ManifestDigest}, Clock::now());
     while (!give_up_ && !complete_) {

@@ -118,10 +118,10 @@ TEST_F(SharingTest, LogsAreObjectsForProgramsOnRequest) {
 
 TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
   const auto walk = Walk("walk", 2);
-  const auto first =
-      Agent(With(ReplayWords(walk, "a.db"), {"--server", "--name", "robot"}), "first");
+  const Words robot{"--server", "--name", "robot", "--discovery", "mesh"};
+  const auto first = Agent(With(ReplayWords(walk, "a.db"), robot), "first");
   ASSERT_TRUE(first->WaitForOutput("asking for route")) << first->output();
-  const auto second = RunAgent(With(ReplayWords(walk, "b.db"), {"--server", "--name", "robot"}));
+  const auto second = RunAgent(With(ReplayWords(walk, "b.db"), robot));
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.output, AllOf(HasSubstr("agent name 'robot' is already used"),
                                    HasSubstr("choose another with --name")));
@@ -131,6 +131,32 @@ TEST_F(SharingTest, ASecondProcessOfANameIsRefused) {
   const auto other = Start("trailcast-server", {"--store", Path("other.db")}, "other");
   EXPECT_EQ(End(*other).status, 1);
   EXPECT_THAT(other->output(), HasSubstr("name 'server' is already used"));
+}
+
+TEST_F(SharingTest, AServerTellsWhoseANameIs) {
+  const auto server = Server();
+  const auto walk = Walk("walk", 2);
+  const Words robot{"--server", "--wait-for-route", "--name", "robot", "--discovery", "star"};
+  const auto first = Agent(With(ReplayWords(walk, "a.db"), robot), "first");
+  ASSERT_TRUE(server->WaitForOutput("'robot' asks")) << first->output();
+  const auto second = RunAgent(With(ReplayWords(walk, "b.db"), robot));
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.output, HasSubstr("agent name 'robot' is already used"));
+  EXPECT_FALSE(first->Ended()) << first->output();
+}
+
+TEST_F(SharingTest, ANameThatTwoHaveIsToldWhenItIsNoticed) {
+  const auto walk = Walk("walk", 2);
+  const Words robot{"--server", "--wait-for-route", "--name", "robot", "--discovery", "star"};
+  const auto first = Agent(With(ReplayWords(walk, "a.db"), robot), "first");
+  const auto second = Agent(With(ReplayWords(walk, "b.db"), robot), "second");
+  ASSERT_TRUE(first->WaitForOutput("asking for route")) << first->output();
+  ASSERT_TRUE(second->WaitForOutput("asking for route")) << second->output();
+  const auto server = Server();
+  EXPECT_TRUE(server->WaitForOutput("two processes are called 'robot'")) << server->output();
+  for (Process* each : {first.get(), second.get()}) {
+    EXPECT_TRUE(each->WaitForOutput("another running process is called 'robot'")) << each->output();
+  }
 }
 
 TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {

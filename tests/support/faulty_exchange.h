@@ -32,8 +32,9 @@ class FaultyExchange : public RouteExchange {
 
   [[nodiscard]] Result<void> Publish(const Message& message) override;
   [[nodiscard]] std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
-  [[nodiscard]] Result<void> Listen(const std::set<route::RouteKey>& routes) override {
-    return inner_->Listen(routes);
+  [[nodiscard]] Result<void> Listen(exchange::Topic topic,
+                                    const std::set<route::RouteKey>& routes) override {
+    return inner_->Listen(topic, routes);
   }
   [[nodiscard]] std::uint64_t dropped() const override { return inner_->dropped(); }
 

@@ -164,7 +164,12 @@ Result<void> FollowerLink::Listen(Time now) {
   std::set<route::RouteKey> routes = spare_.ListensTo(now);
   const bool fetches = fetcher_ && !fetcher_->Complete() && !fetcher_->deleted();
   if (fetches) routes.insert(route_->key);
-  return exchange_->Listen(routes);
+  if (auto listening = exchange_->Listen(exchange::Topic::kSegments, routes); !listening) {
+    return listening;
+  }
+  std::set<route::RouteKey> follows;
+  if (route_) follows.insert(route_->key);
+  return exchange_->Listen(exchange::Topic::kNeighbours, follows);
 }
 
 void FollowerLink::Say(steady_clock::time_point now) {

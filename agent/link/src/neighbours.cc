@@ -11,10 +11,36 @@ void Neighbours::Handle(const exchange::Message& message, Time now) {
       Handle(*status, now);
     }
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    const auto known = known_.find(gone->agent);
-    if (known != known_.end() && known->second.instance == gone->instance) {
-      known->second.neighbour.heard = false;
-    }
+    Handle(*gone);
+  } else if (const auto* told = std::get_if<exchange::RouteFollowers>(&message)) {
+    Handle(*told, now);
+  }
+}
+
+void Neighbours::Handle(const exchange::AgentGone& gone) {
+  for (auto& [agent, known] : known_) {
+    const bool itself = agent == gone.agent && known.instance == gone.instance;
+    if (itself || known.told_by == gone.agent) known.neighbour.heard = false;
+  }
+}
+
+// The later word counts, whoever has it.
+void Neighbours::Handle(const exchange::RouteFollowers& told, Time now) {
+  std::erase_if(known_, [&](const auto& entry) {  // those that have arrived, or left the route
+    const auto& [agent, known] = entry;
+    return known.told_by == told.server && known.route == told.key &&
+           std::none_of(told.followers.begin(), told.followers.end(),
+                        [&](const auto& one) { return one.agent == agent; });
+  });
+  for (const exchange::RouteFollower& one : told.followers) {
+    const Time told_at = now - one.age;
+    const auto known = known_.find(one.agent);
+    const bool older = known != known_.end() && known->second.told_by != told.server &&
+                       told_at <= known->second.neighbour.told_at;
+    if (one.agent == self_ || older) continue;
+    if (known_.size() >= kMost && known == known_.end()) MakeRoom();
+    known_[one.agent] = {
+        0, told.key, {one.agent, one.along_m, one.speed_mps, told_at, one.heard}, told.server};
   }
 }
 
@@ -26,7 +52,8 @@ void Neighbours::Handle(const exchange::AgentStatus& status, Time now) {
     known_[status.agent] = {
         status.instance,
         status.place->key,
-        {status.agent, status.place->along_m, status.speed_mps, now, /*heard=*/true}};
+        {status.agent, status.place->along_m, status.speed_mps, now, /*heard=*/true},
+        std::nullopt};
   }
 }
 
@@ -49,7 +76,9 @@ std::vector<Neighbour> Neighbours::Forget(Time now) {
   std::vector<Neighbour> forgotten;
   for (auto known = known_.begin(); known != known_.end();) {
     const Neighbour& neighbour = known->second.neighbour;
-    if (!neighbour.heard && now - neighbour.told_at > kRemembered) {
+    // A server that tells of a route tells of all on it.
+    const bool silent = !neighbour.heard || known->second.told_by;
+    if (silent && now - neighbour.told_at > kRemembered) {
       forgotten.push_back(neighbour);
       known = known_.erase(known);
     } else {

@@ -58,13 +58,13 @@ class DdsExchange : public exchange::RouteExchange {
 
   Result<void> Publish(const Message& message) override;
   std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
-  Result<void> Listen(const std::set<route::RouteKey>& routes) override;
+  Result<void> Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) override;
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
 
  private:
   Result<void> Write(exchange::Topic topic, const Message& message);
   Result<void> OpenForSegmentsOf(const route::RouteKey& route);
-  Result<void> OpenScopes();
+  Result<void> OpenScopes(exchange::Topic topic);
   void TakeFrom(const Place& place, Reader& reader, std::vector<Message>& messages);
   // Leaves what is of the routes that are listened to; false if nothing is.
   [[nodiscard]] bool KeepListenedTo(const Place& place, Message& message) const;
@@ -87,7 +87,7 @@ class DdsExchange : public exchange::RouteExchange {
   DdsOptions options_;
   exchange::TopicUse use_;
   std::optional<Joined> joined_;
-  std::set<route::RouteKey> listening_;
+  std::map<exchange::Topic, std::set<route::RouteKey>> listening_;
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
 
@@ -115,25 +115,30 @@ Result<void> DdsExchange::Join() {
         "another program has a route server's ports of this domain: robots that are told this "
         "machine's address do not find this server; those with multicast do");
   }
-  return OpenScopes();
+  for (const exchange::Topic topic : use_.listen) {
+    if (auto opened = OpenScopes(topic); !opened) return opened;
+  }
+  return {};
 }
 
-Result<void> DdsExchange::Listen(const std::set<route::RouteKey>& routes) {
-  if (routes == listening_) return {};
-  listening_ = routes;
-  auto opened = OpenScopes();
-  if (!opened) listening_.clear();  // to be tried again
+Result<void> DdsExchange::Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) {
+  if (!use_.Listens(topic)) {
+    return Fail(ErrorCode::kInvalidArgument, "{} was not opened for listening",
+                exchange::NameOf(topic));
+  }
+  std::set<route::RouteKey>& listening = listening_[topic];
+  if (routes == listening) return {};
+  listening = routes;
+  auto opened = OpenScopes(topic);
+  if (!opened) listening.clear();  // to be tried again
   return opened;
 }
 
-Result<void> DdsExchange::OpenScopes() {
-  if (!joined_) return {};
+Result<void> DdsExchange::OpenScopes(exchange::Topic topic) {
+  if (!joined_ || !MayUse(options_, topic)) return {};
   std::set<std::string> scopes;
-  for (const route::RouteKey& route : listening_) scopes.insert(ScopeOf(route));
-  for (const exchange::Topic topic : use_.listen) {
-    if (auto opened = joined_->Listen(topic, scopes, options_); !opened) return opened;
-  }
-  return {};
+  for (const route::RouteKey& route : listening_[topic]) scopes.insert(ScopeOf(route));
+  return joined_->Listen(topic, scopes, options_);
 }
 
 // Who ends while this exchange joins anew would never be told gone: all are, until heard again.
@@ -152,6 +157,10 @@ Result<void> DdsExchange::Publish(const Message& message) {
   }
   if (auto ok = exchange::CheckBounds(message); !ok) return ok;
   if (!joined_) return Fail(ErrorCode::kUnavailable, "the keys cannot be used at present");
+  if (!MayUse(options_, *topic)) {
+    return Fail(ErrorCode::kUnavailable, "the keys are of before there was {}: renew them",
+                exchange::NameOf(*topic));
+  }
   if (const auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
     for (exchange::SegmentBatch& part : exchange::SplitBatch(*batch)) {
       if (auto ok = Write(*topic, std::move(part)); !ok) return ok;
@@ -208,10 +217,11 @@ std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
 
 // Scopes are shared, and who writes for everybody may have mixed routes in a batch.
 bool DdsExchange::KeepListenedTo(const Place& place, Message& message) const {
+  if (place.scope == kEverybody) return true;
+  const std::set<route::RouteKey>& listening = listening_.at(place.topic);
   auto* batch = std::get_if<exchange::SegmentBatch>(&message);
-  if (batch == nullptr || place.scope == kEverybody) return true;
-  std::erase_if(batch->pieces,
-                [this](const auto& piece) { return !listening_.contains(piece.key); });
+  if (batch == nullptr) return listening.contains(*exchange::RouteOf(message));
+  std::erase_if(batch->pieces, [&](const auto& piece) { return !listening.contains(piece.key); });
   return !batch->pieces.empty();
 }
 

@@ -77,12 +77,13 @@ Result<void> Read(Joined& joined, const Place& place, const Qos& qos) {
 
 Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchange::TopicUse& use) {
   for (const exchange::Topic topic : use.write) {
-    if (exchange::IsOfRoutes(topic)) continue;
+    if (exchange::IsOfRoutes(topic) || !MayUse(options, topic)) continue;
     if (auto writer = joined.WriterIn({topic}, options); !writer) {
       return tl::unexpected(writer.error());
     }
   }
   for (const exchange::Topic topic : use.read) {
+    if (!MayUse(options, topic)) continue;
     const Qos qos = MakeQos(QosOf(topic), ReadersPartitions(options, topic));
     if (auto read = Read(joined, {topic}, qos); !read) return read;
   }

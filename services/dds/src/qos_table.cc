@@ -27,6 +27,8 @@ constexpr std::array kTable = {
     TopicQos{T::kCatalogReplies,  false,    16,        kForever},
     TopicQos{T::kAgents,          true,     1,         kAgentLease},
     TopicQos{T::kRouteEdits,      false,    16,        kForever},
+    TopicQos{T::kFleet,           true,     1,         kForever},
+    TopicQos{T::kNeighbours,      false,    1,         kForever, /*best_effort=*/true},
 };
 // clang-format on
 
@@ -45,7 +47,8 @@ const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::si
 Qos MakeQos(const TopicQos& row, const std::vector<std::string>& partitions) {
   const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
   Qos qos = MakeQos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_reliability(qos.get(),
+                       row.best_effort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE, 0);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, row.keep_last);
   if (row.transient_local) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);

@@ -9,13 +9,13 @@
 
 namespace trailcast::dds {
 
-// The QoS of each topic, for its writers and its readers alike. All are reliable, but for those who
-// overhear it.
+// The QoS of each topic, for its writers and its readers alike. But for who overhears it.
 struct TopicQos {
   exchange::Topic topic;
   bool transient_local;                  // late joiners get the latest sample per key
   int keep_last;                         // samples per key; nobody waits for slow readers
   std::chrono::milliseconds liveliness;  // a silent writer's samples are over after this; 0: never
+  bool best_effort = false;              // soon said again
 };
 
 [[nodiscard]] const TopicQos& QosOf(exchange::Topic topic);

@@ -11,6 +11,11 @@ std::string ScopeOf(const route::RouteKey& route) {
   return fmt::format("{:02x}", route.teaching.value() % kScopes);
 }
 
+bool MayUse(const DdsOptions& self, exchange::Topic topic) {
+  const bool new_topic = topic == exchange::Topic::kFleet || topic == exchange::Topic::kNeighbours;
+  return !self.keys || self.keys->scoped || !new_topic;
+}
+
 std::string WritersPartition(const DdsOptions& self, const std::string& scope) {
   if (!self.keys) return scope;
   const std::string own = security::PartitionOf(self.keys->member);

@@ -20,6 +20,9 @@ inline constexpr const char* kEverybody = "";  // no scope
 // "00" to "1f".
 [[nodiscard]] std::string ScopeOf(const route::RouteKey& route);
 
+// Keys of before there were scopes allow neither those nor the topics that came with them.
+[[nodiscard]] bool MayUse(const DdsOptions& self, exchange::Topic topic);
+
 // In which partition `self` writes in a scope. With keys of before there were scopes, which allow
 // none: for everybody.
 [[nodiscard]] std::string WritersPartition(const DdsOptions& self, const std::string& scope);

@@ -19,7 +19,7 @@ class StarOrMesh {
   // Without a server so long after joining, a mesh. Longer where anybody at all has answered: that
   // is a server which is busy with a large fleet, or who is in a mesh and hears all others anyway.
   static constexpr std::chrono::seconds kLooks{3};
-  static constexpr std::chrono::seconds kLooksLonger{15};
+  static constexpr std::chrono::seconds kLooksLonger{10};
   // Once there is a server, back to the star between these, so that not all go at once.
   static constexpr std::chrono::milliseconds kReturnsFrom{1'000};
   static constexpr std::chrono::milliseconds kReturnsUntil{5'000};

@@ -215,6 +215,26 @@ Message From(const trailcast_wire_RouteEditRequest& wire) {
                                    .tags = Texts(wire.tags)}};
 }
 
+Message From(const trailcast_wire_Fleet& wire) {
+  Fleet fleet{.server = AgentId(Text(wire.server)), .agents = wire.agents, .claimed = {}};
+  for (const trailcast_wire_ClaimedName& claimed : Elements(wire.claimed)) {
+    fleet.claimed.push_back({AgentId(Text(claimed.agent)), claimed.claims, claimed.keeps});
+  }
+  return fleet;
+}
+
+Message From(const trailcast_wire_RouteFollowers& wire) {
+  RouteFollowers all{.server = AgentId(Text(wire.server)), .key = From(wire.key), .followers = {}};
+  for (const trailcast_wire_RouteFollower& follower : Elements(wire.followers)) {
+    all.followers.push_back({.agent = AgentId(Text(follower.agent)),
+                             .along_m = follower.along_m,
+                             .speed_mps = follower.speed_mps,
+                             .heard = follower.heard != 0,
+                             .age = std::chrono::milliseconds(follower.age_ms)});
+  }
+  return all;
+}
+
 Message Copy(Topic topic, const void* sample) {
   switch (topic) {
     case Topic::kRoutes:
@@ -231,6 +251,10 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_CatalogReply*>(sample));
     case Topic::kRouteEdits:
       return From(*static_cast<const trailcast_wire_RouteEditRequest*>(sample));
+    case Topic::kFleet:
+      return From(*static_cast<const trailcast_wire_Fleet*>(sample));
+    case Topic::kNeighbours:
+      return From(*static_cast<const trailcast_wire_RouteFollowers*>(sample));
     case Topic::kAgents:
       break;
   }

@@ -247,6 +247,35 @@ Result<void> With(const RouteEditRequest& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const Fleet& message, const UseSample& use) {
+  std::vector<trailcast_wire_ClaimedName> claimed;
+  for (const ClaimedName& name : message.claimed) {
+    claimed.push_back({Lend(name.agent.value()), name.claims, name.keeps});
+  }
+  trailcast_wire_Fleet sample{};
+  sample.server = Lend(message.server.value());
+  sample.agents = message.agents;
+  Lend(claimed, sample.claimed);
+  return use(&sample);
+}
+
+Result<void> With(const RouteFollowers& message, const UseSample& use) {
+  std::vector<trailcast_wire_RouteFollower> followers;
+  followers.reserve(message.followers.size());
+  for (const RouteFollower& one : message.followers) {
+    followers.push_back({.agent = Lend(one.agent.value()),
+                         .along_m = one.along_m,
+                         .speed_mps = one.speed_mps,
+                         .heard = static_cast<std::uint8_t>(one.heard ? 1 : 0),
+                         .age_ms = static_cast<std::uint32_t>(one.age.count())});
+  }
+  trailcast_wire_RouteFollowers sample{};
+  sample.server = Lend(message.server.value());
+  sample.key = ToWire(message.key);
+  Lend(followers, sample.followers);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -255,11 +284,16 @@ Result<void> With(const AgentGone& message, const UseSample&) {
 }  // namespace
 
 const dds_topic_descriptor_t& TypeOf(Topic topic) {
-  static constexpr const dds_topic_descriptor_t* kTypes[] = {
-      &trailcast_wire_RouteAnnouncement_desc, &trailcast_wire_SegmentBatch_desc,
-      &trailcast_wire_SegmentRequest_desc,    &trailcast_wire_Receipt_desc,
-      &trailcast_wire_CatalogRequest_desc,    &trailcast_wire_CatalogReply_desc,
-      &trailcast_wire_AgentStatus_desc,       &trailcast_wire_RouteEditRequest_desc};
+  static constexpr const dds_topic_descriptor_t* kTypes[] = {&trailcast_wire_RouteAnnouncement_desc,
+                                                             &trailcast_wire_SegmentBatch_desc,
+                                                             &trailcast_wire_SegmentRequest_desc,
+                                                             &trailcast_wire_Receipt_desc,
+                                                             &trailcast_wire_CatalogRequest_desc,
+                                                             &trailcast_wire_CatalogReply_desc,
+                                                             &trailcast_wire_AgentStatus_desc,
+                                                             &trailcast_wire_RouteEditRequest_desc,
+                                                             &trailcast_wire_Fleet_desc,
+                                                             &trailcast_wire_RouteFollowers_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -135,8 +135,12 @@ Result<void> Check(const CatalogReply& message) {
   return CheckText("error", message.error, kMaxLineBytes);
 }
 
-Result<void> Check(const AgentStatus& message) {
+Result<void> CheckSpeed(double speed_mps) {
   constexpr double kMaxSpeed_mps = 1000.0;
+  return CheckAmount("speed, forward or backward", std::abs(speed_mps), kMaxSpeed_mps);
+}
+
+Result<void> Check(const AgentStatus& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (!message.route.empty()) {
     if (auto ok = CheckName("route name", message.route); !ok) return ok;
@@ -153,11 +157,7 @@ Result<void> Check(const AgentStatus& message) {
   }
   if (auto ok = CheckAmount("progress", message.progress, 1.0); !ok) return ok;
   if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
-  if (auto ok =
-          CheckAmount("speed, forward or backward", std::abs(message.speed_mps), kMaxSpeed_mps);
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckSpeed(message.speed_mps); !ok) return ok;
   if (auto ok = CheckCount("revisions held", message.held.size(), kMaxHeldTold); !ok) return ok;
   for (const RouteKey& key : message.held) {
     if (auto ok = CheckKey(key); !ok) return ok;
@@ -168,6 +168,33 @@ Result<void> Check(const AgentStatus& message) {
       return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
+Result<void> Check(const Fleet& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckCount("claimed names", message.claimed.size(), kMaxClaimedNames); !ok) {
+    return ok;
+  }
+  for (const ClaimedName& claimed : message.claimed) {
+    if (auto ok = CheckName("claimed name", claimed.agent.value()); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> Check(const RouteFollowers& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckKey(message.key); !ok) return ok;
+  if (auto ok = CheckCount("followers", message.followers.size(), kMaxFollowersTold); !ok) {
+    return ok;
+  }
+  for (const RouteFollower& follower : message.followers) {
+    if (auto ok = CheckName("follower", follower.agent.value()); !ok) return ok;
+    if (auto ok = CheckAmount("metres along the route", follower.along_m, kMaxLength_m); !ok) {
+      return ok;
+    }
+    if (auto ok = CheckSpeed(follower.speed_mps); !ok) return ok;
+  }
+  return {};
 }
 
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }

@@ -46,7 +46,7 @@ class Inbox {
     std::string instance;
     Message message;
   };
-  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kRouteEdits) + 1;
+  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kNeighbours) + 1;
   std::array<std::deque<Entry>, kTopics> queues_;
 };
 
@@ -54,11 +54,11 @@ struct Member {
   [[nodiscard]] bool Hears(Topic topic, const Message& message) const {
     if (use.Hears(topic)) return true;
     const route::RouteKey* route = RouteOf(message);
-    return use.Listens(topic) && route != nullptr && listening.contains(*route);
+    return use.Listens(topic) && route != nullptr && listening.contains({topic, *route});
   }
 
   TopicUse use;
-  std::set<route::RouteKey> listening;
+  std::set<std::pair<Topic, route::RouteKey>> listening;
   Inbox inbox;
   std::map<std::string, Message>
       latest;  // what it published on transient-local topics, by instance
@@ -143,9 +143,10 @@ class InProcessExchange : public RouteExchange {
     return self_.inbox.TakeAll();
   }
 
-  Result<void> Listen(const std::set<route::RouteKey>& routes) override {
+  Result<void> Listen(Topic topic, const std::set<route::RouteKey>& routes) override {
     const std::scoped_lock lock(bus_->mutex);
-    self_.listening = routes;
+    std::erase_if(self_.listening, [&](const auto& each) { return each.first == topic; });
+    for (const route::RouteKey& route : routes) self_.listening.emplace(topic, route);
     return {};
   }
 

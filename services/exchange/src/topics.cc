@@ -33,15 +33,15 @@ TopicUse FollowerTopics() {
           // What it may lend (SpareHolder) is asked for more than once.
           .overhear = {Topic::kSegmentRequests},
           .write_rarely = {Topic::kSegments},
-          .listen = {Topic::kSegments}};
+          .listen = {Topic::kSegments, Topic::kNeighbours}};
 }
 
 TopicUse ServerTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
-                    Topic::kCatalogReplies, Topic::kAgents},
+                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet},
           .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
                    Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits},
-          .write_rarely = {Topic::kSegments}};
+          .write_rarely = {Topic::kSegments, Topic::kNeighbours}};
 }
 
 TopicUse OperatorTopics() {
@@ -59,14 +59,16 @@ std::optional<Topic> TopicOf(const Message& message) {
   // In the order of the variant; AgentGone, the last, is not a topic.
   static constexpr Topic kTopics[] = {
       Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
-      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kRouteEdits};
+      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kRouteEdits,
+      Topic::kFleet,           Topic::kNeighbours};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
 }
 
-bool IsOfRoutes(Topic topic) { return topic == Topic::kSegments; }
+bool IsOfRoutes(Topic topic) { return topic == Topic::kSegments || topic == Topic::kNeighbours; }
 
 const route::RouteKey* RouteOf(const Message& message) {
+  if (const auto* followers = std::get_if<RouteFollowers>(&message)) return &followers->key;
   const auto* batch = std::get_if<SegmentBatch>(&message);
   return batch == nullptr || batch->pieces.empty() ? nullptr : &batch->pieces.front().key;
 }
@@ -89,6 +91,10 @@ const char* NameOf(Topic topic) {
       return "trailcast/agents";
     case Topic::kRouteEdits:
       return "trailcast/route_edits";
+    case Topic::kFleet:
+      return "trailcast/fleet";
+    case Topic::kNeighbours:
+      return "trailcast/neighbours";
   }
   return "unknown topic";
 }
@@ -106,6 +112,7 @@ std::string InstanceOf(const Message& message) {
   if (const auto* status = std::get_if<AgentStatus>(&message)) {
     return "agents/" + status->agent.value() + "/" + std::to_string(status->instance);
   }
+  if (const auto* fleet = std::get_if<Fleet>(&message)) return "fleet/" + fleet->server.value();
   return "";
 }
 

@@ -45,8 +45,8 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
     Beat();
     return exchange_->Take(max_wait);
   }
-  Result<void> Listen(const std::set<route::RouteKey>& routes) override {
-    return exchange_->Listen(routes);
+  Result<void> Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) override {
+    return exchange_->Listen(topic, routes);
   }
   [[nodiscard]] std::uint64_t dropped() const override { return exchange_->dropped(); }
 

@@ -10,10 +10,19 @@ Result<void> NameClaim::See(const exchange::AgentStatus& status) const {
   const bool ended = status.mode == AgentMode::kStopped;
   const bool yields = status.mode == AgentMode::kStarting && status.instance > instance_;
   if (ended || yields) return {};
+  return Refuse(status.instance);
+}
+
+Result<void> NameClaim::See(const exchange::ClaimedName& claimed) const {
+  const bool others = claimed.keeps != 0 && claimed.keeps != instance_;
+  return claimed.agent == agent_ && others ? Refuse(claimed.keeps) : Result<void>();
+}
+
+Result<void> NameClaim::Refuse(std::uint64_t other) const {
   return Fail(ErrorCode::kConflict,
               "agent name '{}' is already used by another running agent (instance {:016x}): choose "
               "another with --name",
-              agent_.value(), status.instance);
+              agent_.value(), other);
 }
 
 std::uint64_t MakeInstance() {

@@ -1,5 +1,8 @@
 #include "services/program/presence.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -31,28 +34,55 @@ Result<void> Presence::Claim(const Handler& handle, const std::function<bool()>&
     for (const exchange::Message& message : exchange_.Take(std::chrono::milliseconds(50))) {
       Handle(message);
       handle(message);
-      const auto* status = std::get_if<exchange::AgentStatus>(&message);
-      if (status == nullptr) continue;
-      if (auto seen = claim_.See(*status); !seen) return seen;
+      if (auto seen = See(message); !seen) return seen;
     }
     Tick(Clock::now());
   }
   return {};
 }
 
+Result<void> Presence::See(const exchange::Message& message) const {
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) return claim_.See(*status);
+  const auto* fleet = std::get_if<exchange::Fleet>(&message);
+  if (fleet == nullptr) return {};
+  for (const exchange::ClaimedName& claimed : fleet->claimed) {
+    if (auto seen = claim_.See(claimed); !seen) return seen;
+  }
+  return {};
+}
+
 void Presence::Handle(const exchange::Message& message) {
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    others_.erase(gone->agent);
-    HandleServer(gone->agent, gone->instance, false);
+    Hear(*gone);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
-    if (others_.size() < kMostAgents) others_.insert(status->agent);
-    AnswerClaim(*status);
-    if (status->role != exchange::AgentRole::kServer) return;
-    HandleServer(status->agent, status->instance, status->mode != exchange::AgentMode::kStopped);
+    Hear(*status);
+  } else if (const auto* fleet = std::get_if<exchange::Fleet>(&message)) {
+    Hear(*fleet);
   }
 }
 
-void Presence::HandleServer(const AgentId& agent, std::uint64_t instance, bool is_there) {
+void Presence::Hear(const exchange::AgentGone& gone) {
+  others_.erase(gone.agent);
+  told_.erase(gone.agent);
+  HearServer(gone.agent, gone.instance, false);
+  if (gone.agent == status_.agent && gone.instance == namesake_) namesake_ = 0;
+}
+
+void Presence::Hear(const exchange::AgentStatus& status) {
+  if (others_.size() < kMostAgents) others_.insert(status.agent);
+  AnswerClaim(status);
+  const bool ended = status.mode == exchange::AgentMode::kStopped;
+  if (status.agent == status_.agent && status.instance != status_.instance) {
+    const bool claims = status.mode == exchange::AgentMode::kStarting;
+    if (ended && status.instance == namesake_) namesake_ = 0;
+    if (!ended && !claims) namesake_ = status.instance;
+  }
+  if (status.role == exchange::AgentRole::kServer) {
+    HearServer(status.agent, status.instance, !ended);
+  }
+}
+
+void Presence::HearServer(const AgentId& agent, std::uint64_t instance, bool is_there) {
   if (!is_there) {
     servers_.erase({agent, instance});
   } else if (servers_.size() < kMostServers) {
@@ -68,6 +98,36 @@ std::set<AgentId> Presence::servers() const {
   std::set<AgentId> names;
   for (const auto& [agent, instance] : servers_) names.insert(agent);
   return names;
+}
+
+void Presence::Hear(const exchange::Fleet& fleet) {
+  if (!told_.contains(fleet.server) && told_.size() >= kMostServers) return;
+  Told& told = told_[fleet.server];
+  told = {.agents = fleet.agents, .namesake = 0};
+  for (const exchange::ClaimedName& claimed : fleet.claimed) {
+    if (claimed.agent != status_.agent) continue;
+    const bool own = claimed.claims == status_.instance;
+    // Whose name it is speaks up.
+    if (claimed.keeps == 0 && !own) Publish();
+    if (claimed.keeps != 0) told.namesake = own ? claimed.keeps : claimed.claims;
+  }
+}
+
+std::string Presence::NameTrouble() const {
+  std::uint64_t other = namesake_;
+  for (const auto& [server, told] : told_) other = std::max(other, told.namesake);
+  if (other == 0) return "";
+  return fmt::format(
+      "another running process is called '{}', too (instance {:016x}): end one of them, or give it "
+      "another --name",
+      status_.agent.value(), other);
+}
+
+void Presence::TellNameTrouble() {
+  std::string trouble = NameTrouble();
+  if (trouble == name_trouble_) return;
+  spdlog::warn("{}", trouble.empty() ? "no other process has this one's name any more" : trouble);
+  name_trouble_ = std::move(trouble);
 }
 
 void Presence::AnswerClaim(const exchange::AgentStatus& status) {
@@ -86,19 +146,25 @@ void Presence::Set(exchange::AgentStatus status) {
 }
 
 void Presence::Tick(Clock::time_point now) {
+  TellNameTrouble();
   if (now >= next_ || published_mode_ != status_.mode) Publish();
 }
 
 void Presence::Publish() {
+  exchange::AgentStatus status = status_;
+  if (std::string trouble = NameTrouble(); !trouble.empty()) status.detail = std::move(trouble);
   // A status that cannot be handed over is followed by the next one.
-  if (exchange_.Publish(status_)) published_mode_ = status_.mode;
-  next_ = Clock::now() + std::max(interval_, kForEachAgent * static_cast<int>(others_.size()));
+  if (exchange_.Publish(status)) published_mode_ = status_.mode;
+  std::size_t agents = others_.size();
+  for (const auto& [server, told] : told_) agents = std::max<std::size_t>(agents, told.agents);
+  next_ = Clock::now() + std::max(interval_, kForEachAgent * static_cast<int>(agents));
 }
 
 exchange::TopicUse WithAgents(exchange::TopicUse use) {
   constexpr exchange::Topic kAgents = exchange::Topic::kAgents;
   if (!use.Writes(kAgents)) use.write.push_back(kAgents);
   if (!use.Hears(kAgents)) use.overhear.push_back(kAgents);
+  if (!use.Writes(exchange::Topic::kFleet)) use.read.push_back(exchange::Topic::kFleet);
   return use;
 }
 

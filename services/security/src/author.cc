@@ -15,6 +15,8 @@ struct AuthorIn {
   AgentId operator()(const exchange::CatalogReply& m) { return m.server; }
   AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }
   AgentId operator()(const exchange::RouteEditRequest& m) { return m.client; }
+  AgentId operator()(const exchange::Fleet& m) { return m.server; }
+  AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 

@@ -31,8 +31,8 @@ TopicUse Together(TopicUse use, const TopicUse& more) {
   return use;
 }
 
-// Everybody sees who is there; robots and servers say so themselves.
-TopicUse SeesAgents() { return {.write = {}, .read = {Topic::kAgents}}; }
+// Everybody sees who is there; robots and servers say so themselves, and servers of all others.
+TopicUse SeesAgents() { return {.write = {}, .read = {Topic::kAgents, Topic::kFleet}}; }
 
 void AppendBeyond(const std::vector<Topic>& wanted, const std::vector<Topic>& granted,
                   const char* doing, std::string& text) {

@@ -58,7 +58,8 @@ Result<TaughtRoute> FetchFromServer(const TaughtRoute& taught) {
   const auto server = bus.Open(exchange::ServerTopics());
   const auto follower = bus.Open(exchange::FollowerTopics());
   exchange::RouteSender sender = MakeSender(taught);
-  if (auto listening = follower->Listen({taught.info.key}); !listening) {
+  if (auto listening = follower->Listen(exchange::Topic::kSegments, {taught.info.key});
+      !listening) {
     return tl::unexpected(listening.error());
   }
   exchange::RouteFetcher fetcher(AgentId("follower"), taught.info.key, {}, integrity, Time{});

@@ -25,7 +25,7 @@ class BlockedExchange : public RouteExchange {
     return {};
   }
   std::vector<Message> Take(std::chrono::milliseconds) override { return {}; }
-  Result<void> Listen(const std::set<route::RouteKey>&) override { return {}; }
+  Result<void> Listen(Topic, const std::set<route::RouteKey>&) override { return {}; }
   [[nodiscard]] std::uint64_t dropped() const override { return 0; }
 
   int attempts = 0;

@@ -139,5 +139,47 @@ TEST_F(NeighboursTest, MadeUpNamesDoNotCrowdOutWhoIsHeard) {
                           [](const Neighbour& other) { return other.agent == AgentId("robot"); }));
 }
 
+exchange::RouteFollowers Told(std::vector<exchange::RouteFollower> followers) {
+  return {.server = AgentId("server"), .key = KeyNumber(1), .followers = std::move(followers)};
+}
+
+TEST_F(NeighboursTest, BelievesAServerOfThoseThatItDoesNotHear) {
+  Hear(Told({{AgentId("a"), 2.0, 0.4, true, std::chrono::milliseconds(500)},
+             {AgentId("b"), 3.0, 0.0, false, std::chrono::seconds(5)},
+             {AgentId("self"), 1.0, 0.4, true, std::chrono::milliseconds(0)}}),
+       seconds(10));
+  const auto on = neighbours_.On(KeyNumber(1));
+  ASSERT_EQ(on.size(), 2U);
+  const auto told_at = kBegin + std::chrono::milliseconds(9500);
+  EXPECT_EQ(on[0], (Neighbour{AgentId("a"), 2.0, 0.4, told_at, true}));
+  EXPECT_EQ(on[1], (Neighbour{AgentId("b"), 3.0, 0.0, kBegin + seconds(5), false}));
+}
+
+TEST_F(NeighboursTest, WhoAServerDoesNotTellOfAnyMoreHasMadeRoom) {
+  Hear(Told({{AgentId("a"), 2.0, 0.4, true, {}}, {AgentId("b"), 3.0, 0.4, true, {}}}));
+  Hear(Follower("c", 4.0));  // heard itself
+  Hear(Told({{AgentId("b"), 3.0, 0.4, true, {}}}), seconds(1));
+  EXPECT_EQ(Places(), (These{3.0, 4.0}));
+}
+
+TEST_F(NeighboursTest, TheLaterWordCountsWhoeverHasIt) {
+  Hear(Follower("a", 5.0), seconds(10));
+  Hear(Told({{AgentId("a"), 4.0, 0.4, true, std::chrono::seconds(2)}}), seconds(11));
+  EXPECT_EQ(Places(), These{5.0});
+  Hear(Told({{AgentId("a"), 6.0, 0.4, true, {}}}), seconds(12));
+  EXPECT_EQ(Places(), These{6.0});
+  Hear(Follower("a", 7.0), seconds(13));
+  EXPECT_EQ(Places(), These{7.0});
+}
+
+TEST_F(NeighboursTest, WithoutTheServerThatToldOthersAreTakenToStandForAWhile) {
+  Hear(Told({{AgentId("a"), 2.0, 0.4, true, {}}}));
+  Hear(AgentGone{AgentId("server"), 7}, seconds(3));
+  ASSERT_EQ(neighbours_.On(KeyNumber(1)).size(), 1U);
+  EXPECT_FALSE(neighbours_.On(KeyNumber(1)).front().heard);
+  EXPECT_TRUE(neighbours_.Forget(kBegin + Neighbours::kRemembered).empty());
+  EXPECT_EQ(neighbours_.Forget(kBegin + Neighbours::kRemembered + seconds(1)).size(), 1U);
+}
+
 }  // namespace
 }  // namespace trailcast::agent

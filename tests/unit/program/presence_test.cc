@@ -187,5 +187,72 @@ TEST_F(PresenceTest, PublishesLessOftenTheMoreAgentsThereAre) {
   EXPECT_TRUE(publishes_after(std::chrono::milliseconds(200)));
 }
 
+exchange::Fleet Told(std::vector<exchange::ClaimedName> claimed) {
+  return {.server = AgentId("server"), .agents = 2, .claimed = std::move(claimed)};
+}
+
+TEST(NameClaimTest, BelievesAServerWhoseNameItIs) {
+  const NameClaim claim(Status("scout", 5, AgentMode::kStarting));
+  EXPECT_TRUE(claim.See({AgentId("scout"), 5, 0}));
+  EXPECT_TRUE(claim.See({AgentId("scout"), 9, 5}));
+  EXPECT_TRUE(claim.See({AgentId("scout2"), 5, 9}));
+  EXPECT_FALSE(claim.See({AgentId("scout"), 5, 9}));
+  EXPECT_FALSE(claim.See({AgentId("scout"), 5, 3}));
+}
+
+TEST_F(PresenceTest, SpeaksUpWhenAServerTellsThatItsNameIsClaimed) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting), std::chrono::hours(1));
+  presence.Publish();
+  (void)peer->Take(std::chrono::milliseconds(0));
+  presence.Handle(Told({{AgentId("other"), 9, 0}}));
+  presence.Handle(Told({{AgentId("scout"), presence.status().instance, 0}}));
+  EXPECT_TRUE(peer->Take(std::chrono::milliseconds(0)).empty());
+  presence.Handle(Told({{AgentId("scout"), 9, 0}}));
+  EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
+}
+
+TEST_F(PresenceTest, TellsOfAnotherOfItsNameAsLongAsThereIsOne) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
+  const auto detail = [&] {
+    presence.Publish();
+    const auto heard = peer->Take(std::chrono::milliseconds(0));
+    return heard.empty() ? "" : std::get<AgentStatus>(heard.back()).detail;
+  };
+  presence.Handle(Status("scout", 9, AgentMode::kStarting));
+  EXPECT_EQ(detail(), "") << "it claims the name, and is refused";
+  presence.Handle(Status("scout", 9, AgentMode::kTeaching));
+  EXPECT_THAT(detail(), HasSubstr("another running process is called 'scout'"));
+  presence.Handle(exchange::AgentGone{AgentId("scout"), 9});
+  EXPECT_EQ(detail(), "");
+  // Where it does not hear the other, a server tells it.
+  const std::uint64_t own = presence.status().instance;
+  presence.Handle(Told({{AgentId("scout"), own, 9}}));
+  EXPECT_THAT(detail(), HasSubstr("0000000000000009"));
+  presence.Handle(Told({}));
+  EXPECT_EQ(detail(), "");
+  presence.Handle(Told({{AgentId("scout"), 9, own}}));
+  EXPECT_THAT(detail(), HasSubstr("0000000000000009"));
+  presence.Handle(exchange::AgentGone{AgentId("server"), 7});
+  EXPECT_EQ(detail(), "");
+}
+
+TEST_F(PresenceTest, PublishesLessOftenTheMoreAgentsAServerTellsOf) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
+  presence.Handle(exchange::Fleet{.server = AgentId("server"), .agents = 1000, .claimed = {}});
+  presence.Publish();
+  const auto published = Presence::Clock::now();
+  (void)peer->Take(std::chrono::milliseconds(0));
+  presence.Tick(published + std::chrono::seconds(9));
+  EXPECT_TRUE(peer->Take(std::chrono::milliseconds(0)).empty());
+  presence.Tick(published + std::chrono::seconds(11));
+  EXPECT_EQ(peer->Take(std::chrono::milliseconds(0)).size(), 1U);
+}
+
 }  // namespace
 }  // namespace trailcast::program

@@ -107,7 +107,8 @@ Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
   const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
   exchange::RouteFetcher fetcher(peer.self, info.key, {}, integrity, Clock::now());
   fetcher.Learn(info, Clock::now());
-  if (auto listening = peer.exchange->Listen({info.key}); !listening) return listening;
+  if (auto listening = peer.exchange->Listen(exchange::Topic::kSegments, {info.key}); !listening)
+    return listening;
   InOrder pieces(take);
   auto deadline = Clock::now() + watch.timeout;
   while (!fetcher.Complete()) {
