@@ -3,7 +3,9 @@
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
 #   tests/bench/network.sh followers|stall|loss|wire|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
-#   tests/bench/network.sh swarm [AGENTS]
+#   tests/bench/network.sh swarm [AGENTS [star|mesh]]
+#   tests/bench/network.sh fleet [AGENTS [MINUTES]]
+#   tests/bench/network.sh neighbours [FOLLOWERS [SECONDS]]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
@@ -11,6 +13,7 @@ bin=$(cd "$here/../../build/release/bin" && pwd)
 source "$here/network_lab.sh"
 
 fetch_timeout=120
+lights=()  # processes of light agents
 fleet=  # folder of the fleet's authority; empty: no security
 
 # await SECONDS WHAT COMMAND...: until the command succeeds.
@@ -30,12 +33,12 @@ says() { grep -q "$2" "$work/$1.log"; }
 
 median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 
-# start_server NUMBER STORE: the route server, running.
+# start_server NUMBER STORE FLAGS...: the route server, running.
 start_server() {
   local log="$work/server.log"
   : >"$log"
   on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug \
-    --security "${fleet:+$fleet/members/server}" >"$log" 2>&1 &
+    --security "${fleet:+$fleet/members/server}" "${@:3}" >"$log" 2>&1 &
   server=$!
   await 30 'the server' says server ready
 }
@@ -322,44 +325,120 @@ latest() {
   grep -h "^$1 " "$work"/light*.log | sort -k2 -n | awk -v began="$2" 'END { printf "%.1f", $2 - began }'
 }
 
-# Many light agents join one server at once, each at a host of its own: how long until all know all
-# and have the route, and what that costs. Fails when it takes more than the bounds below. Cyclone is
-# configured by config/dds/many-agents.xml, unless CYCLONEDDS_URI says otherwise.
+# The server's process, its memory at most and now (MB) and processor time (s).
+server_process() {
+  process=$(<"/proc/$server/task/$server/children")
+  process=${process% }
+}
+server_peak_mb() { awk '/VmHWM/ { print $2 / 1000 }' "/proc/$process/status"; }
+server_mb() { awk '/VmRSS/ { print $2 / 1000 }' "/proc/$process/status"; }
+server_cpu() { awk '{ print ($14 + $15) / 100 }' "/proc/$process/stat"; }
+
+# Many light agents join one server at once, each at a host of its own: how long until all have met
+# (in a star the server, in a mesh all of them) and have the route, and what that costs. Fails when
+# it takes more than the bounds below.
 swarm() {
-  local agents=${1:-100} agent began before after process said
+  local agents=${1:-100} discovery=${2:-star} agent began before after said met=met
   local longest_s=60 most_mb=60
-  export CYCLONEDDS_URI=${CYCLONEDDS_URI-file://$here/../../config/dds/many-agents.xml}
+  [[ $discovery == star ]] || met=heard-all
   lab_open
   for ((agent = 1; agent <= agents + 1; ++agent)); do lab_host "$agent"; done
   lab_introduce
   make_route 20
   start_server 1 "$work/server.db"
-  process=$(<"/proc/$server/task/$server/children")
-  process=${process% }
+  server_process
   read -r -a before < <(datagrams)
   began=$(cut -d' ' -f1 /proc/uptime)
   for ((agent = 2; agent <= agents + 1; ++agent)); do
     : >"$work/light$agent.log"
     on "$agent" "$bin/network_bench" light-agent --name "light$agent" --route hall \
-      --agents "$agents" >"$work/light$agent.log" 2>&1 &
+      --agents "$agents" --discovery "$discovery" >"$work/light$agent.log" 2>&1 &
   done
   said=0
   while ((said < 2 * agents)) && awk -v began="$began" -v most=$longest_s \
     '{ exit !($1 - began < most) }' /proc/uptime; do
-    said=$(awk '/^(heard-all|fetched) / { ++n } END { print n + 0 }' "$work"/light*.log)
+    said=$(awk -v met="$met" '$1 == met || $1 == "fetched" { ++n } END { print n + 0 }' "$work"/light*.log)
     sleep 0.2
   done
   read -r -a after < <(datagrams)
-  awk -v agents="$agents" -v heard="$(latest heard-all "$began")" -v fetched="$(latest fetched "$began")" \
-    -v sent=$((after[0] - before[0])) -v received=$((after[1] - before[1])) \
-    -v mb="$(awk '/VmHWM/ { print $2 / 1000 }' "/proc/$process/status")" -v most="$most_mb" \
-    -v cpu="$(awk '{ print ($14 + $15) / 100 }' "/proc/$process/stat")" -v complete=$((said == 2 * agents)) '
+  awk -v agents="$agents" -v met="$(latest "$met" "$began")" -v fetched="$(latest fetched "$began")" \
+    -v sent=$((after[0] - before[0])) -v received=$((after[1] - before[1])) -v way="$discovery" \
+    -v mb="$(server_peak_mb)" -v most="$most_mb" -v cpu="$(server_cpu)" -v complete=$((said == 2 * agents)) '
     BEGIN {
-      printf "| agents | all know all, s | all have the route, s | datagrams sent | received | server, MB | its processor time, s |\n"
-      printf "| %d | %s | %s | %d | %d | %.1f | %.2f |\n", agents, heard, fetched, sent, received, mb, cpu
+      printf "| agents | discovery | all have met, s | all have the route, s | datagrams sent | received | server, MB | its processor time, s |\n"
+      printf "| %d | %s | %s | %s | %d | %d | %.1f | %.2f |\n", agents, way, met, fetched, sent, received, mb, cpu
       if (!complete) print "not all of them within the bound"
       if (mb > most) printf "the server has more than %d MB\n", most
       exit !complete || mb > most }'
+}
+
+light_hosts=20  # with several agents each, a participant for every agent
+# start_lights AGENTS FLAGS...: they join a server, all at once; how long until it knows them all.
+start_lights() {
+  local agents=$1 host known=0
+  shift
+  lab_open
+  for ((host = 1; host <= light_hosts + 1; ++host)); do lab_host "$host"; done
+  lab_introduce
+  make_route 20
+  start_server 1 "$work/server.db" --http-port 9464
+  server_process
+  read -r -a before < <(datagrams)
+  began=$(cut -d' ' -f1 /proc/uptime)
+  for ((host = 2; host <= light_hosts + 1; ++host)); do
+    on "$host" "$bin/network_bench" light-agent --name "light$host" --agents "$agents" \
+      --count $((agents / light_hosts)) --discovery star "$@" >"$work/light$host.log" 2>&1 &
+    lights+=("$!")
+  done
+  SECONDS=0
+  while ((known < agents && SECONDS < 300)); do
+    known=$(on 1 curl -s http://127.0.0.1:9464/metrics | awk '/^trailcast_agents / { print $2 }')
+    sleep 0.2
+  done
+  known_after=$(awk -v began="$began" '{ printf "%.1f", $1 - began }' /proc/uptime)
+  read -r -a after < <(datagrams)
+  ((known >= agents)) || die "the server knows $known of $agents agents after $known_after s"
+}
+
+# Datagrams that the server's host could not take, so far.
+server_lost() { on 1 awk '/^Udp: [0-9]/ { print $6 }' /proc/net/snmp; }
+
+# A large fleet joins one server, and stays for a while: what an agent costs.
+fleet() {
+  local agents=${1:-1000} minutes=${2:-1} before after cpu joined_cpu asked
+  start_lights "$agents"
+  joined_cpu=$(server_cpu)
+  printf '| agents | the server knows all, s | datagrams sent | server, MB | its processor time, s |\n'
+  printf '| %d | %s | %d | %.1f | %.2f |\n' "$agents" "$known_after" $((after[0] - before[0])) \
+    "$(server_peak_mb)" "$joined_cpu"
+  printf '| minutes later | server, MB | share of a processor | datagrams a second | lost at the server | a catalog answer, s |\n'
+  local minute
+  for ((minute = 1; minute <= minutes; ++minute)); do
+    read -r -a before < <(datagrams)
+    cpu=$(server_cpu)
+    sleep 60
+    read -r -a after < <(datagrams)
+    asked=$EPOCHREALTIME
+    on 1 "$bin/trailcast" --network-interface eth0 --discovery star routes >/dev/null
+    awk -v minute="$minute" -v mb="$(server_mb)" -v cpu="$cpu" -v now="$(server_cpu)" \
+      -v sent=$((after[0] - before[0])) -v lost="$(server_lost)" -v from="$asked" -v to="$EPOCHREALTIME" \
+      'BEGIN { printf "| %d | %.1f | %.3f | %d | %d | %.2f |\n", minute, mb, (now - cpu) / 60, sent / 60, lost, to - from }'
+  done
+}
+
+# Followers of one route, and what each is told of the others.
+neighbours() {
+  local agents=${1:-200} seconds=${2:-60} before after cpu light
+  start_lights "$agents" --follow
+  read -r -a before < <(datagrams)
+  cpu=$(server_cpu)
+  sleep "$seconds"
+  read -r -a after < <(datagrams)
+  awk -v agents="$agents" -v cpu="$cpu" -v now="$(server_cpu)" -v s="$seconds" -v sent=$((after[0] - before[0])) \
+    'BEGIN { printf "%d followers of one route: server %.3f of a processor, %d datagrams a second\n", agents, (now - cpu) / s, sent / s }'
+  for light in "${lights[@]}"; do kill "$(<"/proc/$light/task/$light/children")" || true; done
+  for light in "${lights[@]}"; do wait "$light" || true; done
+  cat "$work"/light*.log | grep '^neighbours' | sort
 }
 
 latency() {
@@ -409,9 +488,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | stall | loss | wire | ingest | latency | memory | security | swarm) ;;
+    followers | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours) ;;
     *)
-      die 'say what to measure: followers, stall, loss, wire, ingest, latency, memory, security or swarm'
+      die 'say what to measure: followers, stall, loss, wire, ingest, latency, memory, security, swarm, fleet or neighbours'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'

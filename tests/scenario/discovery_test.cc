@@ -72,6 +72,13 @@ TEST_F(DiscoveryTest, WithoutMulticastNobodyIsFoundUnlessToldAnAddress) {
   EXPECT_THAT(lost.output, HasSubstr("no route server answered"));
 }
 
+TEST_F(DiscoveryTest, ByTcpTheServersAddressIsEnough) {
+  lab_->ForbidMulticast();
+  StartServer({File("tcp-server.xml")});
+  ExpectShared(
+      {File("tcp-agent.xml"), "TRAILCAST_DISCOVERY=star", "TRAILCAST_SERVER_ADDRESS=10.77.0.1"});
+}
+
 TEST_F(DiscoveryTest, WithMulticastAStarNeedsNoAddress) {
   StartServer({});
   ExpectShared({"TRAILCAST_DISCOVERY=star"});
