@@ -64,7 +64,7 @@ Result<void> FollowerLink::DropWrong(std::uint32_t count) {
   }
   spdlog::warn("{}: fetching them anew", wrong);
   dropped_wrong_ = true;
-  damaged_.clear();
+  beyond_.clear();
   held_ = held_before_ = 0;
   return MakeFetcher({});
 }
