@@ -150,6 +150,7 @@ class TwoServersTest : public SharedStoreTest {
  protected:
   TwoServersTest() {
     Complete(kA, 10);
+    EXPECT_TRUE(follower_->Listen(Topic::kSegments, {key_}));
     for (const std::size_t which : {kA, kB}) {
       ends_[which] = bus_.Open(ServerTopics());
       AgentStatus status{.agent = AgentId(fmt::format("server-{}", which)), .instance = which + 1};
