@@ -13,8 +13,8 @@ namespace trailcast {
 // By this machine's clock.
 [[nodiscard]] inline std::int64_t NowUnixMs() { return UnixMs(std::chrono::system_clock::now()); }
 
-// "2026-11-24 05:30 UTC", or "at an unknown time": any number may have been sent, and the calendar
-// ends somewhere.
+// "2026-11-24 05:30 UTC", or "at an unknown time": any number may have been sent, and years have
+// four digits here.
 [[nodiscard]] std::string DateText(std::int64_t unix_ms);
 
 }  // namespace trailcast

@@ -79,7 +79,7 @@ TEST_F(BadInputTest, AnUnknownFlag) {
 TEST_F(BadInputTest, NeitherFramesNorASimulatedWorldNorARobot) {
   const auto run = RunAgent({"teach", "--route", "hall", "--store", Path("a.db")});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.output, HasSubstr("--frames, --sim or --ros2"));
+  EXPECT_THAT(run.output, HasSubstr("--frames, --bag, --sim or --ros2"));
 }
 
 TEST_F(BadInputTest, ANameThatIsNone) {
