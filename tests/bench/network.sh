@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures how routes are shared over networks staged on this machine, and the rivals beside it.
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
-#   tests/bench/network.sh followers|stall|loss|wire|ingest|latency|security [RUNS]
+#   tests/bench/network.sh followers|idle|stall|loss|wire|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
 #   tests/bench/network.sh swarm [AGENTS [star|mesh]]
 #   tests/bench/network.sh fleet [AGENTS [MINUTES]]
@@ -150,6 +150,32 @@ followers() {
       split(one, a, " "); split(many, b, " ")
       printf "| %s | %.2f, %.1f | %.2f, %.1f | %.1f, %.1f |\n", what, a[1], a[2] / 1e6, b[1],
         b[2] / 1e6, b[1] / a[1], b[2] / a[2] }'
+  done
+}
+
+# What the server sends for one fetch beside followers that have all they want, where data is not
+# multicast (config/dds/wifi.xml).
+idle() {
+  local beside running=0 host bytes
+  export CYCLONEDDS_URI=file://$here/../../config/dds/wifi.xml
+  lab_open
+  for ((host = 1; host <= 10; ++host)); do lab_host "$host"; done
+  make_route 500
+  start_server 1 "$work/server.db"
+  robots=(2)
+  printf '| idle followers | sent for one fetch, MB | times the route |\n'
+  for beside in 0 1 2 4 8; do
+    while ((running < beside)); do
+      host=$((3 + running++))
+      : >"$work/light$host.log"
+      on "$host" "$bin/network_bench" light-agent --name "light$host" --route hall --agents 9 \
+        >"$work/light$host.log" 2>&1 &
+      disown
+      await 30 "light$host" says "light$host" fetched
+    done
+    bytes=$(medians fetch_all | cut -d' ' -f2)
+    awk -v beside="$beside" -v bytes="$bytes" -v route="$route_bytes" \
+      'BEGIN { printf "| %d | %.1f | %.1f |\n", beside, bytes / 1e6, bytes / route }'
   done
 }
 
@@ -488,9 +514,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours) ;;
+    followers | idle | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours) ;;
     *)
-      die 'say what to measure: followers, stall, loss, wire, ingest, latency, memory, security, swarm, fleet or neighbours'
+      die 'say what to measure: followers, idle, stall, loss, wire, ingest, latency, memory, security, swarm, fleet or neighbours'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
