@@ -35,7 +35,7 @@ TEST_F(WhereTest, APictureOfATaughtWalkTellsTheRouteAndOneOfAnotherWorldNone) {
   const std::string frame = Frames(folder_ / "later").front();
   const auto found = Where({"--frame", frame});
   EXPECT_EQ(found.status, 0) << found.output;
-  EXPECT_THAT(found.output, HasSubstr("route hall revision 1, segment "));
+  EXPECT_THAT(found.output, testing::ContainsRegex("route hall [0-9a-f]+@1, segment "));
   const auto json = Where({"--frame", frame, "--json"});
   EXPECT_THAT(json.output, AllOf(HasSubstr("\"name\": \"hall\""), HasSubstr("\"routes_unseen\"")));
 
@@ -73,7 +73,7 @@ TEST_F(WhereTest, ADonkeyCarOnItsSecondLapIsFoundOnTheFirst) {
     const auto& frame = frames[frames.size() * static_cast<std::size_t>(i) / kAsked];
     const auto answer = Where({"--frame", frame});
     EXPECT_EQ(answer.status, 0) << answer.output;
-    found += answer.output.find("route hall revision 1") != std::string::npos ? 1 : 0;
+    found += answer.output.find("route hall ") != std::string::npos ? 1 : 0;
   }
   EXPECT_GE(found, kAsked - 2);
 }
