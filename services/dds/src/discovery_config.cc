@@ -88,10 +88,9 @@ Result<std::string> DiscoveryConfig(const DdsOptions& options, const Meeting& me
     // A server that starts is answered by all, not all at once.
     internal = "<SPDPResponseMaxDelay>200ms</SPDPResponseMaxDelay>";
   }
-  if (options.serves) {
-    peers += Peer(kStarGroup, PortOf(domain, kStarMeta));
-    if (meeting.fixed_ports) discovery += "<ParticipantIndex>0</ParticipantIndex>";
-  }
+  // Whoever starts here may have heard a star's members before it could answer: it calls them.
+  if (!meeting.star) peers += Peer(kStarGroup, PortOf(domain, kStarMeta));
+  if (meeting.fixed_ports) discovery += "<ParticipantIndex>0</ParticipantIndex>";
   if (!peers.empty()) discovery += "<Peers>" + peers + "</Peers>";
   return fmt::format(
       "<CycloneDDS><Domain><General>{}</General><Discovery>{}</Discovery><Internal>{}</Internal>"
