@@ -10,6 +10,7 @@
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
+#include "services/dds/protocol_version.h"
 #include "services/exchange/route_exchange.h"
 #include "services/security/member_keys.h"
 
@@ -31,7 +32,8 @@ struct DdsOptions {
   std::string discovery_tag;
   // "" lets Cyclone choose; "lo" works where there is nothing else.
   std::string network_interface;
-  // Shown by DDS tools as the participant's user data; not with keys: it is not encrypted.
+  // Shown by DDS tools in the participant's user data, beside the version of the protocol; not with
+  // keys: it is not encrypted.
   AgentId self;
   std::string extra_config_xml;  // Cyclone's XML, has the last word
 
@@ -52,6 +54,11 @@ struct DdsOptions {
   // Told of each who was kept out, and why: once, and again after ten minutes; and of new keys.
   // Called by Take.
   std::function<void(const std::string& line)> tell_of_stranger{};
+
+  // Told of those that speak another version of the protocol, and so do not hear this program, or
+  // are not heard, on the topics that changed: once, and again after ten minutes. Called by Take.
+  std::function<void(const std::string& line)> tell_of_version{};
+  std::uint32_t protocol_version = kProtocolVersion;  // another in tests
 
   // How long closing waits for the last messages to arrive. Publish waits for nobody.
   std::chrono::milliseconds close_timeout{1000};

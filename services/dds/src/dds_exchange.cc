@@ -12,6 +12,7 @@
 #include "services/dds/src/joined.h"
 #include "services/dds/src/star_or_mesh.h"
 #include "services/dds/src/stranger_watch.h"
+#include "services/dds/src/version_watch.h"
 #include "services/dds/src/wire.h"
 #include "services/exchange/batches.h"
 #include "services/exchange/bounds.h"
@@ -47,7 +48,10 @@ double RandomShare() {
 class DdsExchange : public exchange::RouteExchange {
  public:
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
-      : options_(options), use_(std::move(use)), star_or_mesh_(options.discovery, RandomShare()) {
+      : options_(options),
+        use_(std::move(use)),
+        star_or_mesh_(options.discovery, RandomShare()),
+        versions_(options.protocol_version, options.keys.has_value()) {
     if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
   }
   ~DdsExchange() override { SayGoodBye(); }
@@ -76,10 +80,12 @@ class DdsExchange : public exchange::RouteExchange {
   void MeetOthers(Clock::time_point now);
   void TellOfDiscovery(const std::string& line);
 
+  void LookAtPeers(Clock::time_point now);
+
   // With keys.
   void TakeUpNewKeys();
   void TellOnce(const std::string& line);
-  void LookForStrangers(Clock::time_point now);
+  void TellOfStrangers(Clock::time_point now);
   const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
   [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
                                  Message& message);
@@ -102,6 +108,7 @@ class DdsExchange : public exchange::RouteExchange {
   Clock::time_point unusable_since_{};
   std::string told_;  // last of the keys
   StrangerWatch strangers_;
+  VersionWatch versions_;
 };
 
 Result<void> DdsExchange::Join() {
@@ -109,6 +116,7 @@ Result<void> DdsExchange::Join() {
   auto joined = Joined::Open(options_, use_, star_or_mesh_.star());
   if (!joined) return tl::unexpected(joined.error());
   joined_ = *std::move(joined);
+  versions_.Forget();
   star_or_mesh_.Begin(Clock::now());
   if (options_.serves && !joined_->meeting.fixed_ports) {
     TellOfDiscovery(
@@ -295,7 +303,7 @@ void DdsExchange::KeepWatch() {
   if (now < look_at_) return;
   look_at_ = now + kLookEvery;
   if (options_.keys) TakeUpNewKeys();
-  if (options_.keys && joined_) LookForStrangers(now);
+  if (joined_) LookAtPeers(now);
   if (options_.discovery != Discovery::kMesh) MeetOthers(now);
 }
 
@@ -355,13 +363,30 @@ void DdsExchange::TellOnce(const std::string& line) {
   told_ = line;
 }
 
-void DdsExchange::LookForStrangers(Clock::time_point now) {
+void DdsExchange::LookAtPeers(Clock::time_point now) {
   // What cannot be read now is there the next time.
-  (void)joined_->peers->Look(
-      {.seen = [&](const auto& participant,
-                   const auto& said) { strangers_.See(participant, said, now); },
-       .proven = [&](const auto& participant) { strangers_.Prove(participant, ""); },
-       .gone = [&](const auto& participant) { strangers_.Lose(participant); }});
+  (void)joined_->peers.Look({.seen =
+                                 [&](const auto& participant, const auto& said) {
+                                   if (options_.keys) strangers_.See(participant, said, now);
+                                   versions_.See(participant, said);
+                                 },
+                             .proven =
+                                 [&](const auto& participant) {
+                                   strangers_.Prove(participant, "");
+                                   versions_.Prove(participant);
+                                 },
+                             .gone =
+                                 [&](const auto& participant) {
+                                   strangers_.Lose(participant);
+                                   versions_.Lose(participant);
+                                 }});
+  if (options_.keys) TellOfStrangers(now);
+  for (const std::string& line : versions_.Tick(now)) {
+    if (options_.tell_of_version) options_.tell_of_version(line);
+  }
+}
+
+void DdsExchange::TellOfStrangers(Clock::time_point now) {
   for (const std::string& line : joined_->log->Take()) {
     if (!strangers_.HandleWarning(line, now)) std::fprintf(stderr, "%s\n", line.c_str());
   }

@@ -61,15 +61,15 @@ Result<Domain> Domain::Create(const std::string& config_xml) {
   return Fail(ErrorCode::kInternal, "DDS: this process has {} domains open already", kMaxDomains);
 }
 
-Result<Participant> Participant::Create(const Domain& domain, const std::string& name) {
+Result<Participant> Participant::Create(const Domain& domain, const std::string& user_data,
+                                        bool hidden) {
   const Qos qos = MakeQos();
-  if (name.empty()) {
+  if (hidden) {
     for (const char* property : {"__ProcessName", "__Pid", "__Hostname"}) {
       dds_qset_prop(qos.get(), property, "");  // Cyclone tells what is not set
     }
-  } else {
-    dds_qset_userdata(qos.get(), name.data(), name.size());
   }
+  dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   const dds_entity_t handle = dds_create_participant(domain.id(), qos.get(), nullptr);
   if (handle < 0) return tl::unexpected(DdsError(handle, "creating a participant"));
   return Participant(handle);

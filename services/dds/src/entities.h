@@ -63,9 +63,11 @@ class Domain : public Entity {
 
 class Participant : public Entity {
  public:
-  // `name` is shown by DDS tools, as the participant's user data. Empty: nothing is told, not even
-  // host and process, which Cyclone would tell everybody.
-  [[nodiscard]] static Result<Participant> Create(const Domain& domain, const std::string& name);
+  // `user_data` is told to everybody, and shown by DDS tools. `hidden`: but nothing else is, not
+  // host and process, which Cyclone would tell.
+  [[nodiscard]] static Result<Participant> Create(const Domain& domain,
+                                                  const std::string& user_data,
+                                                  bool hidden = false);
   // Tells of itself once more, now: who was not there may be now.
   [[nodiscard]] Result<void> Call();
 

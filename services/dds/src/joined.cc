@@ -8,6 +8,7 @@
 #include "services/dds/src/domain_config.h"
 #include "services/dds/src/host_name.h"
 #include "services/dds/src/qos_table.h"
+#include "services/dds/src/user_data.h"
 #include "services/dds/src/wire.h"
 #include "services/exchange/topics.h"
 
@@ -32,25 +33,23 @@ Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   if (!domain) return tl::unexpected(domain.error());
   std::unique_ptr<CycloneLog> log;
   if (options.keys) log = std::make_unique<CycloneLog>(domain->id());
-  auto participant = Participant::Create(*domain, options.keys ? "" : options.self.value());
+  const bool hidden = options.keys.has_value();
+  const UserData data{hidden ? "" : options.self.value(), options.protocol_version};
+  auto participant = Participant::Create(*domain, ToText(data), hidden);
   if (!participant) {
     Error error = participant.error();
     if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
     return tl::unexpected(error);
   }
-  std::optional<Peers> peers;
-  if (options.keys) {
-    auto created = Peers::Create(*participant);
-    if (!created) return tl::unexpected(created.error());
-    peers = *std::move(created);
-  }
+  auto peers = Peers::Create(*participant, hidden);
+  if (!peers) return tl::unexpected(peers.error());
   auto wait_set = WaitSet::Create(*participant);
   if (!wait_set) return tl::unexpected(wait_set.error());
   return Joined{.meeting = meeting,
                 .domain = *std::move(domain),
                 .log = std::move(log),
                 .participant = *std::move(participant),
-                .peers = std::move(peers),
+                .peers = *std::move(peers),
                 .wait_set = *std::move(wait_set)};
 }
 

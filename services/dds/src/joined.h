@@ -30,7 +30,7 @@ struct Joined {
   Domain domain;
   std::unique_ptr<CycloneLog> log;  // with keys
   Participant participant;
-  std::optional<Peers> peers;  // with keys
+  Peers peers;
   WaitSet wait_set;
   std::map<exchange::Topic, Topic> topics{};
   std::map<Place, Writer> writers{};

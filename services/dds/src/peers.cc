@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "services/dds/src/user_data.h"
+
 namespace trailcast::dds {
 namespace {
 
@@ -26,13 +28,13 @@ std::string Property(const dds_qos_t* qos, const char* name) {
   return text;
 }
 
-std::string SaidName(const dds_qos_t* qos) {
+UserData SaidData(const dds_qos_t* qos) {
   void* data = nullptr;
   std::size_t size = 0;
-  if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) return "";
-  std::string text = Plain(std::string(static_cast<const char*>(data), size).c_str());
+  if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) return {};
+  const std::string text = Plain(std::string(static_cast<const char*>(data), size).c_str());
   dds_free(data);
-  return text;
+  return ParseUserData(text);
 }
 
 // "10.0.0.7:41830" of "udp/239.255.0.1:7400@1,udp/10.0.0.7:41830@1", where all members listen, too.
@@ -45,7 +47,7 @@ std::string OwnAddress(const std::string& addresses) {
 // "participant 1:2:3, calling itself 'robot-9', at 10.0.0.7:41830, host lab, process 812"
 Peers::SaidOfItself Said(const dds_builtintopic_participant_t& participant) {
   std::string about = "participant " + ParticipantText(participant.key);
-  const std::string name = SaidName(participant.qos);
+  const auto [name, version] = SaidData(participant.qos);
   if (!name.empty()) about += ", calling itself '" + name + "'";
   const std::string address = OwnAddress(Property(participant.qos, "__NetworkAddresses"));
   if (!address.empty()) about += ", at " + address;
@@ -53,7 +55,7 @@ Peers::SaidOfItself Said(const dds_builtintopic_participant_t& participant) {
   const std::string process = Property(participant.qos, "__Pid");
   if (!host.empty()) about += ", host " + host;
   if (!process.empty()) about += ", process " + process;
-  return {std::move(about), !(name + host + process).empty()};
+  return {std::move(about), !(name + host + process).empty(), name, version};
 }
 
 }  // namespace
@@ -68,18 +70,22 @@ std::string ParticipantText(const dds_guid_t& guid) {
   return fmt::format("{:x}:{:x}:{:x}", word(0), word(1), word(2));
 }
 
-Result<Peers> Peers::Create(const Participant& participant) {
+Result<Peers> Peers::Create(const Participant& participant, bool with_proof) {
   dds_guid_t self{};
   if (const dds_return_t got = dds_get_guid(participant.handle(), &self); got < 0) {
     return tl::unexpected(DdsError(got, "asking for the own GUID"));
   }
   auto participants = Reader::CreateBuiltin(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
   if (!participants) return tl::unexpected(participants.error());
-  auto publications = Reader::CreateBuiltin(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
-  if (!publications) return tl::unexpected(publications.error());
-  auto subscriptions = Reader::CreateBuiltin(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
-  if (!subscriptions) return tl::unexpected(subscriptions.error());
-  return Peers(self, *std::move(participants), *std::move(publications), *std::move(subscriptions));
+  Peers peers(self, *std::move(participants));
+  if (!with_proof) return peers;
+  for (const dds_entity_t topic :
+       {DDS_BUILTIN_TOPIC_DCPSPUBLICATION, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION}) {
+    auto endpoints = Reader::CreateBuiltin(participant, topic);
+    if (!endpoints) return tl::unexpected(endpoints.error());
+    peers.endpoints_.push_back(*std::move(endpoints));
+  }
+  return peers;
 }
 
 Result<void> Peers::Look(const Handlers& handlers) {
@@ -97,8 +103,8 @@ Result<void> Peers::Look(const Handlers& handlers) {
         }
       });
   if (!looked) return looked;
-  for (Reader* reader : {&publications_, &subscriptions_}) {
-    auto taken = reader->Take(kMostAtOnce, [&](const void* sample, const dds_sample_info_t& info) {
+  for (Reader& reader : endpoints_) {
+    auto taken = reader.Take(kMostAtOnce, [&](const void* sample, const dds_sample_info_t& info) {
       const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
       if (info.valid_data && !is_self(endpoint.participant_key)) {
         handlers.proven(ParticipantText(endpoint.participant_key));

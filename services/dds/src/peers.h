@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "services/dds/src/entities.h"
 
@@ -10,11 +13,14 @@ namespace trailcast::dds {
 // The participants that DDS discovers, members of the fleet and strangers.
 class Peers {
  public:
-  [[nodiscard]] static Result<Peers> Create(const Participant& participant);
+  // `with_proof`: looks at what they write and read, too.
+  [[nodiscard]] static Result<Peers> Create(const Participant& participant, bool with_proof);
 
   struct SaidOfItself {
     std::string about;   // for a line of the log: addresses, and names if there are any
-    bool names = false;  // in the clear, which members of a fleet do not
+    bool names = false;  // in the clear, which members of a fleet with keys do not
+    std::string name{};  // of its user data, as is the version
+    std::optional<std::uint32_t> version{};
   };
   struct Handlers {
     // `participant`: the first three words of its GUID; `said`: what it says of itself, unproven.
@@ -27,16 +33,12 @@ class Peers {
   [[nodiscard]] Result<void> Look(const Handlers& handlers);
 
  private:
-  Peers(dds_guid_t self, Reader participants, Reader publications, Reader subscriptions)
-      : self_(self),
-        participants_(std::move(participants)),
-        publications_(std::move(publications)),
-        subscriptions_(std::move(subscriptions)) {}
+  Peers(dds_guid_t self, Reader participants)
+      : self_(self), participants_(std::move(participants)) {}
 
   dds_guid_t self_;
   Reader participants_;
-  Reader publications_;
-  Reader subscriptions_;
+  std::vector<Reader> endpoints_;  // publications and subscriptions, with proof
 };
 
 // As Cyclone writes it: "b4bcbdad:8cb94d6f:9f600af6".

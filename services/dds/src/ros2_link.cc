@@ -10,6 +10,7 @@
 #include "services/dds/src/entities.h"
 #include "services/dds/src/ros2_network.h"
 #include "services/dds/src/ros2_wire.h"
+#include "services/dds/src/user_data.h"
 
 namespace trailcast::dds {
 namespace {
@@ -80,7 +81,7 @@ struct Node {
     if (!config) return tl::unexpected(config.error());
     auto domain = Domain::Create(*config);
     if (!domain) return tl::unexpected(domain.error());
-    auto participant = Participant::Create(*domain, "trailcast");
+    auto participant = Participant::Create(*domain, kRobotsEnd);
     if (!participant) return tl::unexpected(participant.error());
     auto wait_set = WaitSet::Create(*participant);
     if (!wait_set) return tl::unexpected(wait_set.error());

@@ -67,6 +67,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   if (IsAgent(use)) {
     dds.tell_of_discovery = [](const std::string& line) { spdlog::info("{}", line); };
   }
+  dds.tell_of_version = [](const std::string& line) { spdlog::warn("{}", line); };
   if (!options.security.empty()) {
     auto keys = Keys(options, use);
     if (!keys) return Wrap(keys.error(), "--security");
