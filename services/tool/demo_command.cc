@@ -168,7 +168,10 @@ Result<int> RunDemo(const program::CommonOptions& common, const DemoOptions& opt
   const program::CommonOptions network = PrivateNetwork(common);
   auto fleet = demo::DemoFleet::Start(*programs, folder->path(), *robots, network);
   if (!fleet) return tl::unexpected(fleet.error());
-  const auto exchange = program::OpenExchange(network, exchange::ObserverTopics());
+  // Whoever shows what agents say of themselves has to hear them; in a star they hear servers only.
+  program::CommonOptions everybody = network;
+  everybody.discovery = "mesh";
+  const auto exchange = program::OpenExchange(everybody, exchange::ObserverTopics());
   if (!exchange) return tl::unexpected(exchange.error());
   switch (Watch(*fleet, *robots, **exchange).Run(options.timeout_s)) {
     case Watched::kInterrupted:

@@ -9,9 +9,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(DiscoveryConfig, AMeshIsCyclonesOwn) {
+TEST(DiscoveryConfig, AMeshIsCyclonesOwnAndCallsTheMembersOfAStar) {
   const std::string config = DiscoveryConfig({}, {}).value();
-  EXPECT_THAT(config, Not(HasSubstr("Peer")));
+  EXPECT_THAT(config, HasSubstr("<Peers><Peer Address=\"239.255.0.2:7402\"/></Peers>"));
   EXPECT_THAT(config, Not(HasSubstr("Multicast")));
 }
 
