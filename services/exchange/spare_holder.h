@@ -10,6 +10,7 @@
 
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/servers_there.h"
 
 namespace trailcast::exchange {
 
@@ -57,7 +58,6 @@ class SpareHolder {
   };
 
   void HandleRequest(const SegmentRequest& request, Time now);
-  void HandleStatus(const AgentStatus& status);
 
   AgentId self_;
   ReadPiece read_;
@@ -65,7 +65,7 @@ class SpareHolder {
   SpareHolderOptions options_;
   std::chrono::milliseconds patience_;
   std::set<route::RouteKey> held_;
-  std::set<std::pair<AgentId, std::uint64_t>> servers_;  // present, and their instances
+  ServersThere servers_;
   std::set<std::pair<AgentId, Place>> asked_once_;
   std::map<Place, Due> to_answer_;
   std::map<route::RouteKey, Time> listens_until_;

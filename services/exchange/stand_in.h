@@ -3,12 +3,12 @@
 #include <chrono>
 #include <cstddef>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/servers_there.h"
 
 namespace trailcast::exchange {
 
@@ -27,7 +27,6 @@ struct StandInOptions {
 class StandIn {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr std::size_t kMostServers = 64;         // strangers can make up names
   static constexpr std::size_t kMostRemembered = 16'384;  // of what is left to others
 
   explicit StandIn(AgentId self, StandInOptions options = {})
@@ -50,14 +49,13 @@ class StandIn {
   };
 
   void HandleBatch(const SegmentBatch& batch, Time now);
-  [[nodiscard]] bool IsServer(const AgentId& agent) const;
   // Those that come before this one, the first first.
   [[nodiscard]] std::vector<AgentId> Before(const AgentId& requester, const route::RouteKey& key,
                                             Time now) const;
 
   AgentId self_;
   StandInOptions options_;
-  std::set<std::pair<AgentId, std::uint64_t>> servers_;  // others, and their instances
+  ServersThere servers_;  // others
   std::map<route::RouteKey, Left> left_;
   std::size_t remembered_ = 0;  // in left_
   NewestMap<std::pair<AgentId, Place>, Time> asked_once_{kMostRemembered};

@@ -6,10 +6,10 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "services/exchange/route_exchange.h"
+#include "services/exchange/servers_there.h"
 #include "services/program/name_claim.h"
 
 namespace trailcast::program {
@@ -24,7 +24,6 @@ class Presence {
   static constexpr std::chrono::milliseconds kForEachAgent{10};
   // Strangers can make up names: more are not kept.
   static constexpr std::size_t kMostAgents = 4096;
-  static constexpr std::size_t kMostServers = 64;
 
   // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
   // status is published every `interval` (less often in a swarm, so that each of its agents has
@@ -51,7 +50,7 @@ class Presence {
   // A server that was heard and has not gone since; of several the same one as long as it is there.
   [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
   // All of these.
-  [[nodiscard]] std::set<AgentId> servers() const;
+  [[nodiscard]] std::set<AgentId> servers() const { return servers_.Names(); }
   // That another running process has the name, which was not found out when it started; empty: none
   // has. Published with the status, and told in the log.
   [[nodiscard]] std::string NameTrouble() const;
@@ -64,7 +63,7 @@ class Presence {
   void Hear(const exchange::AgentStatus& status);
   void Hear(const exchange::AgentGone& gone);
   void Hear(const exchange::Fleet& fleet);
-  void HearServer(const AgentId& agent, std::uint64_t instance, bool is_there);
+  void ChooseServer();
   void TellNameTrouble();
 
   exchange::RouteExchange& exchange_;
@@ -73,9 +72,9 @@ class Presence {
   std::chrono::milliseconds interval_;
   std::optional<exchange::AgentMode> published_mode_;
   Clock::time_point next_{};
-  std::optional<AgentId> server_;                        // one of those
-  std::set<std::pair<AgentId, std::uint64_t>> servers_;  // heard and not gone, and their instances
-  std::set<AgentId> others_;                             // heard, and not gone since
+  exchange::ServersThere servers_;
+  std::optional<AgentId> server_;  // one of those
+  std::set<AgentId> others_;       // heard, and not gone since
   // What each server tells of those who are not heard.
   struct Told {
     std::uint32_t agents = 0;

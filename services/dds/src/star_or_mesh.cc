@@ -1,39 +1,16 @@
 #include "services/dds/src/star_or_mesh.h"
 
 #include <algorithm>
-#include <variant>
 
 namespace trailcast::dds {
-
-namespace {
-
-std::string InstanceText(const AgentId& agent, std::uint64_t instance) {
-  return agent.value() + "/" + std::to_string(instance);
-}
-
-}  // namespace
 
 void StarOrMesh::Begin(Time now) {
   began_ = now;
   met_ = false;
-  servers_.clear();
+  servers_.Clear();
   return_at_.reset();
   call_after_ = kCallsFrom;
   call_at_ = now + call_after_;
-}
-
-void StarOrMesh::Hear(const exchange::Message& message) {
-  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
-    if (status->role != exchange::AgentRole::kServer) return;
-    const std::string instance = InstanceText(status->agent, status->instance);
-    if (status->mode == exchange::AgentMode::kStopped) {
-      servers_.erase(instance);
-    } else {
-      servers_.insert(instance);
-    }
-  } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    servers_.erase(InstanceText(gone->agent, gone->instance));
-  }
 }
 
 StarOrMesh::Step StarOrMesh::Look(const Seen& seen, Time now) {

@@ -2,10 +2,9 @@
 
 #include <chrono>
 #include <optional>
-#include <set>
-#include <string>
 
 #include "services/dds/dds_exchange.h"
+#include "services/exchange/servers_there.h"
 
 namespace trailcast::dds {
 
@@ -37,7 +36,7 @@ class StarOrMesh {
   // It has joined, or joined anew.
   void Begin(Time now);
   // Servers are told by their statuses.
-  void Hear(const exchange::Message& message);
+  void Hear(const exchange::Message& message) { servers_.Handle(message); }
 
   struct Seen {
     bool server = false;   // something that servers alone write is connected
@@ -53,7 +52,7 @@ class StarOrMesh {
   bool star_;
   bool met_ = false;  // a server, in this star
   Time began_{};
-  std::set<std::string> servers_;  // by instance; heard, and not gone since
+  exchange::ServersThere servers_;
   std::optional<Time> return_at_;
   Time call_at_{};
   Clock::duration call_after_{};

@@ -1,6 +1,5 @@
 #include "services/exchange/spare_holder.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "services/exchange/batches.h"
@@ -11,7 +10,6 @@ namespace {
 // Of requests that were not answered; beyond it everything counts as asked for the first time.
 constexpr std::size_t kMostRemembered = 100'000;
 // Strangers can make up names of servers, and segments to ask for.
-constexpr std::size_t kMostServers = 64;
 constexpr std::size_t kMostToAnswer = 16'384;
 // A link that took nothing is tried again after this.
 constexpr std::chrono::milliseconds kAgainAfter{50};
@@ -44,26 +42,12 @@ void SpareHolder::Handle(const Message& message, Time now) {
   if (const auto* news = std::get_if<RouteAnnouncement>(&message)) {
     if (news->info.state == route::RouteState::kComplete) to_announce_.erase(news->info.key);
   }
-  if (const auto* status = std::get_if<AgentStatus>(&message)) HandleStatus(*status);
-  if (const auto* gone = std::get_if<AgentGone>(&message)) {
-    servers_.erase({gone->agent, gone->instance});
-  }
-}
-
-void SpareHolder::HandleStatus(const AgentStatus& status) {
-  if (status.role != AgentRole::kServer) return;
-  if (status.mode == AgentMode::kStopped) {
-    servers_.erase({status.agent, status.instance});
-  } else if (servers_.size() < kMostServers) {
-    servers_.emplace(status.agent, status.instance);
-  }
+  servers_.Handle(message);
 }
 
 void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
   if (!held_.contains(request.key)) return;
-  const bool of_server = std::any_of(servers_.begin(), servers_.end(), [&](const auto& server) {
-    return server.first == request.requester;
-  });
+  const bool of_server = servers_.Contains(request.requester);
   if (!servers_.empty() && !of_server) return;
   if (request.lacking.empty() && of_server && read_info_) {
     to_announce_.try_emplace(request.key, now + patience_);

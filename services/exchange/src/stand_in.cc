@@ -30,18 +30,13 @@ std::uint64_t Weight(const AgentId& server, const route::RouteKey& key) {
 }  // namespace
 
 void StandIn::Handle(const Message& message, Time now) {
-  if (const auto* status = std::get_if<AgentStatus>(&message)) {
-    if (status->role != AgentRole::kServer || status->agent == self_) return;
-    if (status->mode == AgentMode::kStopped) {
-      servers_.erase({status->agent, status->instance});
-    } else if (servers_.size() < kMostServers) {
-      servers_.emplace(status->agent, status->instance);
-    }
-  } else if (const auto* gone = std::get_if<AgentGone>(&message)) {
-    servers_.erase({gone->agent, gone->instance});
-  } else if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
-    if (IsServer(batch->sender)) HandleBatch(*batch, now);
+  if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+    if (servers_.Contains(batch->sender)) HandleBatch(*batch, now);
+    return;
   }
+  const auto* status = std::get_if<AgentStatus>(&message);
+  const bool of_own_name = status != nullptr && status->agent == self_;
+  if (!of_own_name) servers_.Handle(message);
 }
 
 void StandIn::HandleBatch(const SegmentBatch& batch, Time now) {
@@ -55,22 +50,15 @@ void StandIn::HandleBatch(const SegmentBatch& batch, Time now) {
   }
 }
 
-bool StandIn::IsServer(const AgentId& agent) const {
-  const auto first = servers_.lower_bound({agent, 0});
-  return first != servers_.end() && first->first == agent;
-}
-
 std::vector<AgentId> StandIn::Before(const AgentId& requester, const route::RouteKey& key,
                                      Time now) const {
   std::vector<std::pair<std::uint64_t, AgentId>> before;
   const std::uint64_t own = Weight(self_, key);
-  for (const auto& [server, instance] : servers_) {
+  for (const AgentId& server : servers_.Names()) {
     const Time* silent_until = silent_until_.Find({server, key});
     const bool silent = silent_until != nullptr && now < *silent_until;
     const std::uint64_t weight = Weight(server, key);
-    const bool known = !before.empty() && before.back().second == server;  // another instance
-    if (server != requester && !silent && !known && weight > own)
-      before.emplace_back(weight, server);
+    if (server != requester && !silent && weight > own) before.emplace_back(weight, server);
   }
   std::sort(before.begin(), before.end(), std::greater<>());
   std::vector<AgentId> names;

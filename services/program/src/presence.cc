@@ -52,6 +52,8 @@ Result<void> Presence::See(const exchange::Message& message) const {
 }
 
 void Presence::Handle(const exchange::Message& message) {
+  servers_.Handle(message);
+  ChooseServer();
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
     Hear(*gone);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
@@ -64,7 +66,6 @@ void Presence::Handle(const exchange::Message& message) {
 void Presence::Hear(const exchange::AgentGone& gone) {
   others_.erase(gone.agent);
   told_.erase(gone.agent);
-  HearServer(gone.agent, gone.instance, false);
   if (gone.agent == status_.agent && gone.instance == namesake_) namesake_ = 0;
 }
 
@@ -77,31 +78,17 @@ void Presence::Hear(const exchange::AgentStatus& status) {
     if (ended && status.instance == namesake_) namesake_ = 0;
     if (!ended && !claims) namesake_ = status.instance;
   }
-  if (status.role == exchange::AgentRole::kServer) {
-    HearServer(status.agent, status.instance, !ended);
-  }
 }
 
-void Presence::HearServer(const AgentId& agent, std::uint64_t instance, bool is_there) {
-  if (!is_there) {
-    servers_.erase({agent, instance});
-  } else if (servers_.size() < kMostServers) {
-    servers_.emplace(agent, instance);
-  }
-  const auto of_same = [this](const auto& each) { return each.first == *server_; };
-  if (server_ && std::any_of(servers_.begin(), servers_.end(), of_same)) return;
+// The one that it was, as long as that is there.
+void Presence::ChooseServer() {
+  if (server_ && servers_.Contains(*server_)) return;
   server_.reset();
-  if (!servers_.empty()) server_ = servers_.begin()->first;
-}
-
-std::set<AgentId> Presence::servers() const {
-  std::set<AgentId> names;
-  for (const auto& [agent, instance] : servers_) names.insert(agent);
-  return names;
+  if (!servers_.empty()) server_ = *servers_.Names().begin();
 }
 
 void Presence::Hear(const exchange::Fleet& fleet) {
-  if (!told_.contains(fleet.server) && told_.size() >= kMostServers) return;
+  if (!told_.contains(fleet.server) && told_.size() >= exchange::ServersThere::kMost) return;
   Told& told = told_[fleet.server];
   told = {.agents = fleet.agents, .namesake = 0};
   for (const exchange::ClaimedName& claimed : fleet.claimed) {

@@ -133,7 +133,7 @@ TEST_F(PresenceTest, MadeUpNamesFillNeitherMemoryNorTime) {
     server.role = exchange::AgentRole::kServer;
     presence.Handle(server);
   }
-  EXPECT_EQ(presence.servers().size(), Presence::kMostServers);
+  EXPECT_EQ(presence.servers().size(), exchange::ServersThere::kMost);
   presence.Publish();
   (void)peer->Take(std::chrono::milliseconds(0));
   const auto longest = Presence::kForEachAgent * static_cast<int>(Presence::kMostAgents);
