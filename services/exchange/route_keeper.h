@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/base/told_lately.h"
 #include "services/exchange/answer_queue.h"
 #include "services/exchange/integrity.h"
 #include "services/exchange/kept_route.h"
@@ -188,7 +189,7 @@ class RouteKeeper {
   StandIn stand_in_;
   MissingRoutes missing_;
   std::vector<Note> notes_;
-  std::map<std::string, Time> noted_at_;
+  ToldLately noted_{options_.note_again};
   KeeperCounters counters_;
 };
 

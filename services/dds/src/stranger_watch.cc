@@ -130,10 +130,7 @@ void StrangerWatch::HandleMisuse(const std::string& who, const std::string& why,
 }
 
 void StrangerWatch::Tell(const std::string& who, const std::string& why, Time now) {
-  if (told_at_.size() >= kMostRemembered) told_at_.clear();
-  const auto [at, is_first] = told_at_.try_emplace(who + "\n" + why, now);
-  if (!is_first && now < at->second + kAgain) return;
-  at->second = now;
+  if (!told_.IsDue(who + "\n" + why, now)) return;
   lines_.push_back(fmt::format("kept out: {}: {}", who, why));
 }
 

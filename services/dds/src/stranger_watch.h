@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "services/base/told_lately.h"
 #include "services/dds/src/peers.h"
 
 namespace trailcast::dds {
@@ -56,7 +57,7 @@ class StrangerWatch {
 
   std::map<std::string, Participant> participants_;
   std::map<std::string, Refused> refused_;  // by the certificate's subject
-  std::map<std::string, Time> told_at_;     // by who and why
+  ToldLately told_{kAgain};                 // who, and why
   std::vector<std::string> lines_;
 };
 

@@ -66,11 +66,7 @@ std::vector<std::string> VersionWatch::Tick(Time now) {
   std::map<std::uint32_t, std::vector<std::string>> others;
   for (const auto& [id, one] : participants_) {
     if (one.who.empty() || one.version == own_ || (keys_ && !one.proven)) continue;
-    if (told_at_.size() >= kMostRemembered) told_at_.clear();
-    const auto [at, is_first] =
-        told_at_.try_emplace(fmt::format("{} {}", one.who, one.version), now);
-    if (!is_first && now < at->second + kAgain) continue;
-    at->second = now;
+    if (!told_.IsDue(fmt::format("{} {}", one.who, one.version), now)) continue;
     others[one.version].push_back(one.who);
   }
   std::vector<std::string> lines;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/told_lately.h"
 #include "services/dds/src/peers.h"
 
 namespace trailcast::dds {
@@ -41,7 +42,7 @@ class VersionWatch {
   std::uint32_t own_;
   bool keys_;
   std::map<std::string, Participant> participants_;
-  std::map<std::string, Time> told_at_;  // by who and version
+  ToldLately told_{kAgain};  // who, and which version
 };
 
 }  // namespace trailcast::dds

@@ -260,12 +260,7 @@ void RouteKeeper::NotSent(const Message& message, Time now) {
 
 void RouteKeeper::AddNote(Note::Severity severity, const std::string& about, std::string text,
                           Time now) {
-  constexpr std::size_t kMaxRemembered = 1000;  // strangers can make up routes to complain about
-  if (noted_at_.size() >= kMaxRemembered) noted_at_.clear();
-  const auto [at, is_first] = noted_at_.try_emplace(about, now);
-  if (!is_first && now < at->second + options_.note_again) return;
-  at->second = now;
-  notes_.push_back({severity, std::move(text)});
+  if (noted_.IsDue(about, now)) notes_.push_back({severity, std::move(text)});
 }
 
 }  // namespace trailcast::exchange
