@@ -3,25 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <string_view>
 
 #include "services/store/src/big_endian.h"
+#include "services/store/src/sqlite_header.h"
 #include "services/store/store_file.h"
 
 namespace trailcast::store {
 namespace {
 
-// "The Database Header".
-constexpr std::size_t kHeaderBytes = 100;
-constexpr std::string_view kMagic("SQLite format 3\0", 16);
-constexpr std::size_t kPageSizeAt = 16;
-constexpr std::size_t kReservedAt = 20;
-constexpr std::size_t kPageCountAt = 28;
-constexpr std::size_t kFirstFreeAt = 32;
-constexpr std::size_t kApplicationIdAt = 68;
 constexpr std::uint32_t kLeastPage = 512;
 constexpr std::uint32_t kLeastUsable = 480;
-constexpr std::uint32_t kMostPage = 65536;
 // "The Write-Ahead Log".
 constexpr std::size_t kLogHeaderBytes = 32;
 constexpr std::size_t kLogSaltAt = 16;
@@ -55,21 +46,17 @@ SqlitePages::SqlitePages(const std::filesystem::path& file)
 }
 
 void SqlitePages::ReadHeader(std::uint64_t file_bytes) {
-  const auto header = ReadBytes<kHeaderBytes>(file_, 0);
-  const bool is_sqlite = header && std::equal(kMagic.begin(), kMagic.end(), header->begin(),
-                                              [](char a, std::uint8_t b) {
-                                                return static_cast<std::uint8_t>(a) == b;
-                                              });
+  const auto bytes = ReadBytes<SqliteHeader::kBytes>(file_, 0);
+  const SqliteHeader header{bytes.value_or(std::array<std::uint8_t, SqliteHeader::kBytes>{})};
   std::uint32_t promised = 0;
-  if (is_sqlite) {
-    is_store_ = BigEndian(*header, kApplicationIdAt, 4) == kApplicationId;
-    const auto raw = static_cast<std::uint32_t>(BigEndian(*header, kPageSizeAt, 2));
-    const std::uint32_t size = raw == 1 ? kMostPage : raw;
+  if (header.IsSqlite()) {
+    is_store_ = header.application_id() == kApplicationId;
+    const std::uint32_t size = header.page_bytes();
     if (size >= kLeastPage && (size & (size - 1)) == 0) page_bytes_ = size;
-    const std::uint32_t reserved = (*header)[kReservedAt];
+    const std::uint32_t reserved = header.reserved_bytes();
     usable_bytes_ = page_bytes_ >= kLeastUsable + reserved ? page_bytes_ - reserved : page_bytes_;
-    promised = static_cast<std::uint32_t>(BigEndian(*header, kPageCountAt, 4));
-    first_free_ = static_cast<PageNumber>(BigEndian(*header, kFirstFreeAt, 4));
+    promised = header.page_count();
+    first_free_ = static_cast<PageNumber>(header.first_free_page());
   }
   const auto there = (file_bytes + page_bytes_ - 1) / page_bytes_;
   // A header may promise anything: it is believed of a file that was cut, not of one that is empty.

@@ -5,33 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <string_view>
 #include <system_error>
 
-#include "services/store/src/big_endian.h"
 #include "services/store/src/replacement.h"
+#include "services/store/src/sqlite_header.h"
 
 namespace trailcast::store {
 namespace {
 
-// https://www.sqlite.org/fileformat.html, "The Database Header": big-endian numbers.
-constexpr std::size_t kHeaderBytes = 100;
-constexpr std::string_view kMagic("SQLite format 3\0", 16);
-constexpr std::size_t kPageSizeAt = 16;
-constexpr std::size_t kChangeCounterAt = 24;
-constexpr std::size_t kPageCountAt = 28;
-constexpr std::size_t kUserVersionAt = 60;
-constexpr std::size_t kApplicationIdAt = 68;
-constexpr std::size_t kPageCountValidForAt = 92;
 constexpr int kAttempts = 10;
-using Header = std::array<std::uint8_t, kHeaderBytes>;
-
-std::uint32_t Number(const Header& header, std::size_t at, std::size_t bytes) {
-  return static_cast<std::uint32_t>(BigEndian(header, at, bytes));
-}
-
 std::string Reason(int error) { return std::generic_category().message(error); }
 
 bool HasContent(const std::filesystem::path& path) {
@@ -40,10 +23,9 @@ bool HasContent(const std::filesystem::path& path) {
 }
 
 // Bytes that the header promises; 0 when the header's count is not to be relied on.
-std::uint64_t PromisedBytes(const Header& header) {
-  if (Number(header, kChangeCounterAt, 4) != Number(header, kPageCountValidForAt, 4)) return 0;
-  const std::uint32_t raw = Number(header, kPageSizeAt, 2);
-  return std::uint64_t{Number(header, kPageCountAt, 4)} * (raw == 1 ? 65536U : raw);
+std::uint64_t PromisedBytes(const SqliteHeader& header) {
+  if (!header.page_count_is_current()) return 0;
+  return std::uint64_t{header.page_count()} * header.page_bytes();
 }
 
 }  // namespace
@@ -120,16 +102,15 @@ Result<void> StoreFile::Inspect() const {
   }
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size == 0) return {};  // new, or its making was interrupted
-  Header header{};
-  if (pread(descriptor_, header.data(), header.size(), 0) != static_cast<ssize_t>(header.size()) ||
-      !std::equal(kMagic.begin(), kMagic.end(), header.begin(),
-                  [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }) ||
-      Number(header, kApplicationIdAt, 4) != kApplicationId) {
+  SqliteHeader header;
+  const ssize_t read = pread(descriptor_, header.bytes.data(), SqliteHeader::kBytes, 0);
+  if (read != static_cast<ssize_t>(SqliteHeader::kBytes) || !header.IsSqlite() ||
+      header.application_id() != kApplicationId) {
     return Fail(ErrorCode::kCorrupt,
                 "{} is not a route store; it was left untouched, give another file",
                 path_.string());
   }
-  const std::uint32_t version = Number(header, kUserVersionAt, 4);
+  const std::uint32_t version = header.user_version();
   if (version < kOldestSchemaVersion || version > kSchemaVersion) {
     return Fail(ErrorCode::kCorrupt,
                 "route store {} has version {}, this program reads {} to {}; {}, or give another "
