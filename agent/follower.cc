@@ -97,7 +97,8 @@ Result<void> Loop::TakeFeed() {
 }
 
 bool Loop::NothingToFollow() const {
-  if (segments_ == 0) return true;
+  // It begins with all that its own store holds: a run over one store is the same each time.
+  if (segments_ == 0 || segments_ < link_.held_before()) return true;
   if (left_ && !complete_ && session_->known_m() <= left_->along_m) return true;
   const bool waiting = last_ && last_->state == ReplayState::kWaiting;
   return waiting && !fed_ && !complete_;
