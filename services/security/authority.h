@@ -66,7 +66,6 @@ class Authority {
   [[nodiscard]] Result<std::filesystem::path> Give(const std::string& name, const Member& member,
                                                    Time now, int days) const;
   [[nodiscard]] Result<void> RevokeSerials(const std::vector<Issued>& issued, Time now) const;
-  [[nodiscard]] Result<std::vector<std::string>> Revoked() const;
   // A member for the fleet's lists; kNotFound names those there are.
   [[nodiscard]] Result<std::vector<Issued>> Known(const std::string& name) const;
 

@@ -24,13 +24,20 @@ struct Validity {
 // encrypted, and every topic is open only to whom its permissions let in.
 [[nodiscard]] std::string GovernanceXml();
 
-// What one member may write, in its own partition and those below, and read (RightsOf its role);
-// nothing else.
+// On which servers give all members the fleet's list of revoked certificates (revocation_list.h).
+// Not one of the exchange's: programs have nothing to do with it.
+inline constexpr const char* kRevocationsTopic = "trailcast/revocations";
+
+// What one member may write, in its own partition and those below, and read (RightsOf its role),
+// and of the revocations topic; nothing else.
 [[nodiscard]] std::string PermissionsXml(const Member& member, const Validity& validity);
 
 // True of permissions that allow the partitions below the member's own, as those from before there
 // were any do not.
 [[nodiscard]] bool AllowsScopes(const std::string& permissions_xml, const Member& member);
+
+// True of permissions that name the revocations topic, as those from before there was one do not.
+[[nodiscard]] bool AllowsRevocations(const std::string& permissions_xml);
 
 // The value of the only element of that name; nothing if there is none, or several.
 [[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);

@@ -6,6 +6,7 @@
 #include "services/base/result.h"
 #include "services/security/documents.h"
 #include "services/security/member.h"
+#include "services/security/revocation_list.h"
 
 namespace trailcast::security {
 
@@ -17,7 +18,10 @@ struct MemberKeys {
   std::string name_key{};  // the fleet's: which id stands for which name
   Member member{};
   Time expires{};
-  bool scoped = false;  // its permissions allow partitions below its own (PartitionOf)
+  bool scoped = false;       // its permissions allow partitions below its own (PartitionOf)
+  bool revocations = false;  // and the topic on which servers spread revocations
+  std::string authority{};   // the fleet's: its certificate, PEM
+  RevocationList revoked{};  // by the authority; that of the folder, or a newer one
 };
 
 // Errors say which file is wrong, and what to do: kNotFound for what is not there, kCorrupt for

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/security/authority.h"
+#include "services/security/revocation_list.h"
 #include "services/tool/command.h"
 #include "services/tool/keys_report.h"
 
@@ -25,7 +26,7 @@ constexpr int kMostDays = 36500;
 
 struct KeysOptions {
   std::string authority = "trailcast-keys";
-  std::string folder;  // of a new authority
+  std::string folder;  // of a new authority, or to be looked at
   std::string name;
   std::string role;
   int authority_days = kAuthorityDays;
@@ -43,11 +44,14 @@ constexpr const char* kExamples =
     "keys\n"
     "  trailcast keys renew robot1                     # before they expire: new keys, copied "
     "again\n"
-    "  trailcast keys revoke robot1                    # stolen: copy fleet/revoked.pem to all "
-    "others\n"
+    "  trailcast keys revoke robot1                    # stolen: copy fleet/revoked.pem to the "
+    "server's keys\n"
     "  trailcast keys list\n"
+    "  trailcast keys revocations keys                 # which list of revoked keys a folder "
+    "holds\n"
     "The folder stays on one machine, a safe one: who has authority.key in it can make members.\n"
-    "Running programs take up changed files in their keys' folder within seconds.";
+    "Running programs take up changed files in their keys' folder within seconds; a route server\n"
+    "gives a new list of revoked keys to all members, at once or when they meet it.";
 
 constexpr const char* kRoles =
     "Roles:\n"
@@ -92,8 +96,8 @@ Result<void> Add(const KeysOptions& options) {
 
 void TellRevoked(const Authority& authority) {
   fmt::print(
-      "Copy {} into the keys' folder of every other member, servers first: each keeps it out from "
-      "then on\n",
+      "Copy {} into the keys' folder of a route server: it gives it to all members, and each keeps "
+      "it out from then on\n",
       authority.RevocationFile().string());
 }
 
@@ -126,6 +130,14 @@ Result<void> List(const KeysOptions& options) {
   const auto rows = authority->List(Now());
   if (!rows) return tl::unexpected(rows.error());
   std::fputs((options.json ? KeysJson(*rows) : KeysTable(*rows)).c_str(), stdout);
+  return {};
+}
+
+Result<void> Revocations(const KeysOptions& options) {
+  const fs::path folder = options.folder.empty() ? options.authority : options.folder;
+  const auto list = security::RevocationListIn(folder);
+  if (!list) return tl::unexpected(list.error());
+  fmt::print("{}: {}\n", folder.string(), security::Describe(*list));
   return {};
 }
 
@@ -184,6 +196,9 @@ Command AddKeysCommand(CLI::App& parent) {
 
   AddName(*add("revoke", "Have nobody believe a member any more", &Revoke), *options);
   add("list", "Show the members", &List)->add_flag("--json", options->json, "For programs");
+  add("revocations", "Show which list of revoked keys a folder holds", &Revocations)
+      ->add_option("DIR", options->folder,
+                   "A member's keys, or an authority; default: the folder of --authority");
   return {app, [options, jobs] {
             for (const auto& [command, job] : jobs) {
               if (command->parsed()) return Told(*command, job(*options));

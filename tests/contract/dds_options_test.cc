@@ -55,12 +55,13 @@ TEST(DomainConfig, RefusesWhatCannotBeConfigured) {
 
 TEST(DomainConfig, WithKeysTheMembersFilesAreUsed) {
   DdsOptions options;
-  options.keys = security::MemberKeys{.folder = "/keys/robot1"};
+  options.keys = security::MemberKeys{.folder = "/keys/robot1", .revoked = {.text = "a list"}};
   const std::string config = DomainConfig(options, {}, "").value();
-  for (const char* file : {"authority.pem", "revoked.pem", "identity.pem", "identity.key",
-                           "governance.p7s", "permissions.p7s"}) {
+  for (const char* file :
+       {"authority.pem", "identity.pem", "identity.key", "governance.p7s", "permissions.p7s"}) {
     EXPECT_THAT(config, HasSubstr(std::string("file:/keys/robot1/") + file));
   }
+  EXPECT_THAT(config, HasSubstr("<CRL>data:,a list</CRL>"));  // perhaps newer than the file
   options.keys->folder = "/keys/<robot1>";
   EXPECT_THAT(DomainConfig(options, {}, "").error().message, HasSubstr("folder"));
 }

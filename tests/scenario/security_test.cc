@@ -104,6 +104,9 @@ TEST_F(SecurityTest, TheKeysCommandDoesAllOfThat) {
   EXPECT_THAT(keys({"revoke", "robot1"}).output, HasSubstr("mine/revoked.pem"));
   EXPECT_THAT(keys({"list"}).output, AllOf(HasSubstr("robot1  follower"), HasSubstr("revoked")));
   EXPECT_THAT(keys({"list", "--json"}).output, HasSubstr("\"generation\": 2"));
+  EXPECT_THAT(keys({"revocations"}).output, HasSubstr("mine: list 3 of revoked keys (2 cert"));
+  EXPECT_THAT(keys({"revocations", Path("mine/members/robot1")}).output, HasSubstr("list 3"));
+  EXPECT_EQ(keys({"revocations", Path("nowhere")}).status, 1);
 }
 
 // All that passed the loopback interface while a route was taught and listed: an interface of a

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "services/security/certificates.h"
 #include "services/security/folder_layout.h"
 #include "services/security/member.h"
 #include "services/security/src/files.h"
@@ -10,22 +11,38 @@
 
 namespace trailcast::test {
 
-// Makes a member's folder one that was given before segments had scopes: its permissions do not
-// allow the partitions below the member's own.
-inline void MakeOfBeforeScopes(const std::filesystem::path& authority,
-                               const std::filesystem::path& keys) {
+// Takes all of `what` out of a member's permissions, as they were before there was such a thing.
+inline void TakeOutOfPermissions(const std::filesystem::path& authority,
+                                 const std::filesystem::path& keys, const std::string& what) {
   using security::ReadSmallFile;
   const security::Identity signer{ReadSmallFile(authority / security::kAuthorityFile).value(),
                                   ReadSmallFile(authority / security::kAuthorityKeyFile).value()};
   const std::filesystem::path file = keys / security::kPermissionsFile;
   std::string text = security::OpenSigned(ReadSmallFile(file).value(), signer.certificate).value();
-  const std::size_t end = text.find("/*</partition>");
-  const std::size_t begin = text.rfind("<partition>", end);
-  if (end == std::string::npos) throw std::runtime_error("there are no scopes in " + text);
-  text.erase(begin, end + std::string("/*</partition>").size() - begin);
+  if (text.find(what) == std::string::npos) throw std::runtime_error("no " + what + " in " + text);
+  for (std::size_t at = 0; (at = text.find(what)) != std::string::npos;)
+    text.erase(at, what.size());
   if (!security::WriteFile(file, security::Sign(text, signer).value(), security::kForEverybody)) {
     throw std::runtime_error("cannot write " + file.string());
   }
+}
+
+// Makes a member's folder one that was given before segments had scopes: its permissions do not
+// allow the partitions below the member's own.
+inline void MakeOfBeforeScopes(const std::filesystem::path& authority,
+                               const std::filesystem::path& keys) {
+  const auto facts =
+      security::ReadCertificate(security::ReadSmallFile(keys / security::kIdentityFile).value());
+  const auto member = security::ParseCommonName(facts->common_name).value();
+  TakeOutOfPermissions(authority, keys,
+                       "<partition>" + security::PartitionOf(member) + "/*</partition>");
+}
+
+// Makes a member's folder one that was given before servers spread revocations.
+inline void MakeOfBeforeRevocations(const std::filesystem::path& authority,
+                                    const std::filesystem::path& keys) {
+  TakeOutOfPermissions(authority, keys,
+                       std::string("<topic>") + security::kRevocationsTopic + "</topic>");
 }
 
 }  // namespace trailcast::test

@@ -29,6 +29,7 @@ class Stranger {
         security::ReadCertificate(security::ReadSmallFile(folder / "identity.pem").value());
     keys.member = security::ParseCommonName(facts->common_name).value();
     keys.expires = facts->validity.until;
+    keys.revoked.text = security::ReadSmallFile(folder / "revoked.pem").value();
     return keys;
   }
 

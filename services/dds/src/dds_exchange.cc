@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/dds/src/joined.h"
+#include "services/dds/src/keys_watch.h"
 #include "services/dds/src/star_or_mesh.h"
 #include "services/dds/src/stranger_watch.h"
 #include "services/dds/src/version_watch.h"
@@ -31,9 +32,6 @@ constexpr std::size_t kMaxSamplesPerTake = 1024;
 // How often the keys' folder is looked at, and who is there.
 constexpr auto kLookEvery = std::chrono::seconds(1);
 
-// So long a folder may be in the middle of being copied.
-constexpr auto kCopying = std::chrono::seconds(10);
-
 exchange::SegmentBatch::Trust TrustIn(security::Role role) {
   using Trust = exchange::SegmentBatch::Trust;
   if (role == security::Role::kFollower) return Trust::kProof;
@@ -52,7 +50,7 @@ class DdsExchange : public exchange::RouteExchange {
         use_(std::move(use)),
         star_or_mesh_(options.discovery, RandomShare()),
         versions_(options.protocol_version, options.keys.has_value()) {
-    if (options_.keys) keys_version_ = security::KeysVersion(options_.keys->folder);
+    if (options_.keys) keys_watch_.emplace(*options_.keys, options_.tell_of_stranger);
   }
   ~DdsExchange() override { SayGoodBye(); }
   DdsExchange(const DdsExchange&) = delete;
@@ -84,7 +82,7 @@ class DdsExchange : public exchange::RouteExchange {
 
   // With keys.
   void TakeUpNewKeys();
-  void TellOnce(const std::string& line);
+  void TakeRevocations();
   void TellOfStrangers(Clock::time_point now);
   const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
   [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
@@ -103,10 +101,7 @@ class DdsExchange : public exchange::RouteExchange {
   StarOrMesh star_or_mesh_;
   Clock::time_point look_at_{};
 
-  std::string keys_version_;
-  std::string unusable_version_;  // of files that changed, and cannot be used
-  Clock::time_point unusable_since_{};
-  std::string told_;  // last of the keys
+  std::optional<KeysWatch> keys_watch_;  // with keys
   StrangerWatch strangers_;
   VersionWatch versions_;
 };
@@ -220,6 +215,7 @@ std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
   // A failed wait leaves nothing to take, and is tried again with the next call.
   if (!joined_->wait_set.Wait(max_wait)) return messages;
   for (auto& [place, reader] : joined_->readers) TakeFrom(place, reader, messages);
+  TakeRevocations();
   return messages;
 }
 
@@ -329,38 +325,31 @@ void DdsExchange::TellOfDiscovery(const std::string& line) {
 }
 
 void DdsExchange::TakeUpNewKeys() {
-  const auto now = std::chrono::system_clock::now();
-  const std::string version = security::KeysVersion(options_.keys->folder);
-  if (version != keys_version_) {
-    auto keys = security::LoadMemberKeys(options_.keys->folder, now);
-    // While a folder is being copied its files do not belong together: the old keys go on.
-    if (keys && keys->name == options_.keys->name) {
-      options_.keys = *std::move(keys);
-      keys_version_ = version;
-      told_.clear();
-      Leave();
-    } else if (version != unusable_version_) {
-      unusable_version_ = version;
-      unusable_since_ = Clock::now();
-    } else if (Clock::now() >= unusable_since_ + kCopying) {
-      TellOnce("the keys' files changed and cannot be used, going on with the old ones: " +
-               (keys ? fmt::format("they are those of '{}'", keys->name) : keys.error().message));
-    }
+  if (auto keys = keys_watch_->Look(*options_.keys)) {
+    options_.keys = *std::move(keys);
+    Leave();
   }
-  if (joined_ && now < options_.keys->expires) return;
   if (joined_) {
-    TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
-             ": nobody believes this program any more until they are renewed");
+    if (std::chrono::system_clock::now() < options_.keys->expires) return;
+    keys_watch_->TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
+                          ": nobody believes this program any more until they are renewed");
   } else if (const auto joined = Join()) {
-    TellOnce("the keys' files changed: joined anew with them");
+    keys_watch_->TellOnce("joined anew with the keys as they are now, and " +
+                          Describe(options_.keys->revoked));
   } else {
-    TellOnce("cannot join with the changed keys: " + joined.error().message);
+    keys_watch_->TellOnce("cannot join with the changed keys: " + joined.error().message);
   }
 }
 
-void DdsExchange::TellOnce(const std::string& line) {
-  if (line != told_ && options_.tell_of_stranger) options_.tell_of_stranger(line);
-  told_ = line;
+void DdsExchange::TakeRevocations() {
+  if (!joined_->revocations) return;
+  bool newer = false;
+  for (const auto& [from, text] : joined_->revocations->Take()) {
+    newer = keys_watch_->TakeList(text, from, *options_.keys) || newer;
+  }
+  if (!newer) return;
+  Leave();
+  look_at_ = {};  // to join anew with the next Take
 }
 
 void DdsExchange::LookAtPeers(Clock::time_point now) {

@@ -51,7 +51,7 @@ constexpr const char* kSecurity =
     "<Library path=\"dds_security_auth\" initFunction=\"init_authentication\" "
     "finalizeFunction=\"finalize_authentication\"/>"
     "<IdentityCA>file:{folder}/{authority}</IdentityCA>"
-    "<CRL>file:{folder}/{revoked}</CRL>"
+    "<CRL>data:,{revoked}</CRL>"
     "<IdentityCertificate>file:{folder}/{identity}</IdentityCertificate>"
     "<PrivateKey>file:{folder}/{key}</PrivateKey>"
     "</Authentication>"
@@ -76,7 +76,7 @@ Result<std::string> SecurityConfig(const security::MemberKeys& keys) {
   }
   return fmt::format(
       kSecurity, fmt::arg("folder", folder), fmt::arg("authority", security::kAuthorityFile),
-      fmt::arg("revoked", security::kRevokedFile), fmt::arg("identity", security::kIdentityFile),
+      fmt::arg("revoked", keys.revoked.text), fmt::arg("identity", security::kIdentityFile),
       fmt::arg("key", security::kIdentityKeyFile),
       fmt::arg("governance", security::kGovernanceFile),
       fmt::arg("permissions", security::kPermissionsFile));

@@ -107,6 +107,11 @@ Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse&
   if (auto opened = OpenTopics(*joined, options, use); !opened) {
     return tl::unexpected(opened.error());
   }
+  if (options.keys && options.keys->revocations) {
+    auto topic = RevocationTopic::Open(joined->participant, joined->wait_set, *options.keys);
+    if (!topic) return tl::unexpected(topic.error());
+    joined->revocations = *std::move(topic);
+  }
   return joined;
 }
 

@@ -11,6 +11,7 @@
 #include "services/dds/src/discovery_config.h"
 #include "services/dds/src/entities.h"
 #include "services/dds/src/peers.h"
+#include "services/dds/src/revocation_topic.h"
 #include "services/dds/src/scope.h"
 #include "services/dds/src/star_or_mesh.h"
 #include "services/security/member.h"
@@ -35,6 +36,7 @@ struct Joined {
   std::map<exchange::Topic, Topic> topics{};
   std::map<Place, Writer> writers{};
   std::map<Place, Reader> readers{};
+  std::optional<RevocationTopic> revocations{};                 // with keys that allow it
   std::map<dds_instance_handle_t, security::Member> senders{};  // with keys: who writes what
   std::optional<Reader> participants{};                         // unless it is in a mesh for good
   std::set<dds_instance_handle_t> present{};                    // of these, itself included

@@ -40,6 +40,16 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
         "authority is",
         options.security, keys->name);
   }
+  if (!keys->revocations) {
+    spdlog::warn(
+        "the keys in {} are from before route servers spread the list of revoked keys: {}; "
+        "'trailcast keys renew {}' where the authority is",
+        options.security,
+        keys->member.role == security::Role::kServer
+            ? "this one does not, and hears of none"
+            : "copy revoked.pem there by hand after each 'trailcast keys revoke'",
+        keys->name);
+  }
   return keys;
 }
 

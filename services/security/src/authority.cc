@@ -10,6 +10,7 @@
 #include "services/base/ids.h"
 #include "services/security/documents.h"
 #include "services/security/folder_layout.h"
+#include "services/security/revocation_list.h"
 #include "services/security/src/files.h"
 #include "services/security/src/signing.h"
 
@@ -71,7 +72,7 @@ Result<Authority> Authority::Create(const fs::path& folder, Time now, int days) 
   if (!name_key) return tl::unexpected(name_key.error());
   const auto governance = Sign(GovernanceXml(), *identity);
   if (!governance) return tl::unexpected(governance.error());
-  const auto revoked = MakeRevocationList(*identity, {}, validity);
+  const auto revoked = MakeRevocationList(*identity, {}, 1, validity);
   if (!revoked) return tl::unexpected(revoked.error());
   for (const fs::path& each : {folder, folder / kIssuedFolder, folder / kMembersFolder}) {
     if (auto made = MakePrivateFolder(each); !made) return tl::unexpected(made.error());
@@ -234,23 +235,17 @@ Result<fs::path> Authority::Renew(const std::string& name, std::optional<Role> r
   return Give(name, member, now, days);
 }
 
-Result<std::vector<std::string>> Authority::Revoked() const {
-  const auto list = ReadSmallFile(RevocationFile());
-  if (!list) return tl::unexpected(list.error());
-  auto serials = ReadRevocationList(*list, identity_.certificate);
-  if (!serials) return Wrap(serials.error(), RevocationFile().string());
-  return serials;
-}
-
 Result<void> Authority::RevokeSerials(const std::vector<Issued>& issued, Time now) const {
-  auto serials = Revoked();
-  if (!serials) return tl::unexpected(serials.error());
+  const auto before = RevocationListIn(folder_);
+  if (!before) return tl::unexpected(before.error());
+  std::vector<std::string> serials = before->serials;
   for (const Issued& each : issued) {
-    if (std::find(serials->begin(), serials->end(), each.facts.serial) == serials->end()) {
-      serials->push_back(each.facts.serial);
+    if (std::find(serials.begin(), serials.end(), each.facts.serial) == serials.end()) {
+      serials.push_back(each.facts.serial);
     }
   }
-  const auto list = MakeRevocationList(identity_, *serials, {now - kClockMargin, until_});
+  const auto list =
+      MakeRevocationList(identity_, serials, before->number + 1, {now - kClockMargin, until_});
   if (!list) return tl::unexpected(list.error());
   if (auto written = WriteFile(RevocationFile(), *list, kForEverybody); !written) return written;
   const auto names = Names();
@@ -274,8 +269,9 @@ Result<void> Authority::Revoke(const std::string& name, Time now) const {
 Result<std::vector<Authority::Row>> Authority::List(Time now) const {
   const auto names = Names();
   if (!names) return tl::unexpected(names.error());
-  const auto revoked = Revoked();
-  if (!revoked) return tl::unexpected(revoked.error());
+  const auto list = RevocationListIn(folder_);
+  if (!list) return tl::unexpected(list.error());
+  const std::vector<std::string>& revoked = list->serials;
   std::vector<Row> rows;
   for (const std::string& name : *names) {
     const auto issued = IssuedTo(name);
@@ -283,7 +279,7 @@ Result<std::vector<Authority::Row>> Authority::List(Time now) const {
     if (issued->empty()) continue;
     const Issued& latest = issued->back();
     const bool is_revoked =
-        std::find(revoked->begin(), revoked->end(), latest.facts.serial) != revoked->end();
+        std::find(revoked.begin(), revoked.end(), latest.facts.serial) != revoked.end();
     const Time expires = latest.facts.validity.until;
     rows.push_back({name, latest.member, expires,
                     is_revoked       ? State::kRevoked

@@ -1,25 +1,17 @@
 #include "services/security/certificates.h"
 
-#include <openssl/bn.h>
 #include <openssl/x509v3.h>
 
-#include <algorithm>
 #include <array>
-#include <ctime>
 
+#include "services/security/src/asn1.h"
 #include "services/security/src/openssl_ptr.h"
 #include "services/security/src/pem.h"
 
 namespace trailcast::security {
 namespace {
 
-using NumberPtr = std::unique_ptr<BIGNUM, Freer<BN_free>>;
-using IntegerPtr = std::unique_ptr<ASN1_INTEGER, Freer<ASN1_INTEGER_free>>;
-using TimePtr = std::unique_ptr<ASN1_TIME, Freer<ASN1_TIME_free>>;
 using ExtensionPtr = std::unique_ptr<X509_EXTENSION, Freer<X509_EXTENSION_free>>;
-using RevokedPtr = std::unique_ptr<X509_REVOKED, Freer<X509_REVOKED_free>>;
-
-std::time_t Seconds(Time time) { return std::chrono::system_clock::to_time_t(time); }
 
 Result<std::string> KeyText(EVP_PKEY* key) {
   const BioPtr out = Memory();
@@ -86,37 +78,6 @@ Result<Identity> Make(const std::string& common_name, const Validity& validity, 
   return Identity{*std::move(certificate_text), *std::move(key_text)};
 }
 
-std::string Hexadecimal(const ASN1_INTEGER* serial) {
-  const NumberPtr number(ASN1_INTEGER_to_BN(serial, nullptr));
-  if (!number) return "";
-  const std::unique_ptr<char, void (*)(char*)> text(BN_bn2hex(number.get()),
-                                                    [](char* each) { OPENSSL_free(each); });
-  return text ? text.get() : "";
-}
-
-Result<Time> FromAsn1(const ASN1_TIME* time) {
-  std::tm parts{};
-  if (ASN1_TIME_to_tm(time, &parts) != 1) return OpenSslFailed("reading a certificate's dates");
-  return std::chrono::system_clock::from_time_t(timegm(&parts));
-}
-
-bool AddRevoked(X509_CRL* list, const std::string& serial, Time since) {
-  BIGNUM* parsed = nullptr;
-  if (BN_hex2bn(&parsed, serial.c_str()) == 0) return false;
-  const NumberPtr number(parsed);
-  const IntegerPtr integer(BN_to_ASN1_INTEGER(number.get(), nullptr));
-  const TimePtr time(ASN1_TIME_set(nullptr, Seconds(since)));
-  RevokedPtr revoked(X509_REVOKED_new());
-  if (!integer || !time || !revoked ||
-      X509_REVOKED_set_serialNumber(revoked.get(), integer.get()) != 1 ||
-      X509_REVOKED_set_revocationDate(revoked.get(), time.get()) != 1 ||
-      X509_CRL_add0_revoked(list, revoked.get()) != 1) {
-    return false;
-  }
-  (void)revoked.release();  // the list's now
-  return true;
-}
-
 }  // namespace
 
 Result<Identity> MakeAuthority(const std::string& common_name, const Validity& validity) {
@@ -167,55 +128,6 @@ Result<bool> KeyFits(const Identity& identity) {
   const bool fits = X509_check_private_key(certificate->get(), key->get()) == 1;
   ERR_clear_error();
   return fits;
-}
-
-Result<std::string> MakeRevocationList(const Identity& authority,
-                                       const std::vector<std::string>& serials,
-                                       const Validity& validity) {
-  const auto issuer = ParseCertificate(authority.certificate);
-  if (!issuer) return Wrap(issuer.error(), "the authority's certificate");
-  const auto key = ParseKey(authority.key);
-  if (!key) return Wrap(key.error(), "the authority's key");
-  const RevocationsPtr list(X509_CRL_new());
-  const TimePtr from(ASN1_TIME_set(nullptr, Seconds(validity.from)));
-  const TimePtr until(ASN1_TIME_set(nullptr, Seconds(validity.until)));
-  constexpr long kVersion2 = 1;
-  bool made = list && from && until && X509_CRL_set_version(list.get(), kVersion2) == 1 &&
-              X509_CRL_set_issuer_name(list.get(), X509_get_subject_name(issuer->get())) == 1 &&
-              X509_CRL_set1_lastUpdate(list.get(), from.get()) == 1 &&
-              X509_CRL_set1_nextUpdate(list.get(), until.get()) == 1;
-  for (const std::string& serial : serials) {
-    made = made && AddRevoked(list.get(), serial, validity.from);
-  }
-  made = made && X509_CRL_sort(list.get()) == 1 &&
-         X509_CRL_sign(list.get(), key->get(), EVP_sha256()) > 0;
-  const BioPtr out = Memory();
-  if (!made || PEM_write_bio_X509_CRL(out.get(), list.get()) != 1) {
-    return OpenSslFailed("making the list of revoked certificates");
-  }
-  return TextIn(out.get());
-}
-
-Result<std::vector<std::string>> ReadRevocationList(const std::string& list,
-                                                    const std::string& authority) {
-  const BioPtr in = ReadingFrom(list);
-  const RevocationsPtr parsed(PEM_read_bio_X509_CRL(in.get(), nullptr, nullptr, nullptr));
-  ERR_clear_error();
-  if (!parsed) return Fail(ErrorCode::kInvalidArgument, "is no revocation list in PEM form");
-  const auto issuer = ParseCertificate(authority);
-  if (!issuer) return Wrap(issuer.error(), "the authority's certificate");
-  const bool is_signed = X509_CRL_verify(parsed.get(), X509_get0_pubkey(issuer->get())) == 1;
-  ERR_clear_error();
-  if (!is_signed) return Fail(ErrorCode::kCorrupt, "was not signed by the fleet's authority");
-  std::vector<std::string> serials;
-  const STACK_OF(X509_REVOKED)* revoked = X509_CRL_get_REVOKED(parsed.get());
-  const int count = std::max(0, sk_X509_REVOKED_num(revoked));  // -1: there is no list
-  serials.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    serials.push_back(
-        Hexadecimal(X509_REVOKED_get0_serialNumber(sk_X509_REVOKED_value(revoked, i))));
-  }
-  return serials;
 }
 
 }  // namespace trailcast::security

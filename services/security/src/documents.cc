@@ -20,11 +20,11 @@ std::string Partition(const std::string& name) { return "<partition>" + name + "
 
 std::string Below(const Member& member) { return Partition(PartitionOf(member) + "/*"); }
 
+std::string Topic(const std::string& name) { return "<topic>" + name + "</topic>"; }
+
 std::string Topics(const std::vector<exchange::Topic>& topics) {
   std::string text;
-  for (const exchange::Topic topic : topics) {
-    text += fmt::format("<topic>{}</topic>", exchange::NameOf(topic));
-  }
+  for (const exchange::Topic topic : topics) text += Topic(exchange::NameOf(topic));
   return text;
 }
 
@@ -67,6 +67,9 @@ std::string GovernanceXml() {
 
 std::string PermissionsXml(const Member& member, const Validity& validity) {
   const exchange::TopicUse rights = RightsOf(member.role);
+  const std::string revocations = Topic(kRevocationsTopic);
+  const std::string writes =
+      Topics(rights.write) + (member.role == Role::kServer ? revocations : "");
   return fmt::format(kHead, "permissions") +
          fmt::format(R"(<permissions>
   <grant name="{}">
@@ -92,12 +95,17 @@ std::string PermissionsXml(const Member& member, const Validity& validity) {
 </dds>
 )",
                      NameOf(member.role), SubjectOf(member), ToText(validity.from),
-                     ToText(validity.until), kDomains, Topics(rights.write),
-                     Partition(PartitionOf(member)) + Below(member), Topics(rights.read));
+                     ToText(validity.until), kDomains, writes,
+                     Partition(PartitionOf(member)) + Below(member),
+                     Topics(rights.read) + revocations);
 }
 
 bool AllowsScopes(const std::string& permissions_xml, const Member& member) {
   return permissions_xml.find(Below(member)) != std::string::npos;
+}
+
+bool AllowsRevocations(const std::string& permissions_xml) {
+  return permissions_xml.find(Topic(kRevocationsTopic)) != std::string::npos;
 }
 
 std::optional<std::string> ElementOf(const std::string& xml, const std::string& name) {

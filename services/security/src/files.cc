@@ -1,6 +1,7 @@
 #include "services/security/src/files.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -48,18 +49,18 @@ Result<std::string> ReadSmallFile(const std::filesystem::path& file) {
 }
 
 Result<void> WriteFile(const std::filesystem::path& file, const std::string& text, mode_t mode) {
-  const std::string fresh = file.string() + ".new";
+  // Several programs may run with one folder: each writes under a name of its own.
+  const std::string fresh = fmt::format("{}.{}.new", file.string(), getpid());
   unlink(fresh.c_str());
   const int out = open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (out < 0) return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", fresh, Reason());
   const bool written = WriteAll(out, text);
   const std::string reason = Reason();
   close(out);
-  if (!written) return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", fresh, reason);
-  if (rename(fresh.c_str(), file.c_str()) != 0) {
-    return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", file.string(), Reason());
-  }
-  return {};
+  if (written && rename(fresh.c_str(), file.c_str()) == 0) return {};
+  const std::string why = written ? Reason() : reason;
+  unlink(fresh.c_str());
+  return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", file.string(), why);
 }
 
 Result<void> MakePrivateFolder(const std::filesystem::path& folder) {

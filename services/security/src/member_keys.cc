@@ -116,11 +116,13 @@ Result<void> CheckDates(const MemberKeys& keys, const CertificateFacts& facts, T
   return {};
 }
 
-Result<void> CheckRevoked(const MemberKeys& keys, const Contents& contents,
-                          const std::string& serial) {
-  const auto revoked = ReadRevocationList(contents.revoked, contents.authority);
-  if (!revoked) return Wrong(keys.folder / kRevokedFile, revoked.error().message);
-  if (std::find(revoked->begin(), revoked->end(), serial) == revoked->end()) return {};
+// Reads the list, too.
+Result<void> CheckRevoked(MemberKeys& keys, const Contents& contents, const std::string& serial) {
+  auto list = ReadRevocationList(contents.revoked, contents.authority);
+  if (!list) return Wrong(keys.folder / kRevokedFile, list.error().message);
+  keys.revoked = *std::move(list);
+  const std::vector<std::string>& revoked = keys.revoked.serials;
+  if (std::find(revoked.begin(), revoked.end(), serial) == revoked.end()) return {};
   return Fail(ErrorCode::kUnavailable,
               "the keys in {} were revoked; if that was not meant, 'trailcast keys renew {}' where "
               "the authority is",
@@ -140,6 +142,7 @@ Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
                                    SubjectOf(keys.member)));
   }
   keys.scoped = AllowsScopes(*permissions, keys.member);
+  keys.revocations = AllowsRevocations(*permissions);
   return {};
 }
 
@@ -169,6 +172,7 @@ Result<MemberKeys> LoadMemberKeys(const fs::path& folder, Time now) {
   if (!member) return Wrong(keys.folder / kIdentityFile, "is no member's certificate");
   keys.member = *std::move(member);
   keys.expires = facts->validity.until;
+  keys.authority = contents->authority;
   if (MemberIdOf(keys.name_key, keys.name) != keys.member.id) {
     return Wrong(keys.folder / kMemberFile, "is of another member than identity.pem");
   }

@@ -39,6 +39,16 @@ TEST(Documents, PermissionsGrantARoleItsTopicsInItsPartitionUntilTheyEnd) {
   EXPECT_THAT(ElementOf(xml, "subscribe").value(), HasSubstr("<topic>trailcast/routes</topic>"));
 }
 
+TEST(Documents, ServersSpreadRevocationsAndAllHearThem) {
+  const std::string topic = std::string("<topic>") + kRevocationsTopic + "</topic>";
+  for (const Role role : AllRoles()) {
+    const std::string xml = PermissionsXml({role, "4f2a9c0d11223344", 1}, {});
+    EXPECT_EQ(ElementOf(xml, "publish")->find(topic) != std::string::npos, role == Role::kServer);
+    EXPECT_THAT(ElementOf(xml, "subscribe").value(), HasSubstr(topic)) << NameOf(role);
+    EXPECT_TRUE(AllowsRevocations(xml));
+  }
+}
+
 TEST(Documents, AnElementThatIsThereTwiceIsNotRead) {
   EXPECT_EQ(ElementOf("<a>1</a><a>2</a>", "a"), std::nullopt);
   EXPECT_EQ(ElementOf("<a>1", "a"), std::nullopt);

@@ -48,6 +48,14 @@ TEST_F(MemberKeysTest, FromBeforeSegmentsHadScopesHoldAndSaySo) {
   EXPECT_FALSE(keys->scoped);
 }
 
+TEST_F(MemberKeysTest, FromBeforeServersSpreadRevocationsHoldAndSaySo) {
+  EXPECT_TRUE(LoadMemberKeys(scout_, now_)->revocations);
+  test::MakeOfBeforeRevocations(authority_.folder(), scout_);
+  const auto keys = LoadMemberKeys(scout_, now_);
+  ASSERT_TRUE(keys) << keys.error().message;
+  EXPECT_FALSE(keys->revocations);
+}
+
 TEST_F(MemberKeysTest, TellWhatIsMissing) {
   EXPECT_THAT(Fault(folder_ / "nothing"), HasSubstr("there is no folder"));
   EXPECT_THAT(Fault(authority_.folder()), HasSubstr("is the authority's own folder"));

@@ -6,7 +6,6 @@
 namespace trailcast::security {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class SigningTest : public testing::Test {
@@ -55,16 +54,6 @@ TEST_F(SigningTest, ACertificateSaysWhoAndHowLongAndByWhom) {
   EXPECT_TRUE(KeyFits(member).value());
   EXPECT_FALSE(KeyFits({member.certificate, stranger_.key}).value());
   EXPECT_FALSE(ReadCertificate("-----BEGIN CERTIFICATE-----\nAAAA\n"));
-}
-
-TEST_F(SigningTest, ARevocationListIsTheAuthoritysOwn) {
-  const Identity member = Issue(authority_, "scout.4f2a9c0d11223344.1", year_).value();
-  const std::string serial = ReadCertificate(member.certificate)->serial;
-  const std::string list = MakeRevocationList(authority_, {serial}, year_).value();
-  EXPECT_THAT(ReadRevocationList(list, authority_.certificate).value(), ElementsAre(serial));
-  EXPECT_EQ(ReadRevocationList(list, stranger_.certificate).error().code, ErrorCode::kCorrupt);
-  const std::string empty = MakeRevocationList(authority_, {}, year_).value();
-  EXPECT_THAT(ReadRevocationList(empty, authority_.certificate).value(), testing::IsEmpty());
 }
 
 }  // namespace
