@@ -1,6 +1,11 @@
 // A fleet in which keys are revoked: the list is copied to the server, which gives it to all
 // others.
+#include <optional>
+
+#include "services/dds/src/domain_config.h"
+#include "services/dds/src/revocation_topic.h"
 #include "services/security/revocation_list.h"
+#include "services/security/src/files.h"
 #include "tests/scenario/secured_fleet.h"
 #include "tests/support/old_keys.h"
 
@@ -21,8 +26,13 @@ class RevocationTest : public SecuredFleetTest {
   }
   void RevokeAndTellTheServer(const std::string& name) {
     ASSERT_TRUE(authority_.Revoke(name, Now()));
-    fs::copy_file(authority_.RevocationFile(), fs::path(server_) / "revoked.pem",
-                  fs::copy_options::overwrite_existing);
+    ASSERT_TRUE(Replace(server_, ListOf(authority_.folder())));
+  }
+  static std::string ListOf(const fs::path& folder) {
+    return security::ReadSmallFile(folder / "revoked.pem").value();
+  }
+  static Result<void> Replace(const std::string& keys, const std::string& list) {
+    return security::WriteFile(fs::path(keys) / "revoked.pem", list, security::kForEverybody);
   }
   std::unique_ptr<Process> ServerOfCopies(const std::string& log) {
     auto server = StartAs(server_, "trailcast-server", {"--store", Path("server.db")}, log);
@@ -45,6 +55,7 @@ class RevocationTest : public SecuredFleetTest {
     return security::RevocationListIn(keys)->number;
   }
 
+  const std::string first_list_ = ListOf(authority_.folder());
   const std::string server_ = CopyOf("server");
   const std::string robot1_ = CopyOf("robot1");
   const std::string robot2_ = CopyOf("robot2");
@@ -78,15 +89,19 @@ TEST_F(RevocationTest, TheServerGivesTheListToAllOthersAndItStays) {
   }
 }
 
-TEST_F(RevocationTest, WhoWasAwayGetsTheListWhenItMeetsTheServerOperatorsToo) {
-  ASSERT_TRUE(authority_.Revoke("robot1", Now()));
-  fs::copy_file(authority_.RevocationFile(), fs::path(server_) / "revoked.pem",
-                fs::copy_options::overwrite_existing);
+TEST_F(RevocationTest, WhoWasAwayGetsTheListWhenItMeetsTheServerOperatorsAndOtherServersToo) {
+  RevokeAndTellTheServer("robot1");
   const auto server = ServerOfCopies("server");
   const auto robot = Robot2("robot");
   EXPECT_TRUE(robot->WaitForOutput("joined anew")) << robot->output();
   EXPECT_EQ(ListIn(robot2_), 2U);
+  const std::string second = Add("server2", Role::kServer);
+  ASSERT_TRUE(Replace(second, first_list_));
+  const auto other = StartAs(second, "trailcast-server", {"--store", Path("second.db")}, "second");
+  EXPECT_TRUE(other->WaitForOutput("joined anew")) << other->output();
+  EXPECT_EQ(ListIn(second), 2U);
   const std::string desk = CopyOf("desk");
+  ASSERT_TRUE(Replace(desk, first_list_));
   // A command may be over before the list came to it; one of the next has it.
   for (int i = 0; i < 10 && ListIn(desk) == 1; ++i) {
     const Ended routes = RunAs(desk, "trailcast", {"routes", "--timeout", "20"});
@@ -111,14 +126,60 @@ TEST_F(RevocationTest, WhereTheFolderCannotBeWrittenTheListHoldsForTheRun) {
 
 TEST_F(RevocationTest, AServerThatComesBackWithAnOlderListTakesNothingBack) {
   ASSERT_TRUE(authority_.Revoke("robot1", Now()));
-  fs::copy_file(authority_.RevocationFile(), fs::path(robot2_) / "revoked.pem",
-                fs::copy_options::overwrite_existing);
+  ASSERT_TRUE(Replace(robot2_, ListOf(authority_.folder())));
   const auto server = ServerOfCopies("server");
   const auto robot = Robot2("robot");
   EXPECT_TRUE(robot->WaitForOutput("refused what server/")) << robot->output();
   EXPECT_THAT(robot->output(), AllOf(HasSubstr("list 1 of revoked keys"), HasSubstr("is older")));
   EXPECT_EQ(ListIn(robot2_), 2U);
   EXPECT_EQ(ListIn(server_), 1U);
+}
+
+// A server's program that sends anything as the list; DDS itself is given its right one.
+class LyingServer {
+ public:
+  LyingServer(const std::string& tag, const std::string& keys_folder, const std::string& list)
+      : keys_(security::LoadMemberKeys(keys_folder, std::chrono::system_clock::now()).value()),
+        domain_(dds::Domain::Create(dds::DomainConfig(Options(tag), {}, "").value()).value()),
+        participant_(dds::Participant::Create(domain_, "").value()),
+        wait_set_(dds::WaitSet::Create(participant_).value()) {
+    keys_.revoked.text = list;
+    topic_ = dds::RevocationTopic::Open(participant_, wait_set_, keys_).value();
+  }
+
+ private:
+  dds::DdsOptions Options(const std::string& tag) const {
+    dds::DdsOptions options;
+    options.discovery_tag = tag;
+    options.network_interface = "lo";
+    options.keys = keys_;
+    return options;
+  }
+  security::MemberKeys keys_;
+  dds::Domain domain_;
+  dds::Participant participant_;
+  dds::WaitSet wait_set_;
+  std::optional<dds::RevocationTopic> topic_;
+};
+
+TEST_F(RevocationTest, WhatIsNoListOfTheAuthoritysIsRefusedAndNothingIsWritten) {
+  const auto other = security::Authority::Create(folder_ / "other", LongAgo(), 3650).value();
+  ASSERT_TRUE(other.Add("robot1", Role::kScout, LongAgo(), 30));
+  ASSERT_TRUE(other.Revoke("robot1", Now()));
+  const std::string version = security::KeysVersion(robot2_);
+  const auto server = ServerOfCopies("server");
+  const auto robot = Robot2("robot");
+  const std::string second = Add("server2", Role::kServer);
+  const std::pair<std::string, const char*> kLists[] = {
+      {ListOf(other.folder()), "was not signed by the fleet's authority"},
+      {"-----BEGIN X509 CRL-----\nAAAA\n", "is no revocation list"},
+      {first_list_ + std::string(security::kMaxRevocationListBytes, '\n'), "is longer than"}};
+  for (const auto& [list, why] : kLists) {
+    const LyingServer liar(tag_, second, list);
+    EXPECT_TRUE(robot->WaitForOutput(why)) << robot->output();
+  }
+  EXPECT_THAT(robot->output(), Not(HasSubstr("joined anew")));
+  EXPECT_EQ(security::KeysVersion(robot2_), version);
 }
 
 TEST_F(RevocationTest, MembersWithKeysFromBeforeServersSpreadListsTakePart) {
