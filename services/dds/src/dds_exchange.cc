@@ -18,7 +18,6 @@
 #include "services/exchange/batches.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/topics.h"
-#include "services/security/author.h"
 
 namespace trailcast::dds {
 namespace {
@@ -31,12 +30,6 @@ constexpr std::size_t kMaxSamplesPerTake = 1024;
 
 // How often the keys' folder is looked at, and who is there.
 constexpr auto kLookEvery = std::chrono::seconds(1);
-
-exchange::SegmentBatch::Trust TrustIn(security::Role role) {
-  using Trust = exchange::SegmentBatch::Trust;
-  if (role == security::Role::kFollower) return Trust::kProof;
-  return role == security::Role::kScout ? Trust::kOwnRoutes : Trust::kAll;
-}
 
 double RandomShare() {
   std::random_device random;
@@ -84,7 +77,6 @@ class DdsExchange : public exchange::RouteExchange {
   void TakeUpNewKeys();
   void TakeRevocations();
   void TellOfStrangers(Clock::time_point now);
-  const security::Member* SenderOf(const Reader& reader, dds_instance_handle_t writer);
   [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
                                  Message& message);
 
@@ -384,33 +376,17 @@ void DdsExchange::TellOfStrangers(Clock::time_point now) {
   }
 }
 
-const security::Member* DdsExchange::SenderOf(const Reader& reader, dds_instance_handle_t writer) {
-  constexpr std::size_t kMostRemembered = 10'000;
-  auto& senders = joined_->senders;
-  if (const auto found = senders.find(writer); found != senders.end()) return &found->second;
-  const auto partition = reader.PartitionOf(writer);
-  const auto member = partition ? security::ParsePartition(*partition) : std::nullopt;
-  if (!member) return nullptr;
-  if (senders.size() >= kMostRemembered) senders.erase(senders.begin());
-  return &senders.emplace(writer, *member).first->second;
-}
-
 bool DdsExchange::IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
                               Message& message) {
   if (!options_.keys) return true;
-  const security::Member* sender = SenderOf(reader, writer);
-  // Nobody knows who wrote it any more: anybody could have.
+  const security::Member* sender = joined_->senders.Of(reader, writer);
   if (sender == nullptr) return false;
-  const auto own = security::CheckAuthor(message, *sender, options_.keys->name_key);
+  const auto own = CheckSender(*sender, options_.keys->name_key, message);
   if (!own) {
     strangers_.HandleMisuse(fmt::format("{} {}", security::NameOf(sender->role), sender->id),
                             own.error().message, Clock::now());
-    return false;
   }
-  if (auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
-    batch->trust = TrustIn(sender->role);
-  }
-  return true;
+  return own.has_value();
 }
 
 }  // namespace

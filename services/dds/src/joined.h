@@ -13,8 +13,8 @@
 #include "services/dds/src/peers.h"
 #include "services/dds/src/revocation_topic.h"
 #include "services/dds/src/scope.h"
+#include "services/dds/src/senders.h"
 #include "services/dds/src/star_or_mesh.h"
-#include "services/security/member.h"
 
 namespace trailcast::dds {
 
@@ -36,10 +36,10 @@ struct Joined {
   std::map<exchange::Topic, Topic> topics{};
   std::map<Place, Writer> writers{};
   std::map<Place, Reader> readers{};
-  std::optional<RevocationTopic> revocations{};                 // with keys that allow it
-  std::map<dds_instance_handle_t, security::Member> senders{};  // with keys: who writes what
-  std::optional<Reader> participants{};                         // unless it is in a mesh for good
-  std::set<dds_instance_handle_t> present{};                    // of these, itself included
+  std::optional<RevocationTopic> revocations{};  // with keys that allow it
+  Senders senders{};                             // with keys
+  std::optional<Reader> participants{};          // unless it is in a mesh for good
+  std::set<dds_instance_handle_t> present{};     // of these, itself included
 
   // With keys: writers in the member's own partition and those below, readers in all. Of topics to
   // which one listens by route nothing is open at first. A route server takes the fixed ports if it
