@@ -25,6 +25,15 @@ enum class Discovery : std::uint8_t {
   kAuto,  // a star; if no server is there within some seconds of the beginning a mesh, until one is
 };
 
+class Domain;
+
+// For several exchanges of one process, opened one after another: they share the threads and the
+// sockets of the first, whose options are everybody's, and do not hear each other. So a process can
+// be many members that are light.
+struct SharedDomain {
+  std::weak_ptr<Domain> domain;
+};
+
 struct DdsOptions {
   std::uint32_t domain_id = 0;  // 0..230, decides the UDP ports
   // Participants with different tags do not see each other: two swarms, or two tests, on one
@@ -60,6 +69,8 @@ struct DdsOptions {
   // are not heard, on the topics that changed: once, and again after ten minutes. Called by Take.
   std::function<void(const std::string& line)> tell_of_version{};
   std::uint32_t protocol_version = kProtocolVersion;  // another in tests
+
+  std::shared_ptr<SharedDomain> shared_domain{};
 
   // How long closing waits for the last messages to arrive. Publish waits for nobody.
   std::chrono::milliseconds close_timeout{1000};

@@ -73,7 +73,7 @@ int Run(int argc, char** argv) {
   CLI::App* agent = app.add_subcommand("light-agent", "Agents without robots, until a signal");
   agent->add_option("--name", light.name)->required();
   agent->add_option("--route", light.route);
-  agent->add_option("--discovery", light.discovery);
+  agent->add_option("--discovery", light.discovery)->check(CLI::IsMember({"star", "mesh"}));
   agent->add_option("--count", light.count);
   agent->add_flag("--follow", light.follow);
   agent->add_option("--network-interface", light.network_interface);

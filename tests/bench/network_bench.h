@@ -37,7 +37,7 @@ struct LightAgentOptions {
   std::string name;   // of the first; others have a number behind
   std::string route;  // empty: none is fetched
   std::string network_interface = "eth0";
-  std::string discovery = "auto";
+  std::string discovery = "star";
   std::size_t agents = 100;  // all there are, on all hosts
   std::size_t count = 1;     // of these in this process, a participant each
   bool follow = false;       // tells of a place on a route, and listens to its neighbours there

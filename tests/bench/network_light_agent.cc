@@ -9,10 +9,10 @@
 #include <set>
 #include <utility>
 
+#include "services/dds/dds_exchange.h"
 #include "services/exchange/publish.h"
 #include "services/exchange/route_fetcher.h"
 #include "services/program/command_line.h"
-#include "services/program/open_exchange.h"
 #include "services/program/presence.h"
 #include "services/program/stop_signal.h"
 #include "services/route/digest.h"
@@ -167,14 +167,16 @@ Result<void> RunLightAgents(const LightAgentOptions& options) {
   std::deque<LightAgent> agents;
   std::vector<LightAgent*> all;
   std::vector<std::future<Result<void>>> running;
+  const auto shared = std::make_shared<dds::SharedDomain>();
   for (std::size_t i = 0; i < options.count; ++i) {
     LightAgentOptions& own = each.emplace_back(options);
     if (options.count > 1) own.name += fmt::format("-{}", i);
-    program::CommonOptions common;
-    common.name = own.name;
-    common.network_interface = options.network_interface;
-    common.discovery = options.discovery;
-    auto exchange = program::OpenExchange(common, program::WithAgents(exchange::FollowerTopics()));
+    dds::DdsOptions joins;
+    joins.self = AgentId(own.name);
+    joins.network_interface = options.network_interface;
+    joins.discovery = options.discovery == "star" ? dds::Discovery::kStar : dds::Discovery::kMesh;
+    if (options.count > 1) joins.shared_domain = shared;
+    auto exchange = dds::OpenDdsExchange(joins, program::WithAgents(exchange::FollowerTopics()));
     if (!exchange) return tl::unexpected(exchange.error());
     exchanges.push_back(*std::move(exchange));
     all.push_back(&agents.emplace_back(own, *exchanges.back()));

@@ -11,6 +11,7 @@ namespace trailcast::dds {
 struct Meeting {
   bool star = false;         // else a mesh
   bool fixed_ports = false;  // those at which others know a route server
+  bool sends_much = false;   // segments, not only what is small
 };
 
 // Cyclone's XML for whom to meet, as a configuration of its own. Resolves the server addresses:

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -15,12 +16,25 @@
 namespace trailcast::dds {
 namespace {
 
-Result<Domain> MakeDomain(const DdsOptions& options, const Meeting& meeting) {
+Result<std::shared_ptr<Domain>> MakeDomain(const DdsOptions& options, const Meeting& meeting) {
+  if (options.shared_domain) {
+    if (auto domain = options.shared_domain->domain.lock()) return domain;
+  }
   // Read before any thread of ours exists; nobody writes to the environment.
   const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
   const auto config = DomainConfig(options, meeting, uri == nullptr ? "" : uri);
   if (!config) return tl::unexpected(config.error());
-  return Domain::Create(*config);
+  auto made = Domain::Create(*config);
+  if (!made) return tl::unexpected(made.error());
+  auto domain = std::make_shared<Domain>(*std::move(made));
+  if (options.shared_domain) options.shared_domain->domain = domain;
+  return domain;
+}
+
+// Members that share a domain do not hear each other.
+Qos Apart(const DdsOptions& options, Qos qos) {
+  if (options.shared_domain) dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PROCESS);
+  return qos;
 }
 
 Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
@@ -32,10 +46,10 @@ Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   }
   if (!domain) return tl::unexpected(domain.error());
   std::unique_ptr<CycloneLog> log;
-  if (options.keys) log = std::make_unique<CycloneLog>(domain->id());
+  if (options.keys) log = std::make_unique<CycloneLog>((*domain)->id());
   const bool hidden = options.keys.has_value();
   const UserData data{hidden ? "" : options.self.value(), options.protocol_version};
-  auto participant = Participant::Create(*domain, ToText(data), hidden);
+  auto participant = Participant::Create(**domain, ToText(data), hidden);
   if (!participant) {
     Error error = participant.error();
     if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
@@ -83,11 +97,12 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
   }
   for (const exchange::Topic topic : use.read) {
     if (!MayUse(options, topic)) continue;
-    const Qos qos = MakeQos(QosOf(topic), ReadersPartitions(options, topic));
+    const Qos qos = Apart(options, MakeQos(QosOf(topic), ReadersPartitions(options, topic)));
     if (auto read = Read(joined, {topic}, qos); !read) return read;
   }
   for (const exchange::Topic topic : use.overhear) {
-    const Qos qos = MakeOverhearingQos(QosOf(topic), ReadersPartitions(options, topic));
+    const Qos qos =
+        Apart(options, MakeOverhearingQos(QosOf(topic), ReadersPartitions(options, topic)));
     if (auto read = Read(joined, {topic}, qos); !read) return read;
   }
   return {};
@@ -97,7 +112,10 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
 
 Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use, bool star) {
   const bool fixed_ports = options.serves && FixedPortsAreFree(options.domain_id);
-  auto joined = OpenDomain(options, {.star = star, .fixed_ports = fixed_ports});
+  const bool sends_much =
+      std::count(use.write.begin(), use.write.end(), exchange::Topic::kSegments) > 0;
+  auto joined =
+      OpenDomain(options, {.star = star, .fixed_ports = fixed_ports, .sends_much = sends_much});
   if (!joined) return joined;
   if (options.discovery != Discovery::kMesh) {
     auto others = Reader::CreateBuiltin(joined->participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
@@ -141,8 +159,9 @@ Result<Writer*> Joined::WriterIn(const Place& place, const DdsOptions& options) 
   if (const auto found = writers.find(place); found != writers.end()) return &found->second;
   const auto found = Find(*this, place.topic);
   if (!found) return tl::unexpected(found.error());
-  auto writer = Writer::Create(
-      participant, **found, MakeQos(QosOf(place.topic), {WritersPartition(options, place.scope)}));
+  const Qos qos =
+      Apart(options, MakeQos(QosOf(place.topic), {WritersPartition(options, place.scope)}));
+  auto writer = Writer::Create(participant, **found, qos);
   if (!writer) return Wrap(writer.error(), exchange::NameOf(place.topic));
   return &writers.emplace(place, *std::move(writer)).first->second;
 }
@@ -155,7 +174,7 @@ Result<void> Joined::Listen(exchange::Topic topic, const std::set<std::string>& 
   });
   for (const std::string& scope : scopes) {
     if (readers.contains({topic, scope})) continue;
-    const Qos qos = MakeQos(QosOf(topic), ListenersPartitions(options, scope));
+    const Qos qos = Apart(options, MakeQos(QosOf(topic), ListenersPartitions(options, scope)));
     if (auto read = Read(*this, {topic, scope}, qos); !read) return read;
   }
   return {};

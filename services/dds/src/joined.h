@@ -28,7 +28,7 @@ struct Place {
 // What an exchange has open on the network; deleted from the end.
 struct Joined {
   Meeting meeting;
-  Domain domain;
+  std::shared_ptr<Domain> domain;
   std::unique_ptr<CycloneLog> log;  // with keys
   Participant participant;
   Peers peers;
