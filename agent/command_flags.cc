@@ -70,6 +70,9 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
       ->allow_extra_args(false);
   program::AddPlaceOptions(command, "place", "Where the route begins, for the catalog",
                            teach.place);
+  command.add_flag("--review", teach.review,
+                   "No robot follows it before an operator has looked at it and activates it: "
+                   "'trailcast routes activate'; until then they go on with what they follow now");
   command
       .add_option("--unfinished", teach.unfinished,
                   "What becomes of the last teaching of this route if it was cut off: taught on "

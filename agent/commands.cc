@@ -105,8 +105,8 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  const ScoutOptions scout{teach.route, LinkOptions(options, teach), teach.tags, teach.place,
-                           UnfinishedOf(teach.unfinished)};
+  const ScoutOptions scout{teach.route,  LinkOptions(options, teach),   teach.tags, teach.place,
+                           teach.review, UnfinishedOf(teach.unfinished)};
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);

@@ -25,6 +25,7 @@ struct TeachCommand {
   std::string route;
   std::vector<std::string> tags;
   std::optional<route::Place> place;
+  bool review = false;
   std::string unfinished = "ask";
   double delivery_timeout_s = 30.0;
 };

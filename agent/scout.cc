@@ -26,6 +26,7 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   const std::set<std::string> tags(options.tags.begin(), options.tags.end());
   info.tags.assign(tags.begin(), tags.end());
   info.place = options.place;
+  info.to_review = options.review;
   return info;
 }
 
@@ -137,6 +138,7 @@ route::RouteInfo GoingOn(route::RouteInfo cut_off, const ScoutOptions& options) 
   tags.insert(options.tags.begin(), options.tags.end());
   cut_off.tags.assign(tags.begin(), tags.end());
   if (options.place) cut_off.place = options.place;
+  cut_off.to_review |= options.review;
   return cut_off;
 }
 

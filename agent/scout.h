@@ -18,6 +18,7 @@ struct ScoutOptions {
   ScoutLinkOptions link;
   std::vector<std::string> tags;      // in any order
   std::optional<route::Place> place;  // where the drive begins
+  bool review = false;                // no robot is to follow it before an operator activates it
   Unfinished unfinished = Unfinished::kKeep;
 };
 

@@ -21,13 +21,20 @@ std::string Which(const route::RouteInfo& route) {
   return fmt::format("{} ({})", route::Describe(route), route::ShortIds().Of(route));
 }
 
-// Of a teaching that no robot follows by itself.
-std::string HowToActivate(const route::RouteInfo& route) {
+// Of a teaching that no robot follows by itself: as a server says it, if one did.
+std::string HowToActivate(const route::RouteInfo& route,
+                          const std::optional<exchange::StandingThere>& there) {
   const std::string id = route::ShortIds().Of(route);
+  std::string until = "robots go on with the active revision, if there is one,";
+  if (there && there->followed.value() > 0) {
+    until = fmt::format("robots go on with revision {}", there->followed.value());
+  } else if (there) {
+    until = "robots follow no revision of the route";
+  }
   return fmt::format(
-      "robots go on with the active revision, if there is one, until an operator has them follow "
-      "this one: 'trailcast routes activate {}'; 'trailcast routes delete {}' discards it",
-      id, id);
+      "{} until an operator {}has them follow this one: 'trailcast routes activate {}'; 'trailcast "
+      "routes delete {}' discards it",
+      until, route.to_review ? "has looked at it and " : "", id, id);
 }
 
 void TellOddities(const route::RouteInfo& route) {
@@ -46,13 +53,14 @@ void TellOddities(const route::RouteInfo& route) {
 }
 
 // As a server that has all of it says it.
-void TellStanding(const route::RouteInfo& route, Standing standing) {
-  switch (standing) {
+void TellStanding(const route::RouteInfo& route, const exchange::StandingThere& there) {
+  switch (there.standing) {
     case Standing::kActive:
       spdlog::info("robots follow {} from now on", Which(route));
       break;
     case Standing::kStaged:
-      spdlog::info("{} is {}: {}", Which(route), route::StateText(route), HowToActivate(route));
+      spdlog::info("{} is {}: {}", Which(route), route::StateText(route),
+                   HowToActivate(route, there));
       break;
     case Standing::kRetired:
       spdlog::info("{} was retired by an operator: no robot follows it", Which(route));
@@ -65,7 +73,7 @@ void TellStanding(const route::RouteInfo& route, Standing standing) {
 }  // namespace
 
 void TellEarlier(const ScoutLink::Outcome& outcome) {
-  for (const auto& [route, standing] : outcome.earlier) TellStanding(route, standing);
+  for (const auto& [route, there] : outcome.earlier) TellStanding(route, there);
 }
 
 void TellTaught(const ScoutLink::Outcome& outcome, bool has_odometry, bool sent) {
@@ -88,14 +96,14 @@ Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome
                 "{} (the {} segments taught before are kept in {} as {}, cut off: {}; or 'teach "
                 "--unfinished go-on' goes on with it)",
                 driven.error().message, outcome.route->segment_count, store_file,
-                Which(*outcome.route), HowToActivate(*outcome.route));
+                Which(*outcome.route), HowToActivate(*outcome.route, outcome.standing));
   }
   if (!driven) return driven;
   if (!outcome.route) {
     return Fail(ErrorCode::kInvalidArgument,
                 "nothing was taught: no segment had enough features or was long enough");
   }
-  if (outcome.standing == Standing::kDeleted) {
+  if (outcome.standing && outcome.standing->standing == Standing::kDeleted) {
     return Fail(ErrorCode::kConflict,
                 "{} was deleted by an operator while it was taught: no robot follows it; this "
                 "agent's copy stays in {}",

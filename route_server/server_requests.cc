@@ -71,6 +71,7 @@ exchange::CatalogReply Server::AnswerCatalog(const AgentId& name,
                                      ? catalog::Answer(request, name, *store_)
                                      : views_.Answer(request, name);
   reply.holdings = holders_.Of(reply.page.routes, begin);
+  reply.lacking = upkeep_->LackingOf(reply.page.routes);
   const std::chrono::duration<double> took = steady_clock::now() - begin;
   metrics_.queries[KindOf(request.query)].Note(took.count());
   return reply;

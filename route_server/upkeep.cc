@@ -57,6 +57,17 @@ Result<void> Upkeep::SeeToStrays(Time now) {
   return {};
 }
 
+std::vector<exchange::LackingSegments> Upkeep::LackingOf(
+    const std::vector<route::RouteInfo>& routes) const {
+  std::vector<exchange::LackingSegments> lacking;
+  if (partial_.routes() == 0) return lacking;
+  for (const route::RouteInfo& info : routes) {
+    const auto segments = static_cast<std::uint32_t>(partial_.LackingOf(info.key));
+    if (segments > 0) lacking.push_back({info.key, segments});
+  }
+  return lacking;
+}
+
 std::string Upkeep::Degraded() const {
   if (partial_.routes() == 0) return "";
   return fmt::format("{} {} {} of {} segments here", partial_.routes(),

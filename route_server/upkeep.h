@@ -34,6 +34,9 @@ class Upkeep {
   [[nodiscard]] const std::string& store_trouble() const { return watch_.trouble(); }
   [[nodiscard]] std::size_t partial_routes() const { return partial_.routes(); }
   [[nodiscard]] std::size_t lacking_segments() const { return partial_.segments(); }
+  // Of these routes those that are served in part.
+  [[nodiscard]] std::vector<exchange::LackingSegments> LackingOf(
+      const std::vector<route::RouteInfo>& routes) const;
   [[nodiscard]] std::uint64_t dropped_strays() const { return dropped_strays_; }  // segments
   // "2 routes lack 5 segments here", or nothing.
   [[nodiscard]] std::string Degraded() const;

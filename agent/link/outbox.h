@@ -65,7 +65,7 @@ class Outbox {
   // Nothing is left to be sent: all is confirmed, or was deleted by an operator.
   [[nodiscard]] bool Done() const;
   // What a server says that the route is to operators; nothing while none has spoken.
-  [[nodiscard]] std::optional<route::Standing> standing(const route::RouteKey& key) const;
+  [[nodiscard]] std::optional<exchange::StandingThere> standing(const route::RouteKey& key) const;
   // All whose last word was sent and receipted.
   [[nodiscard]] std::vector<route::RouteInfo> Receipted() const;
 

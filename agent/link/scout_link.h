@@ -75,10 +75,10 @@ class ScoutLink {
     std::size_t unreceipted = 0;
     bool delivered = false;  // nothing is left to be sent
     // What a server says that the route is to operators; nothing if none has.
-    std::optional<route::Standing> standing;
+    std::optional<exchange::StandingThere> standing;
     std::optional<std::string> refusal;  // why a server takes nothing, if one said so
     // Of earlier runs, and all on a server now; with what that says of each.
-    std::vector<std::pair<route::RouteInfo, route::Standing>> earlier;
+    std::vector<std::pair<route::RouteInfo, exchange::StandingThere>> earlier;
   };
   // No segment will follow: completes the route, waits for receipts, ends the thread. `cut_off`:
   // what failed on the way kept it from its end. The error is the store's, if it failed.

@@ -32,6 +32,7 @@ class PartialRoutes {
 
   [[nodiscard]] std::size_t routes() const { return partial_.size(); }
   [[nodiscard]] std::size_t segments() const;  // that these lack
+  [[nodiscard]] std::size_t LackingOf(const route::RouteKey& key) const;
 
  private:
   struct Partial {

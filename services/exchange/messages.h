@@ -81,6 +81,7 @@ struct Receipt {
   // What the server calls it; never less than its scout did. 0: it is not stored there yet.
   RevisionNumber revision{};
   route::Standing standing = route::Standing::kStaged;
+  RevisionNumber followed{};  // the revision of its route that is active there; 0: none
   Refusal refusal = Refusal::kNone;
   std::string reason{};  // for people, with a refusal
   bool operator==(const Receipt&) const = default;
@@ -109,6 +110,13 @@ struct Holding {
   bool operator==(const Holding&) const = default;
 };
 
+// A complete route is served in part: so many of its segments are lost at the server.
+struct LackingSegments {
+  route::RouteKey key{};
+  std::uint32_t segments = 0;
+  bool operator==(const LackingSegments&) const = default;
+};
+
 struct CatalogReply {
   AgentId server{};
   AgentId client{};
@@ -117,6 +125,7 @@ struct CatalogReply {
   std::vector<std::string> similar_names{};  // when no route has the name: those that exist
   std::string error{};                       // not empty: the request could not be answered
   std::vector<Holding> holdings{};           // of the revisions on this page, as far as agents told
+  std::vector<LackingSegments> lacking{};    // of the revisions on this page those served in part
   // When asked by view: likest first, `page` has the route of each; none: nothing looks like it.
   std::vector<route::FoundPlace> places{};
   route::ViewCoverage coverage{};

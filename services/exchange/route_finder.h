@@ -22,7 +22,7 @@ struct RevisionChoice {
 
 // Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
 // one; where no operator, and no server, has said anything of a route, the newest that is complete,
-// otherwise the newest, but none whose teaching was cut off. Nothing if there is none.
+// otherwise the newest, but none that is held back. Nothing if there is none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
 
@@ -64,7 +64,7 @@ class RouteFinder {
   struct Unknown {
     AgentId server;
     std::vector<std::string> similar_names;
-    bool others = false;  // there are revisions, and none of them is meant
+    std::vector<route::RouteInfo> others{};  // of this name, and none of them is meant
   };
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
   // All of `servers` have said so.

@@ -163,7 +163,9 @@ class RouteKeeper {
   // What is to be announced of the route now, if anything; `grown_too`: also of one that has been
   // announced before.
   [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now, bool grown_too);
-  // A route's first complete revision is the active one.
+  // The revision of this one's route that is active; 0: none.
+  [[nodiscard]] RevisionNumber Followed(const route::RouteInfo& info);
+  // A route's first complete revision is the active one, unless it is held back.
   [[nodiscard]] Result<void> ActivateFirst(std::vector<route::RouteInfo>& completing);
   [[nodiscard]] Result<void> Put(std::span<const route::RouteInfo> infos, bool completing);
   void StoreInfos(std::span<const route::RouteInfo> infos, bool completing, Time now,

@@ -22,6 +22,12 @@ struct RouteSenderOptions {
   std::size_t answer_bytes_per_tick = 512U << 10U;  // so that one Tick never floods a radio link
 };
 
+// What a revision is to a server's operators, and which of its route robots follow there, if any.
+struct StandingThere {
+  route::Standing standing = route::Standing::kStaged;
+  RevisionNumber followed{};  // 0: none
+};
+
 // The scout's end of the protocol for one route: announces, streams, answers, and keeps count of
 // what some server has confirmed. No clock, no I/O: messages in, messages out. The owner stores
 // each piece before Add, and publishes what Tick returns.
@@ -63,8 +69,8 @@ class RouteSender {
   [[nodiscard]] const std::optional<Receipt>& refused() const { return refused_; }
   // An operator deleted the revision: nobody wants it.
   [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
-  // What the revision is to operators, as the last receipt has it.
-  [[nodiscard]] const std::optional<route::Standing>& standing() const { return standing_; }
+  // As the last receipt has it.
+  [[nodiscard]] const std::optional<StandingThere>& standing() const { return standing_; }
   // A server whose receipt names other bytes under this teaching than those held here; nothing of
   // these counts as receipted by it.
   [[nodiscard]] const std::optional<AgentId>& contradicted_by() const { return contradicted_by_; }
@@ -88,7 +94,7 @@ class RouteSender {
   std::set<SegmentIndex> unreceipted_;
   std::optional<AgentId> contradicted_by_;
   bool numbered_ = false;
-  std::optional<route::Standing> standing_;
+  std::optional<StandingThere> standing_;
   bool complete_receipted_ = false;
   std::optional<Receipt> refused_;
   std::vector<SegmentIndex> newly_receipted_;

@@ -10,8 +10,8 @@ namespace trailcast::route {
 // "staged", "active", "retired", "deleted".
 [[nodiscard]] const char* NameOf(Standing standing);
 
-// What a revision is at present, for people: "teaching"; "cut off" while that keeps it from being
-// followed; or its standing.
+// What a revision is at present, for people: "teaching"; "cut off" or "to be reviewed" while that
+// keeps it from being followed; or its standing.
 [[nodiscard]] const char* StateText(const RouteInfo& info);
 
 // "teaching 1f of route 0123..", for messages where no more is known.
@@ -21,8 +21,8 @@ namespace trailcast::route {
 // Its number, or "-" while it has none.
 [[nodiscard]] std::string RevisionText(const RouteInfo& info);
 
-// The labels of `info` become those of `from`: name, revision, tags,
-// description, standing and edition.
+// The labels of `info` become those of `from`: name, revision, tags, description, standing, whether
+// it is to be reviewed, and edition.
 void TakeLabels(RouteInfo& info, const RouteInfo& from);
 
 // Whether those of `info` count: the later edition; of one edition, in which servers may each have

@@ -113,8 +113,8 @@ inline constexpr std::size_t kMaxTags = 16;
 inline constexpr std::size_t kMaxDescriptionBytes = 256;
 
 // What is known of a route without its segments: announced by the scout, kept in the catalog. What
-// operators may change afterwards are its labels (labels.h): name, revision, tags, description and
-// standing.
+// operators may change afterwards are its labels (labels.h): name, revision, tags, description,
+// standing and whether it is to be reviewed.
 struct RouteInfo {
   RouteKey key;
   std::string name;  // what people call it; IsValidName
@@ -137,8 +137,12 @@ struct RouteInfo {
   std::optional<Place> place{};     // given when teaching
   std::string description{};        // for people: one line, at most kMaxDescriptionBytes
   Standing standing = Standing::kStaged;
+  // Its scout wants it looked at before robots follow it; no more once an operator activates it.
+  bool to_review = false;
   std::uint32_t edition = 0;  // how often the labels were changed since it was taught
 
+  // No robot follows it, and no server activates it, unless an operator says so.
+  [[nodiscard]] bool held_back() const { return cut_off || to_review; }
   bool operator==(const RouteInfo&) const = default;
 };
 

@@ -21,7 +21,7 @@ using route::RouteEdit;
 void Tell(const std::vector<route::RouteInfo>& changed) {
   const route::ShortIds ids(changed);
   for (const route::RouteInfo& info : changed) {
-    std::fputs(fmt::format("{} {}: {}{}{}\n", ids.Of(info), info.name, route::NameOf(info.standing),
+    std::fputs(fmt::format("{} {}: {}{}{}\n", ids.Of(info), info.name, route::StateText(info),
                            info.tags.empty() ? "" : ", tags ", fmt::join(info.tags, " "))
                    .c_str(),
                stdout);

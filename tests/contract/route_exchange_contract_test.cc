@@ -65,6 +65,7 @@ route::RouteInfo ExtremeInfo() {
   info.place = route::Place{route::Place::Frame::kSite, -1e7, 1e7};
   info.description = std::string(route::kMaxDescriptionBytes, 'd');
   info.standing = route::Standing::kRetired;
+  info.to_review = true;
   info.edition = 0xFFFFFFFF;
   return info;
 }
@@ -94,6 +95,7 @@ TEST_P(RouteExchangeContract, CarriesTheLongestReceipt) {
                                      test::Indices(2, 2 + kMaxSegmentsPerReceipt));
   receipt.revision = RevisionNumber(7);
   receipt.standing = route::Standing::kRetired;
+  receipt.followed = RevisionNumber(9);
   ExpectRoundTrip(receipt, Topic::kReceipts);
 }
 
@@ -140,6 +142,7 @@ TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
   reply.page = {std::vector(kMaxRoutesPerReply, ExtremeInfo()), ~0ULL,
                 std::string(kMaxCursorBytes, '/')};
   reply.similar_names.assign(kMaxSimilarNames, std::string(64, 'n'));
+  reply.lacking.assign(kMaxRoutesPerReply, {KeyNumber(9), route::kMaxSegmentsPerRoute});
   reply.holdings.assign(exchange::kMaxHoldingsPerReply,
                         {KeyNumber(7, 0xFFFFFFFF), AgentId(std::string(64, 'h'))});
   ExpectRoundTrip(reply, Topic::kCatalogReplies);

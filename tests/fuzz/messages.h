@@ -42,6 +42,7 @@ class Stranger {
     if (Seldom()) info.scout = Name();
     if (Seldom()) info.taught_unix_ms = input_.ConsumeIntegral<std::int64_t>();
     if (Seldom()) info.tags = {"a", "b"};
+    if (Seldom()) info.to_review = true;
     if (Seldom()) info.description = "past the greenhouse";
     if (Seldom()) info.edition = input_.ConsumeIntegralInRange<std::uint32_t>(0, 3);
     if (Seldom())

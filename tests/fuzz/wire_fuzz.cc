@@ -50,6 +50,7 @@ class Samples {
         Many<trailcast_wire_NamedSegment>(named_, wire.durable_beyond._length);
     wire.revision = Number();
     wire.standing = Octet();
+    wire.followed = Number();
     wire.durable_state = Octet();
     wire.refusal = Octet();
     wire.reason = Text();
@@ -114,6 +115,8 @@ class Samples {
     wire.places._buffer = Many<trailcast_wire_FoundPlace>(places_, wire.places._length);
     wire.holdings._length = Count();
     wire.holdings._buffer = Many<trailcast_wire_Holding>(holdings_, wire.holdings._length);
+    wire.lacking._length = Count();
+    wire.lacking._buffer = Many<trailcast_wire_LackingSegments>(lacking_, wire.lacking._length);
   }
   void Fill(trailcast_wire_AgentStatus& wire) {
     wire.agent = Name();
@@ -185,6 +188,7 @@ class Samples {
     Fill(wire.place);
     wire.description = Text();
     wire.standing = Octet();
+    wire.to_review = Octet();
     wire.edition = Number();
   }
   void Fill(trailcast_wire_SegmentPiece& wire) {
@@ -253,6 +257,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_CatalogRoute>> routes_;
   std::deque<std::vector<trailcast_wire_FoundPlace>> places_;
   std::deque<std::vector<trailcast_wire_Holding>> holdings_;
+  std::deque<std::vector<trailcast_wire_LackingSegments>> lacking_;
   std::deque<std::vector<trailcast_wire_NamedSegment>> named_;
   std::deque<std::vector<trailcast_wire_RouteKey>> keys_;
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;

@@ -1,10 +1,14 @@
 // Which route it is that shall be followed: from the own store, or as the network knows it.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
+#include "services/route/labels.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::agent {
 namespace {
@@ -19,17 +23,31 @@ std::string NamesText(const std::vector<std::string>& names) {
   return names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", "));
 }
 
-// There are revisions, but not the one that is meant.
-Error NotOffered(const AgentId& server, const FollowerLinkOptions& options) {
-  const std::string what =
-      options.revision.number != 0
-          ? fmt::format("revision {} of route '{}': 'trailcast routes --name {}' lists what it has",
-                        options.revision.number, options.route, options.route)
-          : fmt::format(
-                "active revision of route '{}': 'trailcast routes activate {}' activates "
-                "the newest",
-                options.route, options.route);
-  return {ErrorCode::kNotFound, fmt::format("server '{}' has no {}", server.value(), what)};
+// There are revisions, but not the one that is meant. `holder`: "server 'server'", "robot.db".
+Error NotOffered(const std::string& holder, std::vector<route::RouteInfo> others,
+                 const FollowerLinkOptions& options) {
+  constexpr std::size_t kShown = 4;
+  std::sort(others.begin(), others.end(),
+            [](const auto& a, const auto& b) { return a.revision > b.revision; });
+  const route::ShortIds ids(others);
+  std::vector<std::string> shown;
+  for (const route::RouteInfo& info : std::span(others).first(std::min(kShown, others.size()))) {
+    shown.push_back(fmt::format("{} ({})", ids.Of(info), route::StateText(info)));
+  }
+  if (others.size() > kShown) shown.emplace_back("..");
+  const std::uint32_t number = options.revision.number;
+  const std::string& scout = options.revision.scout;
+  std::string message = fmt::format(
+      "{} has no {} of route '{}'{}; it has {}", holder,
+      number != 0 ? fmt::format("revision {}", number) : "active revision", options.route,
+      scout.empty() ? "" : fmt::format(" of scout '{}'", scout), fmt::join(shown, ", "));
+  if (number == 0) {
+    const std::string id = ids.Of(others.front());
+    message += fmt::format(
+        ": 'trailcast routes activate {}' has robots follow that, '--route {}' this one alone", id,
+        id);
+  }
+  return {ErrorCode::kNotFound, message};
 }
 
 }  // namespace
@@ -53,6 +71,9 @@ Result<void> FollowerLink::Find() {
   if (!exchange_) {
     route_ = *own;
     if (route_) return {};
+    if (auto others = store_->FindMeant(options_.route); others && !others->empty()) {
+      return tl::unexpected(NotOffered(options_.store_file, std::move(*others), options_));
+    }
     std::vector<std::string> names;
     if (auto routes = store_->ListRoutes()) {
       for (const route::RouteInfo& info : *routes) names.push_back(info.name);
@@ -89,8 +110,9 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
                  unknown ? "the server does not know the route" : "no server answers",
                  options_.route, options_.store_file);
     route_ = own;
-  } else if (unknown && finder_.unknown()->others && !options_.wait_for_route) {
-    return tl::unexpected(NotOffered(finder_.unknown()->server, options_));
+  } else if (unknown && !finder_.unknown()->others.empty() && !options_.wait_for_route) {
+    return tl::unexpected(NotOffered(fmt::format("server '{}'", finder_.unknown()->server.value()),
+                                     finder_.unknown()->others, options_));
   } else if (unknown && !options_.wait_for_route) {
     return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
                 finder_.unknown()->server.value(), options_.route,

@@ -216,7 +216,7 @@ std::optional<std::string> Outbox::refusal() const {
   return std::nullopt;
 }
 
-std::optional<route::Standing> Outbox::standing(const route::RouteKey& key) const {
+std::optional<exchange::StandingThere> Outbox::standing(const route::RouteKey& key) const {
   return sending_.at(key).sender.standing();
 }
 

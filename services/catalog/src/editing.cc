@@ -60,12 +60,12 @@ Result<std::vector<RouteInfo*>> Addressed(const RouteEdit& edit, Revisions& revi
 
 bool IsActive(const RouteInfo& info) { return info.standing == Standing::kActive; }
 
-// The newest below `end` that can be followed to its end, if any; retired ones, and those whose
-// teaching was cut off, only by number.
+// The newest below `end` that can be followed to its end, if any; retired ones, and those that are
+// held back, only by number.
 RouteInfo* NewestComplete(Revisions& revisions, std::uint32_t end) {
   RouteInfo* newest = nullptr;
   for (RouteInfo& info : revisions) {
-    const bool usable = info.state == route::RouteState::kComplete && !info.cut_off &&
+    const bool usable = info.state == route::RouteState::kComplete && !info.held_back() &&
                         info.standing != Standing::kRetired;
     if (usable && info.revision.value() < end) newest = &info;
   }
@@ -77,6 +77,7 @@ void MakeActive(RouteInfo& chosen, Revisions& revisions) {
     if (IsActive(info)) info.standing = Standing::kStaged;
   }
   chosen.standing = Standing::kActive;
+  chosen.to_review = false;
 }
 
 Result<void> Activate(const RouteEdit& edit, Revisions& revisions) {
@@ -88,12 +89,12 @@ Result<void> Activate(const RouteEdit& edit, Revisions& revisions) {
   }
   const bool by_number =
       chosen == nullptr && std::any_of(revisions.begin(), revisions.end(), [](const auto& info) {
-        return info.standing == Standing::kRetired || info.cut_off;
+        return info.standing == Standing::kRetired || info.held_back();
       });
   if (by_number) {
     return Fail(ErrorCode::kConflict,
-                "route '{}' has only revisions that are retired or whose teaching was cut off: say "
-                "which to take with its number",
+                "route '{}' has only revisions that are retired, were cut off or are to be "
+                "reviewed: say which to take with its number",
                 edit.route);
   }
   if (chosen == nullptr || chosen->state != route::RouteState::kComplete) {

@@ -80,10 +80,14 @@ std::vector<store::LackingRoute> PartialRoutes::TakeUntold(Time now) {
 
 std::size_t PartialRoutes::segments() const {
   std::size_t count = 0;
-  for (const auto& [key, partial] : partial_) {
-    count += partial.missing.size() + partial.damaged.size();
-  }
+  for (const auto& [key, partial] : partial_) count += LackingOf(key);
   return count;
+}
+
+std::size_t PartialRoutes::LackingOf(const route::RouteKey& key) const {
+  const auto found = partial_.find(key);
+  if (found == partial_.end()) return 0;
+  return found->second.missing.size() + found->second.damaged.size();
 }
 
 }  // namespace trailcast::catalog

@@ -90,6 +90,7 @@ RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInf
           .place = From(wire.place),
           .description = Text(wire.description),
           .standing = static_cast<route::Standing>(wire.standing),
+          .to_review = wire.to_review != 0,
           .edition = wire.edition};
 }
 
@@ -126,6 +127,7 @@ Message From(const trailcast_wire_Receipt& wire) {
                  .durable_state = static_cast<RouteState>(wire.durable_state),
                  .revision = RevisionNumber(wire.revision),
                  .standing = static_cast<route::Standing>(wire.standing),
+                 .followed = RevisionNumber(wire.followed),
                  .refusal = static_cast<Refusal>(wire.refusal),
                  .reason = Text(wire.reason)};
 }
@@ -178,6 +180,9 @@ Message From(const trailcast_wire_CatalogReply& wire) {
   }
   for (const trailcast_wire_Holding& holding : Elements(wire.holdings)) {
     reply.holdings.push_back({From(holding.key), AgentId(Text(holding.agent))});
+  }
+  for (const trailcast_wire_LackingSegments& lacking : Elements(wire.lacking)) {
+    reply.lacking.push_back({From(lacking.key), lacking.segments});
   }
   reply.coverage = {wire.coverage.segments_indexed, wire.coverage.segments_stored,
                     wire.coverage.routes_unseen};

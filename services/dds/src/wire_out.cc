@@ -70,6 +70,7 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   wire.place = ToWire(info.place);
   wire.description = Lend(info.description);
   wire.standing = static_cast<std::uint8_t>(info.standing);
+  wire.to_review = info.to_review ? 1 : 0;
   wire.cut_off = info.cut_off ? 1 : 0;
   wire.revision = info.revision.value();
   wire.edition = info.edition;
@@ -165,6 +166,7 @@ Result<void> With(const Receipt& message, const UseSample& use) {
   sample.durable_state = static_cast<std::uint8_t>(message.durable_state);
   sample.revision = message.revision.value();
   sample.standing = static_cast<std::uint8_t>(message.standing);
+  sample.followed = message.followed.value();
   sample.refusal = static_cast<std::uint8_t>(message.refusal);
   sample.reason = Lend(message.reason);
   return use(&sample);
@@ -205,6 +207,11 @@ Result<void> With(const CatalogReply& message, const UseSample& use) {
     holdings.push_back({.key = ToWire(holding.key), .agent = Lend(holding.agent.value())});
   }
   Lend(holdings, sample.holdings);
+  std::vector<trailcast_wire_LackingSegments> lacking;
+  for (const LackingSegments& one : message.lacking) {
+    lacking.push_back({.key = ToWire(one.key), .segments = one.segments});
+  }
+  Lend(lacking, sample.lacking);
   sample.coverage = {message.coverage.segments_indexed, message.coverage.segments_stored,
                      message.coverage.routes_unseen};
   return use(&sample);

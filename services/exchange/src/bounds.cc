@@ -132,6 +132,15 @@ Result<void> Check(const CatalogReply& message) {
     if (auto ok = CheckKey(holding.key); !ok) return ok;
     if (auto ok = CheckName("holder", holding.agent.value()); !ok) return ok;
   }
+  if (auto ok = CheckCount("routes in part", message.lacking.size(), kMaxRoutesPerReply); !ok) {
+    return ok;
+  }
+  for (const LackingSegments& lacking : message.lacking) {
+    if (auto ok = CheckKey(lacking.key); !ok) return ok;
+    if (auto ok = CheckCount("segments lacking", lacking.segments, kMaxSegmentsPerRoute); !ok) {
+      return ok;
+    }
+  }
   return CheckText("error", message.error, kMaxLineBytes);
 }
 

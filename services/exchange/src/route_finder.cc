@@ -26,7 +26,7 @@ std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>&
     if (which.number != 0) return info.revision.value() == which.number;
     if (info.standing == Standing::kRetired) return false;
     if (which.newest) return true;
-    const bool unsaid = !spoken_of.contains(info.key.route) && !info.cut_off;
+    const bool unsaid = !spoken_of.contains(info.key.route) && !info.held_back();
     return info.standing == Standing::kActive || unsaid;
   };
   const auto rank = [&](const route::RouteInfo& info) {
@@ -99,7 +99,7 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (!rivals_.empty()) return;
   found_ = ChooseRoute(meant, which_);
   if (found_) return;
-  unknown_ = Unknown{reply.server, reply.similar_names, !meant.empty()};
+  unknown_ = Unknown{reply.server, reply.similar_names, meant};
   if (unknown_to_.size() < kMaxAnnounced) unknown_to_.insert(reply.server);
 }
 

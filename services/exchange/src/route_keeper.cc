@@ -191,7 +191,9 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
     const bool due =
         kept.receipt_due && (!kept.receipt_at || now >= *kept.receipt_at + options_.receipt_again);
     if (due && kept.can_receipt()) {
-      out.emplace_back(kept.MakeReceipt(self_, key));
+      Receipt receipt = kept.MakeReceipt(self_, key);
+      if (kept.complete()) receipt.followed = Followed(*kept.stored());
+      out.emplace_back(std::move(receipt));
       ++counters_.receipts;
       kept.receipt_at = now;
       kept.receipt_due = false;
@@ -207,6 +209,18 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   }
   SendAnswers(now, out);
   return out;
+}
+
+// While the store is away nobody can tell.
+RevisionNumber RouteKeeper::Followed(const RouteInfo& info) {
+  const auto is_active = [](const RouteInfo& each) {
+    return each.standing == route::Standing::kActive;
+  };
+  if (is_active(info)) return info.revision;
+  const auto revisions = store_.FindRevisions(info.key.route);
+  if (!revisions) return {};
+  const auto active = std::find_if(revisions->begin(), revisions->end(), is_active);
+  return active == revisions->end() ? RevisionNumber() : active->revision;
 }
 
 std::vector<SegmentPiece> RouteKeeper::TakeAppended() { return std::exchange(appended_, {}); }

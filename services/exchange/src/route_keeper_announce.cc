@@ -59,7 +59,7 @@ Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
   std::set<RouteId> activated;
   for (RouteInfo& info : completing) {
     const bool staged = info.standing == route::Standing::kStaged;
-    if (!staged || info.cut_off || activated.contains(info.key.route)) continue;
+    if (!staged || info.held_back() || activated.contains(info.key.route)) continue;
     const auto revisions = store_.FindRevisions(info.key.route);
     if (!revisions) return tl::unexpected(revisions.error());
     const bool edited = std::any_of(
@@ -148,9 +148,10 @@ void RouteKeeper::TellComplete(const RouteKey& key, Time now) {
   kept.receipt_due = true;
   kept.receipt_at.reset();
   AddNote(Note::Severity::kInfo, "complete/" + Describe(key),
-          fmt::format("{} is complete{}: {} segments, {:.1f} m", Describe(info),
+          fmt::format("{} is complete{}{}: {} segments, {:.1f} m", Describe(info),
                       info.cut_off ? " as far as it was taught before its scout ended" : "",
-                      info.segment_count, info.length_m),
+                      info.to_review ? ", and is to be reviewed" : "", info.segment_count,
+                      info.length_m),
           now);
 }
 

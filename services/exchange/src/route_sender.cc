@@ -76,7 +76,7 @@ void RouteSender::TellDigests(const std::vector<SegmentIndex>& indices) {
 
 void RouteSender::HandleReceipt(const Receipt& receipt) {
   if (receipt.key != info_.key || deleted()) return;
-  standing_ = receipt.standing;
+  standing_ = {receipt.standing, receipt.followed};
   refused_.reset();
   if (receipt.refusal != Refusal::kNone) refused_ = receipt;
   if (deleted()) {

@@ -52,6 +52,7 @@ Bytes EncodeInfo(const RouteInfo& info) {
   out.set_being_taught(info.state == RouteState::kTeaching);
   out.set_standing(static_cast<std::uint32_t>(info.standing));
   out.set_edition(info.edition);
+  out.set_to_review(info.to_review);
   Bytes bytes(out.ByteSizeLong());
   [[maybe_unused]] const bool fits =
       out.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
@@ -93,6 +94,7 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
   info.description = in.description();
   info.standing = static_cast<Standing>(Narrowed<std::uint8_t>(in.standing()));
   info.edition = in.edition();
+  info.to_review = in.to_review();
   if (in.has_place()) info.place = ReadPlace(in.place());
   if (const auto possible = CheckInfo(info); !possible) {
     return Fail(ErrorCode::kCorrupt, "{}", possible.error().message);

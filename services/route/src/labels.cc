@@ -31,7 +31,10 @@ const char* NameOf(Standing standing) {
 const char* StateText(const RouteInfo& info) {
   const bool settled = info.standing == Standing::kRetired || info.standing == Standing::kDeleted;
   if (!settled && info.state == RouteState::kTeaching) return "teaching";
-  if (info.cut_off && info.standing == Standing::kStaged) return "cut off";
+  if (info.standing == Standing::kStaged && info.held_back()) {
+    if (!info.to_review) return "cut off";
+    return info.cut_off ? "cut off, to be reviewed" : "to be reviewed";
+  }
   return NameOf(info.standing);
 }
 
@@ -53,6 +56,7 @@ void TakeLabels(RouteInfo& info, const RouteInfo& from) {
   info.tags = from.tags;
   info.description = from.description;
   info.standing = from.standing;
+  info.to_review = from.to_review;
   info.edition = from.edition;
 }
 

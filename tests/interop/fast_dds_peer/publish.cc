@@ -30,6 +30,7 @@ wire::CatalogRoute Relabelled(wire::CatalogRoute route, const std::string& name)
   route.info().scout(kName);
   route.info().taught_unix_ms(NowUnixMs());
   route.info().standing(0);
+  route.info().to_review(0);
   route.info().edition(0);
   return route;
 }

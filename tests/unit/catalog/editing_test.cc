@@ -63,6 +63,23 @@ TEST_F(Editing, RetiredRevisionsAreTakenBackByNumber) {
   EXPECT_THAT(Standings(), ElementsAre(Standing::kActive));
 }
 
+TEST_F(Editing, WhatIsToBeReviewedIsActivatedByItsNumberAndIsReviewedThen) {
+  Teach(1, 1, "yard");
+  Teach(1, 2, "yard");
+  const route::RouteKey key = test::KeyNumber(1, 2);
+  route::RouteInfo info = store_.FindRoute(key).value().value();
+  info.to_review = true;
+  ++info.edition;
+  ASSERT_TRUE(store_.PutRoute(info));
+  EXPECT_EQ(Edit({.action = EditAction::kActivate, .route = "yard"}), "");
+  EXPECT_THAT(Standings(), ElementsAre(Standing::kActive, Standing::kStaged));
+  EXPECT_EQ(Edit({.action = EditAction::kDescribe, .route = "yard", .text = "seen"}), "");
+  EXPECT_TRUE(store_.FindRoute(key).value()->to_review) << "nobody said that it is good";
+  EXPECT_EQ(Edit({.action = EditAction::kActivate, .route = "yard", .revision = 2}), "");
+  EXPECT_THAT(Standings(), ElementsAre(Standing::kStaged, Standing::kActive));
+  EXPECT_FALSE(store_.FindRoute(key).value()->to_review);
+}
+
 TEST_F(Editing, WhatIsStillTaughtCannotBeActivated) {
   Teach(1, 1, "yard", RouteState::kTeaching);
   EXPECT_THAT(Edit({.action = EditAction::kActivate, .route = "yard"}), HasSubstr("no complete"));

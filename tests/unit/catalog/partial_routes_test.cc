@@ -42,6 +42,8 @@ TEST_F(PartialRoutesTest, WhatACompleteRouteLacksIsToldNowAndAgainAnHourLater) {
   EXPECT_THAT(partial_.Look().value(), ElementsAre(test::KeyNumber(2)));
   EXPECT_EQ(partial_.routes(), 1U);
   EXPECT_EQ(partial_.segments(), 3U);
+  EXPECT_EQ(partial_.LackingOf(test::KeyNumber(1)), 0U);
+  EXPECT_EQ(partial_.LackingOf(test::KeyNumber(2)), 3U);
   EXPECT_THAT(Told(kStart), ElementsAre("segments 1 to 3"));
   EXPECT_THAT(partial_.Look().value(), ElementsAre(test::KeyNumber(2)));
   EXPECT_THAT(Told(kStart + minutes(59)), IsEmpty());

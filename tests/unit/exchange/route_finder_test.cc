@@ -108,13 +108,16 @@ TEST_F(RouteFinderTest, FindsARouteByTheBeginningOfItsId) {
   EXPECT_EQ(by_id.found(), theirs);
 }
 
-TEST_F(RouteFinderTest, WhatWasCutOffIsTakenByItsNumberOnly) {
+TEST_F(RouteFinderTest, WhatIsHeldBackIsTakenByItsNumberOnly) {
   RouteInfo cut_off = Info("hall", 2, 20, RouteState::kComplete);
   cut_off.cut_off = true;
+  RouteInfo to_review = Info("hall", 3, 30, RouteState::kComplete);
+  to_review.to_review = true;
   const RouteInfo before = Info("hall", 1, 10, RouteState::kComplete);
-  EXPECT_EQ(ChooseRoute({cut_off, before}), before);
-  EXPECT_EQ(ChooseRoute({cut_off}), std::nullopt);
-  EXPECT_EQ(ChooseRoute({cut_off, before}, {.number = 2}), cut_off);
+  EXPECT_EQ(ChooseRoute({to_review, cut_off, before}), before);
+  EXPECT_EQ(ChooseRoute({to_review, cut_off}), std::nullopt);
+  EXPECT_EQ(ChooseRoute({to_review, cut_off, before}, {.number = 2}), cut_off);
+  EXPECT_EQ(ChooseRoute({to_review, cut_off, before}, {.number = 3}), to_review);
 }
 
 TEST_F(RouteFinderTest, TellsThatTheServerDoesNotKnowTheRouteAndWhichItKnows) {
@@ -198,7 +201,7 @@ TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   finder_.Handle(CatalogReply{kServer, kSelf, 1, {.routes = {retired}}, {}, ""});
   EXPECT_FALSE(finder_.found());
   ASSERT_TRUE(finder_.unknown());
-  EXPECT_TRUE(finder_.unknown()->others);
+  EXPECT_THAT(finder_.unknown()->others, ElementsAre(retired));
 }
 
 }  // namespace trailcast::exchange

@@ -104,6 +104,32 @@ TEST_F(RouteKeeperTest, WhatWasCutOffIsNotActivated) {
   EXPECT_EQ(store_.FindRoute(key_).value(), cut_off);
 }
 
+// Its scout is told which revision robots follow in its stead.
+TEST_F(RouteKeeperTest, WhatIsToBeReviewedIsNotActivatedAndTheNextRevisionIs) {
+  route::RouteInfo waits = Info(2, RouteState::kComplete);
+  waits.to_review = true;
+  keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), waits}, now_);
+  Deliver({pieces_[0], pieces_[1]});
+  const Receipt alone = Only<Receipt>(Tick()).at(0);
+  EXPECT_EQ(alone.standing, route::Standing::kStaged);
+  EXPECT_EQ(alone.followed, RevisionNumber());
+  EXPECT_EQ(store_.FindRoute(key_).value(), waits);
+
+  const route::RouteKey next = test::KeyNumber(1, 2);
+  const auto pieces = test::PiecesOf(next, 2);
+  Deliver(pieces);
+  keeper_->Handle(
+      RouteAnnouncement{AgentId("scout-1"), test::InfoOf(next, pieces, RouteState::kComplete)},
+      now_);
+  const Receipt second = Only<Receipt>(TickAfter(milliseconds(1000))).at(0);
+  EXPECT_EQ(second.standing, route::Standing::kActive);
+  EXPECT_EQ(second.followed, RevisionNumber(2));
+  keeper_->Handle(RouteAnnouncement{AgentId("scout-1"), waits}, now_);
+  const Receipt again = Only<Receipt>(TickAfter(milliseconds(1000))).at(0);
+  EXPECT_EQ(again.standing, route::Standing::kStaged);
+  EXPECT_EQ(again.followed, RevisionNumber(2));
+}
+
 TEST_F(RouteKeeperTest, AsksWhoHasWhatAgentsHoldAndItLacks) {
   Announce(2, RouteState::kComplete);
   Deliver({pieces_[0], pieces_[1]});

@@ -15,6 +15,7 @@ RouteInfo EveryField() {
   info.cut_off = true;
   info.description = "past the greenhouse";
   info.standing = Standing::kRetired;
+  info.to_review = true;
   info.edition = 4'000'000'000;
   return info;
 }

@@ -42,12 +42,26 @@ TEST(Labels, ACompleteTeachingNeverChanges) {
       << "two labels of one edition";
 }
 
+TEST(Labels, ThatItWasReviewedIsLaterNewsThanThatItIsToBe) {
+  RouteInfo known = Taught(3, RouteState::kComplete);
+  known.to_review = true;
+  RouteInfo activated = Edited(known, "yard", 1);
+  activated.to_review = false;
+  EXPECT_EQ(AfterNews(known, activated).value(), activated);
+  EXPECT_EQ(AfterNews(activated, known).value(), activated) << "its scout announces it again";
+  EXPECT_TRUE(SameTeaching(known, activated));
+}
+
 TEST(StateText, TellsWhatKeepsARevisionFromBeingFollowed) {
   EXPECT_STREQ(StateText(Taught(3)), "teaching");
   RouteInfo info = Taught(3, RouteState::kComplete);
   EXPECT_STREQ(StateText(info), "staged");
   info.cut_off = true;
   EXPECT_STREQ(StateText(info), "cut off");
+  info.to_review = true;
+  EXPECT_STREQ(StateText(info), "cut off, to be reviewed");
+  info.cut_off = false;
+  EXPECT_STREQ(StateText(info), "to be reviewed");
   info.standing = Standing::kActive;
   EXPECT_STREQ(StateText(info), "active") << "an operator wants it so";
 }

@@ -104,6 +104,15 @@ TEST(RoutesTable, SaysWhichAgentsHoldARevision) {
   EXPECT_THAT(RoutesJson(reply), HasSubstr("\"held_by\": [\"robot-1\", \"robot-2\"]"));
 }
 
+TEST(RoutesTable, SaysWhatIsServedInPart) {
+  exchange::CatalogReply reply = Reply({Aisle()});
+  EXPECT_THAT(RoutesTable(reply, 0), Not(HasSubstr("in part")));
+  EXPECT_THAT(RoutesJson(reply), HasSubstr("\"segments_lost\": 0"));
+  reply.lacking = {{Aisle().key, 3}};
+  EXPECT_THAT(RoutesTable(reply, 0), HasSubstr("served in part: 3 of 8 segments are lost"));
+  EXPECT_THAT(RoutesJson(reply), HasSubstr("\"segments_lost\": 3"));
+}
+
 TEST(RoutesTable, ShowsWhatARouteWeighsAMetre) {
   const std::string table = RoutesTable(Reply({Aisle()}), 1'000'000 + 300'000);
   EXPECT_THAT(table, HasSubstr("aisle-3"));

@@ -31,8 +31,19 @@ std::vector<std::string> HoldersOf(const route::RouteKey& key,
   return holders;
 }
 
-std::string Remarks(const route::RouteInfo& info, const std::vector<std::string>& holders) {
+std::uint32_t LackingOf(const route::RouteKey& key, const exchange::CatalogReply& reply) {
+  const auto found = std::find_if(reply.lacking.begin(), reply.lacking.end(),
+                                  [&](const auto& lacking) { return lacking.key == key; });
+  return found == reply.lacking.end() ? 0 : found->segments;
+}
+
+std::string Remarks(const route::RouteInfo& info, const exchange::CatalogReply& reply) {
+  const std::vector<std::string> holders = HoldersOf(info.key, reply);
   std::string remarks = holders.empty() ? "-" : fmt::format("{}", fmt::join(holders, ", "));
+  if (const std::uint32_t lacking = LackingOf(info.key, reply); lacking > 0) {
+    remarks += fmt::format("; served in part: {} of {} segments {} lost", lacking,
+                           info.segment_count, lacking == 1 ? "is" : "are");
+  }
   if (!info.tags.empty()) remarks += fmt::format("; {}", fmt::join(info.tags, " "));
   if (!info.description.empty()) remarks += fmt::format("; \"{}\"", info.description);
   return remarks;
@@ -108,6 +119,7 @@ Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
                                             std::size_t limit, std::chrono::milliseconds timeout) {
   std::vector<route::RouteInfo> routes;
   std::vector<exchange::Holding> holdings;
+  std::vector<exchange::LackingSegments> lacking;
   while (true) {
     query.page_size = static_cast<std::uint32_t>(
         std::min<std::size_t>(limit - routes.size(), exchange::kMaxRoutesPerReply));
@@ -115,10 +127,12 @@ Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
     if (!reply) return reply;
     routes.insert(routes.end(), reply->page.routes.begin(), reply->page.routes.end());
     holdings.insert(holdings.end(), reply->holdings.begin(), reply->holdings.end());
+    lacking.insert(lacking.end(), reply->lacking.begin(), reply->lacking.end());
     query.cursor = reply->page.next;
     if (query.cursor.empty() || routes.size() >= limit) {
       reply->page.routes = std::move(routes);
       reply->holdings = std::move(holdings);
+      reply->lacking = std::move(lacking);
       return reply;
     }
   }
@@ -153,7 +167,7 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
         static_cast<double>(info.bytes) / 1000.0,
         taught_metres ? fmt::format("{:.0f}", BytesPerMeter(info)) : "-", info.scout.value(),
         scout_width, info.camera, camera_width, Age(now_unix_ms - info.taught_unix_ms),
-        Remarks(info, HoldersOf(info.key, reply)));
+        Remarks(info, reply));
   }
   return text;
 }
@@ -179,8 +193,9 @@ std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& 
   for (const route::RouteInfo& info : reply.page.routes) {
     std::string route = RouteJson(info);
     route.pop_back();
-    text += fmt::format("{}{}, \"held_by\": {}", text.size() > 1 ? ",\n  " : "\n  ", route,
-                        JsonTexts(HoldersOf(info.key, reply)));
+    text += fmt::format("{}{}, \"held_by\": {}, \"segments_lost\": {}",
+                        text.size() > 1 ? ",\n  " : "\n  ", route,
+                        JsonTexts(HoldersOf(info.key, reply)), LackingOf(info.key, reply));
     if (const auto study = studies.find(info.key); study != studies.end()) {
       text += fmt::format(", \"weak\": {}", WeakPlacesJson(info, study->second));
     }
