@@ -6,6 +6,8 @@
 #   tests/bench/network.sh swarm [AGENTS [star|mesh]]
 #   tests/bench/network.sh fleet [AGENTS [MINUTES]]
 #   tests/bench/network.sh neighbours [FOLLOWERS [SECONDS]]
+#   tests/bench/network.sh sizes FOLDER [AGENTS...]
+# LIGHT_HOSTS (20) says at how many hosts the agents of `fleet`, `neighbours` and `sizes` are.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
@@ -33,11 +35,12 @@ says() { grep -q "$2" "$work/$1.log"; }
 
 median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 
-# start_server NUMBER STORE FLAGS...: the route server, running.
+# start_server NUMBER STORE FLAGS...: the route server, running; before its agents where processors
+# are short: elsewhere it does not share them.
 start_server() {
   local log="$work/server.log"
   : >"$log"
-  on "$1" "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug \
+  on "$1" nice -n -15 "$bin/trailcast-server" --store "$2" --network-interface eth0 --log-level debug \
     --security "${fleet:+$fleet/members/server}" "${@:3}" >"$log" 2>&1 &
   server=$!
   await 30 'the server' says server ready
@@ -398,7 +401,10 @@ swarm() {
       exit !complete || mb > most }'
 }
 
-light_hosts=20  # with several agents each, a participant for every agent
+# WORD was said by so many AGENTS.
+all_say() { (($(grep -h "^$1 " "$work"/light*.log | wc -l) >= $2)); }
+
+light_hosts=${LIGHT_HOSTS:-20}  # with several agents each, a participant for every agent
 # start_lights AGENTS FLAGS...: they join a server, all at once; how long until it knows them all.
 start_lights() {
   local agents=$1 host known=0
@@ -424,6 +430,8 @@ start_lights() {
   known_after=$(awk -v began="$began" '{ printf "%.1f", $1 - began }' /proc/uptime)
   read -r -a after < <(datagrams)
   ((known >= agents)) || die "the server knows $known of $agents agents after $known_after s"
+  await 60 'all to hear the server' all_say met "$agents"
+  met_after=$(latest met "$began")
 }
 
 # Datagrams that the server's host could not take, so far.
@@ -434,9 +442,9 @@ fleet() {
   local agents=${1:-1000} minutes=${2:-1} before after cpu joined_cpu asked
   start_lights "$agents"
   joined_cpu=$(server_cpu)
-  printf '| agents | the server knows all, s | datagrams sent | server, MB | its processor time, s |\n'
-  printf '| %d | %s | %d | %.1f | %.2f |\n' "$agents" "$known_after" $((after[0] - before[0])) \
-    "$(server_peak_mb)" "$joined_cpu"
+  printf '| agents | the server knows all, s | all have heard it, s | datagrams sent | server, MB | its processor time, s |\n'
+  printf '| %d | %s | %s | %d | %.1f | %.2f |\n' "$agents" "$known_after" "$met_after" \
+    $((after[0] - before[0])) "$(server_peak_mb)" "$joined_cpu"
   printf '| minutes later | server, MB | share of a processor | datagrams a second | lost at the server | a catalog answer, s |\n'
   local minute
   for ((minute = 1; minute <= minutes; ++minute)); do
@@ -450,6 +458,23 @@ fleet() {
       -v sent=$((after[0] - before[0])) -v lost="$(server_lost)" -v from="$asked" -v to="$EPOCHREALTIME" \
       'BEGIN { printf "| %d | %.1f | %.3f | %d | %d | %.2f |\n", minute, mb, (now - cpu) / 60, sent / 60, lost, to - from }'
   done
+}
+
+# Fleets of several sizes; the table and a picture of it go to the folder.
+sizes() {
+  local folder=$1 agents
+  shift
+  (($#)) || set -- 50 100 200 400 700 1000
+  printf 'agents,known_s,met_s,datagrams,server_mb,join_cpu_s,share,lost,answer_s\n' >"$folder/fleet.csv"
+  for agents in "$@"; do
+    TRAILCAST_LAB='' "$0" fleet "$agents" 1 | tee /dev/stderr |
+      awk -v agents="$agents" -F' *[|] *' '$2 !~ /^[0-9]+$/ { next }
+        row++ == 0 { known = $3; met = $4; sent = $5; joined = $7; next }
+        { mb = $3; share = $4; lost = $6; answer = $7 }
+        END { printf "%s,%s,%s,%s,%s,%s,%s,%s,%s\n", agents, known, met, sent, mb, joined, share, lost, answer }' \
+        >>"$folder/fleet.csv"
+  done
+  "$bin/network_bench" plot-fleet "$folder/fleet.csv" "$folder/fleet.png"
 }
 
 # Followers of one route, and what each is told of the others.
@@ -514,9 +539,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | idle | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours) ;;
+    followers | idle | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours | sizes) ;;
     *)
-      die 'say what to measure: followers, idle, stall, loss, wire, ingest, latency, memory, security, swarm, fleet or neighbours'
+      die 'say what to measure: followers, idle, stall, loss, wire, ingest, latency, memory, security, swarm, fleet, neighbours or sizes'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'

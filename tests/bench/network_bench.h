@@ -39,14 +39,19 @@ struct LightAgentOptions {
   std::string network_interface = "eth0";
   std::string discovery = "star";
   std::size_t agents = 100;  // all there are, on all hosts
-  std::size_t count = 1;     // of these in this process, a participant each
-  bool follow = false;       // tells of a place on a route, and listens to its neighbours there
+  // Of these in this process, a participant each, with the threads and sockets of one.
+  std::size_t count = 1;
+  bool follow = false;  // tells of a place on a route, and listens to its neighbours there
 };
 // Each joins, finds the route in the catalog, fetches it, and stays until a signal. Says on stdout
 // when, in seconds since the machine started: joined, met (a server's status), heard-all (a status
 // of every other agent and the server), answered, fetched. At the end, if it follows: how often
 // each was told of its neighbours, and how old what was told was.
 [[nodiscard]] Result<void> RunLightAgents(const LightAgentOptions& options);
+
+// The columns of `csv` against its "agents".
+[[nodiscard]] Result<void> PlotFleet(const std::filesystem::path& csv,
+                                     const std::filesystem::path& picture);
 
 // Group commits of pieces by SQLite's own interface, nothing of ours around it.
 [[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);

@@ -15,7 +15,7 @@ lab_open() {
   ip link set air up
 }
 
-# lab_host NUMBER: 10.77.0.NUMBER on eth0.
+# lab_host NUMBER: 10.77.0.NUMBER on eth0; from 256 on 10.77.1.0 and so on.
 lab_host() {
   local number=$1 pid
   setpriv --pdeathsig KILL unshare --net sleep infinity &
@@ -27,20 +27,25 @@ lab_host() {
   ip link add "port$number" type veth peer name eth0 address "$(lab_mac "$number")" netns "$pid"
   ip link set "port$number" master air up
   on "$number" ip link set lo up
-  on "$number" ip address add "10.77.0.$number/24" dev eth0
+  on "$number" ip address add "$(lab_address "$number")/16" dev eth0
   on "$number" ip link set eth0 up
 }
 
-lab_mac() { printf '02:00:0a:4d:00:%02x' "$1"; }
+lab_address() { printf '10.77.%d.%d' $(($1 / 256)) $(($1 % 256)); }
+lab_mac() { printf '02:00:0a:4d:%02x:%02x' $(($1 / 256)) $(($1 % 256)); }
 
 # lab_introduce: every host knows where every other one is. Without it each asks, and the kernel's
 # one table of neighbours, which all hosts share, is full with 1024 of them: 32 hosts.
 lab_introduce() {
   local host other
+  local -A lab_ips lab_macs
+  for host in "${!host_pid[@]}"; do
+    lab_ips[$host]=$(lab_address "$host") lab_macs[$host]=$(lab_mac "$host")
+  done
   for host in "${!host_pid[@]}"; do
     for other in "${!host_pid[@]}"; do
       [[ $other == "$host" ]] ||
-        printf 'neigh replace 10.77.0.%s lladdr %s dev eth0 nud permanent\n' "$other" "$(lab_mac "$other")"
+        printf 'neigh replace %s lladdr %s dev eth0 nud permanent\n' "${lab_ips[$other]}" "${lab_macs[$other]}"
     done | on "$host" ip -batch -
   done
 }
