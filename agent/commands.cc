@@ -79,6 +79,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.stop = [] { return program::StopSignal::requested(); };
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
+  follower.session.intake = replay.device.intake;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;
@@ -105,8 +106,9 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  const ScoutOptions scout{teach.route,  LinkOptions(options, teach),   teach.tags, teach.place,
-                           teach.review, UnfinishedOf(teach.unfinished)};
+  const ScoutOptions scout{
+      teach.route,  LinkOptions(options, teach),    teach.tags,         teach.place,
+      teach.review, UnfinishedOf(teach.unfinished), teach.device.intake};
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);

@@ -173,8 +173,7 @@ Result<bool> Loop::Step(const Observation& observation) {
                                             observation.unknown.distance_m));
   }
   log_.Add(observation.stamp, *step, cpu_ms);
-  diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, observation.image,
-                 *session_, *step);
+  diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, *session_, *step);
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;

@@ -16,15 +16,17 @@ using std::chrono::steady_clock;
 constexpr std::chrono::seconds kTellEvery{5};
 
 Result<void> CheckAlike(const RobotDevice& device, const Observation& first,
-                        const route::RouteInfo& cut_off, const route::Segment& last) {
+                        const route::RouteInfo& cut_off, const route::Segment& last,
+                        const vision::IntakeOptions& intake) {
+  const auto size = vision::WorkingSize({first.image.width, first.image.height}, intake);
   const bool same_size =
-      first.image.width == cut_off.image_width_px && first.image.height == cut_off.image_height_px;
+      size.width == cut_off.image_width_px && size.height == cut_off.image_height_px;
   if (device.camera() != cut_off.camera || !same_size) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{} was taught with camera '{}' ({} x {}) and cannot go on with '{}' ({} x {}): "
                 "teach it anew, with --unfinished keep or discard",
                 route::Describe(cut_off), cut_off.camera, cut_off.image_width_px,
-                cut_off.image_height_px, device.camera(), first.image.width, first.image.height);
+                cut_off.image_height_px, device.camera(), size.width, size.height);
   }
   if (first.odometry.has_value() != last.has_odometry) {
     return Fail(ErrorCode::kInvalidArgument,
@@ -40,15 +42,16 @@ Result<void> CheckAlike(const RobotDevice& device, const Observation& first,
 
 Result<Observation> FindWhereItEnded(RobotDevice& device, Observation first,
                                      const route::RouteInfo& cut_off, const route::Segment& last,
+                                     const vision::IntakeOptions& intake,
                                      const std::function<bool()>& stop) {
-  if (auto alike = CheckAlike(device, first, cut_off, last); !alike) {
+  if (auto alike = CheckAlike(device, first, cut_off, last, intake); !alike) {
     return tl::unexpected(alike.error());
   }
   spdlog::info(
       "looking for where segment {} of '{}' ended: what was driven after it is lost, so drive the "
       "robot over the last metres of that segment again, and on; teaching goes on from there",
       last.index.value(), cut_off.name);
-  EndFinder finder(last, cut_off.image_width_px);
+  EndFinder finder(last, cut_off.image_width_px, intake);
   Observation observation = std::move(first);
   auto told_at = steady_clock::now();
   for (int frame = 0; !finder.Look(observation.image); ++frame) {

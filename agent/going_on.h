@@ -4,6 +4,7 @@
 
 #include "agent/device/device.h"
 #include "services/route/route.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -14,6 +15,7 @@ namespace trailcast::agent {
 [[nodiscard]] Result<Observation> FindWhereItEnded(RobotDevice& device, Observation first,
                                                    const route::RouteInfo& cut_off,
                                                    const route::Segment& last,
+                                                   const vision::IntakeOptions& intake,
                                                    const std::function<bool()>& stop);
 
 }  // namespace trailcast::agent

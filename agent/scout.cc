@@ -20,8 +20,9 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   info.name = options.route;
   info.scout = options.link.agent;
   info.camera = device.camera();
-  info.image_width_px = frame.width;
-  info.image_height_px = frame.height;
+  const auto size = vision::WorkingSize({frame.width, frame.height}, options.intake);
+  info.image_width_px = size.width;
+  info.image_height_px = size.height;
   info.taught_unix_ms = NowUnixMs();
   const std::set<std::string> tags(options.tags.begin(), options.tags.end());
   info.tags.assign(tags.begin(), tags.end());
@@ -84,6 +85,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
                        ScoutLink& link, Drive& drive) {
   const Standstill standstill(device);
   TeachOptions teach;
+  teach.intake = options.intake;
   teach.recorder.first_index = link.first_index();
   TeachSession session(teach);
   TeachingNow now;
@@ -188,7 +190,8 @@ Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, Scou
   }
   const auto last = link.LastSegment(*cut_off);
   if (!last) return tl::unexpected(last.error());
-  auto there = FindWhereItEnded(device, std::move(**first), *cut_off, *last, options.link.stop);
+  auto there = FindWhereItEnded(device, std::move(**first), *cut_off, *last, options.intake,
+                                options.link.stop);
   if (!there) return there;
   if (auto started = link.StartFrom(*cut_off); !started) return tl::unexpected(started.error());
   return there;

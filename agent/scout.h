@@ -10,6 +10,7 @@
 #include "agent/diagnosis/summary.h"
 #include "agent/link/scout_link.h"
 #include "agent/unfinished.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -20,6 +21,7 @@ struct ScoutOptions {
   std::optional<route::Place> place;  // where the drive begins
   bool review = false;                // no robot is to follow it before an operator activates it
   Unfinished unfinished = Unfinished::kKeep;
+  vision::IntakeOptions intake = {};
 };
 
 // Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.

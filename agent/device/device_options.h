@@ -9,6 +9,7 @@
 #include "agent/device/ros2_device.h"
 #include "agent/device/simulated_robot.h"
 #include "services/program/command_line.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -22,7 +23,8 @@ struct DeviceOptions {
   double sensor_patience_s = 10.0;
   double base_patience_s = 30.0;
   double still_at_end_s = 0.0;
-  std::filesystem::path truth;  // where a simulated robot's true poses go; empty: nowhere
+  vision::IntakeOptions intake;  // how its camera is mounted
+  std::filesystem::path truth;   // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
   [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }
@@ -34,6 +36,9 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
 
 // Those of them for a simulated robot. Returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// The one of them that says how the camera is rolled.
+void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake);
 
 // Those of them that say what the base of a real robot can do; they need the option `robot`.
 void AddDriveLimits(CLI::App& command, CLI::Option* robot, motion::DriveLimits& limits);

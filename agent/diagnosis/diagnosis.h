@@ -7,7 +7,6 @@
 
 #include "agent/diagnosis/run_log_file.h"
 #include "agent/diagnosis/run_recorder.h"
-#include "services/vision/donut.h"
 
 namespace trailcast::agent {
 
@@ -34,24 +33,21 @@ class Diagnosis {
   [[nodiscard]] static Result<Diagnosis> Open(const DiagnosisOptions& options);
 
   void Begin(const RunFacts& facts);
-  // After each Observe. `frame` is the image that `session` was given.
-  void Add(const RunFrame& seen, const image::GrayImage& frame, const ReplaySession& session,
-           const ReplayStep& step);
+  // After each Observe, while the frame that `session` was given is there.
+  void Add(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
   void Note(const std::string& what, const std::string& text);
   [[nodiscard]] Result<void> End(const std::string& state, const std::string& reason);
 
  private:
   explicit Diagnosis(DiagnosisOptions options);
   [[nodiscard]] Result<void> OpenLog();
-  void Log(const RunFrame& seen, const image::GrayImage& unrolled, const ReplaySession& session,
-           const ReplayStep& step);
-  void Draw(const image::GrayImage& frame, const ReplaySession& session, const ReplayStep& step);
+  void Log(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
+  void Draw(const ReplaySession& session, const ReplayStep& step);
 
   DiagnosisOptions options_;
   std::unique_ptr<RunLogFile> file_;   // the log as text, or
   std::unique_ptr<RunMcapFile> mcap_;  // as MCAP
   RunRecorder recorder_;
-  vision::DonutUnroller unroller_;  // features are where the session's own one puts them
   bool begun_ = false;
   int frames_ = 0;
   Result<void> view_result_;

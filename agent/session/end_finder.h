@@ -5,7 +5,7 @@
 #include "agent/session/hand_over.h"
 #include "services/image/image.h"
 #include "services/route/route.h"
-#include "services/vision/donut.h"
+#include "services/vision/picture_intake.h"
 #include "services/vision/view_features.h"
 
 namespace trailcast::agent {
@@ -15,8 +15,8 @@ namespace trailcast::agent {
 // is recognised. No clock, socket, lock or disk.
 class EndFinder {
  public:
-  // `last`: of the teaching; with features, or its end is never found.
-  EndFinder(route::Segment last, int width_px);
+  // `last`: of the teaching; with features, or its end is never found. `width_px`: the route's.
+  EndFinder(route::Segment last, int width_px, const vision::IntakeOptions& intake = {});
 
   // True: this picture was taken there, give or take what shows in no picture.
   [[nodiscard]] bool Look(const image::GrayImage& picture);
@@ -26,7 +26,7 @@ class EndFinder {
  private:
   route::Segment last_;
   HandOver hand_over_;
-  vision::DonutUnroller unroller_;
+  vision::PictureIntake intake_;
   vision::ViewDescriber describer_;
   vision::FindResult most_seen_;
 };

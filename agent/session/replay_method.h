@@ -7,6 +7,7 @@
 #include "services/base/result.h"
 #include "services/motion/motion.h"
 #include "services/replay/follower.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -36,6 +37,7 @@ struct ReplayMethodOptions {
   // The robot may be anywhere on the route at first: it stands until it knows where. Otherwise at
   // the route's start, or where it was left.
   bool anywhere = false;
+  vision::IntakeOptions intake = {};
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

@@ -17,7 +17,8 @@ namespace trailcast::agent {
 // follower. Segments may be added while driving. Touches no socket, lock, disk or clock.
 class ReplaySession {
  public:
-  // `route` gives the size of the scout's frames; its segment_count and state are not looked at.
+  // `route` gives the size of the scout's frames (vision::WorkingSize); its segment_count and state
+  // are not looked at.
   ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route);
   ~ReplaySession();
   ReplaySession(ReplaySession&&) noexcept;
@@ -37,6 +38,9 @@ class ReplaySession {
   // told why. Error: odometry that appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
 
+  // What the last Observe looked at: its frame as the intake makes it. Valid until the next, and as
+  // long as that frame is; nullptr before the first.
+  [[nodiscard]] const image::GrayImage* picture() const;
   // The features as of `step`, the last one that Observe returned: for those who draw them.
   [[nodiscard]] std::vector<replay::FeatureView> ViewFeatures(const ReplayStep& step) const;
 

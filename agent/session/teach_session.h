@@ -10,12 +10,13 @@
 #include "services/route/route.h"
 #include "services/teach/key_view_recorder.h"
 #include "services/teach/segment_recorder.h"
-#include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
 struct TeachOptions {
+  vision::IntakeOptions intake;
   vision::FeatureTrackerOptions features;
   // So many of a segment's features at least in its picture's middle, for followers with a narrower
   // view. Not on routes without odometry: the funnel lane, by which alone they are followed, counts
@@ -53,7 +54,7 @@ class TeachSession {
   struct State;
   TeachOptions options_;
   FrameCheck check_;
-  vision::DonutUnroller unroller_;
+  vision::PictureIntake intake_;
   std::unique_ptr<State> state_;  // since the first frame
 };
 

@@ -122,7 +122,7 @@ struct RouteInfo {
   RevisionNumber revision{};
   AgentId scout;           // who taught it
   std::string camera;      // the scout's camera, for people ("webcam 320x240"); at most 128 bytes
-  int image_width_px = 0;  // of the scout's frames
+  int image_width_px = 0;  // of the scout's frames, reduced and upright
   int image_height_px = 0;
   std::int64_t taught_unix_ms = 0;  // when teaching began, by the scout's clock
   RouteState state = RouteState::kTeaching;

@@ -33,6 +33,7 @@ class RouteRecorder {
  private:
   void Keep(const std::optional<route::Segment>& segment, int last_frame);
 
+  vision::IntakeOptions intake_;
   agent::TeachSession session_;
   TaughtRoute taught_;
   int frames_ = 0;

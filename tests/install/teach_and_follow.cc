@@ -3,6 +3,7 @@
 #include <agent/session/replay_session.h>
 #include <agent/session/teach_session.h>
 #include <services/image/files.h>
+#include <services/vision/picture_intake.h>
 
 #include <cstdio>
 #include <utility>
@@ -26,7 +27,7 @@ int main(int argc, char** argv) {
   route::RouteInfo info;
   std::vector<route::Segment> segments;
   ForEachFrame(argv[1], [&](const agent::Observation& seen) {
-    info.image_width_px = seen.image.width;
+    info.image_width_px = vision::WorkingSize({seen.image.width, seen.image.height}).width;
     if (auto ended = scout.Observe(seen).value().finished) segments.push_back(std::move(*ended));
   });
   if (auto last = scout.Finish()) segments.push_back(std::move(*last));

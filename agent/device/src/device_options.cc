@@ -207,11 +207,28 @@ void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::strin
       ->group(group);
 }
 
+void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
+  command
+      .add_option("--camera-roll", intake.roll_deg,
+                  "Degrees by which the camera is rolled about where it looks, clockwise as seen "
+                  "from behind it: 180 hangs upside down, 90 stands on its right side")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            double roll_deg = 0.0;
+            if (!CLI::detail::lexical_cast(text, roll_deg)) return "'" + text + "' is no number";
+            const auto checked = vision::CheckRoll(roll_deg);
+            return checked ? std::string() : checked.error().message;
+          },
+          "DEGREES"))
+      ->group("Camera");
+}
+
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   auto* frames = AddRecordedOptions(command, options.recorded);
   auto* world = AddSimulatedOptions(command, options, scout);
   auto* ros2 = AddRos2Options(command, options, scout);
   auto* bag = AddBagOption(command, options.bag, frames);
+  AddCameraRoll(command, options.intake);
   world->excludes(frames)->excludes(bag);
   ros2->excludes(frames)->excludes(bag)->excludes(world);
   ShareTopics(command, options, ros2);

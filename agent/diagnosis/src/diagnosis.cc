@@ -46,17 +46,13 @@ void Diagnosis::Begin(const RunFacts& facts) {
   begun_ = true;
 }
 
-void Diagnosis::Add(const RunFrame& seen, const image::GrayImage& frame,
-                    const ReplaySession& session, const ReplayStep& step) {
-  const bool looked_at = mcap_ || !options_.view.empty();
-  const image::GrayImage& unrolled = looked_at ? unroller_.Unroll(frame) : frame;
-  if (file_ || mcap_) Log(seen, unrolled, session, step);
-  if (!options_.view.empty() && frames_ % options_.view_every == 0) Draw(unrolled, session, step);
+void Diagnosis::Add(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step) {
+  if (file_ || mcap_) Log(seen, session, step);
+  if (!options_.view.empty() && frames_ % options_.view_every == 0) Draw(session, step);
   ++frames_;
 }
 
-void Diagnosis::Log(const RunFrame& seen, const image::GrayImage& unrolled,
-                    const ReplaySession& session, const ReplayStep& step) {
+void Diagnosis::Log(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step) {
   RecordedFrame recorded = recorder_.Add(seen, step);
   std::string text = RowText(recorded.row);
   for (const RunEvent& event : recorded.events) text += EventText(event);
@@ -67,17 +63,17 @@ void Diagnosis::Log(const RunFrame& seen, const image::GrayImage& unrolled,
                 .stamp = seen.stamp,
                 .row = recorded.row,
                 .odometry = seen.odometry,
-                .picture = unrolled,
+                .picture = *session.picture(),
                 .features = session.ViewFeatures(step)},
                options_.patient);
   }
 }
 
-void Diagnosis::Draw(const image::GrayImage& frame, const ReplaySession& session,
-                     const ReplayStep& step) {
+void Diagnosis::Draw(const ReplaySession& session, const ReplayStep& step) {
   if (!view_result_) return;  // one message is enough
   const auto file = options_.view / fmt::format("{:06}.png", frames_);
-  view_result_ = image::WritePng(DrawFrameView(frame, step, session.ViewFeatures(step)), file);
+  view_result_ =
+      image::WritePng(DrawFrameView(*session.picture(), step, session.ViewFeatures(step)), file);
 }
 
 void Diagnosis::Note(const std::string& what, const std::string& text) {

@@ -26,11 +26,11 @@ double Share(const vision::FindResult& seen) {
 
 }  // namespace
 
-EndFinder::EndFinder(route::Segment last, int width_px)
-    : last_(std::move(last)), hand_over_(/*any_camera=*/true, width_px) {}
+EndFinder::EndFinder(route::Segment last, int width_px, const vision::IntakeOptions& intake)
+    : last_(std::move(last)), hand_over_(/*any_camera=*/true, width_px), intake_(intake) {}
 
 bool EndFinder::Look(const image::GrayImage& picture) {
-  const image::GrayImage& frame = unroller_.Unroll(picture);
+  const image::GrayImage& frame = intake_.Take(picture);
   vision::FindResult seen = hand_over_.SeeFrom(frame, last_, 1.0, 1.0, /*grown=*/false);
   vision::FindResult grown = hand_over_.SeeFrom(frame, last_, 1.0, 1.0, /*grown=*/true);
   if (grown.features.size() > seen.features.size()) seen = std::move(grown);

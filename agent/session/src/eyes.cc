@@ -38,7 +38,7 @@ std::optional<motion::OdometryIncrement> Eyes::Driven(const Observation& observa
 Result<Seen> Eyes::See(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
   Seen seen;
-  seen.frame = &unroller_.Unroll(observation.image);
+  seen.frame = &intake_.Take(observation.image);
   seen.driven = Driven(observation);
   seen.unknown = observation.unknown;
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;

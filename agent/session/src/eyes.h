@@ -10,25 +10,27 @@
 #include "services/image/image.h"
 #include "services/motion/motion.h"
 #include "services/route/tracked_feature.h"
-#include "services/vision/donut.h"
 #include "services/vision/feature_tracker.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
 // What one frame shows.
 struct Seen {
-  const image::GrayImage* frame = nullptr;      // an omnidirectional one unrolled; until the next
-  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now
-  double flow = 0.0;                            // how far most moved, as a share of the width
+  const image::GrayImage* frame = nullptr;          // as the intake makes it; until the next
+  std::vector<route::TrackedFeature> features;      // those that are followed, where they are now
+  double flow = 0.0;                                // how far most moved, as a share of the width
   std::optional<motion::OdometryIncrement> driven;  // since the last frame; nothing: no odometry
   motion::OdometryIncrement unknown{};              // besides, as in Observation
   double dt_s = 0.0;                                // the same
   double looked_s = 0.0;                            // the same, and no longer than kLongestFrame_s
 };
 
-// A picture's first station: checked, unrolled, its features tracked.
+// A picture's first station: checked, taken in, its features tracked.
 class Eyes {
  public:
+  explicit Eyes(const vision::IntakeOptions& intake) : intake_(intake) {}
+
   // Errors: those of FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
 
@@ -40,7 +42,7 @@ class Eyes {
   [[nodiscard]] std::optional<motion::OdometryIncrement> Driven(const Observation& observation);
 
   FrameCheck check_;
-  vision::DonutUnroller unroller_;
+  vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
   std::optional<motion::Pose2> last_odometry_;
   std::optional<SensorTime> last_stamp_;

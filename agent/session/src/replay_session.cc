@@ -29,6 +29,7 @@ struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
         route(info.segment_count),
+        eyes(method.intake),
         place(info.image_width_px),
         by_features(method, info.image_width_px, route, eyes, place),
         by_views(method, route, place) {}
@@ -56,6 +57,7 @@ struct ReplaySession::State {
   std::optional<SensorTime> last_stamp;
   double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
   double without_picture_s = 0.0;
+  const image::GrayImage* picture = nullptr;
   ReplayStep last;
 };
 
@@ -141,12 +143,14 @@ double ReplaySession::known_m() const { return state_->route.length_m(); }
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
   s.NoteTime(observation.stamp);
+  s.picture = &observation.image;
   auto seen = s.eyes.See(observation);
   if (!seen) {
     if (seen.error().code != ErrorCode::kInvalidArgument) return tl::unexpected(seen.error());
     return s.StepWithoutPicture(seen.error().message);
   }
   s.without_picture_s = 0.0;
+  s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
   if (s.standing.state == ReplayState::kArrived) return s.last;
@@ -158,6 +162,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};
   return s.last;
 }
+
+const image::GrayImage* ReplaySession::picture() const { return state_->picture; }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
   const replay::Follower* follower = state_->by_features.follower();

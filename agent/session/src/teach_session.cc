@@ -69,13 +69,14 @@ void TeachSession::State::KeepView(const image::GrayImage& frame) {
   if (last_is_kept) recorder.Keep(key_views.kept());
 }
 
-TeachSession::TeachSession(const TeachOptions& options) : options_(options) {}
+TeachSession::TeachSession(const TeachOptions& options)
+    : options_(options), intake_(options.intake) {}
 TeachSession::~TeachSession() = default;
 TeachSession::TeachSession(TeachSession&&) noexcept = default;
 
 Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
-  const image::GrayImage& frame = unroller_.Unroll(observation.image);
+  const image::GrayImage& frame = intake_.Take(observation.image);
   if (!state_)
     state_ = std::make_unique<State>(options_, frame.width, observation.odometry.has_value());
   State& s = *state_;

@@ -8,7 +8,7 @@ namespace trailcast::trial {
 
 RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
                              const agent::TeachOptions& options)
-    : session_(options) {
+    : intake_(options.intake), session_(options) {
   // It needs no id that differs from others'.
   taught_.info.key = {RouteId("00000000000000000000000000000000"), TeachingId(1)};
   taught_.info.name = name;
@@ -18,8 +18,9 @@ RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
 
 Result<void> RouteRecorder::Observe(const agent::Observation& seen) {
   if (frames_ == 0) {
-    taught_.info.image_width_px = seen.image.width;
-    taught_.info.image_height_px = seen.image.height;
+    const auto size = vision::WorkingSize({seen.image.width, seen.image.height}, intake_);
+    taught_.info.image_width_px = size.width;
+    taught_.info.image_height_px = size.height;
   }
   const auto step = session_.Observe(seen);
   if (!step) return tl::unexpected(step.error());

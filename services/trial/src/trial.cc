@@ -77,8 +77,7 @@ class Replaying {
     ++frames_;
     if (!step) return tl::unexpected(step.error());
     last_ = std::move(*step);
-    diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, observation.image,
-                   session_, last_);
+    diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, session_, last_);
     if (Ended(position_m, off_m, Seconds(seen.stamp))) return false;
     if (last_.state == ReplayState::kArrived) return BeginLap();
     return true;

@@ -106,7 +106,7 @@ class Replaying {
     cpu_ms_ += cpu_ms;
     if (!step)
       return fmt::format("frame {}: {}", outcome.replayed.said.size(), step.error().message);
-    diagnosis_.Add({seen.stamp, seen.odometry, cpu_ms, {}}, seen.image, session_, *step);
+    diagnosis_.Add({seen.stamp, seen.odometry, cpu_ms, {}}, session_, *step);
     outcome.replayed.said.push_back(
         {ClaimOf(step->state), TaughtFrameAt(taught_.spans, step->progress), step->turn_rad});
     outcome.row.state = agent::ToString(step->state);
