@@ -106,6 +106,9 @@ class Confidence {
   // The robot is on the path by other evidence than a segment's features: it may go on as if it had
   // been sure.
   void SetFound() { sure_once_ = true; }
+  // It looks elsewhere from now on, at the beginning of `segment`: until it is sure of that it
+  // stands. `not_found` is why.
+  void SeekAnew(std::uint32_t segment, std::string not_found);
   // `moved`: since the last frame; nothing on robots without odometry.
   [[nodiscard]] Verdict Judge(const Sighting& seen,
                               const std::optional<motion::OdometryIncrement>& moved);

@@ -90,6 +90,8 @@ class Follower {
 
   // It turns on the spot, as the scout did before this segment; the features come into view after.
   [[nodiscard]] virtual bool turning() const { return false; }
+  // It does, and is nearly round: they should be coming.
+  [[nodiscard]] virtual bool turn_is_in_view() const { return false; }
 
   [[nodiscard]] virtual FollowStep Step(const FollowInput& input) = 0;
 

@@ -32,6 +32,7 @@ struct PathEstimatorOptions {
   double left_noise_m = 0.01;
   double left_noise_share = 0.4;  // of the offset itself: the depths that tell it err by a share
   double heading_noise_rad = 0.02;
+  double turn_noise_share = 0.03;  // of a turn on the spot: what wheel bases differ by, and slip
   double magnification_noise = 0.001;
   double roll_rad = 0.05;  // of each frame alone, as pitch
   double pitch_rad = 0.05;
@@ -67,8 +68,9 @@ class PathEstimator {
   // Begins a segment so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
 
-  // The path turns on the spot, counter-clockwise positive, the robot not yet.
-  void TurnPath(double turn_rad) { state_[kHeading] -= turn_rad; }
+  // The path turns on the spot at the segment's start, counter-clockwise positive, the robot not
+  // yet: where it stands is from now on counted along, and beside, what comes after the turn.
+  void TurnPath(double turn_rad);
 
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "services/replay/follower.h"
@@ -22,6 +23,8 @@ struct PathFollowerOptions {
   double spot_turn_gain_hz = 1.5;
   double spot_turn_slowest_radps = 0.2;
   double spot_turn_done_rad = 0.05;
+  // So few left, it looks by the features, too, which come into view by and by.
+  double spot_turn_looks_rad = 0.2;
 };
 
 // Follows by the widened funnel: estimates where the robot is beside the taught path and steers
@@ -47,13 +50,16 @@ class PathFollower final : public Follower {
   // Taken as the first guess; after that the estimate is better than any one hand-over's.
   void SetMagnification(double magnification) override;
   [[nodiscard]] bool turning() const override { return turning_; }
+  [[nodiscard]] bool turn_is_in_view() const override {
+    return turning_ && std::abs(offset().heading_rad) < options_.spot_turn_looks_rad;
+  }
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;
   [[nodiscard]] const route::Segment& segment() const override { return segment_; }
 
   [[nodiscard]] PathOffset offset() const { return estimator_.offset(); }
 
  private:
-  [[nodiscard]] FollowStep TurnOnTheSpot();
+  [[nodiscard]] FollowStep TurnOnTheSpot(const std::vector<route::TrackedFeature>& seen);
 
   PathFollowerOptions options_;
   PathEstimator estimator_;

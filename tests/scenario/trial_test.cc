@@ -131,6 +131,25 @@ TrialSetup ShortTrip(const TrialOptions& options) {
   return *setup;
 }
 
+// There and back, turned on the spot: by odometry and what comes into view; a method that does not
+// turn says so, and does not drive on.
+TEST(Trial, ARouteThatTurnsOnTheSpotIsFollowedOrRefused) {
+  TrialOptions options;
+  options.methods = {"default", "paper"};
+  options.trials = 1;
+  auto setup = PrepareTrials(options);
+  ASSERT_TRUE(setup.has_value()) << setup.error().message;
+  setup->path.points = {{1.4, 1.5}, {3.0, 1.5}, {1.6, 1.5}};
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_TRUE(rows[0].arrived) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.final_error_m, 0.15) << TrialTable(rows);
+  EXPECT_GT(rows[0].verdict.driven_m, 2.6) << TrialTable(rows);
+  EXPECT_EQ(rows[1].state, "lost") << TrialTable(rows);
+  EXPECT_THAT(rows[1].reason, HasSubstr("turns on the spot here, by"));
+  EXPECT_LT(rows[1].verdict.driven_m, 2.2) << TrialTable(rows);
+}
+
 TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnTwo) {
   TrialOptions options;
   options.trials = 2;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trailcast::agent {
 
@@ -45,6 +46,15 @@ void Confidence::NoteView(const Sighting& seen) {
     vanished_ += seen.vanished;
   }
   segment_ = seen.segment;
+}
+
+void Confidence::SeekAnew(std::uint32_t segment, std::string not_found) {
+  options_.not_found = std::move(not_found);
+  sure_once_ = recognised_only_ = covered_ = false;
+  unsure_m_ = unsure_s_ = 0.0;
+  since_covered_s_.reset();
+  since_good_s_.reset();
+  segment_ = segment;
 }
 
 void Confidence::NoteCarry() {

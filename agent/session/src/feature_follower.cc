@@ -1,10 +1,13 @@
 #include "agent/session/src/feature_follower.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "agent/session/src/view_follower.h"
+#include "services/base/angles.h"
 
 namespace trailcast::agent {
 namespace {
@@ -56,11 +59,22 @@ replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
   return follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
 }
 
-// On the spot, before a segment: as far as odometry says.
+// On the spot, before a segment: by odometry, and by the segment's features once they come into
+// view. After it, and before it drives on, the robot has to be sure of them.
 replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
-  const replay::FollowStep step = follower_->Step({{}, seen.driven, seen.unknown});
-  standing = {ReplayState::kFollowing, Trust::kSure, ""};
-  if (!follower_->turning()) search_.HandOverTo(*follower_);
+  const replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
+  standing = {ReplayState::kFollowing, Trust::kSure, "turns on the spot"};
+  place_.SetTracked(std::nullopt, 0);
+  if (follower_->turn_is_in_view()) {
+    search_.Refresh(*follower_, step.agreeing, seen.looked_s, false);
+  }
+  if (follower_->turning()) return step;
+  const route::Segment& segment = follower_->segment();
+  search_.HandOverTo(*follower_);
+  confidence_.SeekAnew(segment.index.value(),
+                       fmt::format("after turning on the spot by {:.0f} degrees the way on is not "
+                                   "found",
+                                   Degrees(std::abs(segment.turn_before_rad))));
   return step;
 }
 
@@ -74,7 +88,8 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
   // What covers this segment's features covers the next one's too.
   const bool covered = standing.trust == Trust::kCovered || confidence_.view_is_going();
-  const bool wants_next = step.wants_next && next_is_here && !covered;
+  const bool wants_next = step.wants_next && next_is_here && !covered &&
+                          route_.turn_after_rad(follower_->segment().index) == 0.0;
   if (standing.state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(standing);
   // A segment that has just begun is not as far along as the last one was.
   if (follower_->segment().index != before) {
@@ -137,7 +152,8 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   look_again_at_s_ = (turn + 1) * kLookAgain_s;
   const SegmentIndex index = follower_->segment().index;
   const std::size_t next = index.value() + 1;
-  const bool ahead = !elsewhere && route_.has(next) && turn % 2 == 0;
+  const bool ahead =
+      !elsewhere && route_.has(next) && turn % 2 == 0 && route_.turn_after_rad(index) == 0.0;
   const RoutePoint point = elsewhere ? place_.point()
                            : ahead   ? RoutePoint{route_.segments()[next].index, 0.0}
                                      : RoutePoint{index, fraction};

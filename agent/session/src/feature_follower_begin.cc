@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/session/src/feature_follower.h"
+#include "services/base/angles.h"
 
 namespace trailcast::agent {
 namespace {
@@ -125,7 +126,13 @@ bool FeatureFollower::IsElsewhereThanAtTheEnd() const {
 
 void FeatureFollower::EndSegment(Standing& standing) {
   const std::size_t next = follower_->segment().index.value() + 1;
-  if (route_.has(next)) {
+  const double turn_rad = route_.turn_after_rad(follower_->segment().index);
+  if (AsPrinted(options_.method) && std::abs(turn_rad) > kTurnsAway_rad) {
+    standing = {ReplayState::kLost, Trust::kLost,
+                fmt::format("the route turns on the spot here, by {:.0f} degrees, which the method "
+                            "'{}' does not do: follow it by the method 'default'",
+                            Degrees(turn_rad), ToString(options_.method))};
+  } else if (route_.has(next)) {
     Begin(route_.segments()[next]);
   } else if (route_.complete() && !IsElsewhereThanAtTheEnd()) {
     standing.state = ReplayState::kArrived;

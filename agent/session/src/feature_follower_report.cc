@@ -8,20 +8,22 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kUncertainSpeedFactor = 0.6;
-// The route's end is approached ever more slowly, so that the robot stands where it is reached.
+// Where the robot is to stand, at the route's end and before a turn on the spot, it is approached
+// ever more slowly.
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
 }  // namespace
 
-// Less than all of it when it is not known how far beside the path the robot is, and before the
-// route's end.
+// Less than all of it when it is not known how far beside the path the robot is, and before it is
+// to stand.
 double FeatureFollower::SpeedShare(const replay::FollowStep& step, Trust trust) const {
   const double share =
       trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
   const route::Segment& segment = follower_->segment();
-  if (AsPrinted(options_.method) || !route_.is_last(segment.index) ||
-      step.command.linear_mps <= 0.0) {
+  const bool stands_after =
+      route_.is_last(segment.index) || route_.turn_after_rad(segment.index) != 0.0;
+  if (AsPrinted(options_.method) || !stands_after || step.command.linear_mps <= 0.0) {
     return share;
   }
   const double left_m = (1.0 - step.fraction) * segment.length_m;

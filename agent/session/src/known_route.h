@@ -30,6 +30,11 @@ class KnownRoute {
   [[nodiscard]] bool is_last(SegmentIndex index) const {
     return complete_ && index.value() + 1 == segments_.size();
   }
+  // Turned on the spot after the segment; 0: it is not, or nothing is known of what comes after.
+  [[nodiscard]] double turn_after_rad(SegmentIndex index) const {
+    const std::size_t next = index.value() + 1;
+    return has(next) ? segments_[next].turn_before_rad : 0.0;
+  }
   [[nodiscard]] bool complete() const { return complete_; }
   [[nodiscard]] double begin_m(SegmentIndex index) const { return begin_m_[index.value()]; }
   [[nodiscard]] double length_m() const {
@@ -47,5 +52,9 @@ class KnownRoute {
   std::vector<double> begin_m_;
   bool complete_ = false;
 };
+
+// Turned further than this on the spot, a robot sees next to nothing of what it saw before: without
+// odometry it cannot tell how far it has come round.
+inline constexpr double kTurnsAway_rad = 0.5;
 
 }  // namespace trailcast::agent

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,11 @@ constexpr double kArrived_s = 0.15;
 constexpr double kArrived_m = 0.15;
 constexpr double kCome_s = 1.0;
 constexpr double kCome_m = 0.5;
+constexpr double kTurn_m = 0.3;      // so far before one the robot stands
 constexpr double kTurnTime_s = 0.3;  // over which a turn is carried out
+constexpr const char* kTurn =
+    "the route turns on the spot here, and this robot has no odometry to tell how far it is round: "
+    "only a robot with odometry follows it from here";
 constexpr const char* kOnlyTheEnd =
     "what is seen looks like the route's end, where the robot was put and has not come by itself: "
     "put it further back";
@@ -55,6 +60,15 @@ bool ViewFollower::SeesTheEnd() const {
 bool ViewFollower::HasCome() const {
   return place_.where().come >=
          std::min(place_.metric() ? kCome_m : kCome_s, 0.5 * place_.belief().length());
+}
+
+// Where the views are of one place, whatever way they look, none tells where to go.
+bool ViewFollower::IsAtTurn() const {
+  if (!place_.where().held) return false;
+  const RoutePoint point = place_.point();
+  if (std::abs(route_.turn_after_rad(point.segment)) <= kTurnsAway_rad) return false;
+  const RoutePoint turn{SegmentIndex(point.segment.value() + 1), 0.0};
+  return place_.AlongOf(turn) - place_.where().along < kTurn_m;
 }
 
 // `doubt`: what speaks against driving on although the place is held; empty: nothing.
@@ -98,8 +112,9 @@ void ViewFollower::EndAt(ReplayStep& step) const {
 ReplayStep ViewFollower::Step(double dt_s) {
   const bool end_is_seen = SeesTheEnd();
   const bool end_is_reached = end_is_seen && HasCome();
-  ReplayStep step =
-      Go(dt_s, route_.complete() && end_is_seen && !end_is_reached ? kOnlyTheEnd : "");
+  ReplayStep step = Go(dt_s, IsAtTurn()                                            ? kTurn
+                             : route_.complete() && end_is_seen && !end_is_reached ? kOnlyTheEnd
+                                                                                   : "");
   if (route_.complete() ? end_is_reached : end_is_seen) EndAt(step);
   return step;
 }

@@ -38,6 +38,7 @@ class ViewFollower {
   // there: what looks like the end from where it was put may be the beginning, of a lap, say.
   [[nodiscard]] bool SeesTheEnd() const;
   [[nodiscard]] bool HasCome() const;
+  [[nodiscard]] bool IsAtTurn() const;
   [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);
   void EndAt(ReplayStep& step) const;
 

@@ -50,6 +50,19 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   last_heading_ = {};
 }
 
+void PathEstimator::TurnPath(double turn_rad) {
+  Covariance rotated = Covariance::Identity();
+  rotated(kAlong, kAlong) = rotated(kLeft, kLeft) = std::cos(turn_rad);
+  rotated(kAlong, kLeft) = std::sin(turn_rad);
+  rotated(kLeft, kAlong) = -std::sin(turn_rad);
+  state_ = rotated * state_;
+  covariance_ = rotated * covariance_ * rotated.transpose();
+  state_[kHeading] -= turn_rad;
+  covariance_(kHeading, kHeading) += Square(options_.turn_noise_share * turn_rad);
+  last_heading_ = {};
+  carried_.reset();
+}
+
 double PathEstimator::TaughtHeading(double along_m) const {
   if (along_m >= 0.0) return route::HeadingAt(segment_.heading, along_m);
   return route::HeadingAt(last_heading_, last_length_m_ + along_m) -

@@ -23,8 +23,8 @@ void PathFollower::Begin(const route::Segment& segment) {
   } else {
     BeginAt(segment, 0.0);
   }
-  estimator_.TurnPath(segment.turn_before_rad);
   turning_ = segment.turn_before_rad != 0.0;
+  if (turning_) estimator_.TurnPath(segment.turn_before_rad);
 }
 
 void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
@@ -38,8 +38,11 @@ void PathFollower::SetMagnification(double magnification) {
   if (!settled_) estimator_.SetMagnification(magnification);
 }
 
-FollowStep PathFollower::TurnOnTheSpot() {
+FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>& seen) {
   FollowStep step;
+  if (static_cast<int>(seen.size()) >= options_.few_features) {
+    step.agreeing = estimator_.Update(seen).agreeing;
+  }
   step.offset = estimator_.offset();
   step.mount_yaw_rad = estimator_.mount_yaw_rad();
   const double left_rad = -step.offset->heading_rad;
@@ -55,7 +58,7 @@ FollowStep PathFollower::TurnOnTheSpot() {
 FollowStep PathFollower::Step(const FollowInput& input) {
   if (input.odometry) estimator_.Predict(*input.odometry);
   estimator_.Widen(input.unknown);
-  if (turning_) return TurnOnTheSpot();
+  if (turning_) return TurnOnTheSpot(input.features);
   FollowStep step;
   const Agreement agreement = estimator_.Update(input.features);
   step.agreeing = agreement.agreeing;

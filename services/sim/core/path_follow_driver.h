@@ -14,11 +14,13 @@ struct DriverOptions {
   double acceleration_mps2 = 0.4;
   double look_ahead_m = 0.30;    // of the pure pursuit; shorter cuts corners less but weaves
   double corner_radius_m = 0.6;  // way-points' corners are driven as arcs of this
+  double spot_turn_rad = 2.4;    // sharper ones are turned on the spot
   double arrived_within_m = 0.015;
 };
 
 // The human operator who drives the scout along way-points: sees where the robot truly is, steers
-// by pure pursuit, slows down in turns, stops at the end.
+// by pure pursuit, slows down in turns, stops at the end; where the path doubles back, stops and
+// turns on the spot.
 class PathFollowDriver {
  public:
   explicit PathFollowDriver(const Polyline& way_points, const DriverOptions& options = {});
@@ -31,13 +33,20 @@ class PathFollowDriver {
   [[nodiscard]] const Polyline& path() const { return path_; }
 
  private:
-  void PlanSpeeds();
+  // From one turn on the spot to the next.
+  struct Leg {
+    Polyline path;
+    double length_m = 0.0;
+    std::vector<double> speeds_mps;  // one a point of the path
+  };
+  void AddLeg(const Polyline& way_points);
+  void PlanSpeeds(Leg& leg) const;
 
   DriverOptions options_;
   Polyline path_;
-  double length_m_;
-  std::vector<double> speeds_mps_;  // one a point of path_
-  double along_m_ = 0.0;
+  std::vector<Leg> legs_;
+  std::size_t leg_ = 0;
+  double along_m_ = 0.0;  // of the leg
   bool aligned_ = false;  // has turned on the spot to face the path
   bool arrived_ = false;
 };

@@ -60,6 +60,7 @@ std::vector<Scenario> MakeScenarios() {
   add("cameras", "every scout camera with every follower camera", "indoor").cameras = EveryPair();
   add("corridor", "30 m of corridor, 4 m of it without texture", "corridor");
   add("field", "30 m in the open, all features far away", "field");
+  add("dead-end", "18 m into a dead end and back, turned on the spot", "dead-end");
   add("dusk", "indoor, taught at noon and followed at dusk", "indoor").gain = 0.4;
   return all;
 }

@@ -1,6 +1,6 @@
 #include "agent/session/confidence.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <utility>
 
@@ -51,6 +51,18 @@ TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
   const Verdict verdict = See(8);
   EXPECT_EQ(verdict.trust, Trust::kSure);
   EXPECT_EQ(verdict.reason, "");
+}
+
+TEST_F(ConfidenceTest, StandsAfterATurnUntilItIsSureOfTheWayOn) {
+  See(20, 100);
+  NextSegment(kTaught);
+  confidence_.SeekAnew(segment_, "the way on is not found");
+  Verdict verdict = See(0, 89);
+  EXPECT_EQ(verdict.trust, Trust::kSeeking);
+  EXPECT_THAT(verdict.reason, ::testing::HasSubstr("the way on is not found: 0 of segment 1's 40"));
+  EXPECT_EQ(See(8).trust, Trust::kSure);
+  confidence_.SeekAnew(segment_, "the way on is not found");
+  EXPECT_EQ(See(0, 91).trust, Trust::kLost);
 }
 
 TEST_F(ConfidenceTest, SeeksForSecondsWhateverTheFrameRate) {

@@ -183,6 +183,61 @@ TEST_P(ReplaySessionTest, ProgressIsOfTheWholeRouteAlsoWhileItComes) {
 }
 
 // It may as well be at the beginning of a lap: it has not come there.
+// The walk, a turn on the spot, and the walk again: what the robot sees after the turn.
+struct Turned {
+  ReplayStep last;
+  double turned_rad = 0.0;
+  bool drove_on = false;
+};
+
+Turned TurnAndSee(bool the_way_on) {
+  constexpr double kTurn_rad = 1.2;
+  std::vector<route::Segment> segments = Taught(true);
+  route::Segment again = segments.front();
+  again.index = SegmentIndex(static_cast<std::uint32_t>(segments.size()));
+  again.turn_before_rad = kTurn_rad;
+  segments.push_back(again);
+  ReplaySession session = SessionOn(segments);
+  Turned turned;
+  motion::Pose2 pose;
+  std::size_t walked = 0;
+  for (int i = 0; i < 400 && turned.last.state != ReplayState::kLost && !turned.drove_on; ++i) {
+    const bool turns = turned.last.command.angular_radps != 0.0 && walked + 1 >= Walk().size();
+    const bool there = turned.turned_rad > kTurn_rad - 0.1;
+    const bool sees = walked + 1 < Walk().size() || (turned.turned_rad == 0.0 && !turns);
+    const image::GrayImage picture = sees                  ? Walk()[walked]
+                                     : there && the_way_on ? Walk().front()
+                                                           : Noise(static_cast<unsigned>(i) + 1U);
+    const auto step = session.Observe({StampOf(i), picture, pose});
+    EXPECT_TRUE(step);
+    turned.last = *step;
+    const motion::VelocityCommand& command = turned.last.command;
+    turned.drove_on = there && command.linear_mps > 0.0;
+    if (command.linear_mps > 0.0) {
+      pose = motion::Advance(pose, {kStep_m, 0.0});
+      walked = std::min(walked + 1, Walk().size() - 1);
+    } else {
+      pose = motion::Advance(pose, {0.0, command.angular_radps / kFrames_hz});
+      turned.turned_rad += command.angular_radps / kFrames_hz;
+    }
+  }
+  EXPECT_NEAR(turned.turned_rad, kTurn_rad, 0.1);
+  return turned;
+}
+
+TEST(ReplaySessionTurning, GoesOnAfterATurnOnTheSpotWhenItSeesTheWayOn) {
+  const Turned turned = TurnAndSee(true);
+  EXPECT_TRUE(turned.drove_on) << turned.last.reason;
+}
+
+TEST(ReplaySessionTurning, StandsAfterATurnOnTheSpotWhereItDoesNotSeeTheWayOn) {
+  const Turned turned = TurnAndSee(false);
+  EXPECT_FALSE(turned.drove_on);
+  EXPECT_EQ(turned.last.state, ReplayState::kLost);
+  EXPECT_THAT(turned.last.reason,
+              HasSubstr("after turning on the spot by 69 degrees the way on is not found"));
+}
+
 TEST(ReplaySessionByViews, ARobotThatWasPutAtTheEndIsNotDrivenPastIt) {
   ReplayMethodOptions options;
   options.anywhere = true;

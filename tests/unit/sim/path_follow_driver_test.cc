@@ -18,6 +18,7 @@ struct Drive {
   double fastest_mps = 0.0;
   double slowest_in_turn_mps = 9.0;
   double sharpest_radps = 0.0;
+  double furthest_x_m = -9.0;
   motion::Pose2 end;
 };
 
@@ -31,6 +32,7 @@ Drive DriveAlong(const Polyline& points, const motion::Pose2& start, std::uint64
     robot.Drive(command, 1.0 / 30.0);
     const double off_m = Nearest(driver.path(), motion::Position(robot.true_pose())).distance_m;
     drive.worst_m = std::max(drive.worst_m, off_m);
+    drive.furthest_x_m = std::max(drive.furthest_x_m, robot.true_pose().x_m);
     drive.fastest_mps = std::max(drive.fastest_mps, command.linear_mps);
     drive.sharpest_radps = std::max(drive.sharpest_radps, std::abs(command.angular_radps));
     if (std::abs(command.angular_radps) > 0.25) {
@@ -62,6 +64,15 @@ TEST(PathFollowDriver, TurnsOnTheSpotFirstWhenItFacesAway) {
   const Drive drive = DriveAlong(points, {0.0, 0.0, Radians(150.0)}, 1);
   EXPECT_TRUE(drive.arrived);
   EXPECT_LT(drive.worst_m, 0.05);
+}
+
+TEST(PathFollowDriver, TurnsOnTheSpotWhereThePathDoublesBack) {
+  const Polyline points = {{-3, 0}, {2, 0}, {-3, 0}, {-3, 3}};
+  const Drive drive = DriveAlong(points, StartPose(points), 1);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_LT(drive.worst_m, 0.06);
+  EXPECT_GT(drive.furthest_x_m, 1.95);
+  EXPECT_LT(std::hypot(drive.end.x_m + 3.0, drive.end.y_m - 3.0), 0.05);
 }
 
 TEST(PathFollowDriver, ArrivedAsksForNothing) {

@@ -27,46 +27,74 @@ double Curvature(const Polyline& path, std::size_t i) {
   return 2.0 * turn_rad / (in.norm() + out.norm());
 }
 
+double TurnAt(const Polyline& points, std::size_t i) {
+  const Eigen::Vector2d in = points[i] - points[i - 1];
+  const Eigen::Vector2d out = points[i + 1] - points[i];
+  return std::abs(WrapAngle(std::atan2(out.y(), out.x()) - std::atan2(in.y(), in.x())));
+}
+
 }  // namespace
 
 PathFollowDriver::PathFollowDriver(const Polyline& way_points, const DriverOptions& options)
-    : options_(options),
-      path_(RoundCorners(way_points, options.corner_radius_m, kSpacing_m)),
-      length_m_(Length(path_)) {
-  PlanSpeeds();
+    : options_(options) {
+  Polyline leg = {way_points.front()};
+  for (std::size_t i = 1; i < way_points.size(); ++i) {
+    leg.push_back(way_points[i]);
+    const bool last = i + 1 == way_points.size();
+    if (!last && TurnAt(way_points, i) <= options_.spot_turn_rad) continue;
+    AddLeg(leg);
+    leg = {way_points[i]};
+  }
+}
+
+void PathFollowDriver::AddLeg(const Polyline& way_points) {
+  Leg leg;
+  leg.path = RoundCorners(way_points, options_.corner_radius_m, kSpacing_m);
+  leg.length_m = Length(leg.path);
+  PlanSpeeds(leg);
+  path_.insert(path_.end(), leg.path.begin() + (path_.empty() ? 0 : 1), leg.path.end());
+  legs_.push_back(std::move(leg));
 }
 
 // As fast as turns allow, slowing down for them in time and for the end.
-void PathFollowDriver::PlanSpeeds() {
+void PathFollowDriver::PlanSpeeds(Leg& leg) const {
+  const Polyline& path = leg.path;
+  std::vector<double>& speeds_mps = leg.speeds_mps;
   const double slowest_mps = options_.slowest_share * options_.speed_mps;
-  for (std::size_t i = 0; i < path_.size(); ++i) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
     const double turn_limit_mps =
-        0.8 * options_.turning_radps / std::max(std::abs(Curvature(path_, i)), 1e-6);
-    speeds_mps_.push_back(std::clamp(turn_limit_mps, slowest_mps, options_.speed_mps));
+        0.8 * options_.turning_radps / std::max(std::abs(Curvature(path, i)), 1e-6);
+    speeds_mps.push_back(std::clamp(turn_limit_mps, slowest_mps, options_.speed_mps));
   }
-  speeds_mps_.back() = 0.0;
-  for (std::size_t i = path_.size() - 1; i > 0; --i) {
-    const double step_m = (path_[i] - path_[i - 1]).norm();
+  speeds_mps.back() = 0.0;
+  for (std::size_t i = path.size() - 1; i > 0; --i) {
+    const double step_m = (path[i] - path[i - 1]).norm();
     const double reachable_mps =
-        std::sqrt(speeds_mps_[i] * speeds_mps_[i] + 2.0 * options_.acceleration_mps2 * step_m);
-    speeds_mps_[i - 1] = std::min(speeds_mps_[i - 1], reachable_mps);
+        std::sqrt(speeds_mps[i] * speeds_mps[i] + 2.0 * options_.acceleration_mps2 * step_m);
+    speeds_mps[i - 1] = std::min(speeds_mps[i - 1], reachable_mps);
   }
 }
 
 motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose) {
   if (arrived_) return {};
+  const Leg& leg = legs_[leg_];
+  const Polyline& path = leg.path;
   const Eigen::Vector2d place = motion::Position(true_pose);
-  along_m_ = Nearest(path_, place, along_m_, along_m_ + kSearch_m).along_m;
-  const double left_m = length_m_ - along_m_;
+  along_m_ = Nearest(path, place, along_m_, along_m_ + kSearch_m).along_m;
+  const double left_m = leg.length_m - along_m_;
   if (left_m < options_.arrived_within_m) {
-    arrived_ = true;
-    return {};
+    arrived_ = leg_ + 1 == legs_.size();
+    if (arrived_) return {};
+    ++leg_;
+    along_m_ = 0.0;
+    aligned_ = false;
+    return Command(true_pose);
   }
   // Near the end there is nothing further ahead on the path: aim along its last direction.
-  const Eigen::Vector2d end_direction = (path_.back() - path_[path_.size() - 2]).normalized();
+  const Eigen::Vector2d end_direction = (path.back() - path[path.size() - 2]).normalized();
   const double beyond_m = std::max(0.0, options_.look_ahead_m - left_m);
   const Eigen::Vector2d aim =
-      PointAlong(path_, along_m_ + options_.look_ahead_m) + beyond_m * end_direction;
+      PointAlong(path, along_m_ + options_.look_ahead_m) + beyond_m * end_direction;
   const Eigen::Vector2d to_aim = aim - place;
   const double bearing_rad = WrapAngle(std::atan2(to_aim.y(), to_aim.x()) - true_pose.heading_rad);
   if (std::abs(bearing_rad) < kFacing_rad) aligned_ = true;
@@ -74,9 +102,9 @@ motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose
     aligned_ = false;
     return {0.0, std::clamp(2.0 * bearing_rad, -options_.turning_radps, options_.turning_radps)};
   }
-  const auto index = std::min(static_cast<std::size_t>(along_m_ / kSpacing_m), path_.size() - 1);
+  const auto index = std::min(static_cast<std::size_t>(along_m_ / kSpacing_m), path.size() - 1);
   const double curvature = 2.0 * std::sin(bearing_rad) / to_aim.norm();
-  double speed_mps = std::max(speeds_mps_[index], std::min(kCreep_mps, left_m * 3.0));
+  double speed_mps = std::max(leg.speeds_mps[index], std::min(kCreep_mps, left_m * 3.0));
   if (std::abs(curvature) * speed_mps > options_.turning_radps) {
     speed_mps = options_.turning_radps / std::abs(curvature);
   }

@@ -205,17 +205,32 @@ void FurnishNorthRoom(Furniture& f, SceneBuilder& b) {
   f.Cartons(2);
 }
 
-}  // namespace
-
-Result<Place> MakeIndoorWorld() {
+Result<Place> MakeLaboratory(const std::string& name, Polyline points) {
   SceneBuilder builder;
   AddShell(builder);
   const std::vector<Lamp> lamps = AddLamps(builder);
   Furniture furniture(builder, kSeed);
   FurnishSouthRoom(furniture, builder);
   FurnishNorthRoom(furniture, builder);
-  return FinishIndoors(builder, lamps, "indoor",
-                       {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}});
+  return FinishIndoors(builder, lamps, name, std::move(points));
+}
+
+}  // namespace
+
+Result<Place> MakeIndoorWorld() {
+  return MakeLaboratory("indoor",
+                        {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}});
+}
+
+Result<Place> MakeDeadEndWorld() {
+  return MakeLaboratory("dead-end", {{7.2, 3.2},
+                                     {7.2, 5.6},
+                                     {5.8, 7.0},
+                                     {2.3, 7.0},
+                                     {5.8, 7.0},
+                                     {7.2, 5.6},
+                                     {7.2, 3.2},
+                                     {6.0, 1.5}});
 }
 
 }  // namespace trailcast::sim

@@ -38,6 +38,8 @@ constexpr std::array kPlaces = {
                  RoadTraffic},
     BuiltInPlace{"turns", "25 m round the corners of an office", MakeTurnsWorld},
     BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
+    BuiltInPlace{"dead-end", "18 m into a laboratory's dead end and back, turned on the spot",
+                 MakeDeadEndWorld},
     BuiltInPlace{"field", "30 m in the open, all features far away", MakeFieldWorld},
 };
 
