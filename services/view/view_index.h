@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "services/route/route.h"
@@ -82,6 +83,7 @@ class ViewIndex {
   [[nodiscard]] std::optional<std::uint32_t> TakeSlot();
   // With a number, if it is new.
   [[nodiscard]] Route& RouteOf(const route::RouteKey& key);
+  void InsertAll();  // entries_
   void Insert(std::uint32_t word, std::uint32_t entry);
   [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
   [[nodiscard]] Chunk& ChunkAt(std::uint32_t number) {
@@ -105,6 +107,8 @@ class ViewIndex {
   std::map<route::RouteKey, Route> routes_;
   std::vector<const route::RouteKey*> keys_;  // by number: of routes_
   std::vector<std::uint32_t> free_numbers_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      entries_;                        // being inserted, with their words
   std::vector<Tally> tallies_;         // by slot, while voting
   std::vector<std::uint32_t> alike_;   // slots
   std::vector<std::uint32_t> chains_;  // that are walked for it

@@ -116,13 +116,25 @@ bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
   held.insert(std::upper_bound(held.begin(), held.end(), number), number);
   const std::vector<route::Descriptor> descriptors = DescriptorsOf(segment);
   slots_[*slot] = {route.number, number, static_cast<std::uint32_t>(descriptors.size())};
+  entries_.clear();
   for (const route::Descriptor& descriptor : descriptors) {
     const auto where = WhereIs(descriptor);
     for (std::uint32_t table = 0; table < kTables; ++table) {
-      Insert(table * kWords + where[table].word, *slot << kCheckBits | where[table].check);
+      entries_.emplace_back(table * kWords + where[table].word,
+                            *slot << kCheckBits | where[table].check);
     }
   }
+  InsertAll();
   return true;
+}
+
+// The tables are larger than the caches, and words lie anywhere in them: all are fetched at once.
+void ViewIndex::InsertAll() {
+  for (const auto& [word, entry] : entries_) __builtin_prefetch(&heads_[word], 1);
+  for (const auto& [word, entry] : entries_) {
+    if (heads_[word] != 0) __builtin_prefetch(&ChunkAt(heads_[word]), 1);
+  }
+  for (const auto& [word, entry] : entries_) Insert(word, entry);
 }
 
 void ViewIndex::Remove(const route::RouteKey& key) {
