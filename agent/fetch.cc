@@ -76,7 +76,9 @@ class Fetching {
 
 Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store::RouteStore> store,
                       std::unique_ptr<exchange::RouteExchange> exchange) {
-  FollowerLink link(options, std::move(store), std::move(exchange));
+  FollowerLinkOptions stored_alone = options;
+  stored_alone.feeds_segments = false;
+  FollowerLink link(std::move(stored_alone), std::move(store), std::move(exchange));
   if (auto started = link.Start(); !started) return tl::unexpected(started.error());
   Fetching fetching(options);
   Result<bool> all = false;

@@ -90,7 +90,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   return {};
 }
 
-void Server::Receive(const exchange::Message& message) {
+void Server::Receive(exchange::Message message) {
   if (std::holds_alternative<exchange::CatalogRequest>(message) ||
       std::holds_alternative<exchange::RouteEditRequest>(message)) {
     ReceiveRequest(message);
@@ -107,9 +107,9 @@ void Server::Receive(const exchange::Message& message) {
     NoteViews(*announced);
   }
   if (!quotas_) {
-    keeper_->Handle(message, steady_clock::now());
-  } else if (const auto allowed = WithinQuotas(message)) {
-    keeper_->Handle(*allowed, steady_clock::now());
+    keeper_->Handle(std::move(message), steady_clock::now());
+  } else if (auto allowed = WithinQuotas(message)) {
+    keeper_->Handle(*std::move(allowed), steady_clock::now());
   }
 }
 
@@ -121,7 +121,7 @@ void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
 }
 
 void Server::Serve() {
-  for (const exchange::Message& message : exchange_->Take(WaitForMessages())) Receive(message);
+  for (exchange::Message& message : exchange_->Take(WaitForMessages())) Receive(std::move(message));
   ServeRequests();
   const auto now = steady_clock::now();
   const auto outgoing = Say(now);
@@ -143,7 +143,8 @@ void Server::Serve() {
 
 milliseconds Server::WaitForMessages() const {
   const bool views_due = !views_.Filled() && !views_wait_;
-  if (views_due || !requests_.empty()) return milliseconds(0);
+  const bool more = !requests_.empty() || keeper_->AnswersDue(steady_clock::now());
+  if (views_due || more) return milliseconds(0);
   return keeper_->answering() ? kWaitAnswering : kWait;
 }
 

@@ -46,7 +46,7 @@ class Server {
   Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
          std::unique_ptr<exchange::RouteExchange> exchange);
 
-  void Receive(const exchange::Message& message);
+  void Receive(exchange::Message message);
   void ReceiveRequest(const exchange::Message& request);
   [[nodiscard]] Result<void> Enqueue(const exchange::Message& request);
   // Of a message what its sender's quotas allow; nothing if that is nothing.

@@ -32,6 +32,7 @@ struct FollowerLinkOptions {
   bool wait_for_route = false;       // a route that nobody knows yet may still be taught
   std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
   bool from_start = false;           // whatever was noted
+  bool feeds_segments = true;  // false: nobody drives, the segments are stored and not read back
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
   std::function<bool()> stop = [] { return false; };  // any thread

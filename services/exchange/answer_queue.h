@@ -55,6 +55,8 @@ class AnswerQueue {
 
   // Nothing is to be sent, now or soon.
   [[nodiscard]] bool empty() const;
+  // Due would return something.
+  [[nodiscard]] bool IsDue(Time now) const;
 
  private:
   struct Asked {

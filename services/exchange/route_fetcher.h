@@ -70,7 +70,7 @@ class RouteFetcher {
   // What a catalog reply said of the route; an announcement does the same.
   void Learn(const route::RouteInfo& info, Time now);
 
-  void Handle(const Message& message, Time now);
+  void Handle(Message message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
 
   // Verified pieces that are new since the last call, in the order of their arrival.
@@ -88,9 +88,9 @@ class RouteFetcher {
   [[nodiscard]] const std::optional<route::RouteInfo>& info() const { return info_; }
 
  private:
-  void HandleBatch(const SegmentBatch& batch, Time now);
-  void Accept(const route::SegmentPiece& piece, Time now);
-  void Borrow(const route::SegmentPiece& piece, Time now);
+  void HandleBatch(SegmentBatch& batch, Time now);  // its pieces are moved away
+  void Accept(route::SegmentPiece piece, Time now);
+  void Borrow(route::SegmentPiece piece, Time now);
   void ReturnBorrowed(Time now);
   void TakeFromOwn(const route::SegmentPiece& named, Time now);
   void Ask(const std::vector<SegmentIndex>& lacking, bool digests_only,

@@ -84,7 +84,7 @@ class RouteKeeper {
                                                                  Integrity integrity,
                                                                  RouteKeeperOptions options = {});
 
-  void Handle(const Message& message, Time now);
+  void Handle(Message message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
   // Of what Tick returned: handed over, or not, because the link is blocked; then it is returned
   // again by a later Tick.
@@ -108,6 +108,8 @@ class RouteKeeper {
   [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> TakeDamaged();
   // Somebody waits for segments: Tick soon.
   [[nodiscard]] bool answering() const { return !answers_.empty(); }
+  // The last Tick did not send all that it could have.
+  [[nodiscard]] bool AnswersDue(Time now) const { return answers_.IsDue(now); }
 
   [[nodiscard]] std::vector<Note> TakeNotes();
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
@@ -119,7 +121,7 @@ class RouteKeeper {
               RouteKeeperOptions options);
 
   void HandleAnnouncement(const RouteAnnouncement& announcement, Time now);
-  void HandleBatch(const SegmentBatch& batch, Time now);
+  void HandleBatch(SegmentBatch& batch, Time now);  // its pieces are moved away
   void HandleRequest(const SegmentRequest& request, Time now);
   [[nodiscard]] bool IsLent(const SegmentBatch& batch, const route::RouteKey& key, Time now);
   [[nodiscard]] bool IsKnown(const route::SegmentPiece& piece, Time now);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "services/store/compiled_statements.h"
@@ -43,13 +44,18 @@ class SqliteRouteStore final : public RouteStore {
   Result<std::vector<std::string>> Verify() override;
 
  private:
-  // Runs `work`, which may throw SQLite's exceptions, and says what was being done if it does.
-  template <typename Work>
-  auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
+  // Runs `work`, which may throw SQLite's exceptions, and says what was being done if it does:
+  // `doing` is a text, or makes one, for what is done with each segment.
+  template <typename Doing, typename Work>
+  auto Guarded(const Doing& doing, const Work& work) -> decltype(work()) {
     try {
       return work();
     } catch (const SQLite::Exception& exception) {
-      return tl::unexpected(ToError(exception, file_.path(), doing));
+      if constexpr (std::is_invocable_v<Doing>) {
+        return tl::unexpected(ToError(exception, file_.path(), doing()));
+      } else {
+        return tl::unexpected(ToError(exception, file_.path(), doing));
+      }
     }
   }
 

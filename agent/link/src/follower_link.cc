@@ -141,12 +141,12 @@ Result<void> FollowerLink::Follow() {
 void FollowerLink::Trade() {
   auto messages = exchange_->Take(next_feed_ < held_ ? kWaitFeeding : kWait);
   const auto now = steady_clock::now();
-  for (const exchange::Message& message : messages) {
+  for (exchange::Message& message : messages) {
     presence_->Handle(message);
     neighbours_.Handle(message, now);
     spare_.Handle(message, now);
     if (fetcher_) {
-      fetcher_->Handle(message, now);
+      fetcher_->Handle(std::move(message), now);
     } else {
       finder_.Handle(message);
     }
@@ -236,6 +236,7 @@ bool FollowerLink::all_known() const {
 }
 
 Result<void> FollowerLink::FeedAll() {
+  if (!options_.feeds_segments) next_feed_ = held_;
   for (; next_feed_ < held_; ++next_feed_) {
     auto piece = store_->ReadSegment(route_->key, SegmentIndex(next_feed_));
     if (!piece) return tl::unexpected(piece.error());

@@ -58,14 +58,14 @@ Result<void> FollowerLink::DropWrong(std::uint32_t count) {
                 "revision there, or have it taught again",
                 wrong, Names(senders), route_->scout.value());
   }
-  if (next_feed_ > 0) {
+  if (options_.feeds_segments && next_feed_ > 0) {
     return Fail(ErrorCode::kCorrupt,
                 "{}: they were dropped; start again, and the route is fetched anew", wrong);
   }
   spdlog::warn("{}: fetching them anew", wrong);
   dropped_wrong_ = true;
   beyond_.clear();
-  held_ = held_before_ = 0;
+  held_ = held_before_ = next_feed_ = 0;
   return MakeFetcher({});
 }
 

@@ -70,6 +70,12 @@ AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const Rea
   return due;
 }
 
+bool AnswerQueue::IsDue(Time now) const {
+  return std::any_of(asked_.begin(), asked_.end(), [now](const auto& entry) {
+    return !entry.second.indices.empty() && now >= entry.second.due_at;
+  });
+}
+
 bool AnswerQueue::empty() const {
   return std::all_of(asked_.begin(), asked_.end(),
                      [](const auto& entry) { return entry.second.indices.empty(); });

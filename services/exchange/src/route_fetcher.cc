@@ -50,7 +50,7 @@ void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
   heard_at_ = now;
 }
 
-void RouteFetcher::Handle(const Message& message, Time now) {
+void RouteFetcher::Handle(Message message, Time now) {
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     const bool known_before = info_.has_value();
     Learn(announcement->info, now);
@@ -61,18 +61,20 @@ void RouteFetcher::Handle(const Message& message, Time now) {
       if (in_vain) knocking_since_.reset();
     }
   }
-  if (const auto* batch = std::get_if<SegmentBatch>(&message)) HandleBatch(*batch, now);
+  if (auto* batch = std::get_if<SegmentBatch>(&message)) HandleBatch(*batch, now);
 }
 
-void RouteFetcher::HandleBatch(const SegmentBatch& batch, Time now) {
-  for (const route::SegmentPiece& piece : batch.pieces) {
+void RouteFetcher::HandleBatch(SegmentBatch& batch, Time now) {
+  for (route::SegmentPiece& piece : batch.pieces) {
     if (piece.key != key_) continue;
     const std::size_t before = held_.size() + borrowed_.size();
     came_at_ = now;
     if (batch.IsLent(info_ ? std::optional(info_->scout) : std::nullopt)) {
-      Borrow(piece, now);
+      Borrow(std::move(piece), now);
+    } else if (piece.bytes.empty()) {
+      TakeFromOwn(piece, now);
     } else {
-      piece.bytes.empty() ? TakeFromOwn(piece, now) : Accept(piece, now);
+      Accept(std::move(piece), now);
     }
     if (held_.size() + borrowed_.size() > before) senders_.insert(batch.sender);
   }
@@ -87,7 +89,7 @@ void RouteFetcher::TakeFromOwn(const route::SegmentPiece& named, Time now) {
   }
 }
 
-void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
+void RouteFetcher::Accept(route::SegmentPiece piece, Time now) {
   if (const auto held = held_.find(piece.index); held != held_.end()) {
     ++(held->second == piece.digest ? counts_.duplicate_pieces : counts_.conflicting);
     return;
@@ -108,11 +110,11 @@ void RouteFetcher::Accept(const route::SegmentPiece& piece, Time now) {
     borrowed_bytes_ -= lent.mapped().bytes.size();
   }
   want_.Arrived(piece.index, now);
-  arrived_.push_back(piece);
+  arrived_.push_back(std::move(piece));
   Judge(now);
 }
 
-void RouteFetcher::Borrow(const route::SegmentPiece& piece, Time now) {
+void RouteFetcher::Borrow(route::SegmentPiece piece, Time now) {
   const bool complete = info_ && info_->state == RouteState::kComplete;
   const bool wanted = borrows_ && complete && piece.index.value() < info_->segment_count &&
                       !held_.contains(piece.index) && !borrowed_.contains(piece.index);
@@ -123,9 +125,9 @@ void RouteFetcher::Borrow(const route::SegmentPiece& piece, Time now) {
     return;
   }
   heard_at_ = now;
-  borrowed_.emplace(piece.index, piece);
-  borrowed_bytes_ += piece.bytes.size();
   want_.Arrived(piece.index, now);
+  borrowed_bytes_ += piece.bytes.size();
+  borrowed_.emplace(piece.index, std::move(piece));
   Judge(now);
 }
 

@@ -38,11 +38,11 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
   return keeper;
 }
 
-void RouteKeeper::Handle(const Message& message, Time now) {
+void RouteKeeper::Handle(Message message, Time now) {
   stand_in_.Handle(message, now);
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     HandleAnnouncement(*announcement, now);
-  } else if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
+  } else if (auto* batch = std::get_if<SegmentBatch>(&message)) {
     HandleBatch(*batch, now);
   } else if (const auto* segment_request = std::get_if<SegmentRequest>(&message)) {
     HandleRequest(*segment_request, now);
@@ -93,8 +93,8 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
   if (announcement.holder == info.scout) kept->receipt_due = true;
 }
 
-void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
-  for (const SegmentPiece& piece : batch.pieces) {
+void RouteKeeper::HandleBatch(SegmentBatch& batch, Time now) {
+  for (SegmentPiece& piece : batch.pieces) {
     if (IsLent(batch, piece.key, now) && !IsKnown(piece, now)) {
       ++counters_.unproven;
       AddNote(Note::Severity::kWarning, "unproven/" + batch.sender.value(),
@@ -105,7 +105,7 @@ void RouteKeeper::HandleBatch(const SegmentBatch& batch, Time now) {
     } else if (piece.bytes.empty()) {
       TakeFromOthers(piece, now);
     } else if (const auto intact = integrity_.check_piece(piece); intact) {
-      arrived_.push_back(piece);
+      arrived_.push_back(std::move(piece));
     } else {
       ++counters_.corrupt;
       AddNote(Note::Severity::kWarning, "corrupt/" + batch.sender.value(),

@@ -150,14 +150,15 @@ bool SqliteRouteStore::Execute(const std::string& sql, const SegmentPiece& piece
 }
 
 Result<SegmentPiece> SqliteRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {
-  const std::string which = Describe(key, index);
-  return Guarded("reading " + which, [&]() -> Result<SegmentPiece> {
+  const auto doing = [&] { return "reading " + Describe(key, index); };
+  return Guarded(doing, [&]() -> Result<SegmentPiece> {
     auto select = compiled_.Take(
         "SELECT digest, seal, bytes FROM segment WHERE route = ? AND teaching = ? AND number = ?");
     BindKey(*select, key);
     select->bind(3, index.value());
     if (!select->executeStep()) {
-      return Fail(ErrorCode::kNotFound, "route store {} has no {}", file_.path().string(), which);
+      return Fail(ErrorCode::kNotFound, "route store {} has no {}", file_.path().string(),
+                  Describe(key, index));
     }
     Result<SegmentPiece> piece = ReadSegmentRow(*select, key, index);
     if (!piece) return Wrap(piece.error(), "route store " + file_.path().string());

@@ -53,7 +53,21 @@ TEST(AnswerQueue, SendsALongAnswerInTurns) {
   queue.Ask(KeyNumber(1), Indices(0, 5), kStart);
   EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
   EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 2U);
+  EXPECT_TRUE(queue.IsDue(kStart));
   EXPECT_EQ(queue.Due(kStart, 200, Read).pieces.size(), 1U);
+  EXPECT_FALSE(queue.IsDue(kStart));
+}
+
+TEST(AnswerQueue, IsNotDueWhileOthersMayAskOrTheLinkIsBlocked) {
+  AnswerQueue queue({.window = milliseconds(50), .again_after = milliseconds(30)});
+  queue.Ask(KeyNumber(1), Indices(0, 1), kStart);
+  EXPECT_FALSE(queue.IsDue(kStart + milliseconds(49)));
+  const auto sent_at = kStart + milliseconds(50);
+  EXPECT_TRUE(queue.IsDue(sent_at));
+  (void)queue.Due(sent_at, kPlenty, Read);
+  queue.PutBack(KeyNumber(1), SegmentIndex(0), sent_at);
+  EXPECT_FALSE(queue.IsDue(sent_at + milliseconds(29)));
+  EXPECT_TRUE(queue.IsDue(sent_at + milliseconds(30)));
 }
 
 TEST(AnswerQueue, ReportsWhatCannotBeReadAndSendsTheRest) {
