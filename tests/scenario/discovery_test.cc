@@ -91,7 +91,8 @@ TEST_P(WithMulticast, NobodyNeedsAnAddress) {
   ExpectShared({File(GetParam()), "TRAILCAST_DISCOVERY=star"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, WithMulticast, testing::Values("multicast.xml", "wifi.xml"),
+INSTANTIATE_TEST_SUITE_P(Files, WithMulticast,
+                         testing::Values("multicast.xml", "wifi.xml", "wired.xml"),
                          [](const auto& file) {
                            const std::string name = file.param;
                            return name.substr(0, name.find('.'));
