@@ -64,6 +64,11 @@ class RouteExchange {
   // kInvalidArgument for a topic this exchange was not opened to write, or a message out of bounds.
   [[nodiscard]] virtual Result<void> Publish(const Message& message) = 0;
 
+  // What is published from now on may be held back until Flush, so that small messages travel
+  // together.
+  virtual void Gather() {}
+  virtual void Flush() {}
+
   // Everything received since the last call, oldest first within a topic. Waits for the first
   // message up to `max_wait`. Own messages never come back. Late joiners get the latest sample per
   // key of the routes, receipts and agents topics; other topics start at the join. Messages that

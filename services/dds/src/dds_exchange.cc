@@ -11,6 +11,7 @@
 
 #include "services/dds/src/joined.h"
 #include "services/dds/src/keys_watch.h"
+#include "services/dds/src/reminders.h"
 #include "services/dds/src/star_or_mesh.h"
 #include "services/dds/src/stranger_watch.h"
 #include "services/dds/src/version_watch.h"
@@ -52,6 +53,8 @@ class DdsExchange : public exchange::RouteExchange {
   Result<void> Join();
 
   Result<void> Publish(const Message& message) override;
+  void Gather() override { gathers_ = true; }
+  void Flush() override;
   std::vector<Message> Take(std::chrono::milliseconds max_wait) override;
   Result<void> Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) override;
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
@@ -67,6 +70,8 @@ class DdsExchange : public exchange::RouteExchange {
   void SayGoodBye();
 
   void KeepWatch();
+  void Remind(Clock::time_point now);
+  [[nodiscard]] bool WaitForSamples(std::chrono::milliseconds max_wait);
   void Leave();
   void MeetOthers(Clock::time_point now);
   void TellOfDiscovery(const std::string& line);
@@ -86,6 +91,9 @@ class DdsExchange : public exchange::RouteExchange {
   std::map<exchange::Topic, std::set<route::RouteKey>> listening_;
   std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
   std::uint64_t dropped_ = 0;
+  bool gathers_ = false;
+  std::set<Place> gathered_;  // writers with something to be flushed
+  Reminders reminders_;       // in a star
 
   // By instance, and not gone since; unless nothing makes this exchange ever join anew.
   std::map<std::string, exchange::AgentGone> heard_;
@@ -139,6 +147,7 @@ Result<void> DdsExchange::OpenScopes(exchange::Topic topic) {
 // Who ends while this exchange joins anew would never be told gone: all are, until heard again.
 void DdsExchange::Leave() {
   SayGoodBye();
+  reminders_.Clear();
   joined_.reset();
   for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
   heard_.clear();
@@ -190,11 +199,42 @@ Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
   // instances would be kept for ever.
   const bool last_word = topic == exchange::Topic::kCatalogReplies;
   auto written = WithWire(message, [&](const void* sample) {
-    auto done = (*writer)->Write(sample);
+    auto done = gathers_ ? (*writer)->Gather(sample) : (*writer)->Write(sample);
     return done && last_word ? (*writer)->Unregister(sample) : done;
   });
+  if (gathers_) gathered_.insert(place);
+  const bool waited_for =
+      topic == exchange::Topic::kSegments || topic == exchange::Topic::kSegmentRequests;
+  const bool star = joined_->meeting.star || options_.serves;
+  if (star && waited_for) reminders_.NoteWritten(place, Clock::now());
   if (!written) return Wrap(written.error(), exchange::NameOf(topic));
   return {};
+}
+
+void DdsExchange::Flush() {
+  gathers_ = false;
+  for (const Place& place : std::exchange(gathered_, {})) joined_->writers.at(place).Flush();
+}
+
+void DdsExchange::Remind(Clock::time_point now) {
+  reminders_.Tick(
+      now,
+      [this](const Place& place) {
+        return joined_->writers.at(place).WaitForAcks(std::chrono::milliseconds(0)).has_value();
+      },
+      [this](const Place& place) { joined_->writers.at(place).Remind(); });
+}
+
+// A failed wait leaves nothing to take, and is tried again with the next call.
+bool DdsExchange::WaitForSamples(std::chrono::milliseconds max_wait) {
+  const auto until = Clock::now() + max_wait;
+  for (auto now = Clock::now();; now = Clock::now()) {
+    Remind(now);
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - now);
+    const auto wait = std::max(left, std::chrono::milliseconds(0));
+    if (joined_->wait_set.Wait(reminders_.Wait(now, wait))) return true;
+    if (Clock::now() >= until) return false;
+  }
 }
 
 std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
@@ -204,8 +244,7 @@ std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
     std::this_thread::sleep_for(max_wait);
     return messages;
   }
-  // A failed wait leaves nothing to take, and is tried again with the next call.
-  if (!joined_->wait_set.Wait(max_wait)) return messages;
+  if (!WaitForSamples(max_wait)) return messages;
   for (auto& [place, reader] : joined_->readers) TakeFrom(place, reader, messages);
   TakeRevocations();
   return messages;

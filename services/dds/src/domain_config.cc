@@ -22,6 +22,7 @@ constexpr const char* kDefaults =
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
     "<NackDelay>10ms</NackDelay>"
     "<MaxSampleSize>2MB</MaxSampleSize>"
+    "<WriteBatch>true</WriteBatch>"  // Writer::Write sends at once all the same
     "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>30kB</WhcHigh>"
     "<WhcHighInit>30kB</WhcHighInit></Watermarks>"
     "</Internal></Domain></CycloneDDS>";
@@ -29,6 +30,7 @@ constexpr const char* kDefaults =
 // go to all agents that are there as long as one of them has not confirmed what it wrote, and each
 // answers them: rarer ones, and rarer answers. Of those who send little rarer still: a server that
 // a thousand of them join is behind for some seconds, and would be asked again and again.
+// (What a fetch waits for is told again sooner: reminders.h.)
 constexpr const char* kStar =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"20ms\" max=\"8s\">100ms</HeartbeatInterval>"

@@ -111,16 +111,31 @@ Result<Writer> Writer::Create(const Participant& participant, const Topic& topic
 }
 
 Result<void> Writer::Write(const void* sample) {
+  auto written = Gather(sample);
+  Flush();
+  return written;
+}
+
+Result<void> Writer::Gather(const void* sample) {
   return Check(dds_write(handle(), sample), "writing");
 }
 
+void Writer::Flush() { dds_write_flush(handle()); }
+
 Result<void> Writer::Dispose(const void* sample) {
-  return Check(dds_dispose(handle(), sample), "disposing");
+  auto disposed = Check(dds_dispose(handle(), sample), "disposing");
+  Flush();
+  return disposed;
 }
 
 Result<void> Writer::Unregister(const void* sample) {
-  return Check(dds_unregister_instance(handle(), sample), "unregistering");
+  auto unregistered = Check(dds_unregister_instance(handle(), sample), "unregistering");
+  Flush();
+  return unregistered;
 }
+
+// Cyclone does that with a heartbeat.
+void Writer::Remind() { dds_assert_liveliness(handle()); }
 
 Result<void> Writer::WaitForAcks(std::chrono::milliseconds max_wait) {
   return Check(dds_wait_for_acks(handle(), ToDds(max_wait)), "waiting for acknowledgements");

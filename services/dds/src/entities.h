@@ -91,10 +91,16 @@ class Writer : public Entity {
                                              const Qos& qos);
   // kUnavailable when a reader that does not keep up blocked it for the QoS's blocking time.
   [[nodiscard]] Result<void> Write(const void* sample);
+  // The same, but sent when it fills a packet with others, or by Flush, Dispose or Unregister; in
+  // a domain that writes in batches.
+  [[nodiscard]] Result<void> Gather(const void* sample);
+  void Flush();
   // The instance with this sample's key is gone: said to every reader.
   [[nodiscard]] Result<void> Dispose(const void* sample);
   // Nothing more is said of that instance: what was written still arrives.
   [[nodiscard]] Result<void> Unregister(const void* sample);
+  // Tells readers once more what was written: who lacks some of it asks for it.
+  void Remind();
   // kUnavailable if some reader has not got everything by then.
   [[nodiscard]] Result<void> WaitForAcks(std::chrono::milliseconds max_wait);
   // Readers that get what is written.

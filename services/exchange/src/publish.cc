@@ -30,6 +30,7 @@ Result<void> PublishAll(RouteExchange& exchange, std::span<const Message> messag
                                         [&](const Way& each) { return each.first == way.first; });
     return blocked.contains(way) || of_topic == kMostBlocked;
   };
+  if (messages.size() > 1) exchange.Gather();
   for (const Message& message : messages) {
     const Way way = WayOf(message);
     if (is_blocked(way)) {
@@ -47,6 +48,7 @@ Result<void> PublishAll(RouteExchange& exchange, std::span<const Message> messag
     }
     if (first_error) first_error = done;
   }
+  exchange.Flush();
   return first_error;
 }
 

@@ -41,6 +41,8 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
     }
     return exchange_->Publish(message);
   }
+  void Gather() override { exchange_->Gather(); }
+  void Flush() override { exchange_->Flush(); }
   std::vector<exchange::Message> Take(std::chrono::milliseconds max_wait) override {
     Beat();
     return exchange_->Take(max_wait);

@@ -17,6 +17,7 @@ class BlockedExchange : public RouteExchange {
 
   Result<void> Publish(const Message& message) override {
     ++attempts;
+    if (gathers) ++gathered;
     const auto* batch = std::get_if<SegmentBatch>(&message);
     if (batch != nullptr && (!route_ || batch->pieces.front().key == *route_)) {
       return Fail(ErrorCode::kUnavailable, "blocked");
@@ -28,6 +29,11 @@ class BlockedExchange : public RouteExchange {
   Result<void> Listen(Topic, const std::set<route::RouteKey>&) override { return {}; }
   [[nodiscard]] std::uint64_t dropped() const override { return 0; }
 
+  void Gather() override { gathers = true; }
+  void Flush() override { gathers = false; }
+
+  bool gathers = false;
+  int gathered = 0;
   int attempts = 0;
   std::vector<Message> published;
 
@@ -55,6 +61,14 @@ TEST(PublishAll, TriesABlockedTopicOnceAndSendsTheRest) {
   EXPECT_EQ(exchange.published, (std::vector<Message>{status, request}));
   EXPECT_EQ(sent, exchange.published);
   EXPECT_EQ(not_sent, (std::vector<Message>{batch, batch, batch}));
+}
+
+TEST(PublishAll, HasSeveralMessagesTravelTogether) {
+  BlockedExchange exchange;
+  const AgentStatus status{.agent = AgentId("s")};
+  ASSERT_TRUE(PublishAll(exchange, std::vector<Message>{status, status}));
+  EXPECT_EQ(exchange.gathered, 2);
+  EXPECT_FALSE(exchange.gathers) << "held back";
 }
 
 TEST(PublishAll, ABlockedRouteDoesNotHoldUpTheOthers) {
