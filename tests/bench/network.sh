@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures how routes are shared over networks staged on this machine, and the rivals beside it.
 # Needs root, the packages of group "bench" (config/setup/install.sh bench), and ./run build.
-#   tests/bench/network.sh followers|idle|stall|loss|wire|ingest|latency|security [RUNS]
+#   tests/bench/network.sh followers|idle|stall|loss|wire|bulk|ingest|latency|security [RUNS]
 #   tests/bench/network.sh memory [MINUTES]
 #   tests/bench/network.sh swarm [AGENTS [star|mesh]]
 #   tests/bench/network.sh fleet [AGENTS [MINUTES]]
@@ -292,6 +292,31 @@ wire() {
   done
 }
 
+# 100 MB where the link is not limited, and what that costs either side. With CYCLONEDDS_URI, as for
+# config/dds/wired.xml, both have those settings; ddsperf has its own.
+bulk() {
+  local run segments=25000 before took
+  lab_open
+  lab_host 1
+  lab_host 2
+  make_route "$segments"
+  start_server 1 "$work/server.db"
+  server_process
+  await 120 'its index of views' says server 'indexed by view'
+  TIMEFORMAT='%U %S'
+  printf '| fetch, Mbit/s | ddsperf, Mbit/s | share | server, us a segment | follower, us a segment |\n'
+  for ((run = 0; run < runs; ++run)); do
+    rm -f "$work"/robot*
+    before=$(server_cpu)
+    took=$({ time fetch 2; } 2>&1)
+    awk -v s="$(fetch_time 2)" -v bytes="$route_bytes" -v n="$segments" -v took="$took" \
+      -v before="$before" -v after="$(server_cpu)" -v wire="$(wire_rate)" 'BEGIN {
+      split(took, cpu, " "); ours = bytes * 8 / s / 1e6
+      printf "| %.0f | %.0f | %.2f | %.0f | %.0f |\n", ours, wire, ours / wire,
+        (after - before) / n * 1e6, (cpu[1] + cpu[2]) / n * 1e6 }'
+  done
+}
+
 ingest() {
   local rate
   ip link set lo up
@@ -539,9 +564,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | idle | stall | loss | wire | ingest | latency | memory | security | swarm | fleet | neighbours | sizes) ;;
+    followers | idle | stall | loss | wire | bulk | ingest | latency | memory | security | swarm | fleet | neighbours | sizes) ;;
     *)
-      die 'say what to measure: followers, idle, stall, loss, wire, ingest, latency, memory, security, swarm, fleet, neighbours or sizes'
+      die 'say what to measure: followers, idle, stall, loss, wire, bulk, ingest, latency, memory, security, swarm, fleet, neighbours or sizes'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'
