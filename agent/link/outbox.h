@@ -66,8 +66,6 @@ class Outbox {
   [[nodiscard]] bool Done() const;
   // What a server says that the route is to operators; nothing while none has spoken.
   [[nodiscard]] std::optional<exchange::StandingThere> standing(const route::RouteKey& key) const;
-  // All of which there is something to be sent, or was.
-  [[nodiscard]] std::set<route::RouteKey> routes() const;
   // All whose last word was sent and receipted.
   [[nodiscard]] std::vector<route::RouteInfo> Receipted() const;
 

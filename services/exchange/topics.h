@@ -10,7 +10,7 @@ namespace trailcast::exchange {
 // The topic a message travels on; empty for AgentGone, which no one publishes.
 [[nodiscard]] std::optional<Topic> TopicOf(const Message& message);
 
-// One may listen to it by route: segments, receipts, neighbours.
+// One may listen to it by route: segments, neighbours.
 [[nodiscard]] bool IsOfRoutes(Topic topic);
 
 // The route that a message of a topic is about to which one listens by route; null for

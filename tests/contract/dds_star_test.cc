@@ -48,7 +48,7 @@ class Member {
   static std::unique_ptr<RouteExchange> Open(DdsOptions options, const std::string& name) {
     options.self = AgentId(name);
     exchange::TopicUse use{.write = {exchange::Topic::kAgents}, .read = {exchange::Topic::kAgents}};
-    (options.serves ? use.write : use.read).push_back(exchange::Topic::kFleet);
+    (options.serves ? use.write : use.read).push_back(exchange::Topic::kReceipts);
     return OpenDdsExchange(options, use).value();
   }
 

@@ -167,30 +167,6 @@ TEST_P(ListeningContract, NeighboursAreToldToThoseOnTheRoute) {
   EXPECT_THAT(elsewhere->Take(std::chrono::milliseconds(50)), IsEmpty());
 }
 
-TEST_P(ListeningContract, ReceiptsGoToTheirScoutAndToAnotherThatListensLater) {
-  const auto server = Open(ServerTopics());
-  const auto elsewhere = Open(ScoutTopics());
-  ASSERT_TRUE(scout_->Listen(Topic::kReceipts, {hall_}));
-  ASSERT_TRUE(elsewhere->Listen(Topic::kReceipts, {yard_, attic_}));
-  const Receipt receipt{.server = AgentId("s"), .key = hall_, .revision = RevisionNumber(3)};
-  ASSERT_TRUE(server->Publish(receipt));
-  ASSERT_TRUE(server->Publish(Receipt{.server = AgentId("s"), .key = attic_}));
-  const auto first_of = [](RouteExchange& exchange) {
-    std::vector<Message> got;
-    EXPECT_TRUE(TakeUntil(
-        exchange, [&](const Message& message) { got.push_back(message); },
-        [&] { return !got.empty(); }));
-    return got;
-  };
-  EXPECT_EQ(first_of(*scout_), std::vector<Message>{receipt});
-  for (const Message& message : first_of(*elsewhere)) {
-    EXPECT_EQ(std::get<Receipt>(message).key, attic_);
-  }
-  const auto late = Open(ScoutTopics());
-  ASSERT_TRUE(late->Listen(Topic::kReceipts, {hall_}));
-  EXPECT_EQ(first_of(*late), std::vector<Message>{receipt});
-}
-
 INSTANTIATE_TEST_SUITE_P(On, ListeningContract,
                          testing::Values(test::NetworkKind::kInProcess, test::NetworkKind::kDds),
                          [](const auto& param) { return test::NameOf(param.param); });

@@ -37,9 +37,6 @@ route::RouteInfo Swarm::Info() const {
 
 void Swarm::StartScout() {
   scout_ = Open(exchange::ScoutTopics());
-  if (!scout_->Listen(exchange::Topic::kReceipts, {key_})) {
-    throw std::runtime_error("cannot listen");
-  }
   const auto unreceipted = scout_store_.UnreceiptedSegments(key_).value();
   std::vector<SegmentIndex> receipted;
   for (std::uint32_t i = 0; i < taught_.size(); ++i) {

@@ -71,7 +71,6 @@ class KillScout {
     options.self = AgentId(fmt::format("scout-{}", number_));
     const auto exchange = dds::OpenDdsExchange(options, exchange::ScoutTopics());
     if (!exchange) return;
-    if (!(*exchange)->Listen(exchange::Topic::kReceipts, {KeyNumber(number_)})) return;
     const auto read = [this](SegmentIndex index) -> Result<route::SegmentPiece> {
       return TaughtPiece(number_, index.value());
     };

@@ -220,12 +220,6 @@ std::optional<exchange::StandingThere> Outbox::standing(const route::RouteKey& k
   return sending_.at(key).sender.standing();
 }
 
-std::set<route::RouteKey> Outbox::routes() const {
-  std::set<route::RouteKey> routes;
-  for (const auto& [key, sending] : sending_) routes.insert(key);
-  return routes;
-}
-
 std::vector<route::RouteInfo> Outbox::Receipted() const {
   std::vector<route::RouteInfo> receipted;
   for (const auto& [key, sending] : sending_) {

@@ -158,8 +158,6 @@ Result<void> ScoutLink::StoreOffered() {
 }
 
 Result<void> ScoutLink::Trade() {
-  const auto listening = exchange_->Listen(exchange::Topic::kReceipts, outbox_.routes());
-  if (!listening) spdlog::debug("{}", listening.error().message);
   for (const exchange::Message& message : exchange_->Take(kWait)) {
     presence_->Handle(message);
     outbox_.Handle(message, steady_clock::now());

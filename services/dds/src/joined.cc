@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <utility>
 
@@ -147,13 +146,11 @@ StarOrMesh::Seen Joined::Look() {
     });
   }
   StarOrMesh::Seen seen{.server = false, .anybody = present.size() > 1};
-  // Servers alone write these; with keys of before there was a fleet scouts have receipts alone.
-  constexpr std::array kServersTopics{exchange::Topic::kFleet, exchange::Topic::kCatalogReplies,
-                                      exchange::Topic::kReceipts};
-  for (const auto& [place, reader] : readers) {
-    const bool of_server = std::find(kServersTopics.begin(), kServersTopics.end(), place.topic) !=
-                           kServersTopics.end();
-    seen.server = seen.server || (of_server && reader.matched() > 0);
+  // Servers alone write these.
+  for (const exchange::Topic topic :
+       {exchange::Topic::kReceipts, exchange::Topic::kCatalogReplies}) {
+    const auto reader = readers.find({topic});
+    seen.server = seen.server || (reader != readers.end() && reader->second.matched() > 0);
   }
   return seen;
 }

@@ -82,18 +82,6 @@ struct InProcessBus::State {
     members.push_back(&member);
   }
 
-  // To one who listens to the route from now on.
-  void TellLatest(Member& member, Topic topic, const route::RouteKey& route) const {
-    for (const Member* other : members) {
-      for (const auto& [instance, message] : other->latest) {
-        const route::RouteKey* about = RouteOf(message);
-        if (TopicOf(message) == topic && about != nullptr && *about == route && other != &member) {
-          member.inbox.Push(topic, instance, message);
-        }
-      }
-    }
-  }
-
   void Leave(const Member& member) {
     const std::scoped_lock lock(mutex);
     std::erase(members, &member);
@@ -157,14 +145,8 @@ class InProcessExchange : public RouteExchange {
 
   Result<void> Listen(Topic topic, const std::set<route::RouteKey>& routes) override {
     const std::scoped_lock lock(bus_->mutex);
-    const auto before = std::exchange(self_.listening, {});
-    for (const auto& each : before) {
-      if (each.first != topic) self_.listening.insert(each);
-    }
-    for (const route::RouteKey& route : routes) {
-      self_.listening.emplace(topic, route);
-      if (!before.contains({topic, route})) bus_->TellLatest(self_, topic, route);
-    }
+    std::erase_if(self_.listening, [&](const auto& each) { return each.first == topic; });
+    for (const route::RouteKey& route : routes) self_.listening.emplace(topic, route);
     return {};
   }
 

@@ -24,8 +24,7 @@ bool TopicUse::Listens(Topic topic) const { return Contains(listen, topic); }
 
 TopicUse ScoutTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegments, Topic::kAgents},
-          .read = {Topic::kSegmentRequests},
-          .listen = {Topic::kReceipts}};
+          .read = {Topic::kSegmentRequests, Topic::kReceipts}};
 }
 
 TopicUse FollowerTopics() {
@@ -38,11 +37,11 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kCatalogReplies, Topic::kAgents,
-                    Topic::kFleet},
+  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
+                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet},
           .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
                    Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits},
-          .write_rarely = {Topic::kSegments, Topic::kReceipts, Topic::kNeighbours}};
+          .write_rarely = {Topic::kSegments, Topic::kNeighbours}};
 }
 
 TopicUse OperatorTopics() {
@@ -66,13 +65,10 @@ std::optional<Topic> TopicOf(const Message& message) {
   return kTopics[message.index()];
 }
 
-bool IsOfRoutes(Topic topic) {
-  return topic == Topic::kSegments || topic == Topic::kReceipts || topic == Topic::kNeighbours;
-}
+bool IsOfRoutes(Topic topic) { return topic == Topic::kSegments || topic == Topic::kNeighbours; }
 
 const route::RouteKey* RouteOf(const Message& message) {
   if (const auto* followers = std::get_if<RouteFollowers>(&message)) return &followers->key;
-  if (const auto* receipt = std::get_if<Receipt>(&message)) return &receipt->key;
   const auto* batch = std::get_if<SegmentBatch>(&message);
   return batch == nullptr || batch->pieces.empty() ? nullptr : &batch->pieces.front().key;
 }

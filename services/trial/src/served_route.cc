@@ -58,9 +58,6 @@ Result<TaughtRoute> FetchFromServer(const TaughtRoute& taught) {
   const auto server = bus.Open(exchange::ServerTopics());
   const auto follower = bus.Open(exchange::FollowerTopics());
   exchange::RouteSender sender = MakeSender(taught);
-  if (auto listening = scout->Listen(exchange::Topic::kReceipts, {taught.info.key}); !listening) {
-    return tl::unexpected(listening.error());
-  }
   if (auto listening = follower->Listen(exchange::Topic::kSegments, {taught.info.key});
       !listening) {
     return tl::unexpected(listening.error());

@@ -44,13 +44,6 @@ class ServerTest : public testing::Test {
     running_.join();
   }
 
-  // Listens to the receipts of two routes.
-  std::unique_ptr<exchange::RouteExchange> OpenScout() {
-    auto scout = bus_.Open(exchange::ScoutTopics());
-    EXPECT_TRUE(
-        scout->Listen(exchange::Topic::kReceipts, {test::KeyNumber(1), test::KeyNumber(2)}));
-    return scout;
-  }
   // The whole route, as its scout has it.
   static exchange::RouteSender SenderOf(const route::RouteKey& key, std::uint32_t segments) {
     std::vector<route::SegmentPiece> pieces = test::PiecesOf(key, segments);
@@ -111,7 +104,7 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
     ASSERT_TRUE(desk->Publish(
         exchange::CatalogRequest{AgentId(fmt::format("client-{}", i)), 1, {.name = "hall"}}));
   }
-  const auto scout = OpenScout();
+  const auto scout = bus_.Open(exchange::ScoutTopics());
   route::SegmentPiece piece{test::KeyNumber(1), SegmentIndex(0), {}, {1, 2, 3}};
   piece.digest = route::Sha256(piece.bytes);
   ASSERT_TRUE(scout->Publish(exchange::SegmentBatch{AgentId("scout"), {piece}}));
@@ -131,7 +124,7 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
 
 TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {
   Start({.segments_per_s = 5});
-  const auto scout = OpenScout();
+  const auto scout = bus_.Open(exchange::ScoutTopics());
   exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 12);
   EXPECT_TRUE(Delivers(sender, *scout, seconds(30), "may have 5 segments a second"));
   EXPECT_FALSE(sender.AllReceipted());
@@ -140,7 +133,7 @@ TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {
 
 TEST_F(ServerTest, ARouteBeyondAScoutsQuotaWaits) {
   Start({.routes = 1});
-  const auto scout = OpenScout();
+  const auto scout = bus_.Open(exchange::ScoutTopics());
   exchange::RouteSender first = SenderOf(test::KeyNumber(1), 2);
   EXPECT_TRUE(Delivers(first, *scout, seconds(30)));
   exchange::RouteSender second = SenderOf(test::KeyNumber(2), 2);

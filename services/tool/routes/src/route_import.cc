@@ -192,9 +192,6 @@ Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& pe
     if (!IsSameTeaching(*known, info)) return Conflict(info, ServerName(reply->server));
     return Imported{true, ServerName(reply->server)};
   }
-  if (auto listening = peer.exchange->Listen(exchange::Topic::kReceipts, {info.key}); !listening) {
-    return tl::unexpected(listening.error());
-  }
   Delivery delivery(file, peer, reply->server);
   std::size_t receipted = 0;
   auto deadline = Clock::now() + watch.timeout;
