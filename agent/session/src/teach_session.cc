@@ -44,7 +44,7 @@ TeachSession::State::Event TeachSession::State::Add(const image::GrayImage& fram
   const Event event =
       recorder.Add(observation.stamp, by_features ? tracked : std::vector<route::TrackedFeature>{},
                    observation.odometry);
-  if (event != Event::kGoesOn || recording != Recording::kBlind) return event;
+  if (event != Event::kGoesOn || recording != Recording::kBlind || recorder.behind()) return event;
   return tracker.Detect().size() >= kMinFeatures ? Event::kEnds : Event::kGoesOn;
 }
 
@@ -82,6 +82,14 @@ Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   State& s = *state_;
   TeachStep step;
   const State::Event event = s.Add(frame, observation);
+  if (event == State::Event::kElsewhere) {
+    return Fail(
+        ErrorCode::kInvalidArgument,
+        "the robot was driven backwards, and on from there by another way. No robot follows "
+        "backwards, so that this other way does not join what was taught: teach on from "
+        "where it began to drive backwards, and drive forwards only; it may turn on the "
+        "spot");
+  }
   if (event != State::Event::kGoesOn && s.recording != State::Recording::kTurn) {
     step.finished = s.recorder.Finish();
   }
@@ -91,8 +99,11 @@ Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   step.features = s.tracker.count();
   step.weakness = s.key_views.weakness();
   step.too_few_features = s.recording != State::Recording::kFeatures;
+  step.backs = s.recorder.backs();
   return step;
 }
+
+double TeachSession::turned_rad() const { return state_ ? state_->recorder.turned_rad() : 0.0; }
 
 std::optional<route::Segment> TeachSession::Finish() {
   if (!state_ || state_->recording == State::Recording::kNothing) return std::nullopt;

@@ -68,9 +68,31 @@ SegmentRecorder::Event SegmentRecorder::TurnOnTheSpot(SpotTurnWatch::State befor
   }
   if (turn_.state() == State::kTurns) {
     turning_ = true;
+    if (!backs()) furthest_.reset();
     return Event::kTurns;
   }
   return Event::kGoesOn;
+}
+
+// Of a robot that drives, and not only ahead. Ahead of all that it has driven, `step` becomes what
+// it has come further.
+SegmentRecorder::Way SegmentRecorder::Follow(const motion::Pose2& from, const motion::Pose2& now,
+                                             motion::OdometryIncrement& step) {
+  if (!furthest_) {
+    if (motion::Between(from, now).x_m >= 0.0) return Way::kAhead;
+    furthest_ = from;
+    backed_m_ = 0.0;
+  }
+  const motion::Pose2 at = motion::Between(*furthest_, now);
+  backed_m_ = std::max(backed_m_, -at.x_m);
+  if (at.x_m < -kStep_m) return Way::kBehind;
+  const bool beside =
+      std::abs(at.y_m) > options_.beside_m || std::abs(at.heading_rad) > options_.beside_rad;
+  if (backs() && beside) return Way::kElsewhere;
+  step = motion::IncrementBetween(*furthest_, now);
+  furthest_.reset();
+  backed_m_ = 0.0;
+  return Way::kAhead;
 }
 
 SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
@@ -83,6 +105,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     step = motion::IncrementBetween(*moved_odometry_, *odometry);
   }
   const bool moved = Moved(features, step);
+  const std::optional<motion::Pose2> from = moved_odometry_;
   const SensorTime took = stamp - last_stamp_;
   last_stamp_ = stamp;
   if (moved) {
@@ -93,7 +116,11 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     const SpotTurnWatch::State before = turn_.state();
     std::ignore = turn_.Add(*step);
     const Event event = TurnOnTheSpot(before);
+    if (event == Event::kTurns && backs()) return Event::kElsewhere;
     if (event != Event::kGoesOn) return event;
+    const Way way = Follow(*from, *odometry, *step);
+    if (way == Way::kElsewhere) return Event::kElsewhere;
+    if (way == Way::kBehind) return Event::kGoesOn;
   } else if (turning_) {
     return Event::kTurns;
   }
@@ -119,6 +146,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
 }
 
 void SegmentRecorder::Keep(const route::View& view) {
+  if (behind()) return;
   if (turning_) {
     views_before_.push_back(view);
   } else if (!moments_.empty()) {

@@ -190,6 +190,7 @@ struct Drive {
   motion::Pose2 pose;
   int frame = 0;
   std::vector<route::Segment> segments;
+  bool elsewhere = false;
 
   explicit Drive(const route::View& view = {}) {
     recorder.Begin(SensorTime{0}, test::Describe(Features(20)), pose);
@@ -200,6 +201,7 @@ struct Drive {
       pose = motion::Advance(pose, {step_m, step_rad});
       ++frame;
       const Event event = recorder.Add(FromSeconds(frame / 30.0), Features(20, frame), pose);
+      elsewhere = elsewhere || event == Event::kElsewhere;
       if (event != Event::kGoesOn) Finish();
       if (event == Event::kEnds) {
         recorder.Begin(FromSeconds(frame / 30.0), test::Describe(Features(20)), pose);
@@ -234,6 +236,59 @@ TEST(SegmentRecorder, ATurnAtTheStartBelongsToTheFirstSegment) {
   drive.Finish();
   ASSERT_EQ(drive.segments.size(), 1U);
   EXPECT_NEAR(drive.segments[0].turn_before_rad, -1.2, 0.04);
+}
+
+TEST(SegmentRecorder, ATurnThatNothingIsDrivenAfterIsTold) {
+  Drive drive;
+  drive.Go(50, 0.01, 0.0);
+  drive.Go(40, 0.0, -0.03);
+  drive.Finish();
+  ASSERT_EQ(drive.segments.size(), 1U);
+  EXPECT_NEAR(drive.recorder.turned_rad(), -1.2, 0.04);
+}
+
+TEST(SegmentRecorder, WhatIsDrivenBackwardsAndForwardsAgainIsNotTaught) {
+  Drive drive;
+  drive.Go(50, 0.01, 0.001);
+  drive.Go(40, -0.01, -0.001);
+  EXPECT_TRUE(drive.recorder.backs());
+  drive.Go(40, 0.01, 0.001);
+  EXPECT_FALSE(drive.recorder.backs());
+  drive.Go(50, 0.01, 0.001);
+  drive.Finish();
+  EXPECT_FALSE(drive.elsewhere);
+  ASSERT_EQ(drive.segments.size(), 1U);
+  EXPECT_NEAR(drive.segments[0].length_m, 1.0, 1e-3);
+  EXPECT_NEAR(drive.segments[0].heading_change_rad, 0.1, 1e-3);
+  EXPECT_NEAR(drive.segments[0].duration_s, 100.0 / 30.0, 0.1);
+}
+
+TEST(SegmentRecorder, AnUneasyStandIsNotDrivingBackwards) {
+  Drive drive;
+  drive.Go(50, 0.01, 0.0);
+  for (int i = 0; i < 20; ++i) {
+    drive.Go(1, -0.003, 0.0);
+    drive.Go(1, 0.003, 0.0);
+    EXPECT_FALSE(drive.recorder.backs());
+  }
+  drive.Go(50, 0.01, 0.0);
+  drive.Finish();
+  ASSERT_EQ(drive.segments.size(), 1U);
+  EXPECT_NEAR(drive.segments[0].length_m, 1.0, 1e-6);
+}
+
+TEST(SegmentRecorder, WhatIsDrivenBeforeTheRobotBacksAndGoesAnotherWayIsKept) {
+  const auto other_ways = {std::pair(0.01, 0.02), std::pair(0.0, 0.03)};  // a bend, on the spot
+  for (const auto& [step_m, step_rad] : other_ways) {
+    Drive drive;
+    drive.Go(50, 0.01, 0.0);
+    drive.Go(40, -0.01, 0.0);
+    EXPECT_FALSE(drive.elsewhere);
+    drive.Go(60, step_m, step_rad);
+    EXPECT_TRUE(drive.elsewhere);
+    ASSERT_GE(drive.segments.size(), 1U);
+    EXPECT_NEAR(drive.segments[0].length_m, 0.5, 1e-6);
+  }
 }
 
 TEST(SegmentRecorder, ATightBendIsNoTurnOnTheSpot) {
