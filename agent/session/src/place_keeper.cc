@@ -83,6 +83,15 @@ int PlaceKeeper::agreed_now() const {
   return most;
 }
 
+int PlaceKeeper::AgreedIn(const image::GrayImage& picture) const {
+  const Look look = recogniser_.Glance(picture, belief().Around(where().along, kNearViews));
+  int most = 0;
+  for (const Look::Recognised& each : look.views) {
+    most = std::max(most, each.comparison.agreed());
+  }
+  return most;
+}
+
 std::optional<vision::ViewFit> PlaceKeeper::Recognise(const image::GrayImage& frame,
                                                       const RoutePoint& point) {
   const Look look =

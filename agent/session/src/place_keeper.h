@@ -49,6 +49,10 @@ class PlaceKeeper {
   // Once the robot has come some way since the last, and always while the place is not held.
   [[nodiscard]] bool LookIsDue() const;
 
+  // Of any picture: the features that agree in it with one of the views about the place. Moves no
+  // belief.
+  [[nodiscard]] int AgreedIn(const image::GrayImage& picture) const;
+
   // How the scout's picture at that point maps onto this frame; nothing: it is not recognised.
   [[nodiscard]] std::optional<vision::ViewFit> Recognise(const image::GrayImage& frame,
                                                          const RoutePoint& point);

@@ -37,12 +37,22 @@ std::vector<std::optional<double>> Recogniser::Learn(std::span<const route::KeyV
 }
 
 Look Recogniser::LookAt(const image::GrayImage& frame, std::span<const std::size_t> views) {
+  return Compare(describer_.Describe(frame), frame.width, views);
+}
+
+Look Recogniser::Glance(const image::GrayImage& picture, std::span<const std::size_t> views) const {
+  vision::ViewDescriber describer;
+  return Compare(describer.Describe(picture), picture.width, views);
+}
+
+Look Recogniser::Compare(const route::View& view, int width_px,
+                         std::span<const std::size_t> views) const {
   Look look;
-  look.width_px = frame.width;
-  look.seen = view::Tabulate(describer_.Describe(frame), frame.width);
+  look.width_px = width_px;
+  look.seen = view::Tabulate(view, width_px);
   look.views.reserve(views.size());
-  for (const std::size_t view : views) {
-    look.views.push_back({view, view::Compare(keys_[view], look.seen)});
+  for (const std::size_t key : views) {
+    look.views.push_back({key, view::Compare(keys_[key], look.seen)});
   }
   return look;
 }

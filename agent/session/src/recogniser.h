@@ -39,6 +39,9 @@ class Recogniser {
   // before it; nothing where they have too little in common.
   std::vector<std::optional<double>> Learn(std::span<const route::KeyView> views);
   [[nodiscard]] Look LookAt(const image::GrayImage& frame, std::span<const std::size_t> views);
+  // The same of a picture that is none of this camera's as it is mounted.
+  [[nodiscard]] Look Glance(const image::GrayImage& picture,
+                            std::span<const std::size_t> views) const;
   [[nodiscard]] int scout_width_px() const { return scout_width_px_; }
   [[nodiscard]] const view::ViewTable& key(std::size_t view) const { return keys_[view]; }
 
@@ -46,6 +49,9 @@ class Recogniser {
   [[nodiscard]] vision::ViewFit FitOf(const Look& look, const view::Comparison& comparison) const;
 
  private:
+  [[nodiscard]] Look Compare(const route::View& view, int width_px,
+                             std::span<const std::size_t> views) const;
+
   int scout_width_px_;
   vision::ViewDescriber describer_;
   std::vector<view::ViewTable> keys_;

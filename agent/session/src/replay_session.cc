@@ -10,6 +10,7 @@
 #include "agent/session/src/known_route.h"
 #include "agent/session/src/place_keeper.h"
 #include "agent/session/src/standing.h"
+#include "agent/session/src/upright_watch.h"
 #include "agent/session/src/view_follower.h"
 
 namespace trailcast::agent {
@@ -30,6 +31,7 @@ struct ReplaySession::State {
       : options(method),
         route(info.segment_count),
         eyes(method.intake),
+        upright(method.intake),
         place(info.image_width_px),
         by_features(method, info.image_width_px, route, eyes, place),
         by_views(method, route, place) {}
@@ -44,10 +46,12 @@ struct ReplaySession::State {
   void StartPlace(int width_px);
   void Locate(const Seen& seen);
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
+  [[nodiscard]] ReplayStep StandMisturned();
 
   ReplayMethodOptions options;
   KnownRoute route;
   Eyes eyes;
+  UprightWatch upright;
   PlaceKeeper place;
   FeatureFollower by_features;
   ViewFollower by_views;
@@ -111,6 +115,17 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   return step;
 }
 
+// Nothing that it would do on such pictures is right: left is right, or up.
+ReplayStep ReplaySession::State::StandMisturned() {
+  standing = {ReplayState::kLost, Trust::kLost, upright.reason()};
+  ReplayStep step = last;
+  step.command = {};
+  step.state = standing.state;
+  step.trust = standing.trust;
+  step.reason = standing.reason;
+  return step;
+}
+
 ReplaySession::ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route)
     : state_(std::make_unique<State>(options, route)) {}
 
@@ -153,10 +168,10 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
-  if (s.standing.state == ReplayState::kArrived) return s.last;
+  if (s.standing.state == ReplayState::kArrived || s.upright.misturned()) return s.last;
   if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
   s.Locate(*seen);
-  s.last = s.Follow(*seen);
+  s.last = s.upright.Look(*seen->frame, s.place) ? s.StandMisturned() : s.Follow(*seen);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};

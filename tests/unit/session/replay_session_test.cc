@@ -1,5 +1,6 @@
 #include "agent/session/replay_session.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "agent/session/teach_session.h"
+#include "services/vision/picture_intake.h"
 #include "tests/support/walk_frames.h"
 
 namespace trailcast::agent {
@@ -159,6 +161,45 @@ TEST_P(ReplaySessionTest, ACameraThatGivesNoPicturesAtAllIsLost) {
   }
   EXPECT_EQ(last.state, ReplayState::kLost);
   EXPECT_THAT(last.reason, HasSubstr("empty frame"));
+}
+
+image::GrayImage RolledBack(const image::GrayImage& picture, double turn_deg) {
+  vision::PictureIntake intake({.roll_deg = turn_deg});
+  return intake.Take(picture);
+}
+
+TEST_P(ReplaySessionTest, ACameraThatHangsOtherwiseThanTheScoutsIsToldAndTheRobotStands) {
+  for (const double turn_deg : {180.0, 90.0, 270.0}) {
+    ReplaySession session = SessionOn(Taught(odometry()));
+    ReplayStep last;
+    for (int i = 0; i < 10; ++i) {
+      const auto step =
+          session.Observe({StampOf(i), RolledBack(Walk()[static_cast<std::size_t>(i)], -turn_deg),
+                           PoseAt(i, odometry())});
+      ASSERT_TRUE(step);
+      last = *step;
+    }
+    EXPECT_EQ(last.state, ReplayState::kLost) << turn_deg << ToString(last.state) << last.reason;
+    EXPECT_TRUE(Stands(last));
+    EXPECT_THAT(last.reason, HasSubstr(turn_deg == 180.0 ? "upside down" : "on its side"));
+    EXPECT_THAT(last.reason, HasSubstr(fmt::format("--camera-roll {:g}", turn_deg)));
+  }
+}
+
+TEST_P(ReplaySessionTest, ACameraThatHangsOtherwiseIsFollowedWithWhenThatIsSaid) {
+  for (const double turn_deg : {180.0, 90.0, -90.0}) {
+    ReplayMethodOptions options;
+    options.intake.roll_deg = turn_deg;
+    ReplaySession session = SessionOn(Taught(odometry()), options);
+    for (int i = 0; i < kFrames; ++i) {
+      const auto step =
+          session.Observe({StampOf(i), RolledBack(Walk()[static_cast<std::size_t>(i)], -turn_deg),
+                           PoseAt(i, odometry())});
+      ASSERT_TRUE(step);
+      EXPECT_TRUE(step->state == ReplayState::kFollowing || step->state == ReplayState::kArrived)
+          << "frame " << i << ": " << ToString(step->state) << ", " << step->reason;
+    }
+  }
 }
 
 // Segments come one by one; where the robot is on the route does not depend on how many have.
