@@ -80,6 +80,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
   follower.session.speed_factor = replay.speed_factor;
   follower.session.intake = replay.device.intake;
+  follower.session.camera_ahead_m = replay.device.camera_ahead_m;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;

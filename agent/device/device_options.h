@@ -24,6 +24,7 @@ struct DeviceOptions {
   double base_patience_s = 30.0;
   double still_at_end_s = 0.0;
   vision::IntakeOptions intake;  // how its camera is mounted
+  double camera_ahead_m = 0.0;   // the same, as ReplayMethodOptions has it
   std::filesystem::path truth;   // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
@@ -36,6 +37,10 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
 
 // Those of them for a simulated robot. Returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
+
+// How far ahead a camera may be, and how it may be rolled.
+[[nodiscard]] CLI::Validator CameraAheadRange();
+[[nodiscard]] CLI::Validator CameraRollValidator();
 
 // The one of them that says how the camera is rolled.
 void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake);

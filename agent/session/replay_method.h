@@ -38,6 +38,8 @@ struct ReplayMethodOptions {
   // the route's start, or where it was left.
   bool anywhere = false;
   vision::IntakeOptions intake = {};
+  // From the axle that the robot turns about ahead to its camera, more than on the scout.
+  double camera_ahead_m = 0.0;
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

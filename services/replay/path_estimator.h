@@ -13,6 +13,9 @@ namespace trailcast::replay {
 
 struct PathEstimatorOptions {
   TaughtFlowOptions flow;
+  // From the axle that the robot turns about ahead to its camera, more than on the scout. The
+  // filter's state is the camera's place; offset() is the axle's, by which one steers.
+  double camera_ahead_m = 0.0;
   // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
   // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
   double feature_noise_px = 3.0;
@@ -65,7 +68,7 @@ class PathEstimator {
   // The next segment begins where the last one ends; its features are seen from here on, also while
   // its start is still ahead (`along_m` is negative until then).
   void Begin(const route::Segment& segment);
-  // Begins a segment so far along it, wherever the robot was thought to be before.
+  // Begins a segment with the camera so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
 
   // The path turns on the spot at the segment's start, counter-clockwise positive, the robot not
@@ -81,8 +84,9 @@ class PathEstimator {
   // What it sees; returns how it agrees with the taught path.
   Agreement Update(const std::vector<route::TrackedFeature>& seen);
 
-  [[nodiscard]] PathOffset offset() const;
-  [[nodiscard]] double offset_sigma_m() const;
+  [[nodiscard]] PathOffset offset() const;  // of the axle
+  [[nodiscard]] double camera_along_m() const { return state_[kAlong]; }
+  [[nodiscard]] double offset_sigma_m() const;  // the same
   // Taught change of heading between two places of the segment, before its start by the last one's.
   [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }

@@ -132,7 +132,9 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
   const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
     return command.add_option(flag, value, text)->needs(world)->group(simulation);
   };
-  add("--camera", simulated.camera, "Built-in camera's name, or a .toml file");
+  add("--camera", simulated.camera,
+      "Built-in camera's name, or a .toml file; with what is other about it, by that file's keys: "
+      "webcam+roll_deg=180+ahead_m=0.3");
   add("--seed", simulated.seed, "Draws this robot's errors and noise");
   add("--path", simulated.place.path,
       "CSV x_m,y_m: the taught path; default: the built-in world's own");
@@ -207,19 +209,24 @@ void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::strin
       ->group(group);
 }
 
-void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
-  command
-      .add_option("--camera-roll", intake.roll_deg,
-                  "Degrees by which the camera is rolled about where it looks, clockwise as seen "
-                  "from behind it: 180 hangs upside down, 90 stands on its right side")
-      ->check(CLI::Validator(
-          [](std::string& text) {
+CLI::Validator CameraRollValidator() {
+  return {[](std::string& text) {
             double roll_deg = 0.0;
             if (!CLI::detail::lexical_cast(text, roll_deg)) return "'" + text + "' is no number";
             const auto checked = vision::CheckRoll(roll_deg);
             return checked ? std::string() : checked.error().message;
           },
-          "DEGREES"))
+          "DEGREES"};
+}
+
+CLI::Validator CameraAheadRange() { return CLI::Range(-2.0, 2.0); }
+
+void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
+  command
+      .add_option("--camera-roll", intake.roll_deg,
+                  "Degrees by which the camera is rolled about where it looks, clockwise as seen "
+                  "from behind it: 180 hangs upside down, 90 stands on its right side")
+      ->check(CameraRollValidator())
       ->group("Camera");
 }
 
@@ -229,6 +236,14 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   auto* ros2 = AddRos2Options(command, options, scout);
   auto* bag = AddBagOption(command, options.bag, frames);
   AddCameraRoll(command, options.intake);
+  if (!scout) {
+    command
+        .add_option("--camera-ahead", options.camera_ahead_m,
+                    "Metres from the axle that the robot turns about ahead to its camera, more "
+                    "than on the robot that taught")
+        ->check(CameraAheadRange())
+        ->group("Camera");
+  }
   world->excludes(frames)->excludes(bag);
   ros2->excludes(frames)->excludes(bag)->excludes(world);
   ShareTopics(command, options, ros2);

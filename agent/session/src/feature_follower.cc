@@ -85,6 +85,9 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   if (!AsPrinted(options_.method)) {
     search_.Refresh(*follower_, step.agreeing, seen.looked_s, step.carried_left_m.has_value());
   }
+  if (step.offset && EndsAtTheAxle()) {
+    step.ended = step.offset->along_m >= follower_->segment().length_m;
+  }
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
   // What covers this segment's features covers the next one's too.
   const bool covered = standing.trust == Trust::kCovered || confidence_.view_is_going();
@@ -98,6 +101,13 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   }
   if (confidence_.recognised_only()) SteerByWholeView(step);
   return step;
+}
+
+// A segment is over once the camera is past it; but where the robot is to stop, or to turn on the
+// spot, it is the axle that has to come there.
+bool FeatureFollower::EndsAtTheAxle() const {
+  const SegmentIndex index = follower_->segment().index;
+  return route_.is_last(index) || route_.turn_after_rad(index) != 0.0;
 }
 
 Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {

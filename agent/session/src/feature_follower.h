@@ -62,6 +62,7 @@ class FeatureFollower {
 
   [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool EndsAtTheAxle() const;
   [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);

@@ -57,6 +57,7 @@ std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& option
     path.limits = options.limits;
     path.speed_factor = options.speed_factor;
     if (known) path.estimator.start_magnification = kKnownMagnification;
+    path.estimator.camera_ahead_m = options.camera_ahead_m;
     return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
   }
   replay::FunnelFollowerOptions funnel;

@@ -64,6 +64,10 @@ void PathEstimator::TurnPath(double turn_rad) {
 }
 
 double PathEstimator::TaughtHeading(double along_m) const {
+  const double beyond_m = along_m - segment_.length_m;
+  if (beyond_m > 0.0 && options_.camera_ahead_m > 0.0) {  // straight on: a cubic bends away
+    return route::HeadingAt(segment_.heading, segment_.length_m);
+  }
   if (along_m >= 0.0) return route::HeadingAt(segment_.heading, along_m);
   return route::HeadingAt(last_heading_, last_length_m_ + along_m) -
          route::HeadingAt(last_heading_, last_length_m_);
@@ -120,11 +124,13 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
       TaughtTurn(before_m - 0.5 * kCurvatureStep_m, before_m + 0.5 * kCurvatureStep_m) /
       kCurvatureStep_m;
   const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
-  const double along_m = moved.distance_m * std::cos(alpha) / stretch;
+  const double aside_m = options_.camera_ahead_m * moved.heading_change_rad;  // of the camera
+  const double along_m = (moved.distance_m * std::cos(alpha) - aside_m * std::sin(alpha)) / stretch;
   const double turned = TaughtTurn(before_m, before_m + along_m);
   state_[kAlong] += along_m;
   state_[kLeft] +=
-      moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned);
+      moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned) +
+      aside_m * std::cos(alpha);
   state_[kHeading] += moved.heading_change_rad + state_[kBias] * moved.distance_m - turned;
 
   Covariance f = Covariance::Identity();
@@ -241,10 +247,19 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
 }
 
 PathOffset PathEstimator::offset() const {
-  return {state_[kLeft], state_[kHeading], state_[kAlong], offset_sigma_m()};
+  const double ahead_m = options_.camera_ahead_m;
+  const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
+  const double turned = TaughtTurn(along_m, state_[kAlong]);
+  const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
+  return {left_m, state_[kHeading] + turned, along_m, offset_sigma_m()};
 }
 
-double PathEstimator::offset_sigma_m() const { return std::sqrt(covariance_(kLeft, kLeft)); }
+double PathEstimator::offset_sigma_m() const {
+  const double ahead_m = options_.camera_ahead_m;
+  const double variance = covariance_(kLeft, kLeft) - 2.0 * ahead_m * covariance_(kLeft, kHeading) +
+                          Square(ahead_m) * covariance_(kHeading, kHeading);
+  return std::sqrt(std::max(0.0, variance));
+}
 
 std::vector<route::TrackedFeature> PathEstimator::ExpectIn(const State& state) const {
   std::vector<route::TrackedFeature> places;

@@ -21,7 +21,9 @@ void PathFollower::Begin(const route::Segment& segment) {
     estimator_.Begin(segment);
     segment_ = segment;
   } else {
-    BeginAt(segment, 0.0);
+    // A robot is put to the route's start with its axle.
+    const double camera_m = begun_ ? 0.0 : options_.estimator.camera_ahead_m;
+    BeginAt(segment, camera_m / std::max(1e-3, segment.length_m));
   }
   turning_ = segment.turn_before_rad != 0.0;
   if (turning_) estimator_.TurnPath(segment.turn_before_rad);
@@ -78,9 +80,9 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   const double turn_rate = LaneKeepingTurnRate(offset, curvature, speed_mps, options_.lane_keeping);
   step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
   step.turn_rad = -turn_rate * kTurnTime_s;
-  step.fraction =
-      segment_.length_m > 0.0 ? std::clamp(offset.along_m / segment_.length_m, 0.0, 1.0) : 1.0;
-  step.ended = offset.along_m >= segment_.length_m;
+  const double along_m = estimator_.camera_along_m();
+  step.fraction = segment_.length_m > 0.0 ? std::clamp(along_m / segment_.length_m, 0.0, 1.0) : 1.0;
+  step.ended = along_m >= segment_.length_m;
   step.wants_next =
       step.fraction > options_.early_fraction && step.agreeing < options_.few_features;
   settled_ = settled_ || step.agreeing >= options_.few_features;

@@ -51,6 +51,81 @@ TEST(PathEstimator, TellsSidewaysFromRotation) {
   EXPECT_NEAR(turned.left_m, 0.0, 0.04);
 }
 
+// A robot whose camera is 0.3 m ahead of its axle, on the path in a bend to the left: the camera
+// is outside of it.
+TEST(PathEstimator, KnowsTheAxleOfACameraAhead) {
+  constexpr double kAhead_m = 0.3;
+  constexpr double kTurn_radpm = 0.4;
+  const auto run = test::TeachArcs(kScene, {}, {{1.6, 1.6 * kTurn_radpm}});
+  const auto on_path = [](double along_m) {
+    const double heading_rad = kTurn_radpm * along_m;
+    return motion::Pose2{std::sin(heading_rad) / kTurn_radpm,
+                         (1.0 - std::cos(heading_rad)) / kTurn_radpm, heading_rad};
+  };
+  PathEstimatorOptions options;
+  options.camera_ahead_m = kAhead_m;
+  PathEstimator estimator(320, 1.0, options);
+  estimator.Restart(run.segment, kAhead_m);
+  PathOffset offset;
+  for (double along_m = 0.0; along_m < 1.1; along_m += 0.02) {
+    const motion::Pose2 camera = motion::Compose(on_path(along_m), {kAhead_m, 0.0, 0.0});
+    estimator.Update(test::Matched(kScene, run, camera));
+    offset = estimator.offset();
+    estimator.Predict({0.02, 0.02 * kTurn_radpm});
+    if (along_m < 0.3) continue;
+    EXPECT_NEAR(offset.along_m, along_m, 0.04);
+    EXPECT_NEAR(offset.left_m, 0.0, 0.025) << along_m;
+    EXPECT_NEAR(offset.heading_rad, 0.0, 0.05) << along_m;
+  }
+}
+
+TEST(PathEstimator, ASpotTurnSwingsACameraAheadAndNotTheAxle) {
+  PathEstimatorOptions options;
+  options.camera_ahead_m = 0.3;
+  PathEstimator estimator(320, 1.0, options);
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  estimator.Restart(run.segment, 0.3);
+  estimator.TurnPath(1.5);
+  for (int i = 0; i < 30; ++i) estimator.Predict({0.0, 0.05});
+  EXPECT_NEAR(estimator.offset().along_m, 0.0, 0.02);
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.02);
+  EXPECT_NEAR(estimator.offset().heading_rad, 0.0, 0.01);
+  EXPECT_NEAR(estimator.camera_along_m(), 0.3, 0.02);
+}
+
+// How far off a straight path a robot gets, in closed loop, whose camera's mount is knocked by so
+// much to the left half way.
+double FarthestAfterKnock(double knock_rad) {
+  constexpr double kSpeed_mps = 0.4;
+  const test::LandmarkScene scene = test::LandmarkScene::Corridor(2.0, 24.0, 240, 7);
+  PathEstimator estimator(320, 1.0);
+  motion::Pose2 robot;
+  double farthest_m = 0.0;
+  for (int segment = 0; segment < 8; ++segment) {
+    const auto run = test::TeachArcs(scene, {1.0 * segment, 0.0, 0.0}, {{1.0, 0.0}});
+    estimator.Begin(run.segment);
+    while (estimator.offset().along_m < 1.0) {
+      const double mount_rad = robot.x_m > 4.2 ? knock_rad : 0.0;
+      estimator.Update(
+          test::Matched(scene, run, motion::Compose(robot, {0.0, 0.0, mount_rad})));
+      const double turn_rate = LaneKeepingTurnRate(estimator.offset(), 0.0, kSpeed_mps);
+      const motion::OdometryIncrement moved{kSpeed_mps * kDt_s, turn_rate * kDt_s};
+      robot = motion::Advance(robot, moved);
+      estimator.Predict(moved);
+      farthest_m = std::max(farthest_m, std::abs(robot.y_m));
+      if (std::abs(robot.y_m) > 2.0) return farthest_m;
+    }
+  }
+  return farthest_m;
+}
+
+TEST(PathEstimator, IsNotLedFarByAMountThatIsKnockedOnTheWay) {
+  EXPECT_LT(FarthestAfterKnock(0.0), 0.03);
+  for (const double knock_rad : {0.09, -0.09, 0.05}) {
+    EXPECT_LT(FarthestAfterKnock(knock_rad), 0.15) << knock_rad;
+  }
+}
+
 TEST(PathEstimator, SeesProgressThatOdometryMissed) {
   EXPECT_NEAR(LookFrom({1.2, 0.0, 0.0}).along_m, 1.2, 0.05);
   EXPECT_NEAR(LookFrom({0.8, 0.0, 0.0}).along_m, 0.8, 0.05);
