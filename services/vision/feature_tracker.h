@@ -29,7 +29,9 @@ struct TrackLosses {
 };
 
 // Shi-Tomasi features followed from frame to frame by pyramidal KLT. A lost feature vanishes from
-// the result and never comes back. All frames must have the size of the first. Deterministic.
+// the result and never comes back. None are sought in the black surround that some lenses leave,
+// which has been black in all frames so far. All frames must have the size of the first.
+// Deterministic.
 class FeatureTracker {
  public:
   explicit FeatureTracker(const FeatureTrackerOptions& options = {});

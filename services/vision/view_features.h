@@ -19,8 +19,8 @@ struct ViewFeatureOptions {
 
 // What a frame shows, to recognise it by: upright ORB features over a pyramid (Rublee et al. 2011,
 // without their rotation: robots stand upright), the strongest first. Not of the black surround
-// that some lenses leave. Nothing of a picture that is too small, or has nothing to hold on to.
-// Deterministic; not thread-safe.
+// that some lenses leave: what has been black in all pictures of this size so far. Nothing of a
+// picture that is too small, or has nothing to hold on to. Deterministic; not thread-safe.
 class ViewDescriber {
  public:
   explicit ViewDescriber(const ViewFeatureOptions& options = {});

@@ -8,6 +8,7 @@
 
 #include "services/vision/src/appearance.h"
 #include "services/vision/src/frame.h"
+#include "services/vision/src/lens_surround.h"
 
 namespace trailcast::vision {
 namespace {
@@ -19,6 +20,7 @@ constexpr double kFlowMinEigenvalue = 1e-4;
 constexpr double kLargestWindow = 3.0;   // times the usual one
 constexpr double kMiddleSpacing = 0.5;   // of that on a regular grid
 constexpr double kMiddleQuality = 0.05;  // of the best that is left there
+constexpr int kSurroundEvery = 8;        // frames: what stays dark does so for long
 constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
 
 // A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once
@@ -63,6 +65,8 @@ struct FeatureTracker::State {
   std::vector<int> ids;
   std::vector<cv::Point2f> points;  // OpenCV pixel coordinates in the last frame
   TrackLosses losses;
+  LensSurround surround;
+  int frames = 0;
 
   int window_px = 0;
   int pyramid_levels = 0;
@@ -169,6 +173,7 @@ FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame) {
   State& s = *state_;
   s.Build(View(frame), s.next);
+  if (s.frames++ % kSurroundEvery == 0) s.surround.Add(View(frame));
   s.losses = {};
   if (!s.points.empty()) {
     const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
@@ -185,7 +190,7 @@ std::vector<route::TrackedFeature> FeatureTracker::Detect(int in_the_middle) {
   const double spacing_px =
       s.options.min_spacing_share *
       std::sqrt(static_cast<double>(frame.total()) / std::max(1, s.options.max_features));
-  cv::Mat where = FieldOfView(frame);
+  cv::Mat where = s.surround.FieldOfView();
   const int edge_px = route::kPatchSize / 2 + 2;
   cv::rectangle(where, {0, 0}, {frame.cols - 1, frame.rows - 1}, cv::Scalar(0), 2 * edge_px);
   cv::goodFeaturesToTrack(frame, s.points, s.options.max_features, s.options.detection_quality,

@@ -11,6 +11,7 @@
 #include "services/view/view_table.h"
 #include "services/vision/donut.h"
 #include "services/vision/src/frame.h"
+#include "services/vision/src/lens_surround.h"
 
 namespace trailcast::vision {
 namespace {
@@ -35,7 +36,19 @@ cv::Mat AtCommonSize(const cv::Mat& frame, int pixels) {
 struct ViewDescriber::State {
   ViewFeatureOptions options;
   cv::Ptr<cv::ORB> orb;
+  LensSurround surround;
+  cv::Size size;  // of the pictures looked at
+
+  [[nodiscard]] cv::Mat Where(const cv::Mat& picture);
 };
+
+// Where to look for features; empty: everywhere.
+cv::Mat ViewDescriber::State::Where(const cv::Mat& picture) {
+  if (picture.size() != size) surround = {};  // another camera's, or the same turned
+  size = picture.size();
+  surround.Add(picture);
+  return surround.any() ? surround.FieldOfView() : cv::Mat();
+}
 
 ViewDescriber::ViewDescriber(const ViewFeatureOptions& options)
     : state_(std::make_unique<State>()) {
@@ -53,8 +66,7 @@ route::View ViewDescriber::Describe(const image::GrayImage& frame) {
   const cv::Mat picture = AtCommonSize(View(frame), state_->options.pixels);
   if (picture.empty()) return {};
   std::vector<cv::KeyPoint> corners;
-  const auto surround = DarkSurround(picture);
-  state_->orb->detect(picture, corners, surround ? FieldOfView(picture) : cv::Mat());
+  state_->orb->detect(picture, corners, state_->Where(picture));
   for (cv::KeyPoint& corner : corners) corner.angle = 0.0F;
   cv::Mat descriptors;
   state_->orb->compute(picture, corners, descriptors);  // changes their order

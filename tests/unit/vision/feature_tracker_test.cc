@@ -160,6 +160,37 @@ TEST(FeatureTracker, KeepsOffTheBlackSurroundOfAFisheye) {
   for (const auto& feature : features) EXPECT_LT(std::hypot(feature.u_px, feature.v_px), 110.0);
 }
 
+// A wall whose corners are in shadow, as seen by a robot that drives past it.
+image::GrayImage DarkCorners(double driven_px) {
+  image::GrayImage frame = kWall.Photograph({.du_px = driven_px, .gain = 0.5});
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (std::hypot(x - 159.5 - driven_px, y - 119.5) > 125.0) {
+        std::uint8_t& pixel = frame.pixels[image::PixelIndex(x, y, frame.width)];
+        pixel = static_cast<std::uint8_t>(pixel / 3);
+      }
+    }
+  }
+  return frame;
+}
+
+TEST(FeatureTracker, TakesForALensesSurroundOnlyWhatStaysBlack) {
+  const FeatureTrackerOptions all{.max_features = 400};  // also those that are weak
+  FeatureTracker standing(all);
+  standing.Track(DarkCorners(0.0));
+  FeatureTracker driving(all);
+  for (int i = 0; i <= 32; ++i) driving.Track(DarkCorners(-160.0 + 10.0 * i));
+  driving.Track(DarkCorners(0.0));
+  const auto outside = [](const std::vector<route::TrackedFeature>& features) {
+    return std::count_if(features.begin(), features.end(), [](const auto& feature) {
+      return std::hypot(feature.u_px, feature.v_px) > 128.0;
+    });
+  };
+  const auto by_one_frame = outside(standing.Detect());
+  EXPECT_LT(by_one_frame, 4);  // where the shadow is not deep
+  EXPECT_GT(outside(driving.Detect()), by_one_frame + 8);
+}
+
 TEST(FeatureTracker, GoesOnWithTheFeaturesItIsGiven) {
   FeatureTracker tracker;
   tracker.Track(kWall.Photograph({}));
