@@ -181,8 +181,9 @@ Result<bool> Loop::Step(const Observation& observation) {
     return End(ToString(last_->state), last_->reason);
   }
   if (!watch_.Stuck(observation.stamp, *last_, held_)) return true;
-  return End("STUCK", fmt::format("no progress for {} s in segment {}",
-                                  options_.stuck_after.count(), last_->segment.value()));
+  return End("STUCK",
+             fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
+                         last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
 }
 
 void Loop::Tell(const ReplayStep& step) {

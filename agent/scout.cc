@@ -37,6 +37,8 @@ struct Drive {
   std::size_t features = 0;  // in finished segments
   bool has_odometry = false;
   bool dark = false;
+  bool backs = false;       // is driven backwards, and has not come forwards again
+  double turned_rad = 0.0;  // on the spot, at the end
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
 };
 
@@ -80,6 +82,22 @@ void TellWeakness(const TeachStep& step, Drive& drive) {
   }
 }
 
+void TellBacking(const TeachStep& step, Drive& drive) {
+  if (step.backs == drive.backs) return;
+  drive.backs = step.backs;
+  if (drive.backs) {
+    spdlog::warn(
+        "frame {}: the robot is driven backwards, which no robot follows: nothing of it is taught. "
+        "Drive it forwards again over the same way, and teaching goes on where it was",
+        drive.frames);
+  } else {
+    spdlog::info(
+        "frame {}: the robot is where it was before it was driven backwards: teaching "
+        "goes on",
+        drive.frames);
+  }
+}
+
 // The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
                        ScoutLink& link, Drive& drive) {
@@ -100,6 +118,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     if (step->finished) result = HandOver(std::move(*step->finished), link, drive, now);
     TellDarkness(*step, drive);
     TellWeakness(*step, drive);
+    TellBacking(*step, drive);
     ++drive.frames;
     now.features = step->features;
     now.drive_progress = device.drive_progress();
@@ -114,6 +133,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   }
   standstill.Stop();
   auto last = session.Finish();
+  drive.turned_rad = session.turned_rad();
   if (last && !link.failed()) {
     auto handed = HandOver(std::move(*last), link, drive, now);
     if (result) result = handed;
@@ -227,6 +247,7 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
   if (!judged) return tl::unexpected(judged.error());
   TellEarlier(*outcome);
   TellTaught(*outcome, drive.has_odometry, send);
+  TellNotTaught(drive.backs, drive.turned_rad);
   return Summarize(*outcome, drive);
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
+#include "services/base/angles.h"
 #include "services/route/labels.h"
 #include "services/route/route_ref.h"
 
@@ -15,6 +18,7 @@ using route::Standing;
 constexpr double kLeastRoute_m = 0.2;
 // Two to five thousand are usual.
 constexpr double kManyBytes_per_m = 10'000.0;
+constexpr double kToldTurn_rad = 0.3;
 
 // "route 'hall' revision 2 (a3f9c21@2)".
 std::string Which(const route::RouteInfo& route) {
@@ -86,6 +90,20 @@ void TellTaught(const ScoutLink::Outcome& outcome, bool has_odometry, bool sent)
         "{} is in this robot's store alone: other robots go on with what they have until "
         "'trailcast-agent deliver' gives it to a server",
         Which(route));
+  }
+}
+
+void TellNotTaught(bool backs, double turned_rad) {
+  if (backs) {
+    spdlog::warn(
+        "the route ends where the robot was first driven backwards, and not forwards again over "
+        "the same way: nothing that it drove since is taught, as no robot follows backwards");
+  }
+  if (std::abs(turned_rad) > kToldTurn_rad) {
+    spdlog::warn(
+        "the route ends before the turn on the spot at its end, by {:.0f} degrees to the {}: a "
+        "turn is taught with what is driven after it",
+        Degrees(std::abs(turned_rad)), turned_rad > 0.0 ? "left" : "right");
   }
 }
 

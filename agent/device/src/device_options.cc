@@ -137,7 +137,8 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
       "webcam+roll_deg=180+ahead_m=0.3");
   add("--seed", simulated.seed, "Draws this robot's errors and noise");
   add("--path", simulated.place.path,
-      "CSV x_m,y_m: the taught path; default: the built-in world's own");
+      "CSV x_m,y_m: the taught path, turned on the spot where it doubles back; default: the "
+      "built-in world's own");
   add("--up", simulated.place.up, "Axis that is up in a world file")
       ->check(CLI::IsMember({"y", "z"}));
   add("--scale", simulated.place.scale, "Metres per unit of a world file")

@@ -15,6 +15,10 @@ class WalkDevice : public agent::RobotDevice {
 
   // Called before each frame with its number; an error is the camera's.
   std::function<Result<void>(int)> before_frame = [](int) { return Result<void>{}; };
+  // What its odometry says with a frame.
+  std::function<motion::Pose2(int)> odometry = [](int frame) {
+    return motion::Pose2{0.02 * frame, 0.0, 0.0};
+  };
   std::vector<motion::VelocityCommand> told;
   int next = 0;
   bool blind = false;  // the lens is covered
@@ -26,7 +30,7 @@ class WalkDevice : public agent::RobotDevice {
     observation.stamp = FromSeconds(next / 30.0);
     observation.image = WalkFrame(next);
     if (blind) observation.image.pixels.assign(observation.image.pixels.size(), 0);
-    observation.odometry = motion::Pose2{0.02 * next, 0.0, 0.0};
+    observation.odometry = odometry(next);
     ++next;
     return observation;
   }
