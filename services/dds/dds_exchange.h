@@ -57,9 +57,9 @@ struct DdsOptions {
   std::function<void(const std::string& line)> tell_of_discovery{};
 
   // With DDS Security, as the member whose keys these are; without: open to everybody. When the
-  // folder's files change (renewed keys, a new list of revoked ones), or a route server gives a newer
-  // list, which goes into the folder, the exchange joins anew with them within seconds; what it
-  // published lately may then have to be published again. A server gives its list to all.
+  // folder's files change (renewed keys, a new list of revoked ones), or a route server gives a
+  // newer list, which goes into the folder, the exchange joins anew with them within seconds; what
+  // it published lately may then have to be published again. A server gives its list to all.
   std::optional<security::MemberKeys> keys;
   // Told of each who was kept out, and why: once, and again after ten minutes; and of new keys.
   // Called by Take.

@@ -106,8 +106,7 @@ double FarthestAfterKnock(double knock_rad) {
     estimator.Begin(run.segment);
     while (estimator.offset().along_m < 1.0) {
       const double mount_rad = robot.x_m > 4.2 ? knock_rad : 0.0;
-      estimator.Update(
-          test::Matched(scene, run, motion::Compose(robot, {0.0, 0.0, mount_rad})));
+      estimator.Update(test::Matched(scene, run, motion::Compose(robot, {0.0, 0.0, mount_rad})));
       const double turn_rate = LaneKeepingTurnRate(estimator.offset(), 0.0, kSpeed_mps);
       const motion::OdometryIncrement moved{kSpeed_mps * kDt_s, turn_rate * kDt_s};
       robot = motion::Advance(robot, moved);
