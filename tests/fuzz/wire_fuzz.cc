@@ -70,6 +70,10 @@ class Samples {
     Fill(wire.key);
     wire.agent = Name();
   }
+  void Fill(trailcast_wire_LackingSegments& wire) {
+    Fill(wire.key);
+    wire.segments = Number();
+  }
   void Fill(trailcast_wire_RouteEditRequest& wire) {
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
