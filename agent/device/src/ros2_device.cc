@@ -60,7 +60,8 @@ struct Ros2Device::State {
         watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
                               : device.sensor_timeout,
               has_odometry()),
-        poses(GateOf(device.limits)),
+        poses(GateOf(device.limits),
+              device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
         still(device.still_at_end) {}
 
   [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
@@ -97,6 +98,7 @@ struct Ros2Device::State {
   bool odometry_stands = false;  // it comes, with stamps that do not advance
   std::optional<Frame> newest;
   steady_clock::time_point unserved_since;  // since when there has been a newest frame
+  std::optional<SensorTime> last_stamp;     // of the frame before, handed out or not
   std::vector<std::uint8_t> last_bytes;     // of the frame before
   std::optional<SensorTime> given;          // the last frame that Next took, by its stamp
   std::optional<SensorTime> given_before;
@@ -146,14 +148,15 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
 void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
   const std::vector<std::uint8_t>& bytes = BytesOf(picture);
   const bool changed = bytes != last_bytes;
-  if (given && StampOf(picture) == *given && (run.lockstep || !changed)) {
+  if (last_stamp == StampOf(picture) && (run.lockstep || !changed)) {
     // In lockstep: the robot did not get the answer, or does not yet have it.
-    if (run.lockstep && answered) (void)driver->Publish({*given, told});
+    if (run.lockstep && answered && given == last_stamp) (void)driver->Publish({*given, told});
     return;
   }
   const auto taken = poses.AddFrame(StampOf(picture), now);
   if (!taken) return;
   watch.SawFrame(now, changed);
+  last_stamp = StampOf(picture);
   last_bytes = bytes;
   if (!newest) unserved_since = now;
   newest = Frame{now, *taken, std::move(picture)};

@@ -18,6 +18,7 @@ constexpr milliseconds kSameClock{500};
 constexpr milliseconds kSameClockAgain{400};
 // Clocks are compared by the quickest samples of a period, and by the middle of some of these.
 constexpr milliseconds kPeriod{500};
+constexpr milliseconds kLongestPeriod{1000};
 constexpr std::size_t kPeriods = 7;
 // Beyond, a base that was driven when its odometry fell silent has been stopped.
 constexpr double kLongestGap_s = 1.0;
@@ -69,11 +70,13 @@ std::optional<SensorTime> SensedPoses::AddFrame(SensorTime stamp, Time came_at) 
 
 // Of one period each time: a simulator's clock that is slow does not set them apart.
 void SensedPoses::CompareClocks(Time now) {
-  if (now - period_from_ < kPeriod) return;
+  const nanoseconds period = now - period_from_;
+  if (clocks_ == Clocks::kOne || period < kPeriod) return;
   period_from_ = now;
   const auto frames = frame_clock_.TakeBehind();
   const auto odometry = odometry_clock_.TakeBehind();
-  if (!frames || !odometry) return;
+  // In a longer one nothing came, and a simulator's clock may have stood between the two.
+  if (!frames || !odometry || period > kLongestPeriod) return;
   apart_.push_back(*frames - *odometry);
   if (apart_.size() > kPeriods) apart_.pop_front();
   std::vector<nanoseconds> sorted(apart_.begin(), apart_.end());

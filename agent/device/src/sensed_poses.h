@@ -17,7 +17,10 @@ class SensedPoses {
  public:
   using Time = StampClock::Time;
 
-  explicit SensedPoses(const GateOptions& options) : gate_(options) {}
+  enum class Clocks { kMayDiffer, kOne };  // of pictures and odometry
+
+  explicit SensedPoses(const GateOptions& options, Clocks clocks = Clocks::kMayDiffer)
+      : clocks_(clocks), gate_(options) {}
 
   // `told`: what the base was told meanwhile. False for a sample that says nothing new.
   bool AddOdometry(SensorTime stamp, const motion::Pose2& pose, Time came_at,
@@ -46,6 +49,7 @@ class SensedPoses {
  private:
   void CompareClocks(Time now);
 
+  Clocks clocks_;
   StampClock odometry_clock_;
   StampClock frame_clock_;
   OdometryGate gate_;

@@ -322,6 +322,19 @@ TEST_F(Ros2DeviceTest, InLockstepAnswersEachFrameOnceMoreWhenItIsSaidAgain) {
   EXPECT_EQ(latest_.stamp, stamp_);
 }
 
+// As a follower's robot does while its route is still to come.
+TEST_F(Ros2DeviceTest, InLockstepAFrameSaidAgainBeforeItIsTakenKeepsItsTime) {
+  run_.lockstep = true;
+  Open();
+  for (int i = 0; i < 30; ++i) {
+    Say();
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  const auto seen = SayUntilSeen();
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_EQ((*seen)->stamp, stamp_);
+}
+
 TEST_F(Ros2DeviceTest, InLockstepAnswersAlsoWhileTeaching) {
   run_.lockstep = true;
   Open();

@@ -24,7 +24,8 @@ class SensedPosesTest : public testing::Test {
     for (const SensorTime end = now_ + duration; now_ < end;) {
       now_ += milliseconds(20);
       const auto at = StampClock::Time(
-          std::chrono::duration_cast<nanoseconds>(slowness_ * std::chrono::duration<double>(now_)));
+          std::chrono::duration_cast<nanoseconds>(slowness_ * std::chrono::duration<double>(now_)) +
+          stood_);
       (void)poses_.AddOdometry(now_ + odometry_clock_, {Truth(now_) + odometry_from_m_, 0.0, 0.0},
                                at + milliseconds(5), {kSpeed_mps, 0.0});
       if (now_ % milliseconds(40) != nanoseconds(0)) continue;
@@ -42,6 +43,7 @@ class SensedPosesTest : public testing::Test {
   SensorTime frame_clock_{0};
   milliseconds under_way_{0};
   double slowness_ = 1.0;  // seconds in which a second passes there
+  nanoseconds stood_{0};   // its clock, so far
   double odometry_from_m_ = 0.0;
   SensorTime taken_{};
   std::optional<SensorTime> frame_;
@@ -59,6 +61,25 @@ TEST_F(SensedPosesTest, FindsThePlaceOfAFrameHoweverLongItWasUnderWay) {
 TEST_F(SensedPosesTest, ASimulatorsClockThatIsSlowIsOneClockAllTheSame) {
   slowness_ = 3.0;
   Drive(seconds(10));
+  EXPECT_NEAR(Error(), 0.0, 1e-6);
+  EXPECT_THAT(poses_.TakeNews(), IsEmpty());
+}
+
+// After its first picture and the odometry of that moment.
+TEST_F(SensedPosesTest, ASimulatorsClockThatStoodIsOneClockAllTheSame) {
+  now_ += milliseconds(20);
+  Drive(milliseconds(20));
+  ASSERT_TRUE(frame_);
+  stood_ = seconds(4);
+  Drive(seconds(2));
+  EXPECT_NEAR(Error(), 0.0, 1e-6);
+  EXPECT_THAT(poses_.TakeNews(), IsEmpty());
+}
+
+TEST_F(SensedPosesTest, ClocksThatAreOneAreNotCompared) {
+  poses_ = SensedPoses(GateOptions{}, SensedPoses::Clocks::kOne);
+  under_way_ = milliseconds(1500);
+  Drive(seconds(5));
   EXPECT_NEAR(Error(), 0.0, 1e-6);
   EXPECT_THAT(poses_.TakeNews(), IsEmpty());
 }
