@@ -46,28 +46,29 @@ Report Soak::Run(const std::function<bool()>& stop) {
   fleet_.StartServer();
   for (int number = 1; !stop() && Clock::now() < began_ + options_.length; ++number) {
     if (Clock::now() >= began_ + options_.length / 2) faults_.SpareServer();
-    RunCycle(number);
+    RunCycle(number, stop);
   }
   End();
   return report_;
 }
 
-void Soak::RunCycle(int number) {
+void Soak::RunCycle(int number, const std::function<bool()>& stop) {
   const Errand errand{fmt::format("lap-{}", number),
                       options_.folder / fmt::format("lap-{}", number),
                       options_.seed + static_cast<std::uint64_t>(number)};
   Cycle cycle(errand, fleet_, ledger_, *exchange_, live_);
   cycle_ = &cycle;
   casualties_.Begin(errand.route, errand.folder);
-  while (!cycle.done()) {
+  while (!cycle.done() && !stop()) {
     const auto now = Clock::now();
     Hear(now);
     faults_.Tick(now);
     cycle.Tick(now);
   }
-  CalmDown();
+  if (!stop()) CalmDown();
   casualties_.End();
   cycle_ = nullptr;
+  if (stop()) return;
   report_.Add(cycle.outcome());
   TellCycle(cycle.outcome());
   std::filesystem::remove_all(errand.folder);

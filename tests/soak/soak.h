@@ -36,7 +36,7 @@ class Soak {
   [[nodiscard]] Report Run(const std::function<bool()>& stop);
 
  private:
-  void RunCycle(int number);
+  void RunCycle(int number, const std::function<bool()>& stop);
   void Hear(Clock::time_point now);
   void CalmDown();
   void CheckStore();
