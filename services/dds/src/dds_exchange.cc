@@ -225,16 +225,12 @@ void DdsExchange::Remind(Clock::time_point now) {
       [this](const Place& place) { joined_->writers.at(place).Remind(); });
 }
 
-// A failed wait leaves nothing to take, and is tried again with the next call.
+// Until something comes, or somebody is to be reminded. A failed wait leaves nothing to take, and
+// is tried again with the next call.
 bool DdsExchange::WaitForSamples(std::chrono::milliseconds max_wait) {
-  const auto until = Clock::now() + max_wait;
-  for (auto now = Clock::now();; now = Clock::now()) {
-    Remind(now);
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - now);
-    const auto wait = std::max(left, std::chrono::milliseconds(0));
-    if (joined_->wait_set.Wait(reminders_.Wait(now, wait))) return true;
-    if (Clock::now() >= until) return false;
-  }
+  const auto now = Clock::now();
+  Remind(now);
+  return joined_->wait_set.Wait(reminders_.Wait(now, max_wait)).has_value();
 }
 
 std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {

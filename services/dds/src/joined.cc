@@ -76,10 +76,10 @@ Result<dds::Topic*> Find(Joined& joined, exchange::Topic topic) {
   return &joined.topics.emplace(topic, *std::move(made)).first->second;
 }
 
-Result<void> Read(Joined& joined, const Place& place, const Qos& qos) {
+Result<void> Read(Joined& joined, const Place& place, const DdsOptions& options, Qos qos) {
   const auto found = Find(joined, place.topic);
   if (!found) return tl::unexpected(found.error());
-  auto reader = Reader::Create(joined.participant, **found, qos);
+  auto reader = Reader::Create(joined.participant, **found, Apart(options, std::move(qos)));
   if (!reader) return Wrap(reader.error(), exchange::NameOf(place.topic));
   if (auto ok = joined.wait_set.Attach(*reader); !ok) {
     return Wrap(ok.error(), exchange::NameOf(place.topic));
@@ -97,13 +97,12 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
   }
   for (const exchange::Topic topic : use.read) {
     if (!MayUse(options, topic)) continue;
-    const Qos qos = Apart(options, MakeQos(QosOf(topic), ReadersPartitions(options, topic)));
-    if (auto read = Read(joined, {topic}, qos); !read) return read;
+    Qos qos = MakeQos(QosOf(topic), ReadersPartitions(options, topic));
+    if (auto read = Read(joined, {topic}, options, std::move(qos)); !read) return read;
   }
   for (const exchange::Topic topic : use.overhear) {
-    const Qos qos =
-        Apart(options, MakeOverhearingQos(QosOf(topic), ReadersPartitions(options, topic)));
-    if (auto read = Read(joined, {topic}, qos); !read) return read;
+    Qos qos = MakeOverhearingQos(QosOf(topic), ReadersPartitions(options, topic));
+    if (auto read = Read(joined, {topic}, options, std::move(qos)); !read) return read;
   }
   return {};
 }
@@ -174,8 +173,8 @@ Result<void> Joined::Listen(exchange::Topic topic, const std::set<std::string>& 
   });
   for (const std::string& scope : scopes) {
     if (readers.contains({topic, scope})) continue;
-    const Qos qos = Apart(options, MakeQos(QosOf(topic), ListenersPartitions(options, scope)));
-    if (auto read = Read(*this, {topic, scope}, qos); !read) return read;
+    Qos qos = MakeQos(QosOf(topic), ListenersPartitions(options, scope));
+    if (auto read = Read(*this, {topic, scope}, options, std::move(qos)); !read) return read;
   }
   return {};
 }

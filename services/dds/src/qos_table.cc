@@ -12,23 +12,28 @@ constexpr milliseconds kForever{0};
 // Three missed heartbeats on a bad radio link, and still soon enough for people to notice.
 constexpr milliseconds kAgentLease{3000};
 
+struct Row {
+  T topic;
+  TopicQos qos;
+};
+
 // No topic keeps all: a writer would wait for a reader that is dead or hangs until its lease is
 // over (10 s), and with it everybody else. Whoever gets no answer, or lost a segment, asks again;
 // who asks for segments has no more under way than its link carries (exchange::WantList). 256
 // batches of segments are 12 MB on either side.
 // clang-format off
 constexpr std::array kTable = {
-    // topic               transient-local  keep last  liveliness
-    TopicQos{T::kRoutes,          true,     1,         kForever},
-    TopicQos{T::kSegments,        false,    256,       kForever},
-    TopicQos{T::kSegmentRequests, false,    16,        kForever},
-    TopicQos{T::kReceipts,        true,     1,         kForever},
-    TopicQos{T::kCatalogRequests, false,    16,        kForever},
-    TopicQos{T::kCatalogReplies,  false,    16,        kForever},
-    TopicQos{T::kAgents,          true,     1,         kAgentLease},
-    TopicQos{T::kRouteEdits,      false,    16,        kForever},
-    TopicQos{T::kFleet,           true,     1,         kForever},
-    TopicQos{T::kNeighbours,      false,    1,         kForever, /*best_effort=*/true},
+    // topic           transient-local  keep last  liveliness
+    Row{T::kRoutes,          {true,     1,         kForever}},
+    Row{T::kSegments,        {false,    256,       kForever}},
+    Row{T::kSegmentRequests, {false,    16,        kForever}},
+    Row{T::kReceipts,        {true,     1,         kForever}},
+    Row{T::kCatalogRequests, {false,    16,        kForever}},
+    Row{T::kCatalogReplies,  {false,    16,        kForever}},
+    Row{T::kAgents,          {true,     1,         kAgentLease}},
+    Row{T::kRouteEdits,      {false,    16,        kForever}},
+    Row{T::kFleet,           {true,     1,         kForever}},
+    Row{T::kNeighbours,      {false,    1,         kForever, /*best_effort=*/true}},
 };
 // clang-format on
 
@@ -42,22 +47,22 @@ static_assert(RowsAreInTopicOrder());
 
 }  // namespace
 
-const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)]; }
+const TopicQos& QosOf(exchange::Topic topic) { return kTable[static_cast<std::size_t>(topic)].qos; }
 
-Qos MakeQos(const TopicQos& row, const std::vector<std::string>& partitions) {
+Qos MakeQos(const TopicQos& of, const std::vector<std::string>& partitions) {
   const auto nanoseconds = [](milliseconds t) { return DDS_MSECS(t.count()); };
   Qos qos = MakeQos();
   dds_qset_reliability(qos.get(),
-                       row.best_effort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE, 0);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, row.keep_last);
-  if (row.transient_local) {
+                       of.best_effort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, of.keep_last);
+  if (of.transient_local) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     // What late joiners get is decided by this one, not by the history.
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, row.keep_last,
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, of.keep_last,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
-  if (row.liveliness > kForever) {
-    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(row.liveliness));
+  if (of.liveliness > kForever) {
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(of.liveliness));
   }
   dds_qset_writer_data_lifecycle(qos.get(), true);
   std::vector<const char*> names;  // "" alone is what there is without any
@@ -67,8 +72,8 @@ Qos MakeQos(const TopicQos& row, const std::vector<std::string>& partitions) {
   return qos;
 }
 
-Qos MakeOverhearingQos(const TopicQos& row, const std::vector<std::string>& partitions) {
-  Qos qos = MakeQos(row, partitions);
+Qos MakeOverhearingQos(const TopicQos& of, const std::vector<std::string>& partitions) {
+  Qos qos = MakeQos(of, partitions);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   return qos;

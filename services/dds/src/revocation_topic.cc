@@ -3,24 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/dds/src/qos_table.h"
 #include "services/security/documents.h"
 #include "trailcast.h"
 
 namespace trailcast::dds {
 namespace {
-
-Qos QosIn(const std::string& partition) {
-  Qos qos = MakeQos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
-                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  const char* name = partition.c_str();
-  dds_qset_partition(qos.get(), 1, &name);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
-}
 
 std::string TextIn(const trailcast_wire_RevocationList& wire) {
   const std::size_t size =
@@ -35,7 +23,7 @@ Result<RevocationTopic> RevocationTopic::Open(const Participant& participant, Wa
   auto topic =
       Topic::Create(participant, trailcast_wire_RevocationList_desc, security::kRevocationsTopic);
   if (!topic) return tl::unexpected(topic.error());
-  auto reader = Reader::Create(participant, *topic, QosIn("*"));
+  auto reader = Reader::Create(participant, *topic, MakeQos(kRevocationsQos, {"*"}));
   if (!reader) return Wrap(reader.error(), security::kRevocationsTopic);
   if (auto ok = wait_set.Attach(*reader); !ok) return tl::unexpected(ok.error());
   RevocationTopic opened(*std::move(topic), *std::move(reader));
@@ -49,7 +37,8 @@ Result<RevocationTopic> RevocationTopic::Open(const Participant& participant, Wa
 
 Result<void> RevocationTopic::Write(const Participant& participant,
                                     const security::MemberKeys& keys) {
-  auto writer = Writer::Create(participant, topic_, QosIn(security::PartitionOf(keys.member)));
+  auto writer = Writer::Create(participant, topic_,
+                               MakeQos(kRevocationsQos, {security::PartitionOf(keys.member)}));
   if (!writer) return tl::unexpected(writer.error());
   writer_ = *std::move(writer);
   std::string server = keys.member.id;
