@@ -106,8 +106,7 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
 // A segment is over once the camera is past it; but where the robot is to stop, or to turn on the
 // spot, it is the axle that has to come there.
 bool FeatureFollower::EndsAtTheAxle() const {
-  const SegmentIndex index = follower_->segment().index;
-  return route_.is_last(index) || route_.turn_after_rad(index) != 0.0;
+  return route_.stands_after(follower_->segment().index);
 }
 
 Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {

@@ -21,9 +21,8 @@ double FeatureFollower::SpeedShare(const replay::FollowStep& step, Trust trust) 
   const double share =
       trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
   const route::Segment& segment = follower_->segment();
-  const bool stands_after =
-      route_.is_last(segment.index) || route_.turn_after_rad(segment.index) != 0.0;
-  if (AsPrinted(options_.method) || !stands_after || step.command.linear_mps <= 0.0) {
+  if (AsPrinted(options_.method) || !route_.stands_after(segment.index) ||
+      step.command.linear_mps <= 0.0) {
     return share;
   }
   const double left_m = (1.0 - step.fraction) * segment.length_m;

@@ -35,6 +35,10 @@ class KnownRoute {
     const std::size_t next = index.value() + 1;
     return has(next) ? segments_[next].turn_before_rad : 0.0;
   }
+  // It is the last one, or turned on the spot after.
+  [[nodiscard]] bool stands_after(SegmentIndex index) const {
+    return is_last(index) || turn_after_rad(index) != 0.0;
+  }
   [[nodiscard]] bool complete() const { return complete_; }
   [[nodiscard]] double begin_m(SegmentIndex index) const { return begin_m_[index.value()]; }
   [[nodiscard]] double length_m() const {

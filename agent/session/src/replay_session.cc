@@ -171,7 +171,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (s.standing.state == ReplayState::kArrived || s.upright.misturned()) return s.last;
   if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
   s.Locate(*seen);
-  s.last = s.upright.Look(*seen->frame, s.place) ? s.StandMisturned() : s.Follow(*seen);
+  s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};

@@ -11,23 +11,24 @@ constexpr int kRecognised = 10;    // features that agree
 constexpr int kNotRecognised = 7;  // as many agree in any picture
 constexpr int kEachFrame = 10;     // is looked at, of the first ones
 constexpr int kOneInSoMany = 5;    // after that
-constexpr int kFramesWatched = 600;
+constexpr double kWatched_s = 20.0;
 
 }  // namespace
 
-bool UprightWatch::Look(const image::GrayImage& frame, const PlaceKeeper& place) {
-  if (upright_ || misturned_ || frames_ > kFramesWatched) return misturned_;
+bool UprightWatch::Look(const Seen& seen, const PlaceKeeper& place) {
+  if (upright_ || misturned_ || watched_s_ > kWatched_s) return misturned_;
+  watched_s_ += seen.looked_s;
   const bool due = frames_ < kEachFrame || frames_ % kOneInSoMany == 0;
   ++frames_;
   if (!due) return false;
-  const int as_it_is = place.AgreedIn(frame);
+  const int as_it_is = place.AgreedIn(*seen.frame);
   upright_ = as_it_is >= kRecognised;
   if (as_it_is > kNotRecognised) return false;
   double best_deg = 0.0;
   int best = kRecognised - 1;
   for (const double turn_deg : {180.0, 90.0, 270.0}) {
     vision::PictureIntake turned({.roll_deg = turn_deg});
-    const int agreed = place.AgreedIn(turned.Take(frame));
+    const int agreed = place.AgreedIn(turned.Take(*seen.frame));
     if (agreed <= best) continue;
     best = agreed;
     best_deg = turn_deg;

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "agent/session/src/eyes.h"
 #include "agent/session/src/place_keeper.h"
-#include "services/image/image.h"
 #include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
@@ -18,7 +18,7 @@ class UprightWatch {
 
   // Of the next frame, at the place that is believed. True, once and for all: it is mounted
   // otherwise.
-  [[nodiscard]] bool Look(const image::GrayImage& frame, const PlaceKeeper& place);
+  [[nodiscard]] bool Look(const Seen& seen, const PlaceKeeper& place);
   [[nodiscard]] bool misturned() const { return misturned_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }  // one line for people
 
@@ -27,6 +27,7 @@ class UprightWatch {
   bool upright_ = false;
   bool misturned_ = false;
   int frames_ = 0;
+  double watched_s_ = 0.0;
   double turn_deg_ = 0.0;  // by which the last frame looked at was recognised; 0: by none
   std::string reason_;
 };

@@ -71,6 +71,11 @@ bool ViewFollower::IsAtTurn() const {
   return place_.AlongOf(turn) - place_.where().along < kTurn_m;
 }
 
+std::string_view ViewFollower::Doubt() const {
+  if (IsAtTurn()) return kTurn;
+  return route_.complete() && SeesTheEnd() && !HasCome() ? kOnlyTheEnd : "";
+}
+
 // `doubt`: what speaks against driving on although the place is held; empty: nothing.
 ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
   const belief::RouteBelief::Place& where = place_.where();
@@ -110,12 +115,9 @@ void ViewFollower::EndAt(ReplayStep& step) const {
 }
 
 ReplayStep ViewFollower::Step(double dt_s) {
-  const bool end_is_seen = SeesTheEnd();
-  const bool end_is_reached = end_is_seen && HasCome();
-  ReplayStep step = Go(dt_s, IsAtTurn()                                            ? kTurn
-                             : route_.complete() && end_is_seen && !end_is_reached ? kOnlyTheEnd
-                                                                                   : "");
-  if (route_.complete() ? end_is_reached : end_is_seen) EndAt(step);
+  const bool ends = SeesTheEnd() && (HasCome() || !route_.complete());
+  ReplayStep step = Go(dt_s, Doubt());
+  if (ends) EndAt(step);
   return step;
 }
 

@@ -39,6 +39,8 @@ class ViewFollower {
   [[nodiscard]] bool SeesTheEnd() const;
   [[nodiscard]] bool HasCome() const;
   [[nodiscard]] bool IsAtTurn() const;
+  // What speaks against driving on although the place is held; empty: nothing.
+  [[nodiscard]] std::string_view Doubt() const;
   [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);
   void EndAt(ReplayStep& step) const;
 
