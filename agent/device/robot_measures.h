@@ -9,6 +9,7 @@
 #include "services/dds/ros2_link.h"
 #include "services/image/image.h"
 #include "services/motion/motion.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -25,8 +26,10 @@ struct PictureMeasures {
 // What became of a robot that was told to turn to the left for a while.
 struct TurnMeasures {
   double told_rad = 0.0;
-  double odometry_rad = 0.0;   // counter-clockwise positive
-  double picture_share = 0.0;  // how far its features moved to the right, of the picture's width
+  double odometry_rad = 0.0;  // counter-clockwise positive
+  // How far its features moved to the right, and down, of the picture's width.
+  double picture_share = 0.0;
+  double picture_down_share = 0.0;
   std::optional<double> base_delay_s;  // from the command until odometry turns
   // The pictures' stamps, later than odometry's of the same moment, by how both turn.
   std::optional<double> stamps_late_s;
@@ -52,6 +55,7 @@ struct RobotMeasures {
 
 struct MeasureOptions {
   dds::Ros2Options topics;
+  vision::IntakeOptions intake;  // how the camera is said to be mounted
   std::chrono::milliseconds look{3000};
   // Turns the robot to the left and back, a second and a half each; the speed ahead is for cars.
   bool turn = false;

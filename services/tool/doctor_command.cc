@@ -82,6 +82,7 @@ Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common)
       ->check(CLI::Range(0.0, 10.0))
       ->group(robot);
   agent::AddRos2TopicOptions(*app, ros2, robot, options->robot.topics);
+  agent::AddCameraRoll(*app, options->robot.intake);
   return {app, [app, options, &common] {
             program::SetUpLog(common);
             const auto ran = Run(common, *options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace trailcast::tool {
@@ -113,6 +114,10 @@ Finding JudgeStamps(const agent::RobotMeasures& measures) {
   return {Grade::kGood, "stamps: pictures and odometry agree", ""};
 }
 
+bool StandsOnItsSide(const agent::TurnMeasures& turn) {
+  return std::abs(turn.picture_down_share) > std::max(kLeastShift, std::abs(turn.picture_share));
+}
+
 Finding JudgeTurn(const agent::TurnMeasures& turn) {
   const std::string what = fmt::format(
       "turn: told {:.0f} degrees to the left, odometry says {:.0f}, the picture moved "
@@ -126,11 +131,19 @@ Finding JudgeTurn(const agent::TurnMeasures& turn) {
             "the base stands: is it switched on, its emergency stop released, its minimum command "
             "below 0.4 rad/s?"};
   }
+  if (StandsOnItsSide(turn)) {
+    const bool down = turn.picture_down_share > 0.0;
+    return {Grade::kBad, what + (down ? ", and more down" : ", and more up"),
+            fmt::format("a picture moves to the right when its robot turns left: the camera stands "
+                        "on its side; turn it, or add {} to --camera-roll",
+                        down ? 270 : 90)};
+  }
   if (seen && turn.picture_share < 0.0 && share > 0.0) {
     return {
         Grade::kBad, what,
-        "a picture moves to the right when its robot turns left: is the camera upside down, its "
-        "picture mirrored, or does the base turn right and say left?"};
+        "a picture moves to the right when its robot turns left: is the camera upside down (then "
+        "turn it, or add 180 to --camera-roll), its picture mirrored, or does the base turn right "
+        "and say left?"};
   }
   if (share < 0.0) {
     return {Grade::kBad, what,

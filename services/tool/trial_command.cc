@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "agent/device/device_options.h"
 #include "services/program/live_lines.h"
 #include "services/tool/command.h"
 #include "services/trial/scenario.h"
@@ -70,8 +71,19 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
       ->delimiter(',');
   app.add_option(
       "--scout-camera", options.scout_camera,
-      fmt::format("{}, or a camera file (.toml)", fmt::join(trial::CameraNames(), ", ")));
+      fmt::format("{}, or a camera file (.toml); with what is other about it, by that file's keys: "
+                  "webcam+roll_deg=180+ahead_m=0.3",
+                  fmt::join(trial::CameraNames(), ", ")));
   app.add_option("--follower-camera", options.follower_camera, "The same");
+  const auto add_roll = [&app](const char* flag, double& roll_deg) {
+    app.add_option(flag, roll_deg, "What that robot is told by --camera-roll, degrees")
+        ->check(agent::CameraRollValidator());
+  };
+  add_roll("--scout-camera-roll", options.scout_roll_deg);
+  add_roll("--follower-camera-roll", options.follower_roll_deg);
+  app.add_option("--follower-camera-ahead", options.follower_ahead_m,
+                 "What the follower is told by --camera-ahead, metres")
+      ->check(agent::CameraAheadRange());
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));

@@ -18,9 +18,13 @@ struct TrialOptions {
   std::vector<std::string> methods = {"default"};
   std::string scout_camera = "webcam";     // a built-in name, or a camera file (.toml)
   std::string follower_camera = "webcam";  // the same; some scenarios have cameras of their own
-  double speed_mps = 0.0;                  // of the scout on the straight; 0: the scenario's own
-  int trials = 10;                         // of each method and each of the scenario's cases
-  std::uint64_t seed = 1;                  // trial i of n is drawn from seed + i - 1 alone
+  // What the two robots are told of how their cameras are mounted.
+  double scout_roll_deg = 0.0;
+  double follower_roll_deg = 0.0;
+  double follower_ahead_m = 0.0;
+  double speed_mps = 0.0;  // of the scout on the straight; 0: the scenario's own
+  int trials = 10;         // of each method and each of the scenario's cases
+  std::uint64_t seed = 1;  // trial i of n is drawn from seed + i - 1 alone
   // The robot that taught follows, with the same camera on the same mount and the same wheels, past
   // nobody, under the sun of its teaching: how the paper measured.
   bool same_robot = false;

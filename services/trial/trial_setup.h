@@ -15,6 +15,7 @@
 #include "services/sim/core/world.h"
 #include "services/sim/places/place.h"
 #include "services/trial/trial_options.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::trial {
 
@@ -38,9 +39,11 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
-  int laps = 1;             // that each follower drives, one after the other
-  bool sun_moves = false;   // between teaching and following
-  bool same_robot = false;  // each follower is the scout that taught it
+  int laps = 1;                                 // that each follower drives, one after the other
+  bool sun_moves = false;                       // between teaching and following
+  bool same_robot = false;                      // each follower is the scout that taught it
+  vision::IntakeOptions scout_intake;           // what they are told of their cameras
+  agent::ReplayMethodOptions follower_options;  // but for the method
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
       [](sim::Role, std::uint64_t) { return sim::Actors{}; };

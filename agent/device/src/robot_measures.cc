@@ -34,36 +34,50 @@ double Rate(int count, double first_s, double last_s) {
   return count > 1 && last_s > first_s ? (count - 1) / (last_s - first_s) : 0.0;
 }
 
-// How far the features of the last picture have moved to the right, summed up, as a share of the
-// width.
+// How far the features of the last picture have moved to the right, and down, summed up, as a share
+// of the width.
 class PictureShift {
  public:
-  double Add(const image::GrayImage& picture) {
+  explicit PictureShift(const vision::IntakeOptions& intake) : intake_(intake) {}
+
+  void Add(const image::GrayImage& frame) {
+    const image::GrayImage& picture = intake_.Take(frame);
     const std::vector<route::TrackedFeature> before = tracker_.Current();
     const std::vector<route::TrackedFeature> now = tracker_.Track(picture);
-    std::vector<double> moved;
+    std::vector<double> right;
+    std::vector<double> down;
     std::size_t i = 0;
     for (const route::TrackedFeature& feature : now) {
       while (i < before.size() && before[i].id != feature.id) ++i;
       if (i == before.size()) break;
-      moved.push_back(feature.u_px - before[i].u_px);
+      right.push_back(feature.u_px - before[i].u_px);
+      down.push_back(feature.v_px - before[i].v_px);
     }
     if (static_cast<int>(now.size()) < kFewFeatures) tracker_.Detect();
-    if (moved.empty()) return shift_;
-    const auto middle = moved.begin() + std::ssize(moved) / 2;
-    std::nth_element(moved.begin(), middle, moved.end());
-    return shift_ += *middle / picture.width;
+    if (right.empty()) return;
+    right_ += Median(right) / picture.width;
+    down_ += Median(down) / picture.width;
   }
+  [[nodiscard]] double right() const { return right_; }
+  [[nodiscard]] double down() const { return down_; }
 
  private:
+  static double Median(std::vector<double>& values) {
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
+
+  vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
-  double shift_ = 0.0;
+  double right_ = 0.0;
+  double down_ = 0.0;
 };
 
 class Measuring {
  public:
   Measuring(dds::Ros2Driver& driver, const MeasureOptions& options)
-      : driver_(driver), options_(options) {}
+      : driver_(driver), options_(options), shift_(options.intake) {}
 
   [[nodiscard]] RobotMeasures Run();
 
@@ -109,7 +123,8 @@ void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
   measures_.width_px = gray->width;
   measures_.height_px = gray->height;
   measures_.picture = MeasurePicture(*gray);
-  shifts_.push_back({trailcast::Seconds(*taken), shift_.Add(*gray)});
+  shift_.Add(*gray);
+  shifts_.push_back({trailcast::Seconds(*taken), shift_.right()});
 }
 
 void Measuring::Listen(milliseconds duration,
@@ -141,11 +156,13 @@ TurnMeasures Measuring::Turn() {
   turn.told_rad = left.angular_radps * trailcast::Seconds(kTurn);
   const double heading_rad = headings_.back().value;
   const double shift = shifts_.back().value;
+  const double down = shift_.down();
   const double told_s = Seconds(steady_clock::now());
   Listen(kTurn, left);
   Listen(kSettle, motion::VelocityCommand{});
   turn.odometry_rad = headings_.back().value - heading_rad;
   turn.picture_share = shifts_.back().value - shift;
+  turn.picture_down_share = shift_.down() - down;
   for (const TimedValue& each : headings_came_) {
     if (each.t_s < told_s || std::abs(each.value - heading_rad) < kTurns_rad) continue;
     turn.base_delay_s = each.t_s - told_s;

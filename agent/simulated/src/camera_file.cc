@@ -1,9 +1,11 @@
 #include "agent/simulated/camera_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <system_error>
 #include <variant>
 #include <vector>
@@ -12,6 +14,8 @@
 
 namespace trailcast::agent {
 namespace {
+
+constexpr const char* kFileEnding = ".toml";
 
 using Field = std::variant<int*, double*, std::string*>;
 
@@ -25,7 +29,15 @@ std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model
           {"distortion", &camera.distortion},
           {"height_m", &camera.height_m},
           {"yaw_deg", &camera.yaw_deg},
-          {"pitch_deg", &camera.pitch_deg}};
+          {"pitch_deg", &camera.pitch_deg},
+          {"roll_deg", &camera.roll_deg},
+          {"ahead_m", &camera.ahead_m},
+          {"centre_u", &camera.centre_u},
+          {"centre_v", &camera.centre_v},
+          {"knock_yaw_deg", &camera.knock_yaw_deg},
+          {"knock_at_s", &camera.knock_at_s},
+          {"exposure_swing", &camera.exposure_swing},
+          {"exposure_period_s", &camera.exposure_period_s}};
 }
 
 template <typename Number>
@@ -78,6 +90,14 @@ Result<sim::CameraModel> Parse(std::istream& stream, sim::CameraModel camera) {
   return camera;
 }
 
+Result<sim::CameraModel> FindOrRead(const std::string& word) {
+  if (std::filesystem::path(word).extension() == kFileEnding) return ReadCameraFile(word);
+  auto camera = sim::FindCamera(word);
+  if (camera) return camera;
+  return Fail(camera.error().code, "{}, or a file ending in {}", camera.error().message,
+              kFileEnding);
+}
+
 }  // namespace
 
 Result<sim::CameraModel> ReadCameraFile(const std::filesystem::path& file) {
@@ -93,10 +113,18 @@ Result<sim::CameraModel> ReadCameraFile(const std::filesystem::path& file) {
 }
 
 Result<sim::CameraModel> CameraFromWord(const std::string& word) {
-  if (std::filesystem::path(word).extension() == ".toml") return ReadCameraFile(word);
-  auto camera = sim::FindCamera(word);
-  if (camera) return camera;
-  return Fail(camera.error().code, "{}, or a file ending in .toml", camera.error().message);
+  // A file's own name may have a plus.
+  const std::size_t plus = word.find('+', word.rfind(kFileEnding) + 1);
+  auto camera = FindOrRead(word.substr(0, plus));
+  if (!camera || plus == std::string::npos) return camera;
+  const std::string base_name = camera->name;
+  std::string changes = word.substr(plus);
+  std::replace(changes.begin(), changes.end(), '+', '\n');
+  std::istringstream lines(changes);
+  auto changed = Parse(lines, std::move(*camera));
+  if (!changed) return Wrap(changed.error(), "camera " + word);
+  if (changed->name == base_name) changed->name += word.substr(plus);
+  return changed;
 }
 
 }  // namespace trailcast::agent

@@ -31,6 +31,19 @@ struct CameraModel {
   double height_m = 0.35;  // above the ground
   double yaw_deg = 0.0;    // to the left of straight ahead
   double pitch_deg = 0.0;  // upwards
+  // What real cameras do wrong.
+  double roll_deg = 0.0;  // clockwise as seen from behind it; 180: upside down
+  double ahead_m = 0.0;   // of the axle that the robot turns about
+  // Where the lens looks, off the picture's middle, to the right and down: shares of its width.
+  double centre_u = 0.0;
+  double centre_v = 0.0;
+  // Somebody bumps into it so many seconds after it was switched on, and it looks further to the
+  // left from then on. 0 degrees: nobody does.
+  double knock_yaw_deg = 0.0;
+  double knock_at_s = 0.0;
+  // Auto exposure: brightness wanders between so many times less and more, each within a period.
+  double exposure_swing = 1.0;
+  double exposure_period_s = 4.0;
 };
 
 // Says which key is wrong, what it is and what is accepted.
@@ -67,7 +80,9 @@ class Lens {
   double outer_px_ = 0.0;
 };
 
-// Rotation from the camera frame to the robot's (x ahead, y left, z up) by its mount's yaw, pitch.
-[[nodiscard]] Eigen::Matrix3d BodyFromCamera(double yaw_rad, double pitch_rad);
+// Rotation from the camera frame to the robot's (x ahead, y left, z up) by its mount's yaw, pitch,
+// roll.
+[[nodiscard]] Eigen::Matrix3d BodyFromCamera(double yaw_rad, double pitch_rad,
+                                             double roll_rad = 0.0);
 
 }  // namespace trailcast::sim

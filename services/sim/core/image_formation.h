@@ -33,9 +33,10 @@ class ImageFormation {
  public:
   ImageFormation(const CameraModel& camera, const SensorOptions& options);
 
-  // Takes its noise from `random`; the same state and view give the same picture.
+  // Takes its noise from `random`; the same state and view give the same picture. `exposure`: as
+  // much brighter than the sensor's gain has it.
   [[nodiscard]] image::GrayImage Form(const PerfectView& view, const CameraMotion& motion,
-                                      Random& random) const;
+                                      Random& random, double exposure = 1.0) const;
 
  private:
   struct PixelOptics {

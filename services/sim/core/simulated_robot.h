@@ -65,7 +65,11 @@ class SimulatedRobot {
   SimulatedRobot(const std::shared_ptr<const World>& world, const SimulatedRobotOptions& options,
                  const RobotErrors& errors, double z_max_m);
   [[nodiscard]] image::GrayImage Look();
+  [[nodiscard]] double looks_at_s() const { return static_cast<double>(steps_ - 1) * period_s_; }
+  [[nodiscard]] Eigen::Isometry3d BodyFromCameraNow() const;
+  [[nodiscard]] double ExposureNow() const;
 
+  CameraModel camera_;
   double period_s_;
   Eigen::Isometry3d body_from_camera_;
   DifferentialDriveRobot robot_;

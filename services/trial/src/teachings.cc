@@ -39,7 +39,10 @@ Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case
   std::call_once(drive->once, [&] {
     std::vector<agent::TeachOptions> teachings;
     teachings.reserve(cuts_.size());
-    for (const agent::ReplayMethod method : cuts_) teachings.push_back(TeachingFor(method));
+    for (const agent::ReplayMethod method : cuts_) {
+      teachings.push_back(TeachingFor(method));
+      teachings.back().intake = setup_.scout_intake;
+    }
     auto taught = TeachOnce(setup_, trial_case.scout_camera, teachings,
                             SeedsOf(options_, trial).scout, on_progress);
     if (taught) {

@@ -207,7 +207,9 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   const Result<TaughtRoute> served =
       trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);
   if (!served) return tl::unexpected(served.error());
-  const auto open = [&] { return OpenSession(*served, {.method = trial_case.method}); };
+  agent::ReplayMethodOptions follower = setup.follower_options;
+  follower.method = trial_case.method;
+  const auto open = [&] { return OpenSession(*served, follower); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);

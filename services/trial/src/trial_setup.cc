@@ -135,6 +135,9 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (options.same_robot) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
+  setup.scout_intake.roll_deg = options.scout_roll_deg;
+  setup.follower_options.intake.roll_deg = options.follower_roll_deg;
+  setup.follower_options.camera_ahead_m = options.follower_ahead_m;
   if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
   if (auto opened = OpenScene(*scenario, options, setup); !opened) {
     return tl::unexpected(opened.error());

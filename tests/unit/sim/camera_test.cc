@@ -117,6 +117,23 @@ TEST(Camera, MountTurnsLeftAndUp) {
   EXPECT_GT((BodyFromCamera(0.0, 0.1) * Eigen::Vector3d::UnitZ()).z(), 0.09);
 }
 
+TEST(Camera, MountRollsClockwise) {
+  const Eigen::Matrix3d rolled = BodyFromCamera(0.0, 0.0, Radians(90.0));
+  EXPECT_TRUE((rolled * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+  // Its picture's right side is below.
+  EXPECT_TRUE((rolled * Eigen::Vector3d::UnitX()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-12));
+}
+
+TEST(Camera, TheLensMayLookBesideThePicturesMiddle) {
+  CameraModel camera = *FindCamera("webcam");
+  camera.centre_u = 0.05;
+  camera.centre_v = -0.02;
+  const auto ahead = Lens(camera).Project(Eigen::Vector3d::UnitZ());
+  ASSERT_TRUE(ahead);
+  EXPECT_NEAR(ahead->x(), 159.5 + 16.0, 1e-9);
+  EXPECT_NEAR(ahead->y(), 119.5 - 6.4, 1e-9);
+}
+
 TEST(Camera, UnknownNameListsTheSet) {
   const auto camera = FindCamera("polaroid");
   ASSERT_FALSE(camera);
@@ -137,6 +154,14 @@ TEST(Camera, ImpossibleValuesAreRefusedByTheirKey) {
     EXPECT_THAT(valid.error().message, HasSubstr(key));
   };
   refused_for("width", [](CameraModel& c) { c.width = 0; });
+  refused_for("roll_deg", [](CameraModel& c) { c.roll_deg = 270.0; });
+  refused_for("ahead_m", [](CameraModel& c) { c.ahead_m = 3.0; });
+  refused_for("centre_u", [](CameraModel& c) { c.centre_u = 0.5; });
+  refused_for("centre_v", [](CameraModel& c) { c.centre_v = -0.5; });
+  refused_for("knock_yaw_deg", [](CameraModel& c) { c.knock_yaw_deg = 90.0; });
+  refused_for("knock_at_s", [](CameraModel& c) { c.knock_at_s = -1.0; });
+  refused_for("exposure_swing", [](CameraModel& c) { c.exposure_swing = 0.5; });
+  refused_for("exposure_period_s", [](CameraModel& c) { c.exposure_period_s = 0.0; });
   refused_for("height", [](CameraModel& c) { c.height = 100000; });
   refused_for("horizontal_fov_deg", [](CameraModel& c) { c.horizontal_fov_deg = 180.0; });
   refused_for("horizontal_fov_deg", [](CameraModel& c) { c.model = LensModel::kOmni; });

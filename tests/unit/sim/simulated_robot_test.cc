@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "services/sim/core/judge.h"
 #include "tests/unit/sim/test_worlds.h"
@@ -46,6 +48,71 @@ TEST(SimulatedRobot, SameSeedGivesTheSameObservationsBitForBit) {
   }
   EXPECT_TRUE(others_differ);
   EXPECT_EQ(Judge(*first).true_pose().x_m, Judge(*again).true_pose().x_m);
+}
+
+// Grey levels by which two pictures differ, on average.
+double Difference(const image::GrayImage& a, const image::GrayImage& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+  return sum / static_cast<double>(a.pixels.size());
+}
+
+double Brightness(const image::GrayImage& picture) {
+  double sum = 0.0;
+  for (const std::uint8_t pixel : picture.pixels) sum += pixel;
+  return sum / static_cast<double>(picture.pixels.size());
+}
+
+TEST(SimulatedRobot, ACameraThatHangsUpsideDownSeesTheSameTurned) {
+  SimulatedRobotOptions options = Options(4);
+  options.disturbances = Disturbances::None();
+  const image::GrayImage upright = (*SimulatedRobot::Create(Place(), options))->Step({}).image;
+  options.camera.roll_deg = 180.0;
+  image::GrayImage turned = (*SimulatedRobot::Create(Place(), options))->Step({}).image;
+  EXPECT_GT(Difference(upright, turned), 10.0);
+  std::reverse(turned.pixels.begin(), turned.pixels.end());
+  EXPECT_LT(Difference(upright, turned), 4.0);
+}
+
+TEST(SimulatedRobot, ACameraAheadSeesWhatARobotSeesThatIsAhead) {
+  SimulatedRobotOptions options = Options(4);
+  options.disturbances = Disturbances::None();
+  const auto look = [&options] {
+    return (*SimulatedRobot::Create(Place(), options))->Step({}).image;
+  };
+  const image::GrayImage behind = look();
+  options.camera.ahead_m = 0.4;
+  const image::GrayImage seen = look();
+  options.camera.ahead_m = 0.0;
+  options.start.x_m += 0.4;
+  EXPECT_LT(Difference(seen, look()), 0.5);
+  EXPECT_GT(Difference(seen, behind), 2.0);
+}
+
+TEST(SimulatedRobot, AKnockTurnsTheCameraFromThenOn) {
+  SimulatedRobotOptions options = Options(4);
+  options.disturbances = Disturbances::None();
+  options.camera.knock_yaw_deg = 5.0;
+  options.camera.knock_at_s = 0.15;
+  const auto robot = *SimulatedRobot::Create(Place(), options);
+  std::vector<image::GrayImage> seen;
+  for (int i = 0; i < 7; ++i) seen.push_back(robot->Step({}).image);
+  EXPECT_LT(Difference(seen[0], seen[4]), 4.0);
+  EXPECT_GT(Difference(seen[4], seen[5]), 5.0);
+  EXPECT_LT(Difference(seen[5], seen[6]), 4.0);
+}
+
+TEST(SimulatedRobot, ExposureSwingsWithinItsPeriod) {
+  SimulatedRobotOptions options = Options(4);
+  options.disturbances = Disturbances::None();
+  options.camera.exposure_swing = 1.5;
+  options.camera.exposure_period_s = 0.4;
+  const auto robot = *SimulatedRobot::Create(Place(), options);
+  std::vector<double> levels;
+  for (int i = 0; i < 13; ++i) levels.push_back(Brightness(robot->Step({}).image));
+  EXPECT_NEAR(levels[3] / levels[0], 1.5, 0.2);
+  EXPECT_NEAR(levels[9] / levels[0], 1.0 / 1.5, 0.1);
+  EXPECT_NEAR(levels[12] / levels[0], 1.0, 0.05);
 }
 
 TEST(SimulatedRobot, ClockRunsAtThirtyHertzFromZero) {

@@ -42,6 +42,34 @@ TEST_F(CameraFileTest, ReadsEveryKey) {
   EXPECT_DOUBLE_EQ(camera->pitch_deg, 4.0);
 }
 
+TEST_F(CameraFileTest, AWordSaysWhatIsOtherAboutACamera) {
+  const auto camera = CameraFromWord("wide+roll_deg=180+ahead_m=0.3+knock_yaw_deg=-5+knock_at_s=9");
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_EQ(camera->name, "wide+roll_deg=180+ahead_m=0.3+knock_yaw_deg=-5+knock_at_s=9");
+  EXPECT_DOUBLE_EQ(camera->horizontal_fov_deg, 110.0);
+  EXPECT_DOUBLE_EQ(camera->roll_deg, 180.0);
+  EXPECT_DOUBLE_EQ(camera->ahead_m, 0.3);
+  EXPECT_DOUBLE_EQ(camera->knock_yaw_deg, -5.0);
+  EXPECT_DOUBLE_EQ(camera->knock_at_s, 9.0);
+  EXPECT_DOUBLE_EQ(CameraFromWord("webcam+exposure_swing=2")->exposure_swing, 2.0);
+  EXPECT_DOUBLE_EQ(CameraFromWord("webcam+centre_u=0.05")->centre_u, 0.05);
+  const auto unknown = CameraFromWord("webcam+tilt=3");
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, AllOf(HasSubstr("webcam+tilt=3"), HasSubstr("roll_deg")));
+  EXPECT_FALSE(CameraFromWord("webcam+roll_deg=upside"));
+}
+
+TEST_F(CameraFileTest, AFilesWordMayGoOnAndItsNameHaveAPlus) {
+  std::ofstream(folder_ / "mine+1.toml") << "yaw_deg = 2\n";
+  const std::string file = (folder_ / "mine+1.toml").string();
+  EXPECT_EQ(CameraFromWord(file)->name, "mine+1");
+  const auto camera = CameraFromWord(file + "+roll_deg=-4");
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_EQ(camera->name, "mine+1+roll_deg=-4");
+  EXPECT_DOUBLE_EQ(camera->yaw_deg, 2.0);
+  EXPECT_DOUBLE_EQ(camera->roll_deg, -4.0);
+}
+
 TEST_F(CameraFileTest, NamesAnUnknownKeyAndThoseAccepted) {
   EXPECT_THAT(ErrorOf("width = 320\nfocal = 3\n"),
               AllOf(HasSubstr("'focal'"), HasSubstr("hfov_deg"), HasSubstr("mine.toml")));

@@ -22,7 +22,7 @@ class RobotCheckupTest : public testing::Test {
     measures_.height_px = 240;
     measures_.picture = {120.0, 50.0, 0.5};
     measures_.clocks_apart_s = 0.05;
-    measures_.turn = agent::TurnMeasures{0.6, 0.58, 0.5, 0.15, 0.02};
+    measures_.turn = agent::TurnMeasures{0.6, 0.58, 0.5, 0.0, 0.15, 0.02};
   }
   // What is said of it, if anything is wrong.
   std::string Complaints() {
@@ -79,8 +79,16 @@ TEST_F(RobotCheckupTest, TellsWhichPartTurnsTheOtherWay) {
   EXPECT_THAT(Complaints(), HasSubstr("turn the sign of angular.z"));
   measures_.turn->picture_share = 0.5;
   EXPECT_THAT(Complaints(), HasSubstr("odometry counts turns the wrong way"));
-  measures_.turn = agent::TurnMeasures{0.6, 0.0, 0.0, std::nullopt, std::nullopt};
+  measures_.turn = agent::TurnMeasures{0.6, 0.0, 0.0, 0.0, std::nullopt, std::nullopt};
   EXPECT_THAT(Complaints(), HasSubstr("the base stands"));
+}
+
+TEST_F(RobotCheckupTest, TellsACameraThatStandsOnItsSide) {
+  measures_.turn->picture_share = 0.05;
+  measures_.turn->picture_down_share = -0.5;
+  EXPECT_THAT(Complaints(), HasSubstr("on its side; turn it, or add 90 to --camera-roll"));
+  measures_.turn->picture_down_share = 0.5;
+  EXPECT_THAT(Complaints(), HasSubstr("add 270 to --camera-roll"));
 }
 
 TEST_F(RobotCheckupTest, TellsALongDelay) {

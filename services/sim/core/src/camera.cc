@@ -1,6 +1,7 @@
 #include "services/sim/core/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "services/base/angles.h"
@@ -18,6 +19,36 @@ Result<void> OutOfRange(const char* key, double given, const char* accepted) {
               given, accepted);
 }
 
+bool IsWithin(double value, double low, double high) {
+  return std::isfinite(value) && value >= low && value <= high;
+}
+
+// What real cameras do wrong.
+Result<void> ValidateFlaws(const CameraModel& camera) {
+  struct Range {
+    const char* key;
+    double value;
+    double low;
+    double high;
+    const char* accepted;
+  };
+  const std::array<Range, 8> ranges{{
+      {"roll_deg", camera.roll_deg, -180, 180, "-180 to 180 degrees"},
+      {"ahead_m", camera.ahead_m, -2, 2, "-2 to 2 metres"},
+      {"centre_u", camera.centre_u, -0.2, 0.2, "-0.2 to 0.2 of the width"},
+      {"centre_v", camera.centre_v, -0.2, 0.2, "-0.2 to 0.2 of the width"},
+      {"knock_yaw_deg", camera.knock_yaw_deg, -30, 30, "-30 to 30 degrees"},
+      {"knock_at_s", camera.knock_at_s, 0, 1e6, "0 to 1000000 seconds"},
+      {"exposure_swing", camera.exposure_swing, 1, 4, "1 (steady) to 4 times"},
+      {"exposure_period_s", camera.exposure_period_s, 0.2, 1000, "0.2 to 1000 seconds"},
+  }};
+  for (const Range& range : ranges) {
+    if (IsWithin(range.value, range.low, range.high)) continue;
+    return OutOfRange(range.key, range.value, range.accepted);
+  }
+  return {};
+}
+
 double LargestRadius(const CameraModel& camera) {
   const double half = Radians(camera.horizontal_fov_deg) / 2.0;
   return camera.model == LensModel::kPinhole ? std::tan(half) : half;
@@ -26,26 +57,23 @@ double LargestRadius(const CameraModel& camera) {
 }  // namespace
 
 Result<void> Validate(const CameraModel& camera) {
-  const auto finite_within = [](double value, double low, double high) {
-    return std::isfinite(value) && value >= low && value <= high;
-  };
-  if (!finite_within(camera.width, 16, 4096)) {
+  if (!IsWithin(camera.width, 16, 4096)) {
     return OutOfRange("width", camera.width, "16 to 4096 pixels");
   }
-  if (!finite_within(camera.height, 16, 4096)) {
+  if (!IsWithin(camera.height, 16, 4096)) {
     return OutOfRange("height", camera.height, "16 to 4096 pixels");
   }
   const double fov = camera.horizontal_fov_deg;
-  if (camera.model == LensModel::kPinhole && !finite_within(fov, 5, 160)) {
+  if (camera.model == LensModel::kPinhole && !IsWithin(fov, 5, 160)) {
     return OutOfRange("horizontal_fov_deg", fov, "5 to 160 degrees for a pinhole");
   }
-  if (camera.model == LensModel::kFisheye && !finite_within(fov, 20, 240)) {
+  if (camera.model == LensModel::kFisheye && !IsWithin(fov, 20, 240)) {
     return OutOfRange("horizontal_fov_deg", fov, "20 to 240 degrees for a fisheye");
   }
   if (camera.model == LensModel::kOmni && fov != 360.0) {
     return OutOfRange("horizontal_fov_deg", fov, "360 degrees for an omni mirror");
   }
-  if (!finite_within(camera.distortion, -0.5, 2.0)) {
+  if (!IsWithin(camera.distortion, -0.5, 2.0)) {
     return OutOfRange("distortion", camera.distortion, "-0.5 (pincushion) to 2 (barrel)");
   }
   // Beyond this, a pincushion folds the picture's edge back.
@@ -54,16 +82,16 @@ Result<void> Validate(const CameraModel& camera) {
       1.0 + 4.0 * camera.distortion * std::pow(diagonal * LargestRadius(camera), 2) <= 0.05) {
     return OutOfRange("distortion", camera.distortion, "less pincushion for so wide a view");
   }
-  if (!finite_within(camera.height_m, 0.02, 5.0)) {
+  if (!IsWithin(camera.height_m, 0.02, 5.0)) {
     return OutOfRange("height_m", camera.height_m, "0.02 to 5 metres");
   }
-  if (!finite_within(camera.yaw_deg, -180, 180)) {
+  if (!IsWithin(camera.yaw_deg, -180, 180)) {
     return OutOfRange("yaw_deg", camera.yaw_deg, "-180 to 180 degrees");
   }
-  if (!finite_within(camera.pitch_deg, -60, 60)) {
+  if (!IsWithin(camera.pitch_deg, -60, 60)) {
     return OutOfRange("pitch_deg", camera.pitch_deg, "-60 to 60 degrees");
   }
-  return {};
+  return ValidateFlaws(camera);
 }
 
 Result<LensModel> ParseLensModel(const std::string& word) {
@@ -76,12 +104,12 @@ Result<LensModel> ParseLensModel(const std::string& word) {
 
 const std::vector<CameraModel>& BuiltInCameras() {
   static const std::vector<CameraModel> cameras = {
-      {"webcam", 320, 240, LensModel::kPinhole, 60.0, 0.10, 0.35, 0.0, 0.0},
-      {"firewire", 320, 240, LensModel::kPinhole, 36.0, 0.0, 0.40, 0.0, 0.0},
-      {"wide", 320, 240, LensModel::kPinhole, 110.0, 0.25, 0.35, 0.0, 0.0},
-      {"hd", 640, 480, LensModel::kPinhole, 75.0, 0.03, 0.45, 0.0, 0.0},
-      {"fisheye", 480, 480, LensModel::kFisheye, 170.0, 0.0, 0.45, 0.0, 0.0},
-      {"omni", 480, 480, LensModel::kOmni, 360.0, 0.0, 0.60, 0.0, 0.0},
+      {"webcam", 320, 240, LensModel::kPinhole, 60.0, 0.10, 0.35},
+      {"firewire", 320, 240, LensModel::kPinhole, 36.0, 0.0, 0.40},
+      {"wide", 320, 240, LensModel::kPinhole, 110.0, 0.25, 0.35},
+      {"hd", 640, 480, LensModel::kPinhole, 75.0, 0.03, 0.45},
+      {"fisheye", 480, 480, LensModel::kFisheye, 170.0, 0.0, 0.45},
+      {"omni", 480, 480, LensModel::kOmni, 360.0, 0.0, 0.60},
   };
   return cameras;
 }
@@ -100,7 +128,8 @@ Lens::Lens(const CameraModel& camera)
     : model_(camera.model),
       distortion_(camera.distortion),
       largest_angle_rad_(Radians(camera.horizontal_fov_deg) / 2.0),
-      middle_((camera.width - 1) / 2.0, (camera.height - 1) / 2.0) {
+      middle_((camera.width - 1) / 2.0 + camera.centre_u * camera.width,
+              (camera.height - 1) / 2.0 + camera.centre_v * camera.width) {
   outer_px_ = std::min(camera.width, camera.height) / 2.0;
   inner_px_ = kMirrorInnerShare * outer_px_;
   if (model_ != LensModel::kOmni) focal_px_ = camera.width / 2.0 / RadiusOf(largest_angle_rad_);
@@ -158,13 +187,14 @@ std::optional<Eigen::Vector2d> Lens::Project(const Eigen::Vector3d& direction) c
   return middle_ + focal_px_ * RadiusOf(angle) / side * direction.head<2>();
 }
 
-Eigen::Matrix3d BodyFromCamera(double yaw_rad, double pitch_rad) {
+Eigen::Matrix3d BodyFromCamera(double yaw_rad, double pitch_rad, double roll_rad) {
   Eigen::Matrix3d level;
   level << 0, 0, 1,  //
       -1, 0, 0,      //
       0, -1, 0;
   return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
-         Eigen::AngleAxisd(-pitch_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * level;
+         Eigen::AngleAxisd(-pitch_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * level *
+         Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 }  // namespace trailcast::sim

@@ -92,7 +92,8 @@ float ImageFormation::Smeared(const PerfectView& view, int x, int y,
 }
 
 image::GrayImage ImageFormation::Form(const PerfectView& view, const CameraMotion& motion,
-                                      Random& random) const {
+                                      Random& random, double exposure) const {
+  const auto brighter = static_cast<float>(exposure);
   image::GrayImage picture{width_, height_, std::vector<std::uint8_t>(optics_.size())};
   const auto half_s = static_cast<float>(options_.exposure_s / 2.0);
   const Eigen::Vector3f shift = half_s * motion.linear_mps.cast<float>();
@@ -123,7 +124,7 @@ image::GrayImage ImageFormation::Form(const PerfectView& view, const CameraMotio
         level = Smeared(view, x, static_cast<int>(i) / width_, half_path);
       }
     }
-    level = std::min(level * pixel.brightness, 255.0F);
+    level = std::min(brighter * level * pixel.brightness, 255.0F);
     if (i % 4 == 0) bits = random.Bits();  // 12 bits a pixel
     const float noise = normal_[bits & (kQuantiles - 1)] * sigma_[static_cast<std::size_t>(level)];
     bits >>= 16U;

@@ -1,6 +1,7 @@
 #include "services/sim/core/simulated_robot.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "services/base/angles.h"
 
@@ -9,9 +10,11 @@ namespace {
 
 Eigen::Isometry3d Mount(const CameraModel& camera, const RobotErrors& errors) {
   Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
-  mount.translation() = Eigen::Vector3d(0.0, 0.0, camera.height_m + errors.camera_height_m);
-  mount.linear() = BodyFromCamera(Radians(camera.yaw_deg) + errors.camera_yaw_rad,
-                                  Radians(camera.pitch_deg) + errors.camera_pitch_rad);
+  mount.translation() =
+      Eigen::Vector3d(camera.ahead_m, 0.0, camera.height_m + errors.camera_height_m);
+  mount.linear() =
+      BodyFromCamera(Radians(camera.yaw_deg) + errors.camera_yaw_rad,
+                     Radians(camera.pitch_deg) + errors.camera_pitch_rad, Radians(camera.roll_deg));
   return mount;
 }
 
@@ -55,7 +58,8 @@ Result<std::unique_ptr<SimulatedRobot>> SimulatedRobot::Create(
 SimulatedRobot::SimulatedRobot(const std::shared_ptr<const World>& world,
                                const SimulatedRobotOptions& options, const RobotErrors& errors,
                                double z_max_m)
-    : period_s_(1.0 / options.rate_hz),
+    : camera_(options.camera),
+      period_s_(1.0 / options.rate_hz),
       body_from_camera_(Mount(options.camera, errors)),
       robot_(world, options.body, errors, TrueStart(options, errors), z_max_m, options.seed),
       stage_(world, options.actors),
@@ -81,15 +85,31 @@ Observation SimulatedRobot::StepBlind(const motion::VelocityCommand& command) {
   return observation;
 }
 
+Eigen::Isometry3d SimulatedRobot::BodyFromCameraNow() const {
+  if (camera_.knock_yaw_deg == 0.0 || looks_at_s() < camera_.knock_at_s) return body_from_camera_;
+  Eigen::Isometry3d knocked = body_from_camera_;
+  const Eigen::AngleAxisd turn(Radians(camera_.knock_yaw_deg), Eigen::Vector3d::UnitZ());
+  knocked.linear() = turn.toRotationMatrix() * body_from_camera_.linear();
+  return knocked;
+}
+
+double SimulatedRobot::ExposureNow() const {
+  const double phase_rad = 2.0 * std::numbers::pi * looks_at_s() / camera_.exposure_period_s;
+  return std::pow(camera_.exposure_swing, std::sin(phase_rad));
+}
+
 image::GrayImage SimulatedRobot::Look() {
   const motion::VelocityCommand& velocity = robot_.true_velocity();
-  const Eigen::Matrix3d camera_from_body = body_from_camera_.linear().transpose();
+  const Eigen::Isometry3d body_from_camera = BodyFromCameraNow();
+  const Eigen::Matrix3d camera_from_body = body_from_camera.linear().transpose();
   CameraMotion motion;
-  motion.linear_mps = camera_from_body * Eigen::Vector3d(velocity.linear_mps, 0.0, 0.0);
+  motion.linear_mps =
+      camera_from_body *
+      Eigen::Vector3d(velocity.linear_mps, velocity.angular_radps * camera_.ahead_m, 0.0);
   motion.angular_radps = camera_from_body * Eigen::Vector3d(0.0, 0.0, velocity.angular_radps);
   const PerfectView& view =
-      renderer_.Render(robot_.WorldFromBody() * body_from_camera_, stage_.parts());
-  return sensor_.Form(view, motion, noise_);
+      renderer_.Render(robot_.WorldFromBody() * body_from_camera, stage_.parts());
+  return sensor_.Form(view, motion, noise_, ExposureNow());
 }
 
 }  // namespace trailcast::sim
