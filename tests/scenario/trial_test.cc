@@ -207,6 +207,23 @@ TEST(Trial, TheSameRobotFollowsUnderTheSameSun) {
   EXPECT_TRUE(rows.front().same_robot);
 }
 
+TEST(Trial, AFollowerWhoseCameraHangsUpsideDownArrivesOnceToldAndDoesNotDriveOtherwise) {
+  TrialOptions options;
+  options.follower_camera = "webcam+roll_deg=180";
+  options.trials = 1;
+  options.follower_roll_deg = 180.0;
+  const std::vector<TrialRow> told = RunAll(ShortTrip(options), options);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told.front().arrived) << TrialTable(told);
+  EXPECT_LT(told.front().verdict.final_error_m, 0.15) << TrialTable(told);
+  options.follower_roll_deg = 0.0;
+  const std::vector<TrialRow> untold = RunAll(ShortTrip(options), options);
+  ASSERT_EQ(untold.size(), 1U);
+  EXPECT_EQ(untold.front().state, "lost") << TrialTable(untold);
+  EXPECT_THAT(untold.front().reason, HasSubstr("begin again with --camera-roll 180"));
+  EXPECT_LT(untold.front().verdict.driven_m, 0.1) << TrialTable(untold);
+}
+
 // A hall of 9 m x 9 m with pictures all round, no two alike.
 std::shared_ptr<const sim::World> PictureHall() {
   constexpr float kHalf_m = 4.5F;
