@@ -103,7 +103,7 @@ Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
 }
 
 std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
-  const std::string what = covered_     ? "something covers the view: "
+  const std::string what = covered_ ? "something covers the view, or the camera was knocked aside: "
                            : sure_once_ ? ""
                                         : options_.not_found + ": ";
   const std::string since = by_distance && !covered_ ? fmt::format("{:.1f} m", unsure_m_)

@@ -163,7 +163,8 @@ TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {
   See(0, 540);
   const Verdict verdict = See(0);
   EXPECT_EQ(verdict.trust, Trust::kLost);
-  EXPECT_EQ(verdict.reason.find("something covers the view"), 0U) << verdict.reason;
+  EXPECT_EQ(verdict.reason.find("something covers the view, or the camera was knocked aside: "), 0U)
+      << verdict.reason;
 }
 
 TEST_F(ConfidenceTest, ASegmentThatIsNotFoundAtItsStartWasNotCovered) {
