@@ -81,7 +81,8 @@ class PathEstimator {
   // It may have driven and turned so far besides, one way or the other.
   void Widen(const motion::OdometryIncrement& unknown);
 
-  // What it sees; returns how it agrees with the taught path.
+  // What it sees; returns how it agrees with the taught path. However long a robot stands and
+  // looks, it becomes no surer than by one look.
   Agreement Update(const std::vector<route::TrackedFeature>& seen);
 
   [[nodiscard]] PathOffset offset() const;  // of the axle
@@ -90,7 +91,10 @@ class PathEstimator {
   // Taught change of heading between two places of the segment, before its start by the last one's.
   [[nodiscard]] double TaughtTurn(double from_m, double to_m) const;
   [[nodiscard]] double magnification() const { return state_[kMagnification]; }
-  void SetMagnification(double magnification) { state_[kMagnification] = magnification; }
+  void SetMagnification(double magnification) {
+    state_[kMagnification] = magnification;
+    last_look_.reset();
+  }
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
@@ -132,6 +136,12 @@ class PathEstimator {
     Covariance covariance;
     Covariance information;
   };
+  // How sure it was before the last look, and how far the robot has come since.
+  struct LastLook {
+    Covariance before;
+    double moved_m = 0.0;
+    double turned_rad = 0.0;
+  };
   // The normal equations of a look, about one state.
   struct Equations {
     Covariance information;
@@ -172,6 +182,7 @@ class PathEstimator {
   std::vector<InverseDepth> depths_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
+  std::optional<LastLook> last_look_;  // nothing: what is believed has changed since otherwise
   int looks_ = 0;
   double driven_m_ = 0.0;
   std::optional<CarriedTo> carried_;

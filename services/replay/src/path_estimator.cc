@@ -14,6 +14,9 @@ namespace {
 constexpr int kIterations = 4;
 constexpr double kFlowStep_m = 0.02;  // over which a track's flow is taken
 constexpr double kCurvatureStep_m = 0.1;
+// Within these two looks are from one place.
+constexpr double kStands_m = 0.001;
+constexpr double kStands_rad = 0.001;
 
 void Count(double residual_px, double outlier_px, Agreement& agreement) {
   if (residual_px < outlier_px) {
@@ -39,6 +42,7 @@ void PathEstimator::Begin(const route::Segment& segment) {
   last_length_m_ = segment_.length_m;
   segment_ = segment;
   depths_ = flow_.Depths(segment_);
+  last_look_.reset();
 }
 
 void PathEstimator::Restart(const route::Segment& segment, double along_m) {
@@ -60,6 +64,7 @@ void PathEstimator::TurnPath(double turn_rad) {
   state_[kHeading] -= turn_rad;
   covariance_(kHeading, kHeading) += Square(options_.turn_noise_share * turn_rad);
   last_heading_ = {};
+  last_look_.reset();
   carried_.reset();
 }
 
@@ -117,6 +122,10 @@ void PathEstimator::BeUnsure() {
 
 void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   driven_m_ += std::abs(moved.distance_m);
+  if (last_look_) {
+    last_look_->moved_m += std::abs(moved.distance_m);
+    last_look_->turned_rad += std::abs(moved.heading_change_rad);
+  }
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
   // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
@@ -154,6 +163,8 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
 }
 
 void PathEstimator::Widen(const motion::OdometryIncrement& unknown) {
+  if (unknown.distance_m == 0.0 && unknown.heading_change_rad == 0.0) return;
+  last_look_.reset();
   covariance_(kAlong, kAlong) += Square(unknown.distance_m);
   covariance_(kLeft, kLeft) += Square(unknown.distance_m * std::sin(unknown.heading_change_rad));
   covariance_(kHeading, kHeading) += Square(unknown.heading_change_rad);
@@ -233,7 +244,10 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
 }
 
 Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
-  const Prior prior(state_, covariance_);
+  const bool stands =
+      last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
+  if (!stands) last_look_ = LastLook{covariance_};
+  const Prior prior(state_, last_look_->before);
   Equations equations;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     equations = Linearise(state_, prior, seen, options_.cauchy_px);

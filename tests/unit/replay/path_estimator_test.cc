@@ -177,9 +177,13 @@ TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
 TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
   const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
   for (const double carried_m : {-1.2, 0.7, 1.2}) {
-    PathEstimator estimator = AMetreAlong(run);
+    PathEstimator estimator(320, 1.0);
+    estimator.Begin(run.segment);
+    estimator.Predict({0.6, 0.0});
     for (int i = 0; i < 20; ++i) {
-      EXPECT_FALSE(estimator.Update(test::Matched(kScene, run, {1.0, 0.0, 0.0})).carried_left_m);
+      const auto seen = test::Matched(kScene, run, {0.6 + 0.02 * i, 0.0, 0.0});
+      EXPECT_FALSE(estimator.Update(seen).carried_left_m);
+      estimator.Predict({0.02, 0.0});
     }
     EXPECT_LT(estimator.offset_sigma_m(), 0.05);
     std::optional<double> found_m;
@@ -223,6 +227,27 @@ TEST(PathEstimator, IsLessSureTheFurtherOffItIs) {
   const double share = PathEstimatorOptions{}.left_noise_share;
   EXPECT_GT(sigma_after_driving(share), 0.9 * share * std::sqrt(0.5));
   EXPECT_LT(sigma_after_driving(0.0), 0.1);
+}
+
+// One look after the other errs in the same way.
+TEST(PathEstimator, IsNoSurerHoweverLongItStands) {
+  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  PathEstimator estimator = AMetreAlong(run);
+  const auto seen = test::Matched(kScene, run, {1.0, 0.1, 0.0});
+  estimator.Update(seen);
+  const PathOffset first = estimator.offset();
+  for (int i = 0; i < 300; ++i) {
+    estimator.Predict({0.0, 0.0});
+    estimator.Update(seen);
+  }
+  EXPECT_GE(estimator.offset_sigma_m(), 0.99 * first.left_sigma_m);
+  EXPECT_NEAR(estimator.offset().left_m, 0.1, 0.02);
+  // So it soon sees that it was carried.
+  for (int i = 0; i < 20; ++i) {
+    estimator.Predict({0.02, 0.0});
+    estimator.Update(test::Matched(kScene, run, {1.02 + 0.02 * i, -1.2, 0.0}));
+  }
+  EXPECT_NEAR(estimator.offset().left_m, -1.2, 0.1);
 }
 
 TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
