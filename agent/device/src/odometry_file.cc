@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "agent/device/src/time_in.h"
 #include "services/base/angles.h"
 #include "services/base/number_table.h"
 
@@ -43,7 +44,9 @@ Result<OdometryFile> OdometryFile::Read(const std::filesystem::path& file) {
         return tl::unexpected(follows.error());
       }
     }
-    poses.Add(FromSeconds(row.cells[0]), {row.cells[1], row.cells[2], row.cells[3]});
+    const auto time = TimeIn(row, file);
+    if (!time) return tl::unexpected(time.error());
+    poses.Add(*time, {row.cells[1], row.cells[2], row.cells[3]});
   }
   if (poses.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "{} holds no odometry, only a header", file.string());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agent/device/src/time_in.h"
 #include "services/base/number_table.h"
 
 namespace trailcast::agent {
@@ -22,13 +23,14 @@ Result<void> RecordedDevice::ReadFrameTimes(const std::filesystem::path& file) {
   const auto rows = ReadNumbers(file, {"t_s"});
   if (!rows) return tl::unexpected(rows.error());
   for (const NumberRow& row : *rows) {
-    const SensorTime time = FromSeconds(row.cells[0]);
-    if (!times_.empty() && time <= times_.back()) {
+    const auto time = TimeIn(row, file);
+    if (!time) return tl::unexpected(time.error());
+    if (!times_.empty() && *time <= times_.back()) {
       return Fail(ErrorCode::kInvalidArgument,
                   "{}, line {}: time {} s does not come after the line before", file.string(),
                   row.line, row.cells[0]);
     }
-    times_.push_back(time);
+    times_.push_back(*time);
   }
   const auto frames = frames_->size();
   if (times_.empty() || (frames && static_cast<std::size_t>(*frames) > times_.size())) {

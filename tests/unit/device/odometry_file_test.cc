@@ -35,6 +35,15 @@ TEST_F(OdometryFileTest, HeadingsInDegreesAreRefused) {
   EXPECT_EQ(ErrorOf(header + "0,0,0,0\n0.05,0,0,0.1\n"), "no error");
 }
 
+TEST_F(OdometryFileTest, TimesOfNoClockAreRefused) {
+  const std::string header = "t_s,x_m,y_m,heading_rad\n";
+  for (const char* time : {"6.6e69", "-6.6e69", "1e19"}) {
+    EXPECT_THAT(ErrorOf(header + time + ",0,0,0\n"),
+                AllOf(HasSubstr("line 2"), HasSubstr("no time of any clock")));
+  }
+  EXPECT_EQ(ErrorOf(header + "1700000000.25,0,0,0\n"), "no error");
+}
+
 TEST_F(OdometryFileTest, AMarkAtTheFilesBeginningIsNoPartOfItsHeader) {
   EXPECT_EQ(ErrorOf("\xEF\xBB\xBFt_s,x_m,y_m,heading_rad\n0,0,0,0\n"), "no error");
 }

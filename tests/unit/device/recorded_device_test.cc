@@ -71,6 +71,7 @@ TEST(RecordedDeviceTest, TimesThatDoNotFitTheFramesAreRefused) {
   };
   EXPECT_THAT(error_of("t_s\n1\n2\n"), HasSubstr("2 times for 3 frames"));
   EXPECT_THAT(error_of("t_s\n1\n2\n2\n"), HasSubstr("line 4"));
+  EXPECT_THAT(error_of("t_s\n1\n2\n1e30\n"), HasSubstr("no time of any clock"));
   EXPECT_THAT(error_of("seconds\n1\n"), HasSubstr("t_s"));
 }
 
