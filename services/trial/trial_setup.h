@@ -15,7 +15,6 @@
 #include "services/sim/core/world.h"
 #include "services/sim/places/place.h"
 #include "services/trial/trial_options.h"
-#include "services/vision/picture_intake.h"
 
 namespace trailcast::trial {
 
@@ -42,7 +41,7 @@ struct TrialSetup {
   int laps = 1;                                 // that each follower drives, one after the other
   bool sun_moves = false;                       // between teaching and following
   bool same_robot = false;                      // each follower is the scout that taught it
-  vision::IntakeOptions scout_intake;           // what they are told of their cameras
+  double scout_roll_deg = 0.0;                  // what they are told of their cameras
   agent::ReplayMethodOptions follower_options;  // but for the method
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =

@@ -41,7 +41,7 @@ Result<std::shared_ptr<const Taught>> Teachings::Get(const TrialCase& trial_case
     teachings.reserve(cuts_.size());
     for (const agent::ReplayMethod method : cuts_) {
       teachings.push_back(TeachingFor(method));
-      teachings.back().intake = setup_.scout_intake;
+      teachings.back().intake.roll_deg = setup_.scout_roll_deg;
     }
     auto taught = TeachOnce(setup_, trial_case.scout_camera, teachings,
                             SeedsOf(options_, trial).scout, on_progress);

@@ -135,7 +135,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (options.same_robot) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
-  setup.scout_intake.roll_deg = options.scout_roll_deg;
+  setup.scout_roll_deg = options.scout_roll_deg;
   setup.follower_options.intake.roll_deg = options.follower_roll_deg;
   setup.follower_options.camera_ahead_m = options.follower_ahead_m;
   if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
