@@ -50,7 +50,7 @@ class Loop {
   [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
   [[nodiscard]] bool NothingToFollow() const;
   void Tell(const ReplayStep& step);
-  void TellTrouble(const std::string& what);
+  void TellTrouble(const RobotDevice::Halt& halt);
   bool End(std::string state, std::string reason);
 
   RobotDevice& device_;
@@ -65,7 +65,9 @@ class Loop {
   std::optional<LeftAt> left_;
   std::optional<double> went_on_at_m_;  // where it then found itself
   bool fed_ = false;                    // since the last frame
-  bool held_ = false;                   // by something of the robot that has failed
+  // By something of the robot that has failed, or something in its way: now, since the last step.
+  bool held_ = false;
+  bool was_held_ = false;
   std::optional<ReplayStep> last_;
   std::string state_ = "WAITING";
   std::string reason_;
@@ -125,7 +127,7 @@ Result<bool> Loop::WaitForFeed() {
 
 Result<void> Loop::Run() {
   const Standstill standstill(device_);
-  device_.OnTrouble([this](const std::string& what) { TellTrouble(what); });
+  device_.OnTrouble([this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
   while (true) {
     if (options_.link.stop()) {
       End("STOPPED", "stopped by a signal");
@@ -180,7 +182,8 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
   }
-  if (!watch_.Stuck(observation.stamp, *last_, held_)) return true;
+  const bool held = std::exchange(was_held_, held_);
+  if (!watch_.Stuck(observation.stamp, *last_, held)) return true;
   return End("STUCK",
              fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
@@ -201,12 +204,13 @@ void Loop::Tell(const ReplayStep& step) {
 }
 
 // The robot stands, and may drive on when it is over; meanwhile there are no steps to report.
-void Loop::TellTrouble(const std::string& what) {
-  diagnosis_.Note("robot", what.empty() ? "drives again" : what);
-  held_ = !what.empty();
+void Loop::TellTrouble(const RobotDevice::Halt& halt) {
+  diagnosis_.Note("robot", halt.what.empty() ? "drives again" : halt.what);
+  held_ = !halt.what.empty();
+  was_held_ = true;
   ReplayStep step = last_.value_or(ReplayStep{});
   step.command = {};
-  step.robot_trouble = what;
+  (halt.fault ? step.robot_trouble : step.robot_waits_for) = halt.what;
   link_.Report(step);
 }
 

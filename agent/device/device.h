@@ -25,9 +25,14 @@ class RobotDevice {
   // What the base shall do until told otherwise. Recorded devices note it and do nothing.
   [[nodiscard]] virtual Result<void> Drive(const motion::VelocityCommand& command) = 0;
 
-  // Whom Next tells, from its own thread, that the robot had to be stopped and why, and with ""
-  // that it may drive again. Devices that never have to wait for their robot do not call it.
-  using Trouble = std::function<void(const std::string& what)>;
+  // Why a robot had to be stopped.
+  struct Halt {
+    std::string what;   // one line for people; empty: it may drive again
+    bool fault = true;  // something of the robot has failed; otherwise it waits
+  };
+  // Whom Next tells, from its own thread, that the robot had to be stopped, and that it may drive
+  // again. Devices that never have to wait for their robot do not call it.
+  using Trouble = std::function<void(const Halt& halt)>;
   virtual void OnTrouble(const Trouble& /*tell*/) {}
 
   // For people: "webcam 320x240", "recorded 160x120".

@@ -52,6 +52,10 @@ void AddDriveLimits(CLI::App& command, CLI::Option* robot, motion::DriveLimits& 
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
                          dds::Ros2Options& topics);
 
+// The one of a scanner, of which there need be none; it needs the option `robot`.
+CLI::Option* AddScanTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                dds::Ros2Options& topics);
+
 // The robot's topics, if they name no interface, are on the network's.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "agent/device/device.h"
+#include "agent/device/obstacle_options.h"
 #include "services/dds/ros2_link.h"
 #include "services/motion/drive_limits.h"
 
@@ -15,8 +16,10 @@ namespace trailcast::agent {
 struct Ros2Run {
   dds::Ros2Options topics;
   std::string camera = "camera";  // for people
-  // Silence of camera, odometry or base for longer stops the robot. In lockstep the robot's time
-  // stands meanwhile, and only the patience counts.
+  // With a scan topic, the robot stands before what is in its way.
+  ObstacleOptions obstacles;
+  // Silence of camera, odometry, scanner or base for longer stops the robot. In lockstep the
+  // robot's time stands meanwhile, and only the patience counts.
   std::chrono::milliseconds sensor_timeout{300};
   // How long a stopped robot waits for what fell silent, and the agent for the robot to appear.
   std::chrono::milliseconds patience{10'000};
@@ -36,7 +39,8 @@ struct Ros2Run {
 
 // A ROS 2 robot over DDS, without ROS. A thread of its own hears the robot, and tells it to stand
 // within a moment of sensor_timeout when something fails (RobotWatch), or when the loop that
-// drives it hangs; Next then waits for what failed to come back, at most `patience`.
+// drives it hangs; Next then waits for what failed to come back, at most `patience`. Something in
+// the way (ObstacleWatch) is no failure: for that Next waits until it is gone.
 class Ros2Device final : public RobotDevice {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Device>> Open(const Ros2Run& run);

@@ -41,6 +41,8 @@ struct ReplayStep {
   std::string reason;  // kLost, kBlind, kWaiting: one line for people
   // What of the robot has failed, for which it stands until that is over; empty: nothing.
   std::string robot_trouble;
+  // What the robot stands for that is no failure, until it is gone; empty: nothing.
+  std::string robot_waits_for;
 };
 
 }  // namespace trailcast::agent

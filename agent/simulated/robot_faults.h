@@ -4,11 +4,25 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "services/base/result.h"
 
 namespace trailcast::agent {
+
+// When: so many seconds after the robot was first told to drive, and for how long.
+struct Spell {
+  double after_s = 0.0;
+  double for_s = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool contains(double since_s) const {
+    return since_s >= after_s && since_s - after_s < for_s;
+  }
+};
+
+// From "12.5", or "4+0.3" for one that is over after 0.3 s.
+[[nodiscard]] std::optional<Spell> ParseSpell(std::string_view text);
 
 // What goes wrong with a virtual robot, so many seconds after it was first told to drive, and for
 // how long. What only happens at one moment (a frame set to zero, a clock set back) has no end.
@@ -26,8 +40,7 @@ struct RobotFault {
     kWheelSlips,  // the left one, with a third of its grip
   };
   Kind kind = Kind::kCameraFreezes;
-  double after_s = 0.0;
-  double for_s = std::numeric_limits<double>::infinity();
+  Spell spell;
 };
 
 // From "camera-freezes@12.5", or "base-stops@4+0.3" for one that is over after 0.3 s.
@@ -48,6 +61,8 @@ class RobotFaults {
   [[nodiscard]] std::vector<std::string> Advance(Time now);
 
   [[nodiscard]] bool active(RobotFault::Kind kind) const;
+  // Nothing: it was not yet told to drive.
+  [[nodiscard]] std::optional<double> SecondsDriven(Time now) const;
   // Of the first one that began.
   [[nodiscard]] std::optional<Time> first_began_at() const { return first_began_at_; }
 

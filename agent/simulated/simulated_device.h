@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device/simulated_robot.h"
+#include "agent/simulated/scanner.h"
 
 namespace trailcast::agent {
 
@@ -21,6 +23,8 @@ class SimulatedDevice final : public SimulatedRobot {
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
   // The same as Next without a picture, for cameras that are slower than their base.
   [[nodiscard]] Observation NextBlind();
+  // What a scanner above its axle sees where it is now.
+  [[nodiscard]] motion::Scan Scan(const std::vector<Pillar>& pillars) const;
   // As in sim::SimulatedRobot.
   void SetGrip(double left, double right);
   [[nodiscard]] std::string camera() const override;

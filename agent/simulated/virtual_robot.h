@@ -5,6 +5,7 @@
 
 #include "agent/diagnosis/summary.h"
 #include "agent/simulated/robot_faults.h"
+#include "agent/simulated/scanner.h"
 #include "agent/simulated/simulated_device.h"
 #include "services/dds/ros2_link.h"
 
@@ -27,7 +28,8 @@ struct VirtualRobotOptions {
   bool lockstep = false;
   RobotTiming timing;
   std::vector<RobotFault> faults;
-  std::uint64_t seed = 1;  // of what is drawn
+  std::vector<Pillar> obstacles;  // if topics has a scan
+  std::uint64_t seed = 1;         // of what is drawn
   std::function<bool()> stop = [] { return false; };
 };
 

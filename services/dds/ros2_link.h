@@ -10,6 +10,7 @@
 
 #include "services/base/result.h"
 #include "services/base/time.h"
+#include "services/motion/free_way.h"
 #include "services/motion/motion.h"
 
 // The topics of a ROS 2 robot (idl/ros2.idl), with no ROS installed: the driver's end, and the
@@ -28,12 +29,14 @@ struct Ros2Options {
   std::string robot;
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
   std::string odometry = "odom";    // empty: none
+  std::string scan;                 // empty: none
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
 
   // "/robot1/image_raw". The others in the same way.
   [[nodiscard]] std::string ImageTopic() const;
   [[nodiscard]] std::string OdometryTopic() const;
+  [[nodiscard]] std::string ScanTopic() const;
   [[nodiscard]] std::string CommandTopic() const;
   [[nodiscard]] bool image_is_compressed() const;
   // kInvalidArgument for a topic name that ROS or DDS would refuse.
@@ -64,13 +67,19 @@ struct Ros2Odometry {
   motion::Pose2 pose;  // in the odometry's own frame
 };
 
+// sensor_msgs/LaserScan.
+struct Ros2Scan {
+  SensorTime stamp{};
+  motion::Scan scan;
+};
+
 // geometry_msgs/Twist or TwistStamped.
 struct Ros2Command {
   SensorTime stamp{};  // of the frame that it answers; Twist has none
   motion::VelocityCommand velocity;
 };
 
-using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry>;
+using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan>;
 
 // Who drives the robot: senses and commands. One thread may Take while another calls the rest.
 class Ros2Driver {
@@ -81,7 +90,7 @@ class Ros2Driver {
   Ros2Driver& operator=(const Ros2Driver&) = delete;
 
   // What came since, after waiting for something at most so long. Samples whose numbers are none
-  // (NaN, a quaternion of length 0) are left out.
+  // (NaN, a quaternion of length 0) are left out, and scans that can be no scanner's.
   [[nodiscard]] std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait);
   [[nodiscard]] Result<void> Publish(const Ros2Command& command);
 
@@ -93,6 +102,7 @@ class Ros2Driver {
     // which topic, and what policy. Empty: none.
     std::string mismatch;
     std::string tried;  // on which network interfaces they are sought, for people
+    int scanners = 0;   // who publishes the scan topic
   };
   [[nodiscard]] Peers peers() const;
 
@@ -113,6 +123,8 @@ class Ros2Robot {
 
   [[nodiscard]] Result<void> Publish(const Ros2Image& image);
   [[nodiscard]] Result<void> Publish(const Ros2Odometry& odometry);
+  // If there is a scan topic.
+  [[nodiscard]] Result<void> Publish(const Ros2Scan& scan);
   // The latest command that came since, if any, after waiting for one at most so long.
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
   // Whether somebody is there to look at its pictures.

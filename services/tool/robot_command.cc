@@ -26,6 +26,8 @@ constexpr const char* kExamples =
     "  trailcast robot --sim indoor --camera wide --seed 7 --ros2 /robot1 \\\n"
     "                  --fail camera-freezes@5      # and see its agent stop it\n"
     "  trailcast robot --sim indoor --ros2 /robot1 --fail base-stops@4+3 --fail odometry-jumps@9\n"
+    "  trailcast robot --sim indoor --ros2 /robot1 --obstacle 3,1.5,0.2@0+10\n"
+    "                  # and see 'trailcast-agent replay --scan-topic scan' wait before it\n"
     "It runs until a signal ends it, and then says what it heard from its agent.";
 
 CLI::Validator FaultValidator() {
@@ -34,6 +36,14 @@ CLI::Validator FaultValidator() {
             return fault ? std::string() : fault.error().message;
           },
           "FAULT@S"};
+}
+
+CLI::Validator ObstacleValidator() {
+  return {[](std::string& text) {
+            const auto pillar = agent::ParsePillar(text);
+            return pillar ? std::string() : pillar.error().message;
+          },
+          "X,Y,RADIUS@S"};
 }
 
 void AddTimingOptions(CLI::App& app, CLI::Option* lockstep, agent::RobotTiming& timing) {
@@ -91,6 +101,8 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
                                       "Its namespace, as '/robot1', or '/' for none");
   ros2->required();
   agent::AddRos2TopicOptions(*app, ros2, "Topics", options->robot.topics);
+  options->robot.topics.scan = "scan";
+  agent::AddScanTopicOption(*app, ros2, "Topics", options->robot.topics);
   CLI::Option* lockstep = app->add_flag(
       "--lockstep", options->robot.lockstep,
       "Wait for the answer to each frame ('trailcast-agent ... --lockstep'), so that a slow "
@@ -106,6 +118,22 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
          "may be given several times: " +
              agent::RobotFaultNames())
       ->check(FaultValidator())
+      ->expected(1, 20)
+      ->take_all()
+      ->allow_extra_args(false)
+      ->excludes(lockstep);
+  app->add_option_function<std::vector<std::string>>(
+         "--obstacle",
+         [options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             if (auto pillar = agent::ParsePillar(text))
+               options->robot.obstacles.push_back(*pillar);
+           }
+         },
+         "What stands where in the world, in metres, from S seconds after it was first told to "
+         "drive, and with +S for how long; in the scan alone, not in the pictures; may be given "
+         "several times")
+      ->check(ObstacleValidator())
       ->expected(1, 20)
       ->take_all()
       ->allow_extra_args(false)

@@ -1,6 +1,7 @@
 // Agents that drive virtual robots over ROS 2's topics.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "tests/scenario/robots.h"
@@ -27,6 +28,30 @@ class RobotTest : public RobotsTest {
     std::pair<double, double> place;
     words >> t_s >> place.first >> place.second;
     return place;
+  }
+  // Where along x it stood for longest, by its truth.
+  double LongestStand() {
+    std::ifstream in(Path("truth.csv"));
+    std::string line;
+    std::getline(in, line);
+    double at_m = 0.0;
+    double best_m = 0.0;
+    int frames = 0;
+    int most = 0;
+    while (std::getline(in, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      double t_s = 0.0;
+      double x_m = 0.0;
+      words >> t_s >> x_m;
+      frames = std::abs(x_m - at_m) < 0.005 ? frames + 1 : 0;
+      if (frames == 0) at_m = x_m;
+      if (x_m > 1.5 && x_m < 4.0 && frames > most) {
+        most = frames;
+        best_m = x_m;
+      }
+    }
+    return best_m;
   }
   static double Number(const std::string& text, const std::string& key) {
     const auto at = text.find(key + "=");
@@ -109,6 +134,29 @@ TEST_F(RobotTest, ARobotIsFollowedOverWhatRealOnesDo) {
     EXPECT_NEAR(x_m, 4.5, 0.4);
     EXPECT_NEAR(y_m, 1.5, 0.25);
   }
+}
+
+// Not seen in the picture, which is another matter.
+TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
+  Teach();
+  const auto robot = Robot(
+      "robot1", {"--seed", "3", "--sim-truth", Path("truth.csv"), "--obstacle", "3,1.5,0.2@0+12"});
+  ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
+  const auto follower = Follow({"--scan-topic", "scan", "--robot-width", "0.4", "--log",
+                                Path("run.log"), "--sensor-patience", "1", "--base-patience", "1"});
+  ASSERT_TRUE(follower->WaitForOutput("WAITING: something stands")) << follower->output();
+  EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
+  EXPECT_THAT(follower->output(), AllOf(HasSubstr("in the way: the robot waits"),
+                                        HasSubstr("the way is free"), HasSubstr("state=ARRIVED")));
+  robot->Signal(SIGTERM);
+  ASSERT_EQ(End(*robot).status, 0) << robot->output();
+  const auto [x_m, y_m] = LastTruePlace();
+  EXPECT_NEAR(x_m, 4.5, 0.4);
+  EXPECT_NEAR(y_m, 1.5, 0.25);
+  // Its front is 0.2 m ahead of its axle, the obstacle's near side at 2.8 m.
+  const double stood_m = LongestStand();
+  EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
+  EXPECT_GT(stood_m, 2.8 - 0.2 - 0.5);
 }
 
 TEST_F(RobotTest, ACarArrives) {

@@ -64,6 +64,28 @@ void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
   });
 }
 
+// With a scanner it stands before what is in its way.
+CLI::Option* AddScannerOptions(CLI::App& command, CLI::Option* robot, Ros2Run& run) {
+  const std::string group = "What stands in its way";
+  auto* topic = AddScanTopicOption(command, robot, group, run.topics);
+  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(topic)->group(group);
+  };
+  ObstacleOptions& obstacles = run.obstacles;
+  add("--scan-ahead", obstacles.scan_ahead_m,
+      "Metres from the axle that the robot turns about ahead to its scanner")
+      ->check(CLI::Range(-2.0, 2.0));
+  add("--robot-width", obstacles.robot_width_m,
+      "Metres, the whole; the robot is taken to reach as far ahead of its axle as half of it, or "
+      "to its scanner if that is further")
+      ->check(CLI::Range(0.05, 3.0));
+  add("--obstacle-gap", obstacles.gap_m,
+      "Metres from what stands in its way at which the robot waits until it is gone; no protection "
+      "of people")
+      ->check(CLI::Range(0.05, 5.0));
+  return topic;
+}
+
 CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scout) {
   const std::string robot = "ROS 2 robot (no ROS needed)";
   dds::Ros2Options& topics = options.ros2.topics;
@@ -76,7 +98,7 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
   AddRos2TopicOptions(command, ros2, robot, topics);
   add("--camera-name", options.ros2.camera, "The camera's make, for the catalog");
   add("--sensor-timeout", options.sensor_timeout_s,
-      "Seconds without a picture, odometry or an obeying base until the robot is stopped")
+      "Seconds without a picture, odometry, a scan or an obeying base until the robot is stopped")
       ->check(CLI::Range(0.1, 60.0));
   add("--sensor-patience", options.sensor_patience_s,
       "Seconds that a stopped robot waits for them to come back")
@@ -88,11 +110,13 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
         ->check(CLI::Range(0.0, 86400.0));
     AddDriveLimits(command, ros2, options.ros2.limits);
   }
-  command
-      .add_flag("--lockstep", options.ros2.lockstep,
-                "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
-      ->needs(ros2)
-      ->group(robot);
+  CLI::Option* lockstep =
+      command
+          .add_flag("--lockstep", options.ros2.lockstep,
+                    "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
+          ->needs(ros2)
+          ->group(robot);
+  if (!scout) AddScannerOptions(command, ros2, options.ros2)->excludes(lockstep);
   if (scout) {
     add("--end-when-still", options.still_at_end_s,
         "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
@@ -112,10 +136,11 @@ Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
   run.stop = [] { return program::StopSignal::requested(); };
   auto device = Ros2Device::Open(run);
   if (!device) return tl::unexpected(device.error());
-  spdlog::info("robot {}: pictures from {}, {}, commands to {}, ROS domain {}", run.topics.robot,
+  spdlog::info("robot {}: pictures from {}, {},{} commands to {}, ROS domain {}", run.topics.robot,
                run.topics.ImageTopic(),
                run.topics.odometry.empty() ? "no odometry: vision only"
                                            : "odometry from " + run.topics.OdometryTopic(),
+               run.topics.scan.empty() ? "" : " scans from " + run.topics.ScanTopic() + ",",
                run.topics.CommandTopic(), run.topics.domain_id);
   return device;
 }
@@ -206,6 +231,15 @@ void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::strin
           "What the base listens to; default: twist_stamped")
       ->default_str("")
       ->check(CLI::IsMember({"twist", "twist_stamped"}))
+      ->needs(robot)
+      ->group(group);
+}
+
+CLI::Option* AddScanTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                dds::Ros2Options& topics) {
+  return command
+      .add_option("--scan-topic", topics.scan,
+                  "sensor_msgs/LaserScan, its angle 0 straight ahead; '' for none")
       ->needs(robot)
       ->group(group);
 }

@@ -110,6 +110,7 @@ std::optional<RobotWatch::Trouble> RobotWatch::Check(Time now) {
   if (!frame_at_) return std::nullopt;
   if (auto camera = CheckCamera(now)) return camera;
   if (auto odometry = CheckOdometry(now)) return odometry;
+  if (auto scan = CheckScan(now)) return scan;
   return CheckBase(now);
 }
 
@@ -131,6 +132,11 @@ std::optional<RobotWatch::Trouble> RobotWatch::CheckOdometry(Time now) const {
   if (!has_odometry_ || !odometry_at_ || now - *odometry_at_ <= timeout_) return std::nullopt;
   return Trouble{Trouble::Part::kOdometry,
                  fmt::format("no odometry for {:.1f} s", Seconds(timeout_))};
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::CheckScan(Time now) const {
+  if (!has_scan_ || !scan_at_ || now - *scan_at_ <= timeout_) return std::nullopt;
+  return Trouble{Trouble::Part::kScan, fmt::format("no scan for {:.1f} s", Seconds(timeout_))};
 }
 
 std::optional<RobotWatch::Trouble> RobotWatch::CheckBase(Time now) const {

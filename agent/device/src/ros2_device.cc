@@ -3,17 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 #include <utility>
-#include <vector>
 
-#include "agent/device/src/robot_watch.h"
-#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/ros2_state.h"
 #include "agent/device/src/ros2_trouble.h"
-#include "agent/device/src/sensed_poses.h"
-#include "agent/device/src/still_watch.h"
 #include "services/image/files.h"
 
 namespace trailcast::agent {
@@ -22,29 +15,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kListen{20};
 // A robot in lockstep stands until it is answered: only one that is gone is silent for so long.
 constexpr std::chrono::hours kLockstepTimeout{24};
 // Odometry of a frame's own moment may arrive a little after the frame.
 constexpr milliseconds kOdometryLate{60};
-// That the robot shall stand is said so long: a base may miss what is said once.
-constexpr std::chrono::seconds kSayAgain{1};
-// A command that was given longer ago than a base needs to reach it is no more on its way.
-constexpr double kLongestRamp_s = 0.1;
-// So gently a base is tried that stood against its commands.
-constexpr double kTrySpeed_mps = 0.15;
-constexpr double kTryTurn_radps = 0.3;
 // No base that is driven by our commands or by a person does more; those told to be faster do.
 constexpr double kLeastGate_mps = 3.0;
 constexpr double kLeastGate_radps = 6.0;
-
-struct Frame {
-  [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
-
-  steady_clock::time_point came_at;
-  SensorTime taken{};
-  Ros2Picture picture;
-};
 
 GateOptions GateOf(const motion::DriveLimits& limits) {
   return {std::max(kLeastGate_mps, 2.0 * limits.speed_mps),
@@ -53,158 +30,20 @@ GateOptions GateOf(const motion::DriveLimits& limits) {
 
 }  // namespace
 
-struct Ros2Device::State {
-  State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver> link)
-      : run(device),
-        driver(std::move(link)),
-        watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
-                              : device.sensor_timeout,
-              has_odometry()),
-        poses(GateOf(device.limits),
-              device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
-        still(device.still_at_end) {}
-
-  [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
-
-  // The hearing thread's.
-  void Hear();
-  void Keep(dds::Ros2Sensed sensed, steady_clock::time_point now);
-  void KeepFrame(Ros2Picture picture, steady_clock::time_point now);
-  void StopIfInDoubt(steady_clock::time_point now);
-
-  // Any thread, with the lock.
-  Result<void> Tell(const motion::VelocityCommand& command);
-  [[nodiscard]] SensorTime CommandStamp() const;
-  [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& wanted) const;
-
-  // The driving thread's, with the lock.
-  [[nodiscard]] bool ready(steady_clock::time_point now) const;
-  [[nodiscard]] std::optional<Error> GiveUp(steady_clock::time_point now) const;
-  [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
-  Result<std::optional<Frame>> Await(std::unique_lock<std::mutex>& guard);
-  void Leave(const Error& damage);
-  void ShareTrouble();
-  void ShareNews();
-
-  Ros2Run run;
-  std::unique_ptr<dds::Ros2Driver> driver;
-  Trouble tell = [](const std::string&) {};
-
-  std::mutex lock;  // of all below
-  std::condition_variable news;
-  bool ending = false;
-  RobotWatch watch;
-  SensedPoses poses;
-  bool odometry_stands = false;  // it comes, with stamps that do not advance
-  std::optional<Frame> newest;
-  steady_clock::time_point unserved_since;  // since when there has been a newest frame
-  std::optional<SensorTime> last_stamp;     // of the frame before, handed out or not
-  std::vector<std::uint8_t> last_bytes;     // of the frame before
-  std::optional<SensorTime> given;          // the last frame that Next took, by its stamp
-  std::optional<SensorTime> given_before;
-  steady_clock::time_point given_came_at;
-  bool answered = true;  // with a command
-  int unreadable = 0;    // pictures that were left out
-  std::string why_unreadable;
-  motion::VelocityCommand told;  // what the base does
-  bool drove = false;            // it was told to move before
-  steady_clock::time_point told_at;
-  steady_clock::time_point stop_said_until;
-  std::optional<RobotWatch::Trouble> trouble;
-  steady_clock::time_point waiting_since;  // for a frame
-  std::string shared_trouble;
-  StillWatch still;
-  int width_px = 0;
-  int height_px = 0;
-
-  std::thread hearing;
-};
-
-void Ros2Device::State::Hear() {
-  while (true) {
-    auto sensed = driver->Take(kListen);
-    const std::lock_guard guard(lock);
-    if (ending) return;
-    const auto now = steady_clock::now();
-    for (dds::Ros2Sensed& one : sensed) Keep(std::move(one), now);
-    StopIfInDoubt(now);
-    news.notify_one();
-  }
-}
-
-void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point now) {
-  if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
-    odometry_stands = !poses.AddOdometry(odometry->stamp, odometry->pose, now, told);
-    if (!odometry_stands) watch.SawOdometry(now, poses.newest(), poses.newest_pose());
-    return;
-  }
-  if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
-    KeepFrame(std::move(*jpeg), now);
-  } else {
-    KeepFrame(std::get<dds::Ros2Image>(std::move(sensed)), now);
-  }
-}
-
-void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
-  const std::vector<std::uint8_t>& bytes = BytesOf(picture);
-  const bool changed = bytes != last_bytes;
-  if (last_stamp == StampOf(picture) && (run.lockstep || !changed)) {
-    // In lockstep: the robot did not get the answer, or does not yet have it.
-    if (run.lockstep && answered && given == last_stamp) (void)driver->Publish({*given, told});
-    return;
-  }
-  const auto taken = poses.AddFrame(StampOf(picture), now);
-  if (!taken) return;
-  watch.SawFrame(now, changed);
-  last_stamp = StampOf(picture);
-  last_bytes = bytes;
-  if (!newest) unserved_since = now;
-  newest = Frame{now, *taken, std::move(picture)};
-}
-
-// Also when the loop that drives does not come back: a command is good for sensor_timeout.
-void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
-  trouble = watch.Check(now);
-  if (!trouble && drove && driver->peers().bases == 0) {
-    trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
-  }
-  const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
-  if (!trouble && !stale) return;
-  if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
-  // What cannot be handed over is said again, too.
-  if (now <= stop_said_until) (void)Tell({});
-}
-
-Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
-  told = command;
-  told_at = steady_clock::now();
-  drove = drove || command != motion::VelocityCommand{};
-  watch.Told(command);
-  return driver->Publish({CommandStamp(), command});
-}
-
-// A base in real time brakes at what is old by its own clock, which is its odometry's; a robot in
-// lockstep waits for the answer to its frame.
-SensorTime Ros2Device::State::CommandStamp() const {
-  if (!run.lockstep && poses.has_odometry()) return poses.newest_stamp();
-  return given.value_or(SensorTime{});
-}
-
-// Whoever had to be stopped speeds up again from standing.
-motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) const {
-  motion::DriveLimits limits = run.limits;
-  if (watch.base_stands_since()) {
-    limits.speed_mps = std::min(limits.speed_mps, kTrySpeed_mps);
-    limits.turn_rate_radps = std::min(limits.turn_rate_radps, kTryTurn_radps);
-  }
-  double since_s = kLongestRamp_s;
-  if (!run.lockstep) since_s = Seconds(steady_clock::now() - told_at);
-  if (run.lockstep && given_before) since_s = Seconds(*given - *given_before);
-  return motion::Shape(wanted, told, std::clamp(since_s, 0.0, kLongestRamp_s), limits);
+Ros2Device::State::State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver> link)
+    : run(device),
+      driver(std::move(link)),
+      watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
+                            : device.sensor_timeout,
+            has_odometry(), has_scan()),
+      poses(GateOf(device.limits),
+            device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
+      still(device.still_at_end) {
+  if (has_scan()) obstacles.emplace(device.obstacles);
 }
 
 bool Ros2Device::State::ready(steady_clock::time_point now) const {
-  if (!newest || trouble) return false;
+  if (!newest || trouble || (obstacles && !obstacles->has_seen())) return false;
   if (!has_odometry()) return true;
   if (!poses.has_odometry()) return false;
   return poses.Reaches(newest->taken) || now - unserved_since > kOdometryLate;
@@ -214,7 +53,12 @@ Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
   return {ErrorCode::kUnavailable, TroubleText(run.topics, what, odometry_stands)};
 }
 
-std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) const {
+std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
+  // Whoever stands in the way may stand there as long as he likes.
+  if (trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
+    waiting_since = now;
+    return std::nullopt;
+  }
   const auto stands_since = watch.base_stands_since();
   if (trouble && stands_since && now - *stands_since > run.base_patience) {
     return Error{ErrorCode::kUnavailable, fmt::format("{}, for {:g} s", Failure(*trouble).message,
@@ -238,20 +82,26 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) con
   }
   return Error{ErrorCode::kUnavailable,
                fmt::format("the robot says nothing for {:g} s: {}", waited_s,
-                           WhoIsMissing(run.topics, driver->peers(), newest.has_value()))};
+                           WhoIsMissing(run.topics, driver->peers(),
+                                        {newest.has_value(), poses.has_odometry()}))};
 }
 
 // Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.
 void Ros2Device::State::ShareTrouble() {
   if (!trouble && watch.base_stands_since()) return;
-  const std::string now = trouble ? Failure(*trouble).message : std::string();
-  if (now == shared_trouble) return;
-  if (now.empty()) {
-    spdlog::info("over: {}", shared_trouble);
+  const bool waits = trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle;
+  const Halt now{trouble ? Failure(*trouble).message : std::string(), !waits};
+  if (now.what == shared.what) return;
+  if (waits) {
+    spdlog::info("WAITING: {}", now.what);
+  } else if (!now.what.empty()) {
+    spdlog::warn("the robot is stopped; {}", now.what);
+  } else if (shared.fault) {
+    spdlog::info("over: {}", shared.what);
   } else {
-    spdlog::warn("the robot is stopped; {}", now);
+    spdlog::info("the way is free: the robot goes on");
   }
-  shared_trouble = now;
+  shared = now;
   tell(now);
 }
 
@@ -286,7 +136,7 @@ Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
 }
 
 // The next frame, with odometry if there is any; nothing when it is over.
-Result<std::optional<Frame>> Ros2Device::State::Await(std::unique_lock<std::mutex>& guard) {
+Result<std::optional<Ros2Frame>> Ros2Device::State::Await(std::unique_lock<std::mutex>& guard) {
   if (run.lockstep && !answered) {
     answered = true;
     if (auto said = Tell({}); !said) return tl::unexpected(said.error());
@@ -298,7 +148,7 @@ Result<std::optional<Frame>> Ros2Device::State::Await(std::unique_lock<std::mute
     news.wait_for(guard, kListen);
   }
   ShareTrouble();
-  Frame frame = *std::exchange(newest, std::nullopt);
+  Ros2Frame frame = *std::exchange(newest, std::nullopt);
   ShareNews();
   given_before = std::exchange(given, frame.stamp());
   given_came_at = frame.came_at;
@@ -321,7 +171,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     const auto awaited = s.Await(guard);
     if (!awaited) return tl::unexpected(awaited.error());
     if (!*awaited) return std::nullopt;
-    const Frame& frame = **awaited;
+    const Ros2Frame& frame = **awaited;
     Observation observation;
     observation.stamp = frame.taken;
     if (s.has_odometry()) {

@@ -13,6 +13,10 @@ std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Troubl
     case Part::kOdometry:
       return fmt::format("odometry {}: {}{}", topics.OdometryTopic(), trouble.what,
                          stamps_stand ? ": it comes, but its stamps do not advance" : "");
+    case Part::kScan:
+      return fmt::format("scan {}: {}", topics.ScanTopic(), trouble.what);
+    case Part::kObstacle:
+      return trouble.what;
     case Part::kBase:
       break;
   }
@@ -20,16 +24,19 @@ std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Troubl
 }
 
 std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
-                         bool pictures) {
+                         const Came& came) {
   std::string text;
   if (peers.cameras == 0) {
     text = fmt::format("nobody publishes {}", topics.ImageTopic());
-  } else if (!pictures) {
+  } else if (!came.pictures) {
     text = fmt::format("no picture came on {}", topics.ImageTopic());
-  } else if (peers.odometers == 0) {
-    text = fmt::format("nobody publishes {}", topics.OdometryTopic());
+  } else if (!topics.odometry.empty() && !came.odometry) {
+    text = fmt::format("{} {}", peers.odometers == 0 ? "nobody publishes" : "no odometry came on",
+                       topics.OdometryTopic());
+  } else if (peers.scanners == 0) {
+    text = fmt::format("nobody publishes {}", topics.ScanTopic());
   } else {
-    text = fmt::format("no odometry came on {}", topics.OdometryTopic());
+    text = fmt::format("no scan that can be one came on {}", topics.ScanTopic());
   }
   if (!peers.mismatch.empty()) {
     text += fmt::format("; quality of service does not match: {}", peers.mismatch);

@@ -12,9 +12,14 @@ namespace trailcast::agent {
 [[nodiscard]] std::string TroubleText(const dds::Ros2Options& topics,
                                       const RobotWatch::Trouble& trouble, bool stamps_stand);
 
-// Of a robot that is not there, or not all of it. `pictures`: those came.
+// What came of a robot since the agent began.
+struct Came {
+  bool pictures = false;
+  bool odometry = false;
+};
+// Of a robot that is not there, or not all of it.
 [[nodiscard]] std::string WhoIsMissing(const dds::Ros2Options& topics,
-                                       const dds::Ros2Driver::Peers& peers, bool pictures);
+                                       const dds::Ros2Driver::Peers& peers, const Came& came);
 
 // Of commands.
 [[nodiscard]] std::string NobodyListens(const dds::Ros2Options& topics,

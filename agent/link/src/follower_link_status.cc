@@ -53,6 +53,10 @@ void FollowerLink::ShowStatus() {
   status.features = static_cast<std::uint32_t>(std::max(0, latest_.features));
   status.found_share = latest_.found_share;
   status.detail = started && latest_.state != ReplayState::kWaiting ? latest_.reason : waiting_for_;
+  if (!latest_.robot_waits_for.empty()) {
+    status.mode = exchange::AgentMode::kWaiting;
+    status.detail = latest_.robot_waits_for;
+  }
   if (!latest_.robot_trouble.empty()) {
     status.mode = exchange::AgentMode::kFault;
     status.detail = latest_.robot_trouble;

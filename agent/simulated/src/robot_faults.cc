@@ -50,22 +50,25 @@ std::optional<RobotFault> Parse(std::string_view text) {
   const auto name = std::find_if(kNames.begin(), kNames.end(), [&](const FaultName& each) {
     return each.name == text.substr(0, at);
   });
-  std::string_view times = text.substr(at + 1);
-  RobotFault fault;
-  if (const std::size_t plus = times.find('+'); plus != std::string_view::npos) {
-    const auto for_s = ParseSeconds(times.substr(plus + 1));
-    if (!for_s) return std::nullopt;
-    fault.for_s = *for_s;
-    times = times.substr(0, plus);
-  }
-  const auto after_s = ParseSeconds(times);
-  if (name == kNames.end() || !after_s) return std::nullopt;
-  fault.kind = name->kind;
-  fault.after_s = *after_s;
-  return fault;
+  const auto spell = ParseSpell(text.substr(at + 1));
+  if (name == kNames.end() || !spell) return std::nullopt;
+  return RobotFault{name->kind, *spell};
 }
 
 }  // namespace
+
+std::optional<Spell> ParseSpell(std::string_view text) {
+  Spell spell;
+  const std::size_t plus = text.find('+');
+  const auto after_s = ParseSeconds(text.substr(0, plus));
+  if (!after_s) return std::nullopt;
+  spell.after_s = *after_s;
+  if (plus == std::string_view::npos) return spell;
+  const auto for_s = ParseSeconds(text.substr(plus + 1));
+  if (!for_s) return std::nullopt;
+  spell.for_s = *for_s;
+  return spell;
+}
 
 std::string RobotFaultNames() {
   std::string names;
@@ -90,12 +93,15 @@ void RobotFaults::DroveAt(Time now) {
   if (!drove_at_) drove_at_ = now;
 }
 
+std::optional<double> RobotFaults::SecondsDriven(Time now) const {
+  return drove_at_ ? std::optional(Seconds(now - *drove_at_)) : std::nullopt;
+}
+
 std::vector<std::string> RobotFaults::Advance(Time now) {
   std::vector<std::string> begun;
   if (!drove_at_) return begun;
   for (Entry& entry : entries_) {
-    const double into_s = Seconds(now - *drove_at_) - entry.fault.after_s;
-    entry.active = into_s >= 0.0 && into_s < entry.fault.for_s;
+    entry.active = entry.fault.spell.contains(*SecondsDriven(now));
     if (!entry.active || entry.begun) continue;
     entry.begun = true;
     if (!first_began_at_) first_began_at_ = now;

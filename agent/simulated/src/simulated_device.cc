@@ -17,6 +17,9 @@
 namespace trailcast::agent {
 namespace {
 
+// A small robot's scanner, above the ground.
+constexpr double kScanner_m = 0.2;
+
 struct TruePose {
   SensorTime stamp{};
   motion::Pose2 pose;
@@ -26,6 +29,7 @@ struct TruePose {
 
 struct SimulatedDevice::State {
   std::string camera;
+  std::shared_ptr<const sim::World> world;
   std::unique_ptr<sim::SimulatedRobot> robot;
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
   sim::Polyline path;
@@ -61,6 +65,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   auto state = std::make_unique<State>();
   state->stays_at_end = run.stays_at_end;
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
+  state->world = place->world;
   state->robot = std::move(*robot);
   state->path = std::move(place->path.points);
   if (run.drives_itself) {
@@ -92,6 +97,11 @@ Observation SimulatedDevice::State::Note(sim::Observation seen) {
   along_m =
       sim::Nearest(path, motion::Position(truth.back().pose), along_m - 1.0, along_m + 2.0).along_m;
   return {seen.stamp, std::move(seen.image), seen.odometry, {}};
+}
+
+motion::Scan SimulatedDevice::Scan(const std::vector<Pillar>& pillars) const {
+  const Eigen::Isometry3d body = sim::Judge(*state_->robot).WorldFromBody();
+  return LookAround(*state_->world, body * Eigen::Translation3d(0.0, 0.0, kScanner_m), pillars);
 }
 
 void SimulatedDevice::SetGrip(double left, double right) { state_->robot->SetGrip(left, right); }

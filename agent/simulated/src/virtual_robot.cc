@@ -59,6 +59,7 @@ class VirtualRobot {
   [[nodiscard]] motion::VelocityCommand Obey(steady_clock::time_point now);
   [[nodiscard]] Result<void> Say(const Observation& seen);
   [[nodiscard]] Result<void> SayOdometry(const Observation& seen);
+  [[nodiscard]] Result<void> SayScan(SensorTime stamp);
   [[nodiscard]] Result<void> SayPictures(const Observation& seen);
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
@@ -142,8 +143,9 @@ void VirtualRobot::Fail(steady_clock::time_point now) {
 }
 
 Result<void> VirtualRobot::Say(const Observation& seen) {
-  // Odometry first: it is there when the frame comes.
+  // The picture last: the others are there when it comes.
   if (auto said = SayOdometry(seen); !said) return said;
+  if (auto said = SayScan(seen.stamp); !said) return said;
   return SayPictures(seen);
 }
 
@@ -152,6 +154,16 @@ Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
   if (!odometry_ || faults_.active(Kind::kOdometryStops)) return {};
   return link_.Publish(
       dds::Ros2Odometry{seen.stamp - odometry_back_, motion::Between(odometry_from_, *odometry_)});
+}
+
+Result<void> VirtualRobot::SayScan(SensorTime stamp) {
+  if (options_.topics.scan.empty()) return {};
+  std::vector<Pillar> there;
+  const auto driven_s = faults_.SecondsDriven(steady_clock::now());
+  for (const Pillar& pillar : options_.obstacles) {
+    if (driven_s && pillar.spell.contains(*driven_s)) there.push_back(pillar);
+  }
+  return link_.Publish(dds::Ros2Scan{stamp, robot_.Scan(there)});
 }
 
 Result<void> VirtualRobot::SayPictures(const Observation& seen) {

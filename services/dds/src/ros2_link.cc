@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kNewestFrames = 2;
 constexpr int kNewestPoses = 64;
+constexpr int kNewestScans = 2;
 constexpr std::chrono::milliseconds kWriteTimeout{100};
 constexpr std::size_t kMaxSamplesPerTake = 256;
 // Our own messages are small; a camera's picture of 12 megapixels in colour is not.
@@ -123,12 +124,14 @@ std::string Mismatch(const std::string& topic, const std::string& policy) {
 
 std::string Ros2Options::ImageTopic() const { return Resolve(robot, image); }
 std::string Ros2Options::OdometryTopic() const { return Resolve(robot, odometry); }
+std::string Ros2Options::ScanTopic() const { return Resolve(robot, scan); }
 std::string Ros2Options::CommandTopic() const { return Resolve(robot, command); }
 bool Ros2Options::image_is_compressed() const { return image.ends_with("/compressed"); }
 
 Result<void> Ros2Options::Validate() const {
   std::vector<std::string> names{ImageTopic(), CommandTopic()};
   if (!odometry.empty()) names.push_back(OdometryTopic());
+  if (!scan.empty()) names.push_back(ScanTopic());
   for (const std::string& name : names) {
     if (!IsRosName(name)) {
       return Fail(ErrorCode::kInvalidArgument,
@@ -146,6 +149,7 @@ struct Ros2Driver::State {
   Node node;
   Reader image;
   std::optional<Reader> odometry;
+  std::optional<Reader> scan;
   Writer command;
 };
 
@@ -165,12 +169,18 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
     if (!reader) return tl::unexpected(reader.error());
     odometry = *std::move(reader);
   }
+  std::optional<Reader> scan;
+  if (!options.scan.empty()) {
+    auto reader = node->Hear(ScanType(), options.ScanTopic(), SensorQos(kNewestScans));
+    if (!reader) return tl::unexpected(reader.error());
+    scan = *std::move(reader);
+  }
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
   return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
       new State{options, std::move(network), *std::move(node), *std::move(image),
-                std::move(odometry), *std::move(command)})));
+                std::move(odometry), std::move(scan), *std::move(command)})));
 }
 
 std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
@@ -184,6 +194,12 @@ std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
                              if (!info.valid_data) return;
                              if (auto pose = OdometryFromWire(sample)) sensed.emplace_back(*pose);
                            });
+  }
+  if (s.scan) {
+    (void)s.scan->Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+      if (!info.valid_data) return;
+      if (auto scan = ScanFromWire(sample)) sensed.emplace_back(*std::move(scan));
+    });
   }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
     if (info.valid_data) {
@@ -211,6 +227,10 @@ Ros2Driver::Peers Ros2Driver::peers() const {
     peers.odometers = s.odometry->matched();
     mismatches.push_back(Mismatch(s.options.OdometryTopic(), s.odometry->refused_policy()));
   }
+  if (s.scan) {
+    peers.scanners = s.scan->matched();
+    mismatches.push_back(Mismatch(s.options.ScanTopic(), s.scan->refused_policy()));
+  }
   std::erase(mismatches, std::string());
   peers.mismatch = fmt::format("{}", fmt::join(mismatches, ", "));
   return peers;
@@ -222,6 +242,7 @@ struct Ros2Robot::State {
   Reader command;
   Writer image;
   Writer odometry;
+  std::optional<Writer> scan;
 };
 
 Ros2Robot::Ros2Robot(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -241,8 +262,16 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
   if (!image) return tl::unexpected(image.error());
   auto odometry = node->Speak(OdometryType(), options.OdometryTopic(), ReliableQos(kNewestPoses));
   if (!odometry) return tl::unexpected(odometry.error());
-  return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(new State{
-      options, *std::move(node), *std::move(command), *std::move(image), *std::move(odometry)})));
+  std::optional<Writer> scan;
+  if (!options.scan.empty()) {
+    // As ROS 2's drivers of scanners offer it.
+    auto writer = node->Speak(ScanType(), options.ScanTopic(), SensorQos(kNewestScans));
+    if (!writer) return tl::unexpected(writer.error());
+    scan = *std::move(writer);
+  }
+  return std::unique_ptr<Ros2Robot>(new Ros2Robot(
+      std::unique_ptr<State>(new State{options, *std::move(node), *std::move(command),
+                                       *std::move(image), *std::move(odometry), std::move(scan)})));
 }
 
 Result<void> Ros2Robot::Publish(const Ros2Image& image) {
@@ -251,6 +280,11 @@ Result<void> Ros2Robot::Publish(const Ros2Image& image) {
 
 Result<void> Ros2Robot::Publish(const Ros2Odometry& odometry) {
   return WithRos2Wire(odometry, [&](const void* sample) { return state_->odometry.Write(sample); });
+}
+
+Result<void> Ros2Robot::Publish(const Ros2Scan& scan) {
+  if (!state_->scan) return Fail(ErrorCode::kInvalidArgument, "the robot has no scan topic");
+  return WithRos2Wire(scan, [&](const void* sample) { return state_->scan->Write(sample); });
 }
 
 std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {

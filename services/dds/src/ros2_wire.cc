@@ -55,6 +55,8 @@ const dds_topic_descriptor_t& ImageType(bool compressed) {
 
 const dds_topic_descriptor_t& OdometryType() { return nav_msgs_msg_dds__Odometry__desc; }
 
+const dds_topic_descriptor_t& ScanType() { return sensor_msgs_msg_dds__LaserScan__desc; }
+
 const dds_topic_descriptor_t& CommandType(Ros2CommandType type) {
   return type == Ros2CommandType::kTwist ? geometry_msgs_msg_dds__Twist__desc
                                          : geometry_msgs_msg_dds__TwistStamped__desc;
@@ -88,6 +90,24 @@ Result<void> WithRos2Wire(const Ros2Odometry& odometry, const UseSample& use) {
   wire.pose.pose.position.y = odometry.pose.y_m;
   wire.pose.pose.orientation.z = std::sin(odometry.pose.heading_rad / 2.0);
   wire.pose.pose.orientation.w = std::cos(odometry.pose.heading_rad / 2.0);
+  return use(&wire);
+}
+
+Result<void> WithRos2Wire(const Ros2Scan& scan, const UseSample& use) {
+  std::array<char, 6> frame{"laser"};
+  const motion::Scan& seen = scan.scan;
+  const double turned_rad = seen.step_rad * (static_cast<double>(seen.ranges_m.size()) - 1.0);
+  sensor_msgs_msg_dds__LaserScan_ wire{};
+  wire.header.stamp = ToTime(scan.stamp);
+  wire.header.frame_id = Text(frame);
+  wire.angle_min = static_cast<float>(seen.first_rad);
+  wire.angle_max = static_cast<float>(seen.first_rad + turned_rad);
+  wire.angle_increment = static_cast<float>(seen.step_rad);
+  wire.range_min = static_cast<float>(seen.least_m);
+  wire.range_max = static_cast<float>(seen.most_m);
+  wire.ranges._length = static_cast<std::uint32_t>(seen.ranges_m.size());
+  wire.ranges._maximum = wire.ranges._length;
+  wire.ranges._buffer = const_cast<float*>(seen.ranges_m.data());  // only read
   return use(&wire);
 }
 
@@ -127,6 +147,20 @@ std::optional<Ros2Odometry> OdometryFromWire(const void* sample) {
   const auto heading_rad = motion::Heading({attitude.x, attitude.y, attitude.z, attitude.w});
   if (!heading_rad || !std::isfinite(position.x) || !std::isfinite(position.y)) return std::nullopt;
   return Ros2Odometry{FromTime(wire.header.stamp), {position.x, position.y, *heading_rad}};
+}
+
+std::optional<Ros2Scan> ScanFromWire(const void* sample) {
+  const auto& wire = *static_cast<const sensor_msgs_msg_dds__LaserScan_*>(sample);
+  const std::span ranges(wire.ranges._buffer, wire.ranges._length);
+  if (ranges.size() > motion::kMostRanges) return std::nullopt;
+  Ros2Scan scan{FromTime(wire.header.stamp),
+                {wire.angle_min,
+                 wire.angle_increment,
+                 wire.range_min,
+                 wire.range_max,
+                 {ranges.begin(), ranges.end()}}};
+  if (!motion::Plausible(scan.scan)) return std::nullopt;
+  return scan;
 }
 
 std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type) {

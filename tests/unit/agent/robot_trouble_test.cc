@@ -1,4 +1,4 @@
-// What the fleet hears of a follower whose robot falls silent on the way.
+// What the fleet hears of a follower whose robot falls silent on the way, or waits for somebody.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -18,25 +18,33 @@ using std::chrono::steady_clock;
 constexpr int kTaughtFrames = 150;  // 3 m
 constexpr std::chrono::seconds kBound{60};
 
-// Gives no frames while it is silent, and tells whom it was asked to.
+// Gives no frames while it is silent, and tells whom it was asked to why.
 class SilentDevice : public test::DrivenDevice {
  public:
   std::atomic<bool> silent = false;
+  Halt why{"camera /robot1/image_raw: no picture for 0.3 s"};
 
   Result<std::optional<Observation>> Next() override {
-    if (silent) tell_("camera /robot1/image_raw: no picture for 0.3 s");
+    if (silent) tell_(why);
     const bool was_silent = silent;
     while (silent) std::this_thread::sleep_for(milliseconds(1));
-    if (was_silent) tell_("");
-    return DrivenDevice::Next();
+    if (was_silent) {
+      tell_({});
+      late_ += std::chrono::minutes(2);
+    }
+    auto seen = DrivenDevice::Next();
+    if (seen && *seen) (*seen)->stamp += late_;
+    return seen;
   }
   void OnTrouble(const Trouble& tell) override { tell_ = tell; }
 
  private:
   Trouble tell_;
+  std::chrono::nanoseconds late_{0};  // as long as it was silent, by its own clock
 };
 
-TEST(RobotTrouble, IsInTheAgentsStatusUntilItIsOver) {
+// What is in the status of an agent while its robot gives no frames.
+void ExpectStatus(const RobotDevice::Halt& why, AgentMode mode) {
   test::Swarm swarm;
   test::WalkDevice scout(kTaughtFrames);
   auto teach = swarm.ScoutNamed("server");
@@ -54,19 +62,29 @@ TEST(RobotTrouble, IsInTheAgentsStatusUntilItIsOver) {
     return false;
   };
   SilentDevice device;
+  device.why = why;
   const auto options = swarm.FollowerNamed("robot1");
   auto run = std::async(std::launch::async, [&] { return swarm.Replay(device, options, true); });
   EXPECT_TRUE(see([](const AgentStatus& status) { return status.mode == AgentMode::kReplaying; }));
   device.silent = true;
-  EXPECT_TRUE(see([](const AgentStatus& status) {
-    return status.mode == AgentMode::kFault && status.speed_mps == 0.0 &&
-           status.detail == "camera /robot1/image_raw: no picture for 0.3 s";
+  EXPECT_TRUE(see([&](const AgentStatus& status) {
+    return status.mode == mode && status.speed_mps == 0.0 && status.detail == why.what;
   }));
   device.silent = false;
   EXPECT_TRUE(see([](const AgentStatus& status) { return status.mode == AgentMode::kReplaying; }));
   const auto ended = run.get();
   ASSERT_TRUE(ended) << ended.error().message;
   EXPECT_EQ(ended->state, "ARRIVED") << ended->reason;
+}
+
+TEST(RobotTrouble, IsInTheAgentsStatusUntilItIsOver) {
+  ExpectStatus({"camera /robot1/image_raw: no picture for 0.3 s"}, AgentMode::kFault);
+}
+
+// However long that takes.
+TEST(RobotTrouble, WhoStandsInTheWayMakesItWaitAndIsNoFault) {
+  ExpectStatus({"something stands 0.3 m ahead, in the way: the robot waits", false},
+               AgentMode::kWaiting);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class RobotWatchTest : public testing::Test {
     watch_.Told(command);
   }
 
-  RobotWatch watch_{kTimeout, true};
+  RobotWatch watch_{kTimeout, true, false};
   RobotWatch::Time now_{};
   SensorTime stamp_{};
   motion::Pose2 pose_;
@@ -107,7 +107,7 @@ TEST_F(RobotWatchTest, WaitsForABaseToGetGoingBeforeAPictureMustChange) {
 }
 
 TEST_F(RobotWatchTest, WithoutOdometryARobotIsTakenToDoAsItIsTold) {
-  watch_ = RobotWatch(kTimeout, false);
+  watch_ = RobotWatch(kTimeout, false, false);
   odometry_ = false;
   picture_changes_ = false;
   Tell(kAhead);
@@ -125,9 +125,21 @@ TEST_F(RobotWatchTest, MissesTheOdometry) {
   EXPECT_EQ(trouble_->part, Part::kOdometry);
 }
 
+TEST_F(RobotWatchTest, MissesTheScansOfARobotThatHasAScanner) {
+  watch_ = RobotWatch(kTimeout, true, true);
+  Run(2 * kTimeout);
+  EXPECT_FALSE(trouble_) << "the first is still to come";
+  watch_.SawScan(now_);
+  const auto began = now_;
+  Run(2 * kTimeout);
+  ASSERT_TRUE(trouble_);
+  EXPECT_EQ(trouble_->part, Part::kScan);
+  EXPECT_LE(now_ - began, kTimeout + 2 * kFrame);
+}
+
 TEST_F(RobotWatchTest, NoticesABaseThatStopsObeying) {
   for (const motion::VelocityCommand& command : {kAhead, motion::VelocityCommand{0.0, 0.4}}) {
-    watch_ = RobotWatch(kTimeout, true);
+    watch_ = RobotWatch(kTimeout, true, false);
     base_ = true;
     Tell({});
     Tell(command);

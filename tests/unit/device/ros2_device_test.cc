@@ -6,6 +6,8 @@
 
 #include <atomic>
 #include <future>
+#include <limits>
+#include <optional>
 #include <thread>
 
 #include "tests/support/unique_tag.h"
@@ -38,7 +40,7 @@ class Ros2DeviceTest : public testing::Test {
     dds::Ros2Options topics = run_.topics;
     if (topics.odometry.empty()) topics.odometry = "odom";  // which the device does not hear
     robot_ = dds::Ros2Robot::Open(topics).value();
-    device_->OnTrouble([this](const std::string& what) { told_.push_back(what); });
+    device_->OnTrouble([this](const RobotDevice::Halt& halt) { told_.push_back(halt); });
     const auto deadline = steady_clock::now() + std::chrono::seconds(20);
     while (!robot_->watched() && steady_clock::now() < deadline)
       (void)robot_->Take(milliseconds(5));
@@ -57,6 +59,30 @@ class Ros2DeviceTest : public testing::Test {
                                .step = static_cast<std::uint32_t>(picture.width),
                                .data = picture.pixels};
     ASSERT_TRUE(robot_->Publish(image));
+  }
+  // A scanner's look, with something so far ahead of it, and nothing else.
+  void SayScan(std::optional<float> range_m) {
+    constexpr float kNothing = std::numeric_limits<float>::infinity();
+    ASSERT_TRUE(robot_->Publish(dds::Ros2Scan{
+        stamp_, {-0.5, 0.5, 0.1, 10.0, {kNothing, range_m.value_or(kNothing), kNothing}}}));
+  }
+  // All of it, until `next` has a frame.
+  Result<std::optional<Observation>> SayAllUntil(
+      std::future<Result<std::optional<Observation>>>& next, std::optional<float> range_m) {
+    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    while (next.wait_for(milliseconds(20)) != std::future_status::ready &&
+           steady_clock::now() < deadline) {
+      GoOn();
+      SayScan(range_m);
+      Say();
+    }
+    return next.get();
+  }
+  void OpenWithAScanner() {
+    run_.topics.scan = "scan";
+    Open();
+    auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+    ASSERT_TRUE(SayAllUntil(next, std::nullopt));
   }
   // A frame later and further.
   void GoOn(double metres = 0.01) {
@@ -99,7 +125,7 @@ class Ros2DeviceTest : public testing::Test {
   Ros2Run run_;
   std::unique_ptr<Ros2Device> device_;
   std::unique_ptr<dds::Ros2Robot> robot_;
-  std::vector<std::string> told_;
+  std::vector<RobotDevice::Halt> told_;
   dds::Ros2Command latest_;
   SensorTime stamp_ = std::chrono::seconds(1'700'000'000) + milliseconds(250);
   std::chrono::nanoseconds odometry_lag_{0};
@@ -260,8 +286,10 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) 
   ASSERT_TRUE(seen) << seen.error().message;
   EXPECT_GT((*seen)->stamp, silent);
   ASSERT_EQ(told_.size(), 2U);
-  EXPECT_THAT(told_.front(), AllOf(HasSubstr("camera /robot1/image_raw"), HasSubstr("no picture")));
-  EXPECT_EQ(told_.back(), "");
+  EXPECT_THAT(told_.front().what,
+              AllOf(HasSubstr("camera /robot1/image_raw"), HasSubstr("no picture")));
+  EXPECT_TRUE(told_.front().fault);
+  EXPECT_EQ(told_.back().what, "");
 }
 
 TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
@@ -272,6 +300,82 @@ TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
   EXPECT_THAT(seen.error().message,
               AllOf(HasSubstr("camera /robot1/image_raw: no picture for 0.3 s"),
                     HasSubstr("not within 1.5 s")));
+}
+
+TEST_F(Ros2DeviceTest, StandsBeforeWhatItScansAndGoesOnWhenThatIsGone) {
+  run_.patience = milliseconds(300);
+  OpenWithAScanner();
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  const auto until = steady_clock::now() + 5 * run_.patience;
+  bool stood = false;
+  while (steady_clock::now() < until) {
+    GoOn(0.0);
+    SayScan(0.55F);
+    Say();
+    const auto heard = robot_->Take(milliseconds(20));
+    stood = stood || (heard && heard->velocity == kStand);
+    ASSERT_FALSE(stood && heard && heard->velocity != kStand);
+  }
+  EXPECT_TRUE(stood);
+  ASSERT_NE(next.wait_for(milliseconds(0)), std::future_status::ready) << "it waits, and no less";
+  const auto seen = SayAllUntil(next, std::nullopt);
+  ASSERT_TRUE(seen) << seen.error().message;
+  ASSERT_EQ(told_.size(), 2U);
+  EXPECT_EQ(told_.front().what, "something stands 0.3 m ahead, in the way: the robot waits");
+  EXPECT_FALSE(told_.front().fault);
+  EXPECT_EQ(told_.back().what, "");
+  ASSERT_TRUE(device_->Drive(kAhead));
+  EXPECT_TRUE(Told(kAhead));
+}
+
+TEST_F(Ros2DeviceTest, SlowsDownByAScanThatComesBetweenTwoPictures) {
+  OpenWithAScanner();
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  SayScan(0.75F);
+  const auto deadline = steady_clock::now() + std::chrono::seconds(5);
+  std::optional<dds::Ros2Command> heard;
+  while (!heard && steady_clock::now() < deadline) heard = robot_->Take(milliseconds(5));
+  ASSERT_TRUE(heard);
+  EXPECT_GT(heard->velocity.linear_mps, 0.05);
+  EXPECT_LT(heard->velocity.linear_mps, 0.35);
+}
+
+TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheScannerIsSilent) {
+  OpenWithAScanner();
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  auto next = std::async(std::launch::async, [this] {
+    // The first ones come before it is noticed.
+    Result<std::optional<Observation>> seen = device_->Next();
+    while (seen) seen = device_->Next();
+    return seen.error().message;
+  });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    Say();
+  }
+  EXPECT_THAT(next.get(), AllOf(HasSubstr("scan /robot1/scan: no scan for 0.3 s"),
+                                HasSubstr("not within 1.5 s")));
+  ASSERT_FALSE(told_.empty());
+  EXPECT_EQ(told_.front().what, "scan /robot1/scan: no scan for 0.3 s");
+  EXPECT_TRUE(told_.front().fault);
+}
+
+TEST_F(Ros2DeviceTest, WithAScanTopicItDoesNotDriveBeforeTheFirstScan) {
+  run_.topics.scan = "scan";
+  run_.patience = milliseconds(500);
+  Open();
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    Say();
+  }
+  const auto seen = next.get();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message, HasSubstr("no scan that can be one came on /robot1/scan"));
 }
 
 TEST_F(Ros2DeviceTest, WaitsForASilentRobotOnlyUntilItIsToldToEnd) {

@@ -16,12 +16,12 @@ TEST(RobotFault, IsAWordATimeAndMaybeHowLong) {
   const auto for_good = ParseRobotFault("camera-freezes@12.5");
   ASSERT_TRUE(for_good);
   EXPECT_EQ(for_good->kind, Kind::kCameraFreezes);
-  EXPECT_EQ(for_good->after_s, 12.5);
-  EXPECT_GT(for_good->for_s, 1e9);
+  EXPECT_EQ(for_good->spell.after_s, 12.5);
+  EXPECT_GT(for_good->spell.for_s, 1e9);
   const auto short_stop = ParseRobotFault("base-stops@4+0.3");
   ASSERT_TRUE(short_stop);
   EXPECT_EQ(short_stop->kind, Kind::kBaseStops);
-  EXPECT_EQ(short_stop->for_s, 0.3);
+  EXPECT_EQ(short_stop->spell.for_s, 0.3);
 }
 
 TEST(RobotFault, OneThatIsNotUnderstoodNamesAllThereAre) {
@@ -35,7 +35,7 @@ TEST(RobotFault, OneThatIsNotUnderstoodNamesAllThereAre) {
 }
 
 TEST(RobotFaults, BeginOnceTheRobotDrivesAndAreOver) {
-  RobotFaults faults({{Kind::kBaseStops, 2.0, 1.0}, {Kind::kOdometryJumps, 2.5}});
+  RobotFaults faults({{Kind::kBaseStops, {2.0, 1.0}}, {Kind::kOdometryJumps, {2.5}}});
   const RobotFaults::Time start{std::chrono::seconds(100)};
   EXPECT_THAT(faults.Advance(start + std::chrono::seconds(50)), IsEmpty()) << "it has not driven";
   faults.DroveAt(start);

@@ -1,0 +1,91 @@
+#include "agent/device/src/obstacle_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::agent {
+namespace {
+
+// To either side: scanners and paths are not exact.
+constexpr double kMargin_m = 0.05;
+// A small base does more; those who carry something should not.
+constexpr double kDeceleration_mps2 = 0.5;
+// From when something is scanned until the base obeys: a scan's time, and a command's.
+constexpr double kReaction_s = 0.3;
+// Slower than this it stands: bases do not creep.
+constexpr double kLeast_mps = 0.05;
+// So much further than where it stood its way is to be free: a person does not stand still.
+constexpr double kFurther_m = 0.1;
+constexpr std::chrono::milliseconds kClearFor{500};
+// Less is ahead, not to a side.
+constexpr double kAside_m = 0.05;
+
+// How fast one may be that has so far to go: after the reaction it can still brake.
+double SpeedWithin(double way_m) {
+  if (way_m <= 0.0) return 0.0;
+  return kDeceleration_mps2 *
+         (std::sqrt(kReaction_s * kReaction_s + 2.0 * way_m / kDeceleration_mps2) - kReaction_s);
+}
+
+}  // namespace
+
+ObstacleWatch::ObstacleWatch(const ObstacleOptions& options)
+    : options_(options),
+      outline_{std::max(options.robot_width_m / 2.0, options.scan_ahead_m),
+               options.robot_width_m / 2.0 + kMargin_m} {}
+
+std::optional<motion::InTheWay> ObstacleWatch::Met(const motion::VelocityCommand& command) const {
+  return motion::FirstMet(points_, outline_, command);
+}
+
+void ObstacleWatch::See(Time now, const motion::Scan& scan) {
+  seen_ = true;
+  points_ = motion::Points(scan, options_.scan_ahead_m);
+  if (!waits_) return;
+  if (!Clear()) {
+    clear_since_.reset();
+    return;
+  }
+  if (!clear_since_) clear_since_ = now;
+  if (now - *clear_since_ >= kClearFor) waits_.reset();
+}
+
+bool ObstacleWatch::Clear() const {
+  const auto met = Met(wanted_);
+  return !met || met->way_m > options_.gap_m + kFurther_m;
+}
+
+motion::VelocityCommand ObstacleWatch::Within(const motion::VelocityCommand& command) const {
+  const auto met = Met(command);
+  if (!met) return command;
+  const double pace_mps = motion::Pace(outline_, command);
+  const double most_mps = SpeedWithin(met->way_m - options_.gap_m);
+  if (pace_mps <= most_mps) return command;
+  if (most_mps < kLeast_mps) return {};
+  const double share = most_mps / pace_mps;
+  return {share * command.linear_mps, share * command.angular_radps};
+}
+
+void ObstacleWatch::Want(const motion::VelocityCommand& command) {
+  wanted_ = command;
+  const bool stands =
+      command != motion::VelocityCommand{} && Within(command) == motion::VelocityCommand{};
+  if (waits_ || !stands) return;
+  waits_ = Text(*Met(command));
+  clear_since_.reset();
+}
+
+std::string ObstacleWatch::Text(const motion::InTheWay& met) const {
+  const Eigen::Vector2d& at = met.at;
+  std::string where = at.x() >= 0.0
+                          ? fmt::format("{:.1f} m ahead", std::max(0.0, at.x() - outline_.front_m))
+                          : fmt::format("{:.1f} m behind its axle", -at.x());
+  if (std::abs(at.y()) >= kAside_m) {
+    where += fmt::format(", {:.1f} m to the {}", std::abs(at.y()), at.y() > 0.0 ? "left" : "right");
+  }
+  return fmt::format("something stands {}, in the way: the robot waits", where);
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,138 @@
+// A ROS 2 robot as it is heard, and told to stand when in doubt.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "agent/device/src/ros2_state.h"
+#include "agent/device/src/ros2_trouble.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::steady_clock;
+
+// That the robot shall stand is said so long: a base may miss what is said once.
+constexpr std::chrono::seconds kSayAgain{1};
+// A command that was given longer ago than a base needs to reach it is no more on its way.
+constexpr double kLongestRamp_s = 0.1;
+// So gently a base is tried that stood against its commands.
+constexpr double kTrySpeed_mps = 0.15;
+constexpr double kTryTurn_radps = 0.3;
+
+}  // namespace
+
+void Ros2Device::State::Hear() {
+  while (true) {
+    auto sensed = driver->Take(kListen);
+    const std::lock_guard guard(lock);
+    if (ending) return;
+    const auto now = steady_clock::now();
+    for (dds::Ros2Sensed& one : sensed) Keep(std::move(one), now);
+    StopIfInDoubt(now);
+    news.notify_one();
+  }
+}
+
+void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point now) {
+  if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
+    odometry_stands = !poses.AddOdometry(odometry->stamp, odometry->pose, now, told);
+    if (!odometry_stands) watch.SawOdometry(now, poses.newest(), poses.newest_pose());
+    return;
+  }
+  if (const auto* scan = std::get_if<dds::Ros2Scan>(&sensed)) {
+    KeepScan(scan->scan, now);
+    return;
+  }
+  if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
+    KeepFrame(std::move(*jpeg), now);
+  } else {
+    KeepFrame(std::get<dds::Ros2Image>(std::move(sensed)), now);
+  }
+}
+
+void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point now) {
+  const std::vector<std::uint8_t>& bytes = BytesOf(picture);
+  const bool changed = bytes != last_bytes;
+  if (last_stamp == StampOf(picture) && (run.lockstep || !changed)) {
+    // In lockstep: the robot did not get the answer, or does not yet have it.
+    if (run.lockstep && answered && given == last_stamp) (void)driver->Publish({*given, told});
+    return;
+  }
+  const auto taken = poses.AddFrame(StampOf(picture), now);
+  if (!taken) return;
+  watch.SawFrame(now, changed);
+  last_stamp = StampOf(picture);
+  last_bytes = bytes;
+  if (!newest) unserved_since = now;
+  newest = Ros2Frame{now, *taken, std::move(picture)};
+}
+
+// Somebody may step in the way between two pictures.
+void Ros2Device::State::KeepScan(const motion::Scan& scan, steady_clock::time_point now) {
+  watch.SawScan(now);
+  obstacles->See(now, scan);
+  if (told == motion::VelocityCommand{}) return;
+  obstacles->Want(told);
+  const motion::VelocityCommand slower = obstacles->Within(told);
+  if (!obstacles->waits() && slower != told) (void)Say(slower);
+}
+
+// Also when the loop that drives does not come back: a command is good for sensor_timeout.
+void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
+  trouble = watch.Check(now);
+  if (!trouble && drove && driver->peers().bases == 0) {
+    trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
+  }
+  if (!trouble && obstacles && obstacles->waits()) {
+    trouble = {RobotWatch::Trouble::Part::kObstacle, *obstacles->waits()};
+  }
+  const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
+  if (!trouble && !stale) return;
+  if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
+  // What cannot be handed over is said again, too.
+  if (now <= stop_said_until) (void)Tell({});
+}
+
+Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
+  told_at = steady_clock::now();
+  return Say(command);
+}
+
+// Without making what was told last good for longer.
+Result<void> Ros2Device::State::Say(const motion::VelocityCommand& command) {
+  told = command;
+  drove = drove || command != motion::VelocityCommand{};
+  watch.Told(command);
+  return driver->Publish({CommandStamp(), command});
+}
+
+// A base in real time brakes at what is old by its own clock, which is its odometry's; a robot in
+// lockstep waits for the answer to its frame.
+SensorTime Ros2Device::State::CommandStamp() const {
+  if (!run.lockstep && poses.has_odometry()) return poses.newest_stamp();
+  return given.value_or(SensorTime{});
+}
+
+// Whoever had to be stopped speeds up again from standing.
+motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand& wanted) const {
+  motion::DriveLimits limits = run.limits;
+  if (watch.base_stands_since()) {
+    limits.speed_mps = std::min(limits.speed_mps, kTrySpeed_mps);
+    limits.turn_rate_radps = std::min(limits.turn_rate_radps, kTryTurn_radps);
+  }
+  double since_s = kLongestRamp_s;
+  if (!run.lockstep) since_s = Seconds(steady_clock::now() - told_at);
+  if (run.lockstep && given_before) since_s = Seconds(*given - *given_before);
+  return motion::Shape(wanted, told, std::clamp(since_s, 0.0, kLongestRamp_s), limits);
+}
+
+motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) {
+  const motion::VelocityCommand shaped = Shaped(wanted);
+  if (!obstacles) return shaped;
+  obstacles->Want(shaped);
+  if (!obstacles->waits()) return obstacles->Within(shaped);
+  stop_said_until = steady_clock::now() + kSayAgain;
+  return {};
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "agent/device/ros2_device.h"
+#include "agent/device/src/obstacle_watch.h"
+#include "agent/device/src/robot_watch.h"
+#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/sensed_poses.h"
+#include "agent/device/src/still_watch.h"
+
+// What the two threads of a ROS 2 robot's device share: the one that hears the robot and stops it
+// (ros2_hearing.cc), and the one that drives it (ros2_device.cc).
+namespace trailcast::agent {
+
+// How long either thread listens at a time.
+constexpr std::chrono::milliseconds kListen{20};
+
+// A picture, until Next takes it.
+struct Ros2Frame {
+  [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
+
+  std::chrono::steady_clock::time_point came_at;
+  SensorTime taken{};
+  Ros2Picture picture;
+};
+
+struct Ros2Device::State {
+  State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver> link);
+
+  [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
+  [[nodiscard]] bool has_scan() const { return !run.topics.scan.empty(); }
+
+  // The hearing thread's.
+  void Hear();
+  void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
+  void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
+  void KeepScan(const motion::Scan& scan, std::chrono::steady_clock::time_point now);
+  void StopIfInDoubt(std::chrono::steady_clock::time_point now);
+
+  // Any thread, with the lock.
+  Result<void> Tell(const motion::VelocityCommand& command);
+  Result<void> Say(const motion::VelocityCommand& command);
+  [[nodiscard]] SensorTime CommandStamp() const;
+  [[nodiscard]] motion::VelocityCommand Shaped(const motion::VelocityCommand& wanted) const;
+  [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& wanted);
+
+  // The driving thread's, with the lock.
+  [[nodiscard]] bool ready(std::chrono::steady_clock::time_point now) const;
+  [[nodiscard]] std::optional<Error> GiveUp(std::chrono::steady_clock::time_point now);
+  [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
+  Result<std::optional<Ros2Frame>> Await(std::unique_lock<std::mutex>& guard);
+  void Leave(const Error& damage);
+  void ShareTrouble();
+  void ShareNews();
+
+  Ros2Run run;
+  std::unique_ptr<dds::Ros2Driver> driver;
+  Trouble tell = [](const Halt&) {};
+
+  std::mutex lock;  // of all below
+  std::condition_variable news;
+  bool ending = false;
+  RobotWatch watch;
+  std::optional<ObstacleWatch> obstacles;  // with a scanner
+  SensedPoses poses;
+  bool odometry_stands = false;  // it comes, with stamps that do not advance
+  std::optional<Ros2Frame> newest;
+  std::chrono::steady_clock::time_point unserved_since;  // since when there has been a newest frame
+  std::optional<SensorTime> last_stamp;                  // of the frame before, handed out or not
+  std::vector<std::uint8_t> last_bytes;                  // of the frame before
+  std::optional<SensorTime> given;  // the last frame that Next took, by its stamp
+  std::optional<SensorTime> given_before;
+  std::chrono::steady_clock::time_point given_came_at;
+  bool answered = true;  // with a command
+  int unreadable = 0;    // pictures that were left out
+  std::string why_unreadable;
+  motion::VelocityCommand told;  // what the base does
+  bool drove = false;            // it was told to move before
+  std::chrono::steady_clock::time_point told_at;
+  std::chrono::steady_clock::time_point stop_said_until;
+  std::optional<RobotWatch::Trouble> trouble;
+  std::chrono::steady_clock::time_point waiting_since;  // for a frame
+  Halt shared;
+  StillWatch still;
+  int width_px = 0;
+  int height_px = 0;
+
+  std::thread hearing;
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,153 @@
+#include "agent/device/src/obstacle_watch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "services/base/time.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+constexpr milliseconds kScan{100};
+const motion::VelocityCommand kAhead{0.4, 0.0};
+const motion::VelocityCommand kStand{};
+
+// Half a metre wide, and so a quarter to its front; looks all round, a degree a range.
+class ObstacleWatchTest : public testing::Test {
+ protected:
+  // Next scan, with something there, and nothing else.
+  void See(std::optional<Eigen::Vector2d> at) {
+    now_ += kScan;
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    motion::Scan scan{-std::numbers::pi, kDegree, 0.1, 10.0, {}};
+    scan.ranges_m.assign(361, std::numeric_limits<float>::infinity());
+    if (at) {
+      const auto index = std::lround((std::atan2(at->y(), at->x()) + std::numbers::pi) / kDegree);
+      scan.ranges_m[static_cast<std::size_t>(index)] = static_cast<float>(at->norm());
+    }
+    watch_.See(now_, scan);
+  }
+  void SeeFor(milliseconds duration, std::optional<Eigen::Vector2d> at) {
+    for (milliseconds passed{0}; passed < duration; passed += kScan) See(at);
+  }
+
+  ObstacleWatch watch_{ObstacleOptions{}};
+  ObstacleWatch::Time now_{};
+};
+
+TEST_F(ObstacleWatchTest, LeavesWhatIsFreeAsItIs) {
+  EXPECT_FALSE(watch_.has_seen());
+  See(std::nullopt);
+  EXPECT_TRUE(watch_.has_seen());
+  EXPECT_EQ(watch_.Within(kAhead), kAhead);
+  See(Eigen::Vector2d(3.0, 0.0));
+  EXPECT_EQ(watch_.Within(kAhead), kAhead);
+  See(Eigen::Vector2d(0.5, 0.4));
+  EXPECT_EQ(watch_.Within(kAhead), kAhead) << "beside its way";
+  watch_.Want(kAhead);
+  EXPECT_FALSE(watch_.waits());
+}
+
+TEST_F(ObstacleWatchTest, SlowsDownInTheSameBend) {
+  const motion::VelocityCommand bend{0.4, 0.1};
+  See(Eigen::Vector2d(0.7, 0.0));
+  const auto slow = watch_.Within(bend);
+  EXPECT_GT(slow.linear_mps, 0.05);
+  EXPECT_LT(slow.linear_mps, 0.35);
+  EXPECT_NEAR(slow.angular_radps / slow.linear_mps, 0.25, 1e-9);
+  watch_.Want(bend);
+  EXPECT_FALSE(watch_.waits());
+}
+
+// By a base that brakes as gently as it is taken to, and hears of each scan a scan late.
+TEST_F(ObstacleWatchTest, StandsWithTheGapHoweverFastItCame) {
+  for (const double speed_mps : {0.1, 0.4, 1.0}) {
+    ObstacleWatch watch{ObstacleOptions{}};
+    double place_m = 0.0;  // of its front
+    double mps = speed_mps;
+    motion::VelocityCommand told{speed_mps, 0.0};
+    constexpr double kAt_m = 4.0;
+    for (int i = 0; i < 1000 && !(watch.waits() && mps == 0.0); ++i) {
+      now_ += kScan;
+      watch.See(now_, {0.0, 0.1, 0.1, 10.0, {static_cast<float>(kAt_m - place_m + 0.25)}});
+      mps = std::max(told.linear_mps, mps - 0.5 * Seconds(kScan));
+      place_m += mps * Seconds(kScan);
+      told = watch.Within({speed_mps, 0.0});
+      watch.Want({speed_mps, 0.0});
+    }
+    EXPECT_TRUE(watch.waits());
+    EXPECT_GT(kAt_m - place_m, 0.25) << speed_mps;
+    EXPECT_LT(kAt_m - place_m, 0.4) << speed_mps;
+  }
+}
+
+TEST_F(ObstacleWatchTest, SaysWhatItWaitsForUntilItGoesOn) {
+  See(Eigen::Vector2d(0.5, 0.1));
+  watch_.Want(kAhead);
+  ASSERT_TRUE(watch_.waits());
+  EXPECT_EQ(*watch_.waits(),
+            "something stands 0.3 m ahead, 0.1 m to the left, in the way: the robot waits");
+  See(Eigen::Vector2d(0.4, -0.1));
+  EXPECT_THAT(*watch_.waits(), HasSubstr("0.3 m ahead, 0.1 m to the left"));
+}
+
+TEST_F(ObstacleWatchTest, GoesOnOnceItIsClearForHalfASecond) {
+  See(Eigen::Vector2d(0.5, 0.0));
+  watch_.Want(kAhead);
+  SeeFor(milliseconds(5000), Eigen::Vector2d(0.5, 0.0));
+  EXPECT_TRUE(watch_.waits());
+  SeeFor(milliseconds(500), std::nullopt);
+  EXPECT_TRUE(watch_.waits()) << "the first of these was at 0.1 s";
+  See(Eigen::Vector2d(0.5, 0.0));
+  SeeFor(milliseconds(500), std::nullopt);
+  EXPECT_TRUE(watch_.waits()) << "anew";
+  See(std::nullopt);
+  EXPECT_FALSE(watch_.waits());
+}
+
+TEST_F(ObstacleWatchTest, WhoShiftsFromOneFootToTheOtherIsStillThere) {
+  See(Eigen::Vector2d(0.5, 0.0));
+  watch_.Want(kAhead);
+  SeeFor(milliseconds(2000), Eigen::Vector2d(0.62, 0.0));
+  EXPECT_TRUE(watch_.waits());
+  SeeFor(milliseconds(700), Eigen::Vector2d(0.75, 0.0));
+  EXPECT_FALSE(watch_.waits());
+}
+
+TEST_F(ObstacleWatchTest, WaitsForWhatIsBesideItOnlyWhereItWouldTurnIntoThat) {
+  See(Eigen::Vector2d(0.0, 0.35));
+  watch_.Want(kAhead);
+  EXPECT_FALSE(watch_.waits());
+  watch_.Want({0.0, 0.5});
+  ASSERT_TRUE(watch_.waits());
+  EXPECT_THAT(*watch_.waits(), HasSubstr("0.0 m ahead, 0.3 m to the left"));
+}
+
+TEST_F(ObstacleWatchTest, WhoWantsToStandWaitsForNothing) {
+  See(Eigen::Vector2d(0.3, 0.0));
+  watch_.Want(kStand);
+  EXPECT_FALSE(watch_.waits());
+}
+
+TEST_F(ObstacleWatchTest, AScannerAtTheFrontSaysHowFarTheRobotReaches) {
+  ObstacleOptions options;
+  options.scan_ahead_m = 0.6;
+  ObstacleWatch watch(options);
+  watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.5F}});
+  watch.Want({0.1, 0.0});
+  EXPECT_FALSE(watch.waits());
+  watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.31F}});
+  watch.Want({0.1, 0.0});
+  EXPECT_TRUE(watch.waits());
+}
+
+}  // namespace
+}  // namespace trailcast::agent
