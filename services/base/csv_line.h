@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <istream>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/number.h"
 #include "services/base/result.h"
 
 namespace trailcast {
@@ -41,8 +41,7 @@ class CsvLine {
  private:
   template <typename Number>
   void Parse(const std::string& name, const std::string& text, Number& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) Refuse(name, text);
+    if (!ReadNumber(text, number)) Refuse(name, text);
   }
   void Refuse(const std::string& name, const std::string& text);
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+
+#include "services/base/number.h"
 
 namespace trailcast::agent {
 namespace {
@@ -43,11 +44,7 @@ std::optional<std::string> Fields::Find(const std::string& key) const {
 std::optional<double> Fields::Number(const std::string& key) const {
   const auto text = Find(key);
   if (!text) return std::nullopt;
-  double value = 0.0;
-  const char* end = text->data() + text->size();
-  const auto read = std::from_chars(text->data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end) return std::nullopt;
-  return value;
+  return ParseNumber<double>(*text);
 }
 
 }  // namespace trailcast::agent

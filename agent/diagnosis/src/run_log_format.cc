@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <variant>
+
+#include "services/base/number.h"
 
 namespace trailcast::agent {
 namespace {
@@ -79,19 +80,13 @@ std::string CellText(const FrameRow& row, const Column& column) {
   return value ? Fixed(*value, column.decimals) : "-";
 }
 
-template <typename Number>
-bool ParseNumber(std::string_view word, Number& number) {
-  const auto read = std::from_chars(word.data(), word.data() + word.size(), number);
-  return read.ec == std::errc{} && read.ptr == word.data() + word.size();
-}
-
 bool ParseReal(std::string_view word, double& number) {
-  return ParseNumber(word, number) && std::isfinite(number);
+  return ReadNumber(word, number) && std::isfinite(number);
 }
 
 bool ParseCell(std::string_view word, const Column& column, FrameRow& row) {
   if (const auto* member = std::get_if<int FrameRow::*>(&column.member)) {
-    return ParseNumber(word, row.**member);
+    return ReadNumber(word, row.**member);
   }
   if (const auto* member = std::get_if<Phase FrameRow::*>(&column.member)) {
     const auto phase = ParsePhase(std::string(word));
@@ -235,7 +230,7 @@ Result<RunEvent> ParseEvent(std::string_view line) {
   const std::size_t colon = line.find(" : ");
   if (colon != std::string_view::npos) event.text = line.substr(colon + 3);
   const auto words = Words(line.substr(0, colon));
-  if (words.size() < 4 || words[0] != "!" || !ParseNumber(words[1], event.frame) ||
+  if (words.size() < 4 || words[0] != "!" || !ReadNumber(words[1], event.frame) ||
       !ParseReal(words[2], event.t_s)) {
     return Fail(ErrorCode::kCorrupt, "an event is '! FRAME SECONDS WHAT ...'");
   }

@@ -1,15 +1,14 @@
 #include "agent/simulated/camera_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <system_error>
 #include <variant>
 #include <vector>
 
+#include "services/base/number.h"
 #include "services/program/toml.h"
 
 namespace trailcast::agent {
@@ -40,17 +39,10 @@ std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model
           {"exposure_period_s", &camera.exposure_period_s}};
 }
 
-template <typename Number>
-bool Parse(const std::string& text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && stop == end;
-}
-
 bool Assign(const Field& field, const std::string& text) {
-  if (auto* const* number = std::get_if<int*>(&field)) return Parse(text, **number);
+  if (auto* const* number = std::get_if<int*>(&field)) return ReadNumber(text, **number);
   if (auto* const* real = std::get_if<double*>(&field)) {
-    return Parse(text, **real) && std::isfinite(**real);
+    return ReadNumber(text, **real) && std::isfinite(**real);
   }
   *std::get<std::string*>(field) = text;
   return true;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string_view>
 
+#include "services/base/number.h"
 #include "services/base/time.h"
 
 namespace trailcast::agent {
@@ -35,13 +35,9 @@ const char* NameOf(Kind kind) {
       ->name;
 }
 
-// All of the text is a number of seconds.
 std::optional<double> ParseSeconds(std::string_view text) {
-  double seconds = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, seconds);
-  if (error != std::errc{} || next != end || !(seconds >= 0.0)) return std::nullopt;
-  return seconds;
+  const auto seconds = ParseNumber<double>(text);
+  return seconds && *seconds >= 0.0 ? seconds : std::nullopt;
 }
 
 std::optional<RobotFault> Parse(std::string_view text) {

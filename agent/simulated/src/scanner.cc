@@ -1,12 +1,13 @@
 #include "agent/simulated/scanner.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <string_view>
+
+#include "services/base/number.h"
 
 namespace trailcast::agent {
 namespace {
@@ -16,12 +17,9 @@ constexpr int kRanges = 360;
 constexpr double kLeast_m = 0.12;
 constexpr double kMost_m = 8.0;
 
-std::optional<double> Number(std::string_view text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || next != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::optional<double> Metres(std::string_view text) {
+  const auto value = ParseNumber<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<Pillar> Parse(std::string_view text) {
@@ -31,9 +29,9 @@ std::optional<Pillar> Parse(std::string_view text) {
   if (second == std::string_view::npos || when == std::string_view::npos || when < second) {
     return std::nullopt;
   }
-  const auto x_m = Number(text.substr(0, first));
-  const auto y_m = Number(text.substr(first + 1, second - first - 1));
-  const auto radius_m = Number(text.substr(second + 1, when - second - 1));
+  const auto x_m = Metres(text.substr(0, first));
+  const auto y_m = Metres(text.substr(first + 1, second - first - 1));
+  const auto radius_m = Metres(text.substr(second + 1, when - second - 1));
   const auto spell = ParseSpell(text.substr(when + 1));
   if (!x_m || !y_m || !radius_m || *radius_m <= 0.0 || !spell) return std::nullopt;
   return Pillar{{*x_m, *y_m}, *radius_m, *spell};

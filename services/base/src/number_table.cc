@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 
 #include "services/base/csv_line.h"
+#include "services/base/number.h"
 
 namespace trailcast {
 namespace {
@@ -17,11 +17,9 @@ namespace {
 std::optional<double> Number(const std::string& text) {
   const std::size_t from = text.find_first_not_of(" \t");
   if (from == std::string::npos) return std::nullopt;
-  const char* const end = text.data() + text.find_last_not_of(" \t") + 1;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(text.data() + from, end, value);
-  if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const std::size_t end = text.find_last_not_of(" \t") + 1;
+  const auto value = ParseNumber<double>(std::string_view(text).substr(from, end - from));
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // Where each of the columns is in the header; nothing if one is missing.

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "services/base/number.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::store {
@@ -41,14 +41,6 @@ const Sorting& SortingOf(RouteOrder order) {
   return found == kSortings.end() ? kSortings.front() : *found;
 }
 
-template <typename Number>
-std::optional<Number> Parse(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 std::vector<std::string_view> Split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
@@ -63,8 +55,8 @@ std::vector<std::string_view> Split(std::string_view text, char separator) {
 std::optional<SqlValue> ValueIn(RouteOrder order, std::string_view text) {
   if (order == RouteOrder::kName) return std::string(text);
   if (order == RouteOrder::kNewest || order == RouteOrder::kOldest) {
-    if (const auto number = Parse<std::int64_t>(text)) return *number;
-  } else if (const auto metres = Parse<double>(text)) {
+    if (const auto number = ParseNumber<std::int64_t>(text)) return *number;
+  } else if (const auto metres = ParseNumber<double>(text)) {
     return *metres;
   }
   return std::nullopt;
@@ -174,7 +166,7 @@ Result<void> StartAfterCursor(const RouteQuery& query, SqlCondition& condition) 
   const std::vector<std::string_view> parts = Split(query.cursor, '/');
   const bool ours = parts.size() == 4 && parts[0] == std::string_view(&sorting.letter, 1);
   const auto value = ours ? ValueIn(query.order, parts[1]) : std::nullopt;
-  const auto teaching = ours ? Parse<std::uint64_t>(parts[3]) : std::nullopt;
+  const auto teaching = ours ? ParseNumber<std::uint64_t>(parts[3]) : std::nullopt;
   if (!value || !teaching) {
     return Fail(ErrorCode::kInvalidArgument,
                 "cursor is not that of a page in this order; ask for the first page without one");

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
+
+#include "services/base/number.h"
 
 namespace trailcast::trial {
 namespace {
@@ -61,12 +62,11 @@ Result<RecordingPair> PairOf(Cells& cells, const fs::path& root) {
     return tl::unexpected(parsed.error());
   }
   if (const std::string& rate = cells["rate"]; !rate.empty()) {
-    double rate_hz = 0.0;
-    const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), rate_hz);
-    if (error != std::errc{} || end != rate.data() + rate.size() || !(rate_hz > 0.0)) {
+    const auto rate_hz = ParseNumber<double>(rate);
+    if (!rate_hz || !(*rate_hz > 0.0)) {
       return Fail(ErrorCode::kInvalidArgument, "the rate is frames a second, not '{}'", rate);
     }
-    pair.teach.rate_hz = pair.replay.rate_hz = rate_hz;
+    pair.teach.rate_hz = pair.replay.rate_hz = *rate_hz;
   }
   return pair;
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
+
+#include "services/base/number.h"
 
 namespace trailcast::trial {
 namespace {
@@ -59,15 +60,14 @@ Result<Change> ParseChange(std::string_view text) {
   Change change{known->kind, known->value};
   if (equals == std::string_view::npos) return change;
   const std::string_view value = text.substr(equals + 1);
-  const auto [end, error] =
-      std::from_chars(value.data(), value.data() + value.size(), change.value);
-  const bool number = error == std::errc{} && end == value.data() + value.size();
-  const bool whole = !known->whole || change.value == std::floor(change.value);
-  if (!number || !whole || !(change.value >= known->least && change.value <= known->most)) {
+  const auto number = ParseNumber<double>(value);
+  const bool whole = number && (!known->whole || *number == std::floor(*number));
+  if (!whole || !(*number >= known->least && *number <= known->most)) {
     return Fail(ErrorCode::kInvalidArgument,
                 "the disturbance '{}' takes a {}number from {} to {}, not '{}'", name,
                 known->whole ? "whole " : "", known->least, known->most, value);
   }
+  change.value = *number;
   return change;
 }
 
