@@ -36,10 +36,6 @@ ObstacleWatch::ObstacleWatch(const ObstacleOptions& options)
       outline_{std::max(options.robot_width_m / 2.0, options.scan_ahead_m),
                options.robot_width_m / 2.0 + kMargin_m} {}
 
-std::optional<motion::InTheWay> ObstacleWatch::Met(const motion::VelocityCommand& command) const {
-  return motion::FirstMet(points_, outline_, command);
-}
-
 void ObstacleWatch::See(Time now, const motion::Scan& scan) {
   seen_ = true;
   points_ = motion::Points(scan, options_.scan_ahead_m);
@@ -53,28 +49,32 @@ void ObstacleWatch::See(Time now, const motion::Scan& scan) {
 }
 
 bool ObstacleWatch::Clear() const {
-  const auto met = Met(wanted_);
+  const auto met = motion::FirstMet(points_, outline_, wanted_);
   return !met || met->way_m > options_.gap_m + kFurther_m;
 }
 
-motion::VelocityCommand ObstacleWatch::Within(const motion::VelocityCommand& command) const {
-  const auto met = Met(command);
-  if (!met) return command;
+// So that it still can stand before what it meets in so far.
+motion::VelocityCommand ObstacleWatch::Slowed(const motion::VelocityCommand& command,
+                                              double way_m) const {
   const double pace_mps = motion::Pace(outline_, command);
-  const double most_mps = SpeedWithin(met->way_m - options_.gap_m);
+  const double most_mps = SpeedWithin(way_m - options_.gap_m);
   if (pace_mps <= most_mps) return command;
   if (most_mps < kLeast_mps) return {};
   const double share = most_mps / pace_mps;
   return {share * command.linear_mps, share * command.angular_radps};
 }
 
-void ObstacleWatch::Want(const motion::VelocityCommand& command) {
+motion::VelocityCommand ObstacleWatch::Want(const motion::VelocityCommand& command) {
   wanted_ = command;
-  const bool stands =
-      command != motion::VelocityCommand{} && Within(command) == motion::VelocityCommand{};
-  if (waits_ || !stands) return;
-  waits_ = Text(*Met(command));
-  clear_since_.reset();
+  if (waits_) return {};
+  const auto met = motion::FirstMet(points_, outline_, command);
+  if (!met) return command;
+  const motion::VelocityCommand slowed = Slowed(command, met->way_m);
+  if (slowed == motion::VelocityCommand{}) {
+    waits_ = Text(*met);
+    clear_since_.reset();
+  }
+  return slowed;
 }
 
 std::string ObstacleWatch::Text(const motion::InTheWay& met) const {

@@ -23,16 +23,16 @@ class ObstacleWatch {
   void See(Time now, const motion::Scan& scan);
   [[nodiscard]] bool has_seen() const { return seen_; }
 
-  // What may be done of `command` by the newest scan: the same bend, slower, or nothing.
-  [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& command) const;
-  // What the robot is to do, by whoever drives it. It waits if nothing of that may be done.
-  void Want(const motion::VelocityCommand& command);
+  // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
+  // scan: the same bend, slower, or nothing, for which the robot then waits.
+  [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& command);
   // What it waits for, one line for people, the same until it goes on; nothing: it may drive.
   [[nodiscard]] const std::optional<std::string>& waits() const { return waits_; }
 
  private:
-  [[nodiscard]] std::optional<motion::InTheWay> Met(const motion::VelocityCommand& command) const;
   [[nodiscard]] bool Clear() const;
+  [[nodiscard]] motion::VelocityCommand Slowed(const motion::VelocityCommand& command,
+                                               double way_m) const;
   [[nodiscard]] std::string Text(const motion::InTheWay& met) const;
 
   ObstacleOptions options_;

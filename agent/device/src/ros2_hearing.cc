@@ -72,8 +72,7 @@ void Ros2Device::State::KeepScan(const motion::Scan& scan, steady_clock::time_po
   watch.SawScan(now);
   obstacles->See(now, scan);
   if (told == motion::VelocityCommand{}) return;
-  obstacles->Want(told);
-  const motion::VelocityCommand slower = obstacles->Within(told);
+  const motion::VelocityCommand slower = obstacles->Want(told);
   if (!obstacles->waits() && slower != told) (void)Say(slower);
 }
 
@@ -129,10 +128,9 @@ motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand&
 motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) {
   const motion::VelocityCommand shaped = Shaped(wanted);
   if (!obstacles) return shaped;
-  obstacles->Want(shaped);
-  if (!obstacles->waits()) return obstacles->Within(shaped);
-  stop_said_until = steady_clock::now() + kSayAgain;
-  return {};
+  const motion::VelocityCommand allowed = obstacles->Want(shaped);
+  if (obstacles->waits()) stop_said_until = steady_clock::now() + kSayAgain;
+  return allowed;
 }
 
 }  // namespace trailcast::agent

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "services/base/time.h"
 
@@ -47,23 +48,21 @@ TEST_F(ObstacleWatchTest, LeavesWhatIsFreeAsItIs) {
   EXPECT_FALSE(watch_.has_seen());
   See(std::nullopt);
   EXPECT_TRUE(watch_.has_seen());
-  EXPECT_EQ(watch_.Within(kAhead), kAhead);
+  EXPECT_EQ(watch_.Want(kAhead), kAhead);
   See(Eigen::Vector2d(3.0, 0.0));
-  EXPECT_EQ(watch_.Within(kAhead), kAhead);
+  EXPECT_EQ(watch_.Want(kAhead), kAhead);
   See(Eigen::Vector2d(0.5, 0.4));
-  EXPECT_EQ(watch_.Within(kAhead), kAhead) << "beside its way";
-  watch_.Want(kAhead);
+  EXPECT_EQ(watch_.Want(kAhead), kAhead) << "beside its way";
   EXPECT_FALSE(watch_.waits());
 }
 
 TEST_F(ObstacleWatchTest, SlowsDownInTheSameBend) {
   const motion::VelocityCommand bend{0.4, 0.1};
   See(Eigen::Vector2d(0.7, 0.0));
-  const auto slow = watch_.Within(bend);
+  const auto slow = watch_.Want(bend);
   EXPECT_GT(slow.linear_mps, 0.05);
   EXPECT_LT(slow.linear_mps, 0.35);
   EXPECT_NEAR(slow.angular_radps / slow.linear_mps, 0.25, 1e-9);
-  watch_.Want(bend);
   EXPECT_FALSE(watch_.waits());
 }
 
@@ -80,8 +79,7 @@ TEST_F(ObstacleWatchTest, StandsWithTheGapHoweverFastItCame) {
       watch.See(now_, {0.0, 0.1, 0.1, 10.0, {static_cast<float>(kAt_m - place_m + 0.25)}});
       mps = std::max(told.linear_mps, mps - 0.5 * Seconds(kScan));
       place_m += mps * Seconds(kScan);
-      told = watch.Within({speed_mps, 0.0});
-      watch.Want({speed_mps, 0.0});
+      told = watch.Want({speed_mps, 0.0});
     }
     EXPECT_TRUE(watch.waits());
     EXPECT_GT(kAt_m - place_m, 0.25) << speed_mps;
@@ -91,7 +89,7 @@ TEST_F(ObstacleWatchTest, StandsWithTheGapHoweverFastItCame) {
 
 TEST_F(ObstacleWatchTest, SaysWhatItWaitsForUntilItGoesOn) {
   See(Eigen::Vector2d(0.5, 0.1));
-  watch_.Want(kAhead);
+  std::ignore = watch_.Want(kAhead);
   ASSERT_TRUE(watch_.waits());
   EXPECT_EQ(*watch_.waits(),
             "something stands 0.3 m ahead, 0.1 m to the left, in the way: the robot waits");
@@ -101,7 +99,7 @@ TEST_F(ObstacleWatchTest, SaysWhatItWaitsForUntilItGoesOn) {
 
 TEST_F(ObstacleWatchTest, GoesOnOnceItIsClearForHalfASecond) {
   See(Eigen::Vector2d(0.5, 0.0));
-  watch_.Want(kAhead);
+  std::ignore = watch_.Want(kAhead);
   SeeFor(milliseconds(5000), Eigen::Vector2d(0.5, 0.0));
   EXPECT_TRUE(watch_.waits());
   SeeFor(milliseconds(500), std::nullopt);
@@ -115,7 +113,7 @@ TEST_F(ObstacleWatchTest, GoesOnOnceItIsClearForHalfASecond) {
 
 TEST_F(ObstacleWatchTest, WhoShiftsFromOneFootToTheOtherIsStillThere) {
   See(Eigen::Vector2d(0.5, 0.0));
-  watch_.Want(kAhead);
+  std::ignore = watch_.Want(kAhead);
   SeeFor(milliseconds(2000), Eigen::Vector2d(0.62, 0.0));
   EXPECT_TRUE(watch_.waits());
   SeeFor(milliseconds(700), Eigen::Vector2d(0.75, 0.0));
@@ -124,16 +122,16 @@ TEST_F(ObstacleWatchTest, WhoShiftsFromOneFootToTheOtherIsStillThere) {
 
 TEST_F(ObstacleWatchTest, WaitsForWhatIsBesideItOnlyWhereItWouldTurnIntoThat) {
   See(Eigen::Vector2d(0.0, 0.35));
-  watch_.Want(kAhead);
+  std::ignore = watch_.Want(kAhead);
   EXPECT_FALSE(watch_.waits());
-  watch_.Want({0.0, 0.5});
+  std::ignore = watch_.Want({0.0, 0.5});
   ASSERT_TRUE(watch_.waits());
   EXPECT_THAT(*watch_.waits(), HasSubstr("0.0 m ahead, 0.3 m to the left"));
 }
 
 TEST_F(ObstacleWatchTest, WhoWantsToStandWaitsForNothing) {
   See(Eigen::Vector2d(0.3, 0.0));
-  watch_.Want(kStand);
+  std::ignore = watch_.Want(kStand);
   EXPECT_FALSE(watch_.waits());
 }
 
@@ -142,10 +140,10 @@ TEST_F(ObstacleWatchTest, AScannerAtTheFrontSaysHowFarTheRobotReaches) {
   options.scan_ahead_m = 0.6;
   ObstacleWatch watch(options);
   watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.5F}});
-  watch.Want({0.1, 0.0});
+  std::ignore = watch.Want({0.1, 0.0});
   EXPECT_FALSE(watch.waits());
   watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.31F}});
-  watch.Want({0.1, 0.0});
+  std::ignore = watch.Want({0.1, 0.0});
   EXPECT_TRUE(watch.waits());
 }
 
