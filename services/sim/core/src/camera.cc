@@ -23,8 +23,8 @@ bool IsWithin(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
-// What real cameras do wrong.
-Result<void> ValidateFlaws(const CameraModel& camera) {
+// What needs no other value to be judged.
+Result<void> ValidateEach(const CameraModel& camera) {
   struct Range {
     const char* key;
     double value;
@@ -32,7 +32,13 @@ Result<void> ValidateFlaws(const CameraModel& camera) {
     double high;
     const char* accepted;
   };
-  const std::array<Range, 8> ranges{{
+  const std::array<Range, 14> ranges{{
+      {"width", 1.0 * camera.width, 16, 4096, "16 to 4096 pixels"},
+      {"height", 1.0 * camera.height, 16, 4096, "16 to 4096 pixels"},
+      {"distortion", camera.distortion, -0.5, 2, "-0.5 (pincushion) to 2 (barrel)"},
+      {"height_m", camera.height_m, 0.02, 5, "0.02 to 5 metres"},
+      {"yaw_deg", camera.yaw_deg, -180, 180, "-180 to 180 degrees"},
+      {"pitch_deg", camera.pitch_deg, -60, 60, "-60 to 60 degrees"},
       {"roll_deg", camera.roll_deg, -180, 180, "-180 to 180 degrees"},
       {"ahead_m", camera.ahead_m, -2, 2, "-2 to 2 metres"},
       {"centre_u", camera.centre_u, -0.2, 0.2, "-0.2 to 0.2 of the width"},
@@ -57,12 +63,7 @@ double LargestRadius(const CameraModel& camera) {
 }  // namespace
 
 Result<void> Validate(const CameraModel& camera) {
-  if (!IsWithin(camera.width, 16, 4096)) {
-    return OutOfRange("width", camera.width, "16 to 4096 pixels");
-  }
-  if (!IsWithin(camera.height, 16, 4096)) {
-    return OutOfRange("height", camera.height, "16 to 4096 pixels");
-  }
+  if (auto each = ValidateEach(camera); !each) return each;
   const double fov = camera.horizontal_fov_deg;
   if (camera.model == LensModel::kPinhole && !IsWithin(fov, 5, 160)) {
     return OutOfRange("horizontal_fov_deg", fov, "5 to 160 degrees for a pinhole");
@@ -73,25 +74,13 @@ Result<void> Validate(const CameraModel& camera) {
   if (camera.model == LensModel::kOmni && fov != 360.0) {
     return OutOfRange("horizontal_fov_deg", fov, "360 degrees for an omni mirror");
   }
-  if (!IsWithin(camera.distortion, -0.5, 2.0)) {
-    return OutOfRange("distortion", camera.distortion, "-0.5 (pincushion) to 2 (barrel)");
-  }
   // Beyond this, a pincushion folds the picture's edge back.
   const double diagonal = std::hypot(1.0, static_cast<double>(camera.height) / camera.width);
   if (camera.model != LensModel::kOmni && camera.distortion < 0.0 &&
       1.0 + 4.0 * camera.distortion * std::pow(diagonal * LargestRadius(camera), 2) <= 0.05) {
     return OutOfRange("distortion", camera.distortion, "less pincushion for so wide a view");
   }
-  if (!IsWithin(camera.height_m, 0.02, 5.0)) {
-    return OutOfRange("height_m", camera.height_m, "0.02 to 5 metres");
-  }
-  if (!IsWithin(camera.yaw_deg, -180, 180)) {
-    return OutOfRange("yaw_deg", camera.yaw_deg, "-180 to 180 degrees");
-  }
-  if (!IsWithin(camera.pitch_deg, -60, 60)) {
-    return OutOfRange("pitch_deg", camera.pitch_deg, "-60 to 60 degrees");
-  }
-  return ValidateFlaws(camera);
+  return {};
 }
 
 Result<LensModel> ParseLensModel(const std::string& word) {
