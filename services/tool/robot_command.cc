@@ -30,20 +30,26 @@ constexpr const char* kExamples =
     "                  # and see 'trailcast-agent replay --scan-topic scan' wait before it\n"
     "It runs until a signal ends it, and then says what it heard from its agent.";
 
-CLI::Validator FaultValidator() {
-  return {[](std::string& text) {
-            const auto fault = agent::ParseRobotFault(text);
-            return fault ? std::string() : fault.error().message;
+// May be given several times; each text is read by `parse`.
+template <typename Value>
+CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::string& form,
+                        Result<Value> (*parse)(const std::string&), std::vector<Value>& values,
+                        const std::string& help) {
+  const auto wrong = [parse](const std::string& text) {
+    const auto value = parse(text);
+    return value ? std::string() : value.error().message;
+  };
+  return app
+      .add_option_function<std::vector<std::string>>(
+          flag,
+          [parse, &values](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) values.push_back(parse(text).value());
           },
-          "FAULT@S"};
-}
-
-CLI::Validator ObstacleValidator() {
-  return {[](std::string& text) {
-            const auto pillar = agent::ParsePillar(text);
-            return pillar ? std::string() : pillar.error().message;
-          },
-          "X,Y,RADIUS@S"};
+          help + "; may be given several times")
+      ->check(CLI::Validator(wrong, form))
+      ->expected(1, 20)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void AddTimingOptions(CLI::App& app, CLI::Option* lockstep, agent::RobotTiming& timing) {
@@ -107,36 +113,14 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
       "--lockstep", options->robot.lockstep,
       "Wait for the answer to each frame ('trailcast-agent ... --lockstep'), so that a slow "
       "machine changes nothing but the time it takes");
-  app->add_option_function<std::vector<std::string>>(
-         "--fail",
-         [options](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) {
-             if (auto fault = agent::ParseRobotFault(text)) options->robot.faults.push_back(*fault);
-           }
-         },
-         "What goes wrong S seconds after it was first told to drive, and with +S for how long; "
-         "may be given several times: " +
-             agent::RobotFaultNames())
-      ->check(FaultValidator())
-      ->expected(1, 20)
-      ->take_all()
-      ->allow_extra_args(false)
+  AddSeveral(*app, "--fail", "FAULT@S", &agent::ParseRobotFault, options->robot.faults,
+             "What goes wrong S seconds after it was first told to drive, and with +S for how "
+             "long: " +
+                 agent::RobotFaultNames())
       ->excludes(lockstep);
-  app->add_option_function<std::vector<std::string>>(
-         "--obstacle",
-         [options](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) {
-             if (auto pillar = agent::ParsePillar(text))
-               options->robot.obstacles.push_back(*pillar);
-           }
-         },
-         "What stands where in the world, in metres, from S seconds after it was first told to "
-         "drive, and with +S for how long; in the scan alone, not in the pictures; may be given "
-         "several times")
-      ->check(ObstacleValidator())
-      ->expected(1, 20)
-      ->take_all()
-      ->allow_extra_args(false)
+  AddSeveral(*app, "--obstacle", "X,Y,RADIUS@S", &agent::ParsePillar, options->robot.obstacles,
+             "What stands where in the world, in metres, from S seconds after it was first told to "
+             "drive, and with +S for how long; in the scan alone, not in the pictures")
       ->excludes(lockstep);
   AddTimingOptions(*app, lockstep, options->robot.timing);
   app->add_option("--turn-radius", options->turn_radius_m,
