@@ -129,6 +129,7 @@ class Ros2Robot {
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
   // Whether somebody is there to look at its pictures.
   [[nodiscard]] bool watched() const;
+  [[nodiscard]] bool scan_is_heard() const;  // the same of its scans
 
  private:
   struct State;

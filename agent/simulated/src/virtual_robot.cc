@@ -157,7 +157,7 @@ Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
 }
 
 Result<void> VirtualRobot::SayScan(SensorTime stamp) {
-  if (options_.topics.scan.empty()) return {};
+  if (!link_.scan_is_heard()) return {};
   std::vector<Pillar> there;
   const auto driven_s = faults_.SecondsDriven(steady_clock::now());
   for (const Pillar& pillar : options_.obstacles) {

@@ -300,4 +300,6 @@ std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {
 
 bool Ros2Robot::watched() const { return state_->image.matched() > 0; }
 
+bool Ros2Robot::scan_is_heard() const { return state_->scan && state_->scan->matched() > 0; }
+
 }  // namespace trailcast::dds
