@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device/bag_device.h"
 #include "agent/device/recorded_device.h"
@@ -55,6 +57,12 @@ void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::strin
 // The one of a scanner, of which there need be none; it needs the option `robot`.
 CLI::Option* AddScanTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                 dds::Ros2Options& topics);
+
+// The one of its range sensors, each of which may be given with its mount. Their number and order
+// are those of `topics.ranges` and `mounts`.
+CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                 dds::Ros2Options& topics,
+                                 std::vector<std::optional<motion::Pose2>>& mounts);
 
 // The robot's topics, if they name no interface, are on the network's.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);

@@ -16,10 +16,10 @@ namespace trailcast::agent {
 struct Ros2Run {
   dds::Ros2Options topics;
   std::string camera = "camera";  // for people
-  // With a scan topic, the robot stands before what is in its way.
+  // With a scan topic or range topics, the robot stands before what is in its way.
   ObstacleOptions obstacles;
-  // Silence of camera, odometry, scanner or base for longer stops the robot. In lockstep the
-  // robot's time stands meanwhile, and only the patience counts.
+  // Silence of camera, odometry, scanner, range sensors or base for longer stops the robot. In
+  // lockstep the robot's time stands meanwhile, and only the patience counts.
   std::chrono::milliseconds sensor_timeout{300};
   // How long a stopped robot waits for what fell silent, and the agent for the robot to appear.
   std::chrono::milliseconds patience{10'000};

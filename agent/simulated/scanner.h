@@ -6,13 +6,14 @@
 
 #include "agent/simulated/robot_faults.h"
 #include "services/base/result.h"
-#include "services/motion/free_way.h"
+#include "services/motion/cone_range.h"
+#include "services/motion/scan.h"
 #include "services/sim/core/world.h"
 
 namespace trailcast::agent {
 
-// Something round that stands in the world for a while, for the scanner alone: cameras do not see
-// it, and a base drives through it.
+// Something round that stands in the world for a while, for scanner and range sensors alone:
+// cameras do not see it, and a base drives through it.
 struct Pillar {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // world frame, metres
   double radius_m = 0.2;
@@ -27,5 +28,10 @@ struct Pillar {
 [[nodiscard]] motion::Scan LookAround(const sim::World& world,
                                       const Eigen::Isometry3d& world_from_scanner,
                                       const std::vector<Pillar>& pillars);
+
+// What a sonar sees, straight ahead of it along x, within its cone in the level plane.
+[[nodiscard]] motion::ConeRange LookAhead(const sim::World& world,
+                                          const Eigen::Isometry3d& world_from_sensor,
+                                          const std::vector<Pillar>& pillars);
 
 }  // namespace trailcast::agent

@@ -25,6 +25,9 @@ class SimulatedDevice final : public SimulatedRobot {
   [[nodiscard]] Observation NextBlind();
   // What a scanner above its axle sees where it is now.
   [[nodiscard]] motion::Scan Scan(const std::vector<Pillar>& pillars) const;
+  // What a range sensor sees that is mounted there, seen from the axle.
+  [[nodiscard]] motion::ConeRange Range(const motion::Pose2& mount,
+                                        const std::vector<Pillar>& pillars) const;
   // As in sim::SimulatedRobot.
   void SetGrip(double left, double right);
   [[nodiscard]] std::string camera() const override;

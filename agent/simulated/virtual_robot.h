@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "agent/diagnosis/summary.h"
@@ -28,8 +29,10 @@ struct VirtualRobotOptions {
   bool lockstep = false;
   RobotTiming timing;
   std::vector<RobotFault> faults;
-  std::vector<Pillar> obstacles;  // if topics has a scan
-  std::uint64_t seed = 1;         // of what is drawn
+  std::vector<Pillar> obstacles;  // for its scanner and range sensors, if topics has those
+  // Where each range sensor is, seen from the axle; nothing: a quarter of a metre ahead of it.
+  std::vector<std::optional<motion::Pose2>> range_mounts;
+  std::uint64_t seed = 1;  // of what is drawn
   std::function<bool()> stop = [] { return false; };
 };
 

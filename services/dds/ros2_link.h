@@ -10,8 +10,9 @@
 
 #include "services/base/result.h"
 #include "services/base/time.h"
-#include "services/motion/free_way.h"
+#include "services/motion/cone_range.h"
 #include "services/motion/motion.h"
+#include "services/motion/scan.h"
 
 // The topics of a ROS 2 robot (idl/ros2.idl), with no ROS installed: the driver's end, and the
 // robot's own. Any ROS 2 middleware over DDS may be at the other end.
@@ -30,6 +31,7 @@ struct Ros2Options {
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
   std::string odometry = "odom";    // empty: none
   std::string scan;                 // empty: none
+  std::vector<std::string> ranges;  // sensors that measure in a cone, any number
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
 
@@ -37,6 +39,7 @@ struct Ros2Options {
   [[nodiscard]] std::string ImageTopic() const;
   [[nodiscard]] std::string OdometryTopic() const;
   [[nodiscard]] std::string ScanTopic() const;
+  [[nodiscard]] std::string RangeTopic(std::size_t sensor) const;
   [[nodiscard]] std::string CommandTopic() const;
   [[nodiscard]] bool image_is_compressed() const;
   // kInvalidArgument for a topic name that ROS or DDS would refuse.
@@ -73,13 +76,20 @@ struct Ros2Scan {
   motion::Scan scan;
 };
 
+// sensor_msgs/Range.
+struct Ros2Range {
+  SensorTime stamp{};
+  std::size_t sensor = 0;  // of Ros2Options::ranges
+  motion::ConeRange range;
+};
+
 // geometry_msgs/Twist or TwistStamped.
 struct Ros2Command {
   SensorTime stamp{};  // of the frame that it answers; Twist has none
   motion::VelocityCommand velocity;
 };
 
-using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan>;
+using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range>;
 
 // Who drives the robot: senses and commands. One thread may Take while another calls the rest.
 class Ros2Driver {
@@ -90,7 +100,7 @@ class Ros2Driver {
   Ros2Driver& operator=(const Ros2Driver&) = delete;
 
   // What came since, after waiting for something at most so long. Samples whose numbers are none
-  // (NaN, a quaternion of length 0) are left out, and scans that can be no scanner's.
+  // (NaN, a quaternion of length 0) are left out, and scans and ranges that can be no sensor's.
   [[nodiscard]] std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait);
   [[nodiscard]] Result<void> Publish(const Ros2Command& command);
 
@@ -101,8 +111,9 @@ class Ros2Driver {
     // A peer of one of the topics is there, but its quality of service does not go with ours:
     // which topic, and what policy. Empty: none.
     std::string mismatch;
-    std::string tried;  // on which network interfaces they are sought, for people
-    int scanners = 0;   // who publishes the scan topic
+    std::string tried;         // on which network interfaces they are sought, for people
+    int scanners = 0;          // who publishes the scan topic
+    std::vector<int> rangers;  // who publishes each of the range topics
   };
   [[nodiscard]] Peers peers() const;
 
@@ -125,11 +136,14 @@ class Ros2Robot {
   [[nodiscard]] Result<void> Publish(const Ros2Odometry& odometry);
   // If there is a scan topic.
   [[nodiscard]] Result<void> Publish(const Ros2Scan& scan);
+  // If there is that range topic.
+  [[nodiscard]] Result<void> Publish(const Ros2Range& range);
   // The latest command that came since, if any, after waiting for one at most so long.
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
   // Whether somebody is there to look at its pictures.
   [[nodiscard]] bool watched() const;
   [[nodiscard]] bool scan_is_heard() const;  // the same of its scans
+  [[nodiscard]] bool range_is_heard(std::size_t sensor) const;
 
  private:
   struct State;

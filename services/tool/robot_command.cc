@@ -5,6 +5,7 @@
 
 #include "agent/device/device_options.h"
 #include "agent/simulated/virtual_robot.h"
+#include "services/program/several.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/command.h"
 
@@ -29,28 +30,6 @@ constexpr const char* kExamples =
     "  trailcast robot --sim indoor --ros2 /robot1 --obstacle 3,1.5,0.2@0+10\n"
     "                  # and see 'trailcast-agent replay --scan-topic scan' wait before it\n"
     "It runs until a signal ends it, and then says what it heard from its agent.";
-
-// May be given several times; each text is read by `parse`.
-template <typename Value>
-CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::string& form,
-                        Result<Value> (*parse)(const std::string&), std::vector<Value>& values,
-                        const std::string& help) {
-  const auto wrong = [parse](const std::string& text) {
-    const auto value = parse(text);
-    return value ? std::string() : value.error().message;
-  };
-  return app
-      .add_option_function<std::vector<std::string>>(
-          flag,
-          [parse, &values](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) values.push_back(parse(text).value());
-          },
-          help + "; may be given several times")
-      ->check(CLI::Validator(wrong, form))
-      ->expected(1, 20)
-      ->take_all()
-      ->allow_extra_args(false);
-}
 
 void AddTimingOptions(CLI::App& app, CLI::Option* lockstep, agent::RobotTiming& timing) {
   const auto add = [&](const std::string& flag, double& value, const CLI::Validator& range,
@@ -109,18 +88,30 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
   agent::AddRos2TopicOptions(*app, ros2, "Topics", options->robot.topics);
   options->robot.topics.scan = "scan";
   agent::AddScanTopicOption(*app, ros2, "Topics", options->robot.topics);
+  options->robot.topics.ranges = {"range"};
+  options->robot.range_mounts.resize(1);
+  agent::AddRangeTopicOption(*app, ros2, "Topics", options->robot.topics,
+                             options->robot.range_mounts);
   CLI::Option* lockstep = app->add_flag(
       "--lockstep", options->robot.lockstep,
       "Wait for the answer to each frame ('trailcast-agent ... --lockstep'), so that a slow "
       "machine changes nothing but the time it takes");
-  AddSeveral(*app, "--fail", "FAULT@S", &agent::ParseRobotFault, options->robot.faults,
-             "What goes wrong S seconds after it was first told to drive, and with +S for how "
-             "long: " +
-                 agent::RobotFaultNames())
+  program::AddSeveral(
+      *app, "--fail", "FAULT@S", &agent::ParseRobotFault,
+      [options](std::vector<agent::RobotFault> faults) {
+        options->robot.faults = std::move(faults);
+      },
+      "What goes wrong S seconds after it was first told to drive, and with +S for how "
+      "long: " +
+          agent::RobotFaultNames())
       ->excludes(lockstep);
-  AddSeveral(*app, "--obstacle", "X,Y,RADIUS@S", &agent::ParsePillar, options->robot.obstacles,
-             "What stands where in the world, in metres, from S seconds after it was first told to "
-             "drive, and with +S for how long; in the scan alone, not in the pictures")
+  program::AddSeveral(
+      *app, "--obstacle", "X,Y,RADIUS@S", &agent::ParsePillar,
+      [options](std::vector<agent::Pillar> pillars) {
+        options->robot.obstacles = std::move(pillars);
+      },
+      "What stands where in the world, in metres, from S seconds after it was first told to "
+      "drive, and with +S for how long; in what it scans and ranges alone, not in the pictures")
       ->excludes(lockstep);
   AddTimingOptions(*app, lockstep, options->robot.timing);
   app->add_option("--turn-radius", options->turn_radius_m,

@@ -139,24 +139,29 @@ TEST_F(RobotTest, ARobotIsFollowedOverWhatRealOnesDo) {
 // Not seen in the picture, which is another matter.
 TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
   Teach();
-  const auto robot = Robot(
-      "robot1", {"--seed", "3", "--sim-truth", Path("truth.csv"), "--obstacle", "3,1.5,0.2@0+12"});
-  ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
-  const auto follower = Follow({"--scan-topic", "scan", "--robot-width", "0.4", "--log",
-                                Path("run.log"), "--sensor-patience", "1", "--base-patience", "1"});
-  ASSERT_TRUE(follower->WaitForOutput("WAITING: something stands")) << follower->output();
-  EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
-  EXPECT_THAT(follower->output(), AllOf(HasSubstr("in the way: the robot waits"),
-                                        HasSubstr("the way is free"), HasSubstr("state=ARRIVED")));
-  robot->Signal(SIGTERM);
-  ASSERT_EQ(End(*robot).status, 0) << robot->output();
-  const auto [x_m, y_m] = LastTruePlace();
-  EXPECT_NEAR(x_m, 4.5, 0.4);
-  EXPECT_NEAR(y_m, 1.5, 0.25);
-  // Its front is 0.2 m ahead of its axle, the obstacle's near side at 2.8 m.
-  const double stood_m = LongestStand();
-  EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
-  EXPECT_GT(stood_m, 2.8 - 0.2 - 0.5);
+  for (const Words& sensor :
+       {Words{"--scan-topic", "scan"}, Words{"--range-topic", "range@0.25,0,0"}}) {
+    SCOPED_TRACE(sensor.front());
+    const auto robot = Robot("robot1", {"--seed", "3", "--sim-truth", Path("truth.csv"),
+                                        "--obstacle", "3,1.5,0.2@0+12"});
+    ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
+    const auto follower = Follow(With(sensor, {"--robot-width", "0.4", "--log", Path("run.log"),
+                                               "--sensor-patience", "1", "--base-patience", "1"}));
+    ASSERT_TRUE(follower->WaitForOutput("WAITING: something stands")) << follower->output();
+    EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
+    EXPECT_THAT(follower->output(),
+                AllOf(HasSubstr("in the way: the robot waits"), HasSubstr("the way is free"),
+                      HasSubstr("state=ARRIVED")));
+    robot->Signal(SIGTERM);
+    ASSERT_EQ(End(*robot).status, 0) << robot->output();
+    const auto [x_m, y_m] = LastTruePlace();
+    EXPECT_NEAR(x_m, 4.5, 0.4);
+    EXPECT_NEAR(y_m, 1.5, 0.25);
+    // Its front is 0.2 m ahead of its axle, the obstacle's near side at 2.8 m.
+    const double stood_m = LongestStand();
+    EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
+    EXPECT_GT(stood_m, 2.8 - 0.2 - 0.5);
+  }
 }
 
 TEST_F(RobotTest, ACarArrives) {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "services/program/several.h"
 #include "services/program/stop_signal.h"
 
 namespace trailcast::agent {
@@ -45,6 +46,17 @@ CLI::Option* AddBagOption(CLI::App& command, BagRun& run, CLI::Option* frames) {
   return bag;
 }
 
+// Whoever says how wide his robot is takes it to stand before obstacles.
+void CheckObstacleOptions(const CLI::App& command, const dds::Ros2Options& topics) {
+  for (const char* name : {"--scan-ahead", "--robot-width", "--obstacle-gap"}) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option == nullptr || option->count() == 0) continue;
+    if (topics.scan.empty() && topics.ranges.empty()) {
+      throw CLI::RequiresError(name, "--scan-topic or --range-topic");
+    }
+  }
+}
+
 // The topics' options are also a recording's, which finds its own where nothing is said.
 void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
   for (const char* name : {"--image-topic", "--odom-topic"}) {
@@ -59,19 +71,23 @@ void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
     if ((image || odometry) && options.bag.bag.empty() && options.ros2.topics.robot.empty()) {
       throw CLI::RequiresError(image ? "--image-topic" : "--odom-topic", "--ros2 or --bag");
     }
+    CheckObstacleOptions(command, options.ros2.topics);
     if (image) options.bag.image_topic = options.ros2.topics.image;
     if (odometry) options.bag.odom_topic = options.ros2.topics.odometry;
   });
 }
 
-// With a scanner it stands before what is in its way.
-CLI::Option* AddScannerOptions(CLI::App& command, CLI::Option* robot, Ros2Run& run) {
+// With a scanner or range sensors it stands before what is in its way.
+void AddObstacleOptions(CLI::App& command, CLI::Option* robot, CLI::Option* lockstep,
+                        Ros2Run& run) {
   const std::string group = "What stands in its way";
-  auto* topic = AddScanTopicOption(command, robot, group, run.topics);
-  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
-    return command.add_option(flag, value, text)->needs(topic)->group(group);
-  };
   ObstacleOptions& obstacles = run.obstacles;
+  AddScanTopicOption(command, robot, group, run.topics)->excludes(lockstep);
+  AddRangeTopicOption(command, robot, group, run.topics, obstacles.range_mounts)
+      ->excludes(lockstep);
+  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(robot)->group(group);
+  };
   add("--scan-ahead", obstacles.scan_ahead_m,
       "Metres from the axle that the robot turns about ahead to its scanner")
       ->check(CLI::Range(-2.0, 2.0));
@@ -83,7 +99,6 @@ CLI::Option* AddScannerOptions(CLI::App& command, CLI::Option* robot, Ros2Run& r
       "Metres from what stands in its way at which the robot waits until it is gone; no protection "
       "of people")
       ->check(CLI::Range(0.05, 5.0));
-  return topic;
 }
 
 CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scout) {
@@ -98,7 +113,8 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
   AddRos2TopicOptions(command, ros2, robot, topics);
   add("--camera-name", options.ros2.camera, "The camera's make, for the catalog");
   add("--sensor-timeout", options.sensor_timeout_s,
-      "Seconds without a picture, odometry, a scan or an obeying base until the robot is stopped")
+      "Seconds without a picture, odometry, a scan, a range or an obeying base until the robot is "
+      "stopped")
       ->check(CLI::Range(0.1, 60.0));
   add("--sensor-patience", options.sensor_patience_s,
       "Seconds that a stopped robot waits for them to come back")
@@ -116,13 +132,24 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
                     "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
           ->needs(ros2)
           ->group(robot);
-  if (!scout) AddScannerOptions(command, ros2, options.ros2)->excludes(lockstep);
+  if (!scout) AddObstacleOptions(command, ros2, lockstep, options.ros2);
   if (scout) {
     add("--end-when-still", options.still_at_end_s,
         "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
         ->check(CLI::Range(0.0, 3600.0));
   }
   return ros2;
+}
+
+std::string WhatIsHeard(const dds::Ros2Options& topics) {
+  std::string text = "pictures from " + topics.ImageTopic();
+  text += topics.odometry.empty() ? ", no odometry: vision only"
+                                  : ", odometry from " + topics.OdometryTopic();
+  if (!topics.scan.empty()) text += ", scans from " + topics.ScanTopic();
+  for (std::size_t i = 0; i < topics.ranges.size(); ++i) {
+    text += ", ranges from " + topics.RangeTopic(i);
+  }
+  return text;
 }
 
 Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
@@ -136,12 +163,8 @@ Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
   run.stop = [] { return program::StopSignal::requested(); };
   auto device = Ros2Device::Open(run);
   if (!device) return tl::unexpected(device.error());
-  spdlog::info("robot {}: pictures from {}, {},{} commands to {}, ROS domain {}", run.topics.robot,
-               run.topics.ImageTopic(),
-               run.topics.odometry.empty() ? "no odometry: vision only"
-                                           : "odometry from " + run.topics.OdometryTopic(),
-               run.topics.scan.empty() ? "" : " scans from " + run.topics.ScanTopic() + ",",
-               run.topics.CommandTopic(), run.topics.domain_id);
+  spdlog::info("robot {}: {}, commands to {}, ROS domain {}", run.topics.robot,
+               WhatIsHeard(run.topics), run.topics.CommandTopic(), run.topics.domain_id);
   return device;
 }
 
@@ -240,6 +263,26 @@ CLI::Option* AddScanTopicOption(CLI::App& command, CLI::Option* robot, const std
   return command
       .add_option("--scan-topic", topics.scan,
                   "sensor_msgs/LaserScan, its angle 0 straight ahead; '' for none")
+      ->needs(robot)
+      ->group(group);
+}
+
+CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                 dds::Ros2Options& topics,
+                                 std::vector<std::optional<motion::Pose2>>& mounts) {
+  const auto take = [&topics, &mounts](const std::vector<RangeSensor>& sensors) {
+    topics.ranges.clear();
+    mounts.clear();
+    for (const RangeSensor& sensor : sensors) {
+      if (sensor.topic.empty()) continue;
+      topics.ranges.push_back(sensor.topic);
+      mounts.push_back(sensor.mount);
+    }
+  };
+  return program::AddSeveral(
+             command, "--range-topic", "TOPIC[@AHEAD,LEFT,DEGREES]", &ParseRangeSensor, take,
+             "sensor_msgs/Range of a sonar or infrared sensor in the middle of its front, straight "
+             "ahead; or so many metres from the axle, turned to the left; '' for none")
       ->needs(robot)
       ->group(group);
 }

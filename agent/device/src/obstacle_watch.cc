@@ -31,14 +31,36 @@ double SpeedWithin(double way_m) {
 
 }  // namespace
 
-ObstacleWatch::ObstacleWatch(const ObstacleOptions& options)
+ObstacleWatch::ObstacleWatch(const ObstacleOptions& options, bool has_scan)
     : options_(options),
       outline_{std::max(options.robot_width_m / 2.0, options.scan_ahead_m),
-               options.robot_width_m / 2.0 + kMargin_m} {}
+               options.robot_width_m / 2.0 + kMargin_m},
+      has_scan_(has_scan),
+      ranges_(options.range_mounts.size()) {}
 
 void ObstacleWatch::See(Time now, const motion::Scan& scan) {
-  seen_ = true;
-  points_ = motion::Points(scan, options_.scan_ahead_m);
+  scan_ = steady_.Next(scan, options_.scan_ahead_m);
+  Note(now);
+}
+
+void ObstacleWatch::See(Time now, std::size_t sensor, const motion::ConeRange& range) {
+  const motion::Pose2 front{outline_.front_m, 0.0, 0.0};
+  ranges_[sensor] = motion::Points(range, options_.range_mounts[sensor].value_or(front));
+  Note(now);
+}
+
+std::optional<std::size_t> ObstacleWatch::silent_range() const {
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    if (!ranges_[i]) return i;
+  }
+  return std::nullopt;
+}
+
+void ObstacleWatch::Note(Time now) {
+  points_ = scan_.value_or(std::vector<Eigen::Vector2d>{});
+  for (const Look& look : ranges_) {
+    if (look) points_.insert(points_.end(), look->begin(), look->end());
+  }
   if (!waits_) return;
   if (!Clear()) {
     clear_since_.reset();

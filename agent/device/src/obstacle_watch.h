@@ -6,30 +6,42 @@
 #include <vector>
 
 #include "agent/device/obstacle_options.h"
+#include "services/motion/cone_range.h"
 #include "services/motion/free_way.h"
 #include "services/motion/motion.h"
+#include "services/motion/steady_points.h"
 
 namespace trailcast::agent {
 
-// Makes a robot stand before what its scanner sees in its way: slows it so that it still can, lets
-// it stand with a gap, and go on once its way has been clear for half a second. Told of all that
-// comes; reads no clock itself.
+// Makes a robot stand before what its scanner and range sensors see in its way: slows it so that it
+// still can, lets it stand with a gap, and go on once its way has been clear for half a second.
+// Told of all that comes; reads no clock itself.
 class ObstacleWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  explicit ObstacleWatch(const ObstacleOptions& options);
+  ObstacleWatch(const ObstacleOptions& options, bool has_scan);
 
   void See(Time now, const motion::Scan& scan);
-  [[nodiscard]] bool has_seen() const { return seen_; }
+  // By the range sensor of that number in ObstacleOptions.
+  void See(Time now, std::size_t sensor, const motion::ConeRange& range);
+  [[nodiscard]] bool has_scanned() const { return scan_.has_value(); }
+  // The first range sensor of which nothing came yet.
+  [[nodiscard]] std::optional<std::size_t> silent_range() const;
+  // Something came of each of them.
+  [[nodiscard]] bool has_seen_all() const {
+    return (!has_scan_ || has_scanned()) && !silent_range();
+  }
 
   // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
-  // scan: the same bend, slower, or nothing, for which the robot then waits.
+  // looks: the same bend, slower, or nothing, for which the robot then waits.
   [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& command);
   // What it waits for, one line for people, the same until it goes on; nothing: it may drive.
   [[nodiscard]] const std::optional<std::string>& waits() const { return waits_; }
 
  private:
+  using Look = std::optional<std::vector<Eigen::Vector2d>>;
+  void Note(Time now);
   [[nodiscard]] bool Clear() const;
   [[nodiscard]] motion::VelocityCommand Slowed(const motion::VelocityCommand& command,
                                                double way_m) const;
@@ -37,8 +49,11 @@ class ObstacleWatch {
 
   ObstacleOptions options_;
   motion::Outline outline_;
-  bool seen_ = false;
-  std::vector<Eigen::Vector2d> points_;  // of the newest scan
+  bool has_scan_;
+  motion::SteadyPoints steady_;
+  Look scan_;  // the newest one's points; nothing: there was none yet
+  std::vector<Look> ranges_;
+  std::vector<Eigen::Vector2d> points_;  // of them all
   motion::VelocityCommand wanted_;
   std::optional<std::string> waits_;
   std::optional<Time> clear_since_;

@@ -111,6 +111,7 @@ std::optional<RobotWatch::Trouble> RobotWatch::Check(Time now) {
   if (auto camera = CheckCamera(now)) return camera;
   if (auto odometry = CheckOdometry(now)) return odometry;
   if (auto scan = CheckScan(now)) return scan;
+  if (auto range = CheckRanges(now)) return range;
   return CheckBase(now);
 }
 
@@ -137,6 +138,15 @@ std::optional<RobotWatch::Trouble> RobotWatch::CheckOdometry(Time now) const {
 std::optional<RobotWatch::Trouble> RobotWatch::CheckScan(Time now) const {
   if (!has_scan_ || !scan_at_ || now - *scan_at_ <= timeout_) return std::nullopt;
   return Trouble{Trouble::Part::kScan, fmt::format("no scan for {:.1f} s", Seconds(timeout_))};
+}
+
+std::optional<RobotWatch::Trouble> RobotWatch::CheckRanges(Time now) const {
+  for (std::size_t i = 0; i < range_at_.size(); ++i) {
+    if (!range_at_[i] || now - *range_at_[i] <= timeout_) continue;
+    return Trouble{Trouble::Part::kRange, fmt::format("no range for {:.1f} s", Seconds(timeout_)),
+                   i};
+  }
+  return std::nullopt;
 }
 
 std::optional<RobotWatch::Trouble> RobotWatch::CheckBase(Time now) const {

@@ -4,37 +4,44 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/base/time.h"
 #include "services/motion/motion.h"
 
 namespace trailcast::agent {
 
-// Notices that a robot's camera, odometry, scanner or base does no longer do its part: no picture,
-// or the same one again and again while the robot moves; no odometry; no scan; a base that stands
-// although it was told to drive. Told of all that comes and goes; reads no clock itself. A base
-// that stands is in trouble for a second or a few; then it is to be tried: it has moved, or stands
-// again.
+// Notices that a robot's camera, odometry, scanner, range sensors or base does no longer do its
+// part: no picture, or the same one again and again while the robot moves; no odometry; no scan; no
+// range; a base that stands although it was told to drive. Told of all that comes and goes; reads
+// no clock itself. A base that stands is in trouble for a second or a few; then it is to be tried:
+// it has moved, or stands again.
 class RobotWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   // What stays away for longer than `timeout` has failed.
-  RobotWatch(std::chrono::milliseconds timeout, bool has_odometry, bool has_scan)
-      : timeout_(timeout), has_odometry_(has_odometry), has_scan_(has_scan) {}
+  RobotWatch(std::chrono::milliseconds timeout, bool has_odometry, bool has_scan,
+             std::size_t range_sensors)
+      : timeout_(timeout),
+        has_odometry_(has_odometry),
+        has_scan_(has_scan),
+        range_at_(range_sensors) {}
 
   // `changed`: not the very same pixels as the frame before.
   void SawFrame(Time now, bool changed);
   void SawOdometry(Time now, SensorTime stamp, const motion::Pose2& pose);
   void SawScan(Time now) { scan_at_ = now; }
+  void SawRange(Time now, std::size_t sensor) { range_at_[sensor] = now; }
   // What the base was told, until the next time.
   void Told(const motion::VelocityCommand& command);
 
   struct Trouble {
     // What stands in the way is no failure, and found by ObstacleWatch.
-    enum class Part { kCamera, kOdometry, kScan, kBase, kObstacle };
+    enum class Part { kCamera, kOdometry, kScan, kRange, kBase, kObstacle };
     Part part = Part::kCamera;
-    std::string what;  // one line for people
+    std::string what;        // one line for people
+    std::size_t sensor = 0;  // of a range
   };
   // What is wrong now, if anything. Before the first frame nothing is.
   [[nodiscard]] std::optional<Trouble> Check(Time now);
@@ -58,6 +65,7 @@ class RobotWatch {
   [[nodiscard]] std::optional<Trouble> CheckCamera(Time now);
   [[nodiscard]] std::optional<Trouble> CheckOdometry(Time now) const;
   [[nodiscard]] std::optional<Trouble> CheckScan(Time now) const;
+  [[nodiscard]] std::optional<Trouble> CheckRanges(Time now) const;
   [[nodiscard]] std::optional<Trouble> CheckBase(Time now) const;
   void JudgeBase(Time now);
   void NoteStand(Time now);
@@ -73,6 +81,7 @@ class RobotWatch {
   bool frozen_ = false;
   std::optional<Time> odometry_at_;
   std::optional<Time> scan_at_;
+  std::vector<std::optional<Time>> range_at_;
   motion::Pose2 pose_;
   std::deque<Sample> driven_;  // since the base was told to drive
   bool obeyed_ = false;        // it has driven since

@@ -35,15 +35,17 @@ Ros2Device::State::State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver>
       driver(std::move(link)),
       watch(device.lockstep ? std::chrono::duration_cast<milliseconds>(kLockstepTimeout)
                             : device.sensor_timeout,
-            has_odometry(), has_scan()),
+            has_odometry(), has_scan(), device.topics.ranges.size()),
       poses(GateOf(device.limits),
             device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
       still(device.still_at_end) {
-  if (has_scan()) obstacles.emplace(device.obstacles);
+  // What the topics say counts.
+  run.obstacles.range_mounts.resize(run.topics.ranges.size());
+  if (has_scan() || !run.topics.ranges.empty()) obstacles.emplace(run.obstacles, has_scan());
 }
 
 bool Ros2Device::State::ready(steady_clock::time_point now) const {
-  if (!newest || trouble || (obstacles && !obstacles->has_seen())) return false;
+  if (!newest || trouble || (obstacles && !obstacles->has_seen_all())) return false;
   if (!has_odometry()) return true;
   if (!poses.has_odometry()) return false;
   return poses.Reaches(newest->taken) || now - unserved_since > kOdometryLate;
@@ -80,10 +82,16 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
     return Error{ErrorCode::kUnavailable,
                  fmt::format("no picture could be read for {:g} s: {}", waited_s, why_unreadable)};
   }
+  Came came;
+  came.pictures = newest.has_value();
+  came.odometry = poses.has_odometry();
+  if (obstacles) {
+    came.scan = obstacles->has_scanned();
+    came.silent_range = obstacles->silent_range();
+  }
   return Error{ErrorCode::kUnavailable,
                fmt::format("the robot says nothing for {:g} s: {}", waited_s,
-                           WhoIsMissing(run.topics, driver->peers(),
-                                        {newest.has_value(), poses.has_odometry()}))};
+                           WhoIsMissing(run.topics, driver->peers(), came))};
 }
 
 // Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.

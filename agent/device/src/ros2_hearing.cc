@@ -43,6 +43,10 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     KeepScan(scan->scan, now);
     return;
   }
+  if (const auto* range = std::get_if<dds::Ros2Range>(&sensed)) {
+    KeepRange(*range, now);
+    return;
+  }
   if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
     KeepFrame(std::move(*jpeg), now);
   } else {
@@ -67,10 +71,20 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   newest = Ros2Frame{now, *taken, std::move(picture)};
 }
 
-// Somebody may step in the way between two pictures.
 void Ros2Device::State::KeepScan(const motion::Scan& scan, steady_clock::time_point now) {
   watch.SawScan(now);
   obstacles->See(now, scan);
+  SlowDown();
+}
+
+void Ros2Device::State::KeepRange(const dds::Ros2Range& range, steady_clock::time_point now) {
+  watch.SawRange(now, range.sensor);
+  obstacles->See(now, range.sensor, range.range);
+  SlowDown();
+}
+
+// Somebody may step in the way between two pictures.
+void Ros2Device::State::SlowDown() {
   if (told == motion::VelocityCommand{}) return;
   const motion::VelocityCommand slower = obstacles->Want(told);
   if (!obstacles->waits() && slower != told) (void)Say(slower);

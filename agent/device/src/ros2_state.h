@@ -45,6 +45,8 @@ struct Ros2Device::State {
   void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
   void KeepScan(const motion::Scan& scan, std::chrono::steady_clock::time_point now);
+  void KeepRange(const dds::Ros2Range& range, std::chrono::steady_clock::time_point now);
+  void SlowDown();
   void StopIfInDoubt(std::chrono::steady_clock::time_point now);
 
   // Any thread, with the lock.
@@ -71,7 +73,7 @@ struct Ros2Device::State {
   std::condition_variable news;
   bool ending = false;
   RobotWatch watch;
-  std::optional<ObstacleWatch> obstacles;  // with a scanner
+  std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
   SensedPoses poses;
   bool odometry_stands = false;  // it comes, with stamps that do not advance
   std::optional<Ros2Frame> newest;

@@ -15,6 +15,8 @@ std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Troubl
                          stamps_stand ? ": it comes, but its stamps do not advance" : "");
     case Part::kScan:
       return fmt::format("scan {}: {}", topics.ScanTopic(), trouble.what);
+    case Part::kRange:
+      return fmt::format("range {}: {}", topics.RangeTopic(trouble.sensor), trouble.what);
     case Part::kObstacle:
       return trouble.what;
     case Part::kBase:
@@ -33,10 +35,16 @@ std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::
   } else if (!topics.odometry.empty() && !came.odometry) {
     text = fmt::format("{} {}", peers.odometers == 0 ? "nobody publishes" : "no odometry came on",
                        topics.OdometryTopic());
-  } else if (peers.scanners == 0) {
-    text = fmt::format("nobody publishes {}", topics.ScanTopic());
-  } else {
-    text = fmt::format("no scan that can be one came on {}", topics.ScanTopic());
+  } else if (!topics.scan.empty() && !came.scan) {
+    text = fmt::format("{} {}",
+                       peers.scanners == 0 ? "nobody publishes" : "no scan that can be one came on",
+                       topics.ScanTopic());
+  } else if (came.silent_range) {
+    const std::size_t sensor = *came.silent_range;
+    text = fmt::format(
+        "{} {}",
+        peers.rangers[sensor] == 0 ? "nobody publishes" : "no range that can be one came on",
+        topics.RangeTopic(sensor));
   }
   if (!peers.mismatch.empty()) {
     text += fmt::format("; quality of service does not match: {}", peers.mismatch);

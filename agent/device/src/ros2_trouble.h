@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "agent/device/src/robot_watch.h"
@@ -16,6 +17,8 @@ namespace trailcast::agent {
 struct Came {
   bool pictures = false;
   bool odometry = false;
+  bool scan = false;
+  std::optional<std::size_t> silent_range;  // the first sensor of which nothing came
 };
 // Of a robot that is not there, or not all of it.
 [[nodiscard]] std::string WhoIsMissing(const dds::Ros2Options& topics,

@@ -104,6 +104,15 @@ motion::Scan SimulatedDevice::Scan(const std::vector<Pillar>& pillars) const {
   return LookAround(*state_->world, body * Eigen::Translation3d(0.0, 0.0, kScanner_m), pillars);
 }
 
+motion::ConeRange SimulatedDevice::Range(const motion::Pose2& mount,
+                                         const std::vector<Pillar>& pillars) const {
+  const Eigen::Isometry3d body = sim::Judge(*state_->robot).WorldFromBody();
+  const Eigen::Isometry3d body_from_sensor =
+      Eigen::Translation3d(mount.x_m, mount.y_m, kScanner_m) *
+      Eigen::AngleAxisd(mount.heading_rad, Eigen::Vector3d::UnitZ());
+  return LookAhead(*state_->world, body * body_from_sensor, pillars);
+}
+
 void SimulatedDevice::SetGrip(double left, double right) { state_->robot->SetGrip(left, right); }
 
 Result<void> SimulatedDevice::Drive(const motion::VelocityCommand& command) {

@@ -23,6 +23,7 @@ constexpr milliseconds kSayAgain{500};
 constexpr std::chrono::seconds kClockBack{5};
 const motion::Pose2 kJump{1.6, -1.2, 0.5};
 constexpr double kSlippingGrip = 0.3;
+const motion::Pose2 kFront{0.25, 0.0, 0.0};
 
 dds::Ros2Image ToRos2(const Observation& seen) {
   const auto width = static_cast<std::uint32_t>(seen.image.width);
@@ -59,7 +60,8 @@ class VirtualRobot {
   [[nodiscard]] motion::VelocityCommand Obey(steady_clock::time_point now);
   [[nodiscard]] Result<void> Say(const Observation& seen);
   [[nodiscard]] Result<void> SayOdometry(const Observation& seen);
-  [[nodiscard]] Result<void> SayScan(SensorTime stamp);
+  [[nodiscard]] std::vector<Pillar> Obstacles() const;
+  [[nodiscard]] Result<void> SayWhatStands(SensorTime stamp);
   [[nodiscard]] Result<void> SayPictures(const Observation& seen);
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
@@ -145,7 +147,7 @@ void VirtualRobot::Fail(steady_clock::time_point now) {
 Result<void> VirtualRobot::Say(const Observation& seen) {
   // The picture last: the others are there when it comes.
   if (auto said = SayOdometry(seen); !said) return said;
-  if (auto said = SayScan(seen.stamp); !said) return said;
+  if (auto said = SayWhatStands(seen.stamp); !said) return said;
   return SayPictures(seen);
 }
 
@@ -156,14 +158,27 @@ Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
       dds::Ros2Odometry{seen.stamp - odometry_back_, motion::Between(odometry_from_, *odometry_)});
 }
 
-Result<void> VirtualRobot::SayScan(SensorTime stamp) {
-  if (!link_.scan_is_heard()) return {};
+std::vector<Pillar> VirtualRobot::Obstacles() const {
   std::vector<Pillar> there;
   const auto driven_s = faults_.SecondsDriven(steady_clock::now());
   for (const Pillar& pillar : options_.obstacles) {
     if (driven_s && pillar.spell.contains(*driven_s)) there.push_back(pillar);
   }
-  return link_.Publish(dds::Ros2Scan{stamp, robot_.Scan(there)});
+  return there;
+}
+
+Result<void> VirtualRobot::SayWhatStands(SensorTime stamp) {
+  if (link_.scan_is_heard()) {
+    if (auto said = link_.Publish(dds::Ros2Scan{stamp, robot_.Scan(Obstacles())}); !said) {
+      return said;
+    }
+  }
+  for (std::size_t i = 0; i < options_.range_mounts.size(); ++i) {
+    if (!link_.range_is_heard(i)) continue;
+    const auto range = robot_.Range(options_.range_mounts[i].value_or(kFront), Obstacles());
+    if (auto said = link_.Publish(dds::Ros2Range{stamp, i, range}); !said) return said;
+  }
+  return {};
 }
 
 Result<void> VirtualRobot::SayPictures(const Observation& seen) {

@@ -125,6 +125,9 @@ std::string Mismatch(const std::string& topic, const std::string& policy) {
 std::string Ros2Options::ImageTopic() const { return Resolve(robot, image); }
 std::string Ros2Options::OdometryTopic() const { return Resolve(robot, odometry); }
 std::string Ros2Options::ScanTopic() const { return Resolve(robot, scan); }
+std::string Ros2Options::RangeTopic(std::size_t sensor) const {
+  return Resolve(robot, ranges[sensor]);
+}
 std::string Ros2Options::CommandTopic() const { return Resolve(robot, command); }
 bool Ros2Options::image_is_compressed() const { return image.ends_with("/compressed"); }
 
@@ -132,6 +135,7 @@ Result<void> Ros2Options::Validate() const {
   std::vector<std::string> names{ImageTopic(), CommandTopic()};
   if (!odometry.empty()) names.push_back(OdometryTopic());
   if (!scan.empty()) names.push_back(ScanTopic());
+  for (std::size_t i = 0; i < ranges.size(); ++i) names.push_back(RangeTopic(i));
   for (const std::string& name : names) {
     if (!IsRosName(name)) {
       return Fail(ErrorCode::kInvalidArgument,
@@ -150,6 +154,7 @@ struct Ros2Driver::State {
   Reader image;
   std::optional<Reader> odometry;
   std::optional<Reader> scan;
+  std::vector<Reader> ranges;
   Writer command;
 };
 
@@ -175,12 +180,18 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
     if (!reader) return tl::unexpected(reader.error());
     scan = *std::move(reader);
   }
+  std::vector<Reader> ranges;
+  for (std::size_t i = 0; i < options.ranges.size(); ++i) {
+    auto reader = node->Hear(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
+    if (!reader) return tl::unexpected(reader.error());
+    ranges.push_back(*std::move(reader));
+  }
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
   return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
       new State{options, std::move(network), *std::move(node), *std::move(image),
-                std::move(odometry), std::move(scan), *std::move(command)})));
+                std::move(odometry), std::move(scan), std::move(ranges), *std::move(command)})));
 }
 
 std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
@@ -200,6 +211,13 @@ std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
       if (!info.valid_data) return;
       if (auto scan = ScanFromWire(sample)) sensed.emplace_back(*std::move(scan));
     });
+  }
+  for (std::size_t i = 0; i < s.ranges.size(); ++i) {
+    (void)s.ranges[i].Take(kMaxSamplesPerTake,
+                           [&](const void* sample, const dds_sample_info_t& info) {
+                             if (!info.valid_data) return;
+                             if (auto range = RangeFromWire(sample, i)) sensed.emplace_back(*range);
+                           });
   }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
     if (info.valid_data) {
@@ -231,6 +249,10 @@ Ros2Driver::Peers Ros2Driver::peers() const {
     peers.scanners = s.scan->matched();
     mismatches.push_back(Mismatch(s.options.ScanTopic(), s.scan->refused_policy()));
   }
+  for (std::size_t i = 0; i < s.ranges.size(); ++i) {
+    peers.rangers.push_back(s.ranges[i].matched());
+    mismatches.push_back(Mismatch(s.options.RangeTopic(i), s.ranges[i].refused_policy()));
+  }
   std::erase(mismatches, std::string());
   peers.mismatch = fmt::format("{}", fmt::join(mismatches, ", "));
   return peers;
@@ -243,6 +265,7 @@ struct Ros2Robot::State {
   Writer image;
   Writer odometry;
   std::optional<Writer> scan;
+  std::vector<Writer> ranges;
 };
 
 Ros2Robot::Ros2Robot(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -269,9 +292,15 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
     if (!writer) return tl::unexpected(writer.error());
     scan = *std::move(writer);
   }
-  return std::unique_ptr<Ros2Robot>(new Ros2Robot(
-      std::unique_ptr<State>(new State{options, *std::move(node), *std::move(command),
-                                       *std::move(image), *std::move(odometry), std::move(scan)})));
+  std::vector<Writer> ranges;
+  for (std::size_t i = 0; i < options.ranges.size(); ++i) {
+    auto writer = node->Speak(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
+    if (!writer) return tl::unexpected(writer.error());
+    ranges.push_back(*std::move(writer));
+  }
+  return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(
+      new State{options, *std::move(node), *std::move(command), *std::move(image),
+                *std::move(odometry), std::move(scan), std::move(ranges)})));
 }
 
 Result<void> Ros2Robot::Publish(const Ros2Image& image) {
@@ -285,6 +314,15 @@ Result<void> Ros2Robot::Publish(const Ros2Odometry& odometry) {
 Result<void> Ros2Robot::Publish(const Ros2Scan& scan) {
   if (!state_->scan) return Fail(ErrorCode::kInvalidArgument, "the robot has no scan topic");
   return WithRos2Wire(scan, [&](const void* sample) { return state_->scan->Write(sample); });
+}
+
+Result<void> Ros2Robot::Publish(const Ros2Range& range) {
+  std::vector<Writer>& ranges = state_->ranges;
+  if (range.sensor >= ranges.size()) {
+    return Fail(ErrorCode::kInvalidArgument, "the robot has no such range topic");
+  }
+  return WithRos2Wire(range,
+                      [&](const void* sample) { return ranges[range.sensor].Write(sample); });
 }
 
 std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {
@@ -301,5 +339,9 @@ std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {
 bool Ros2Robot::watched() const { return state_->image.matched() > 0; }
 
 bool Ros2Robot::scan_is_heard() const { return state_->scan && state_->scan->matched() > 0; }
+
+bool Ros2Robot::range_is_heard(std::size_t sensor) const {
+  return sensor < state_->ranges.size() && state_->ranges[sensor].matched() > 0;
+}
 
 }  // namespace trailcast::dds

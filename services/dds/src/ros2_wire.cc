@@ -57,6 +57,8 @@ const dds_topic_descriptor_t& OdometryType() { return nav_msgs_msg_dds__Odometry
 
 const dds_topic_descriptor_t& ScanType() { return sensor_msgs_msg_dds__LaserScan__desc; }
 
+const dds_topic_descriptor_t& RangeType() { return sensor_msgs_msg_dds__Range__desc; }
+
 const dds_topic_descriptor_t& CommandType(Ros2CommandType type) {
   return type == Ros2CommandType::kTwist ? geometry_msgs_msg_dds__Twist__desc
                                          : geometry_msgs_msg_dds__TwistStamped__desc;
@@ -111,6 +113,18 @@ Result<void> WithRos2Wire(const Ros2Scan& scan, const UseSample& use) {
   return use(&wire);
 }
 
+Result<void> WithRos2Wire(const Ros2Range& range, const UseSample& use) {
+  std::array<char, 6> frame{"range"};
+  sensor_msgs_msg_dds__Range_ wire{};
+  wire.header.stamp = ToTime(range.stamp);
+  wire.header.frame_id = Text(frame);
+  wire.field_of_view = static_cast<float>(range.range.field_rad);
+  wire.min_range = static_cast<float>(range.range.least_m);
+  wire.max_range = static_cast<float>(range.range.most_m);
+  wire.range = range.range.range_m;
+  return use(&wire);
+}
+
 Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type, const UseSample& use) {
   if (type == Ros2CommandType::kTwist) {
     const auto wire = ToTwist(command.velocity);
@@ -161,6 +175,15 @@ std::optional<Ros2Scan> ScanFromWire(const void* sample) {
                  {ranges.begin(), ranges.end()}}};
   if (!motion::Plausible(scan.scan)) return std::nullopt;
   return scan;
+}
+
+std::optional<Ros2Range> RangeFromWire(const void* sample, std::size_t sensor) {
+  const auto& wire = *static_cast<const sensor_msgs_msg_dds__Range_*>(sample);
+  const Ros2Range range{FromTime(wire.header.stamp),
+                        sensor,
+                        {wire.field_of_view, wire.min_range, wire.max_range, wire.range}};
+  if (!motion::Plausible(range.range)) return std::nullopt;
+  return range;
 }
 
 std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type) {

@@ -15,19 +15,22 @@ using UseSample = std::function<Result<void>(const void* sample)>;
 [[nodiscard]] const dds_topic_descriptor_t& ImageType(bool compressed);
 [[nodiscard]] const dds_topic_descriptor_t& OdometryType();
 [[nodiscard]] const dds_topic_descriptor_t& ScanType();
+[[nodiscard]] const dds_topic_descriptor_t& RangeType();
 [[nodiscard]] const dds_topic_descriptor_t& CommandType(Ros2CommandType type);
 
 // Calls `use` with the sample, which is valid during the call and borrows the message's bytes.
 [[nodiscard]] Result<void> WithRos2Wire(const Ros2Image& image, const UseSample& use);
 [[nodiscard]] Result<void> WithRos2Wire(const Ros2Odometry& odometry, const UseSample& use);
 [[nodiscard]] Result<void> WithRos2Wire(const Ros2Scan& scan, const UseSample& use);
+[[nodiscard]] Result<void> WithRos2Wire(const Ros2Range& range, const UseSample& use);
 [[nodiscard]] Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type,
                                         const UseSample& use);
 
-// Nothing: the sample holds numbers that are none, or a scan that can be no scanner's.
+// Nothing: the sample holds numbers that are none, or a scan or range that can be no sensor's.
 [[nodiscard]] Ros2Sensed ImageFromWire(const void* sample, bool compressed);
 [[nodiscard]] std::optional<Ros2Odometry> OdometryFromWire(const void* sample);
 [[nodiscard]] std::optional<Ros2Scan> ScanFromWire(const void* sample);
+[[nodiscard]] std::optional<Ros2Range> RangeFromWire(const void* sample, std::size_t sensor);
 [[nodiscard]] std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type);
 
 }  // namespace trailcast::dds

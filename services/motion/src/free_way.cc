@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trailcast::motion {
 namespace {
 
-constexpr double kMostAngle_rad = 4.0 * std::numbers::pi;
 // Bends wider than this are straight, tighter than that a turn on the spot.
 constexpr double kStraight_m = 1000.0;
 constexpr double kOnTheSpot_m = 0.05;
@@ -49,30 +47,6 @@ std::optional<double> WayTo(const Eigen::Vector2d& at, const Outline& outline,
 }
 
 }  // namespace
-
-bool Plausible(const Scan& scan) {
-  if (scan.ranges_m.empty() || scan.ranges_m.size() > kMostRanges) return false;
-  if (!(std::abs(scan.first_rad) <= kMostAngle_rad) || !std::isfinite(scan.step_rad)) return false;
-  const double turned_rad = std::abs(scan.step_rad) * static_cast<double>(scan.ranges_m.size() - 1);
-  return scan.step_rad != 0.0 && turned_rad <= kMostAngle_rad && std::isfinite(scan.least_m) &&
-         scan.least_m >= 0.0 && scan.most_m > scan.least_m;
-}
-
-std::vector<Eigen::Vector2d> Points(const Scan& scan, double ahead_m) {
-  std::vector<Eigen::Vector2d> points;
-  points.reserve(scan.ranges_m.size());
-  double angle_rad = scan.first_rad;
-  for (const float measured_m : scan.ranges_m) {
-    const bool too_near = std::isinf(measured_m) && measured_m < 0.0F;
-    const double range_m = too_near ? scan.least_m : measured_m;
-    if (std::isfinite(range_m) && range_m >= scan.least_m && range_m <= scan.most_m &&
-        (too_near || range_m > 0.0)) {
-      points.emplace_back(ahead_m + range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
-    }
-    angle_rad += scan.step_rad;
-  }
-  return points;
-}
 
 double Pace(const Outline& outline, const VelocityCommand& command) {
   return std::max(std::abs(command.linear_mps), outline.side_m * std::abs(command.angular_radps));

@@ -24,7 +24,7 @@ const motion::VelocityCommand kStand{};
 // Half a metre wide, and so a quarter to its front; looks all round, a degree a range.
 class ObstacleWatchTest : public testing::Test {
  protected:
-  // Next scan, with something there, and nothing else.
+  // Next scan, with something there that fills two ranges, and nothing else.
   void See(std::optional<Eigen::Vector2d> at) {
     now_ += kScan;
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -33,6 +33,8 @@ class ObstacleWatchTest : public testing::Test {
     if (at) {
       const auto index = std::lround((std::atan2(at->y(), at->x()) + std::numbers::pi) / kDegree);
       scan.ranges_m[static_cast<std::size_t>(index)] = static_cast<float>(at->norm());
+      // A little further, so that it is not this that is met first.
+      scan.ranges_m[static_cast<std::size_t>(index + 1)] = static_cast<float>(at->norm() + 0.02);
     }
     watch_.See(now_, scan);
   }
@@ -40,14 +42,14 @@ class ObstacleWatchTest : public testing::Test {
     for (milliseconds passed{0}; passed < duration; passed += kScan) See(at);
   }
 
-  ObstacleWatch watch_{ObstacleOptions{}};
+  ObstacleWatch watch_{ObstacleOptions{}, true};
   ObstacleWatch::Time now_{};
 };
 
 TEST_F(ObstacleWatchTest, LeavesWhatIsFreeAsItIs) {
-  EXPECT_FALSE(watch_.has_seen());
+  EXPECT_FALSE(watch_.has_seen_all());
   See(std::nullopt);
-  EXPECT_TRUE(watch_.has_seen());
+  EXPECT_TRUE(watch_.has_seen_all());
   EXPECT_EQ(watch_.Want(kAhead), kAhead);
   See(Eigen::Vector2d(3.0, 0.0));
   EXPECT_EQ(watch_.Want(kAhead), kAhead);
@@ -69,7 +71,7 @@ TEST_F(ObstacleWatchTest, SlowsDownInTheSameBend) {
 // By a base that brakes as gently as it is taken to, and hears of each scan a scan late.
 TEST_F(ObstacleWatchTest, StandsWithTheGapHoweverFastItCame) {
   for (const double speed_mps : {0.1, 0.4, 1.0}) {
-    ObstacleWatch watch{ObstacleOptions{}};
+    ObstacleWatch watch{ObstacleOptions{}, true};
     double place_m = 0.0;  // of its front
     double mps = speed_mps;
     motion::VelocityCommand told{speed_mps, 0.0};
@@ -138,13 +140,78 @@ TEST_F(ObstacleWatchTest, WhoWantsToStandWaitsForNothing) {
 TEST_F(ObstacleWatchTest, AScannerAtTheFrontSaysHowFarTheRobotReaches) {
   ObstacleOptions options;
   options.scan_ahead_m = 0.6;
-  ObstacleWatch watch(options);
+  ObstacleWatch watch(options, true);
   watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.5F}});
   std::ignore = watch.Want({0.1, 0.0});
   EXPECT_FALSE(watch.waits());
   watch.See(now_, {0.0, 0.1, 0.1, 10.0, {0.31F}});
   std::ignore = watch.Want({0.1, 0.0});
   EXPECT_TRUE(watch.waits());
+}
+
+TEST_F(ObstacleWatchTest, AFalsePointDoesNotStopItAndAThinPoleDoes) {
+  const auto see = [&](float range_m) {
+    constexpr float kFar = 5.0F;
+    now_ += kScan;
+    watch_.See(now_, {-0.02, 0.01, 0.1, 10.0, {kFar, kFar, range_m, kFar, kFar}});
+    return watch_.Want(kAhead);
+  };
+  see(5.0F);
+  EXPECT_EQ(see(0.5F), kAhead);
+  EXPECT_EQ(see(5.0F), kAhead);
+  EXPECT_FALSE(watch_.waits());
+  see(0.6F);
+  EXPECT_LT(see(0.55F).linear_mps, 0.2);
+  see(0.53F);
+  EXPECT_TRUE(watch_.waits());
+}
+
+// A sonar with a cone of 0.5 rad.
+motion::ConeRange Sonar(float range_m) { return {0.5, 0.02, 4.0, range_m}; }
+
+TEST_F(ObstacleWatchTest, StandsBeforeWhatARangeSensorSeesAndGoesOn) {
+  ObstacleOptions options;
+  options.range_mounts = {std::nullopt};
+  ObstacleWatch watch(options, false);
+  EXPECT_FALSE(watch.has_seen_all());
+  EXPECT_EQ(watch.silent_range(), 0U);
+  watch.See(now_, 0, Sonar(std::numeric_limits<float>::infinity()));
+  EXPECT_TRUE(watch.has_seen_all());
+  EXPECT_EQ(watch.Want(kAhead), kAhead);
+  watch.See(now_, 0, Sonar(0.5F));  // from the front
+  EXPECT_LT(watch.Want(kAhead).linear_mps, 0.4);
+  EXPECT_FALSE(watch.waits());
+  watch.See(now_, 0, Sonar(0.3F));
+  EXPECT_EQ(watch.Want(kAhead), kStand);
+  ASSERT_TRUE(watch.waits());
+  EXPECT_THAT(*watch.waits(), HasSubstr("something stands 0.3 m ahead"));
+  watch.See(now_ + milliseconds(100), 0, Sonar(4.0F));
+  watch.See(now_ + milliseconds(700), 0, Sonar(4.0F));
+  EXPECT_FALSE(watch.waits());
+}
+
+TEST_F(ObstacleWatchTest, OneThatLooksAsideStopsWhoTurnsThere) {
+  ObstacleOptions options;
+  options.range_mounts = {motion::Pose2{0.0, 0.2, std::numbers::pi / 2.0}};
+  ObstacleWatch watch(options, false);
+  watch.See(now_, 0, Sonar(0.15F));
+  std::ignore = watch.Want(kAhead);
+  EXPECT_FALSE(watch.waits());
+  std::ignore = watch.Want({0.0, 0.5});
+  EXPECT_TRUE(watch.waits());
+}
+
+TEST_F(ObstacleWatchTest, EachOfItsSensorsCounts) {
+  ObstacleOptions options;
+  options.range_mounts = {std::nullopt, std::nullopt};
+  ObstacleWatch watch(options, true);
+  watch.See(now_, 0, Sonar(0.3F));
+  watch.See(now_, {0.0, 0.1, 0.1, 10.0, {9.0F}});
+  EXPECT_EQ(watch.silent_range(), 1U);
+  watch.See(now_, 1, Sonar(3.0F));
+  EXPECT_TRUE(watch.has_seen_all());
+  std::ignore = watch.Want(kAhead);
+  EXPECT_TRUE(watch.waits()) << "by the first of its ranges";
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class RobotWatchTest : public testing::Test {
     watch_.Told(command);
   }
 
-  RobotWatch watch_{kTimeout, true, false};
+  RobotWatch watch_{kTimeout, true, false, 0};
   RobotWatch::Time now_{};
   SensorTime stamp_{};
   motion::Pose2 pose_;
@@ -107,7 +107,7 @@ TEST_F(RobotWatchTest, WaitsForABaseToGetGoingBeforeAPictureMustChange) {
 }
 
 TEST_F(RobotWatchTest, WithoutOdometryARobotIsTakenToDoAsItIsTold) {
-  watch_ = RobotWatch(kTimeout, false, false);
+  watch_ = RobotWatch(kTimeout, false, false, 0);
   odometry_ = false;
   picture_changes_ = false;
   Tell(kAhead);
@@ -126,7 +126,7 @@ TEST_F(RobotWatchTest, MissesTheOdometry) {
 }
 
 TEST_F(RobotWatchTest, MissesTheScansOfARobotThatHasAScanner) {
-  watch_ = RobotWatch(kTimeout, true, true);
+  watch_ = RobotWatch(kTimeout, true, true, 0);
   Run(2 * kTimeout);
   EXPECT_FALSE(trouble_) << "the first is still to come";
   watch_.SawScan(now_);
@@ -137,9 +137,21 @@ TEST_F(RobotWatchTest, MissesTheScansOfARobotThatHasAScanner) {
   EXPECT_LE(now_ - began, kTimeout + 2 * kFrame);
 }
 
+TEST_F(RobotWatchTest, SaysWhichOfItsRangeSensorsIsMissed) {
+  watch_ = RobotWatch(kTimeout, true, false, 2);
+  watch_.SawRange(now_, 1);
+  Run(kTimeout);
+  watch_.SawRange(now_, 0);
+  Run(kTimeout / 2);
+  ASSERT_TRUE(trouble_);
+  EXPECT_EQ(trouble_->part, Part::kRange);
+  EXPECT_EQ(trouble_->sensor, 1U);
+  EXPECT_EQ(trouble_->what, "no range for 0.4 s");
+}
+
 TEST_F(RobotWatchTest, NoticesABaseThatStopsObeying) {
   for (const motion::VelocityCommand& command : {kAhead, motion::VelocityCommand{0.0, 0.4}}) {
-    watch_ = RobotWatch(kTimeout, true, false);
+    watch_ = RobotWatch(kTimeout, true, false, 0);
     base_ = true;
     Tell({});
     Tell(command);

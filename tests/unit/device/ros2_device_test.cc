@@ -64,7 +64,17 @@ class Ros2DeviceTest : public testing::Test {
   void SayScan(std::optional<float> range_m) {
     constexpr float kNothing = std::numeric_limits<float>::infinity();
     ASSERT_TRUE(robot_->Publish(dds::Ros2Scan{
-        stamp_, {-0.5, 0.5, 0.1, 10.0, {kNothing, range_m.value_or(kNothing), kNothing}}}));
+        stamp_,
+        {-0.03,
+         0.02,
+         0.1,
+         10.0,
+         {kNothing, range_m.value_or(kNothing), range_m.value_or(kNothing), kNothing}}}));
+  }
+  void SayRange(std::optional<float> range_m) {
+    constexpr float kNothing = std::numeric_limits<float>::infinity();
+    ASSERT_TRUE(
+        robot_->Publish(dds::Ros2Range{stamp_, 0, {0.1, 0.02, 4.0, range_m.value_or(kNothing)}}));
   }
   // All of it, until `next` has a frame.
   Result<std::optional<Observation>> SayAllUntil(
@@ -73,7 +83,8 @@ class Ros2DeviceTest : public testing::Test {
     while (next.wait_for(milliseconds(20)) != std::future_status::ready &&
            steady_clock::now() < deadline) {
       GoOn();
-      SayScan(range_m);
+      if (!run_.topics.scan.empty()) SayScan(range_m);
+      if (!run_.topics.ranges.empty()) SayRange(range_m);
       Say();
     }
     return next.get();
@@ -362,6 +373,58 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheScannerIsSilent) {
   ASSERT_FALSE(told_.empty());
   EXPECT_EQ(told_.front().what, "scan /robot1/scan: no scan for 0.3 s");
   EXPECT_TRUE(told_.front().fault);
+}
+
+TEST_F(Ros2DeviceTest, StandsBeforeWhatARangeSensorSeesAndGoesOnWhenThatIsGone) {
+  run_.topics.ranges = {"sonar"};
+  Open();
+  auto first = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_TRUE(SayAllUntil(first, std::nullopt));
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  SayRange(0.28F);
+  EXPECT_TRUE(Told(kStand));
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_TRUE(SayAllUntil(next, std::nullopt));
+  ASSERT_FALSE(told_.empty());
+  EXPECT_EQ(told_.front().what, "something stands 0.3 m ahead, in the way: the robot waits");
+  EXPECT_FALSE(told_.front().fault);
+  EXPECT_EQ(told_.back().what, "");
+}
+
+TEST_F(Ros2DeviceTest, StopsTheRobotWhenARangeSensorIsSilent) {
+  run_.topics.ranges = {"sonar"};
+  Open();
+  auto first = std::async(std::launch::async, [this] { return device_->Next(); });
+  ASSERT_TRUE(SayAllUntil(first, std::nullopt));
+  auto next = std::async(std::launch::async, [this] {
+    Result<std::optional<Observation>> seen = device_->Next();
+    while (seen) seen = device_->Next();
+    return seen.error().message;
+  });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    Say();
+  }
+  EXPECT_THAT(next.get(), HasSubstr("range /robot1/sonar: no range for 0.3 s"));
+}
+
+TEST_F(Ros2DeviceTest, ARangeSensorThatIsNotThereIsNamed) {
+  run_.topics.ranges = {"sonar"};
+  run_.patience = milliseconds(500);
+  Open();
+  robot_.reset();
+  dds::Ros2Options topics = run_.topics;
+  topics.ranges.clear();
+  robot_ = dds::Ros2Robot::Open(topics).value();
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    Say();
+  }
+  const auto seen = next.get();
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message, HasSubstr("nobody publishes /robot1/sonar"));
 }
 
 TEST_F(Ros2DeviceTest, WithAScanTopicItDoesNotDriveBeforeTheFirstScan) {

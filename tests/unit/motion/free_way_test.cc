@@ -1,20 +1,15 @@
 #include "services/motion/free_way.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace trailcast::motion {
 namespace {
 
 using Eigen::Vector2d;
-using testing::IsEmpty;
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const Outline kBody{0.3, 0.25};
 const VelocityCommand kAhead{0.4, 0.0};
 const VelocityCommand kLeft{0.4, 0.4};  // about a point 1 m to the left
@@ -22,54 +17,6 @@ const VelocityCommand kLeft{0.4, 0.4};  // about a point 1 m to the left
 std::optional<double> Way(const Vector2d& at, const VelocityCommand& command) {
   const auto met = FirstMet({at}, kBody, command);
   return met ? std::optional(met->way_m) : std::nullopt;
-}
-
-Scan Looking(std::vector<float> ranges_m) {
-  return {-std::numbers::pi / 2.0, std::numbers::pi / 2.0, 0.1, 10.0, std::move(ranges_m)};
-}
-
-TEST(FreeWay, SeesWhatAScannerMeasuresFromTheAxle) {
-  const auto points = Points(Looking({1.0F, 2.0F, 3.0F}), 0.2);
-  ASSERT_EQ(points.size(), 3U);
-  EXPECT_NEAR((points[0] - Vector2d(0.2, -1.0)).norm(), 0.0, 1e-6);
-  EXPECT_NEAR((points[1] - Vector2d(2.2, 0.0)).norm(), 0.0, 1e-6);
-  EXPECT_NEAR((points[2] - Vector2d(0.2, 3.0)).norm(), 0.0, 1e-6);
-}
-
-TEST(FreeWay, WhatCannotBeMeasuredIsNothing) {
-  EXPECT_THAT(Points(Looking({kNan, kInf, 0.0F, 0.05F, 11.0F, -1.0F}), 0.0), IsEmpty());
-  Scan any = Looking({0.0F, kInf});
-  any.least_m = 0.0;
-  any.most_m = kInf;
-  EXPECT_THAT(Points(any, 0.0), IsEmpty());
-}
-
-TEST(FreeWay, WhatIsTooNearToBeMeasuredIsThere) {
-  const auto points = Points(Looking({kNan, -kInf}), 0.0);
-  ASSERT_EQ(points.size(), 1U);
-  EXPECT_NEAR((points[0] - Vector2d(0.1, 0.0)).norm(), 0.0, 1e-6);
-}
-
-TEST(FreeWay, ScansThatCanBeNoScannersAreTold) {
-  EXPECT_TRUE(Plausible(Looking({1.0F, kNan})));
-  EXPECT_FALSE(Plausible(Looking({})));
-  EXPECT_FALSE(Plausible(Looking(std::vector<float>(kMostRanges + 1, 1.0F))));
-  const auto with = [](auto change) {
-    Scan scan = Looking({1.0F, 1.0F, 1.0F});
-    change(scan);
-    return Plausible(scan);
-  };
-  for (const double number : {double{kNan}, double{kInf}, -double{kInf}}) {
-    EXPECT_FALSE(with([&](Scan& scan) { scan.first_rad = number; }));
-    EXPECT_FALSE(with([&](Scan& scan) { scan.step_rad = number; }));
-    EXPECT_FALSE(with([&](Scan& scan) { scan.least_m = number; }));
-  }
-  EXPECT_FALSE(with([](Scan& scan) { scan.step_rad = 0.0; }));
-  EXPECT_FALSE(with([](Scan& scan) { scan.step_rad = 7.0; }));
-  EXPECT_FALSE(with([](Scan& scan) { scan.first_rad = 100.0; }));
-  EXPECT_FALSE(with([](Scan& scan) { scan.least_m = -0.1; }));
-  EXPECT_FALSE(with([](Scan& scan) { scan.most_m = kNan; }));
-  EXPECT_TRUE(with([](Scan& scan) { scan.most_m = kInf; }));
 }
 
 TEST(FreeWay, StraightAheadItIsFreeUpToItsFront) {

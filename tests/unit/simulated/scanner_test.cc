@@ -45,6 +45,19 @@ TEST(Scanner, SeesTheWorldAndWhatStandsInIt) {
   ExpectRanges(LookAround(*world, Above(1.0, 0.0), {behind_the_wall}), 2.0F, kNothing, kNothing);
 }
 
+TEST(Sonar, SeesTheNearestWithinItsCone) {
+  const auto world = Wall();
+  EXPECT_TRUE(motion::Plausible(LookAhead(*world, Above(1.0, 0.0), {})));
+  EXPECT_FLOAT_EQ(LookAhead(*world, Above(1.0, 0.0), {}).range_m, 2.0F);
+  const Pillar aside{{2.0, 0.3}, 0.1, {}};
+  const float range_m = LookAhead(*world, Above(1.0, 0.0), {aside}).range_m;
+  EXPECT_GT(range_m, 0.9F);
+  EXPECT_LT(range_m, 1.05F);
+  const Pillar outside{{2.0, 0.6}, 0.1, {}};
+  EXPECT_FLOAT_EQ(LookAhead(*world, Above(1.0, 0.0), {outside}).range_m, 2.0F);
+  EXPECT_EQ(LookAhead(*world, Above(-3.0, 0.0), {}).range_m, kNothing);
+}
+
 TEST(Pillar, IsAPlaceAWidthAndATime) {
   const auto pillar = ParsePillar("3,-1.5,0.2@1+10");
   ASSERT_TRUE(pillar) << pillar.error().message;

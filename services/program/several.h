@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::program {
+
+// An option that may be given several times; each text is read by `parse`, all of them are given to
+// `take`.
+template <typename Value>
+CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::string& form,
+                        Result<Value> (*parse)(const std::string&),
+                        std::type_identity_t<std::function<void(std::vector<Value>)>> take,
+                        const std::string& help) {
+  const auto wrong = [parse](const std::string& text) {
+    const auto value = parse(text);
+    return value ? std::string() : value.error().message;
+  };
+  return app
+      .add_option_function<std::vector<std::string>>(
+          flag,
+          [parse, take = std::move(take)](const std::vector<std::string>& texts) {
+            std::vector<Value> values;
+            for (const std::string& text : texts) values.push_back(parse(text).value());
+            take(std::move(values));
+          },
+          help + "; may be given several times")
+      ->check(CLI::Validator(wrong, form))
+      ->expected(1, 20)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+}  // namespace trailcast::program
