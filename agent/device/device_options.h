@@ -64,6 +64,10 @@ CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const st
                                  dds::Ros2Options& topics,
                                  std::vector<std::optional<motion::Pose2>>& mounts);
 
+// Both, and what has to be known of the robot to judge what they see.
+void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Options& topics,
+                              ObstacleOptions& obstacles);
+
 // The robot's topics, if they name no interface, are on the network's.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
 

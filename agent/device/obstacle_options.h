@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/motion/free_way.h"
 #include "services/motion/motion.h"
 
 namespace trailcast::agent {
@@ -19,6 +20,9 @@ struct ObstacleOptions {
   // Where each range sensor is, seen from the axle; nothing: in the middle of its front.
   std::vector<std::optional<motion::Pose2>> range_mounts;
 };
+
+// Its outline, wider by what is to spare on either side.
+[[nodiscard]] motion::Outline OutlineOf(const ObstacleOptions& options);
 
 // A range sensor's topic, and where it is mounted.
 struct RangeSensor {

@@ -4,11 +4,15 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "agent/device/obstacle_options.h"
 #include "services/base/result.h"
 #include "services/dds/ros2_link.h"
 #include "services/image/image.h"
+#include "services/motion/cone_range.h"
 #include "services/motion/motion.h"
+#include "services/motion/scan.h"
 #include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
@@ -35,6 +39,26 @@ struct TurnMeasures {
   std::optional<double> stamps_late_s;
 };
 
+// What a scanner sees.
+struct ScanMeasures {
+  int scans = 0;
+  double rate_hz = 0.0;
+  // Of the last scan.
+  int ranges = 0;
+  int seen = 0;          // that measure something
+  int within_robot = 0;  // of these, whose place the robot itself fills
+  Eigen::Vector2d first_within = Eigen::Vector2d::Zero();  // from the axle: x ahead, y left
+};
+// Of one scan alone.
+[[nodiscard]] ScanMeasures MeasureScan(const motion::Scan& scan, const ObstacleOptions& robot);
+
+// What a range sensor sees.
+struct RangeMeasures {
+  int ranges = 0;
+  double rate_hz = 0.0;
+  motion::ConeRange last;
+};
+
 // What a ROS 2 robot says within a few seconds.
 struct RobotMeasures {
   dds::Ros2Driver::Peers peers;
@@ -51,11 +75,14 @@ struct RobotMeasures {
   // By when they come: pictures' stamps, ahead of odometry's. With both.
   std::optional<double> clocks_apart_s;
   std::optional<TurnMeasures> turn;
+  ScanMeasures scan;
+  std::vector<RangeMeasures> ranges;  // as many as there are range topics
 };
 
 struct MeasureOptions {
   dds::Ros2Options topics;
   vision::IntakeOptions intake;  // how the camera is said to be mounted
+  ObstacleOptions obstacles;     // how large the robot is said to be
   std::chrono::milliseconds look{3000};
   // Turns the robot to the left and back, a second and a half each; the speed ahead is for cars.
   bool turn = false;

@@ -25,7 +25,8 @@ struct RobotTiming {
 struct VirtualRobotOptions {
   dds::Ros2Options topics;
   // Its time passes only when a frame is answered by a command with the frame's stamp; otherwise
-  // with the wall clock, as far as the machine keeps up. No timing, no faults then.
+  // with the wall clock, as far as the machine keeps up. No timing, no faults then;
+  // obstacles come and go by the robot's time.
   bool lockstep = false;
   RobotTiming timing;
   std::vector<RobotFault> faults;

@@ -111,9 +111,9 @@ class Ros2Driver {
     // A peer of one of the topics is there, but its quality of service does not go with ours:
     // which topic, and what policy. Empty: none.
     std::string mismatch;
-    std::string tried;         // on which network interfaces they are sought, for people
-    int scanners = 0;          // who publishes the scan topic
-    std::vector<int> rangers;  // who publishes each of the range topics
+    std::string tried;           // on which network interfaces they are sought, for people
+    int scanners = 0;            // who publishes the scan topic
+    std::vector<int> rangers{};  // who publishes each of the range topics
   };
   [[nodiscard]] Peers peers() const;
 

@@ -18,6 +18,7 @@ constexpr const char* kExamples =
     "  trailcast doctor\n"
     "  trailcast doctor --network-interface wlan0 --folder /var/lib/trailcast\n"
     "  trailcast doctor --ros2 /robot1          # looks at a robot's camera, odometry and stamps\n"
+    "  trailcast doctor --ros2 /robot1 --scan-topic scan --robot-width 0.4\n"
     "  trailcast doctor --ros2 /robot1 --turn   # and turns it to the left and back: make room\n"
     "Exit status: 1 if anything is BAD.";
 
@@ -82,6 +83,7 @@ Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common)
       ->check(CLI::Range(0.0, 10.0))
       ->group(robot);
   agent::AddRos2TopicOptions(*app, ros2, robot, options->robot.topics);
+  agent::AddObstacleSensorOptions(*app, ros2, options->robot.topics, options->robot.obstacles);
   agent::AddCameraRoll(*app, options->robot.intake);
   return {app, [app, options, &common] {
             program::SetUpLog(common);

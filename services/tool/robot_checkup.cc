@@ -16,6 +16,7 @@ constexpr double kLeastContrast = 20.0;
 constexpr double kLeastSharpness = 0.34;
 constexpr double kFewestPictures_hz = 8.0;
 constexpr double kFewestPoses_hz = 15.0;
+constexpr double kFewestScans_hz = 5.0;
 constexpr double kSameClock_s = 0.5;
 constexpr double kLateStamps_s = 0.08;
 constexpr double kLateBase_s = 0.4;
@@ -172,7 +173,75 @@ Finding JudgeDelay(const agent::TurnMeasures& turn) {
       "the robot will swing: drive slower (--speed-factor 0.6), or shorten the way of commands"};
 }
 
+Finding Silent(const std::string& what, bool somebody_publishes) {
+  if (!somebody_publishes) {
+    return {Grade::kBad, what + ": nobody publishes it",
+            "start its driver, or name the topic as 'ros2 topic list' has it"};
+  }
+  return {Grade::kBad, what + ": nothing came that can be one",
+          "angles, steps and ranges have to be numbers, the field of view at most half a turn; "
+          "listen to it with 'ros2 topic echo'"};
+}
+
+constexpr const char* kRare =
+    "the robot is stopped when none comes for 0.3 s: have the driver publish 10 a second, or give "
+    "--sensor-timeout";
+
+Finding JudgeScan(const agent::RobotMeasures& measures, const dds::Ros2Options& topics) {
+  const agent::ScanMeasures& scan = measures.scan;
+  if (scan.scans == 0) return Silent("scan " + topics.ScanTopic(), measures.peers.scanners > 0);
+  const std::string what = fmt::format("scan {}: {:.0f} a second, {} of {} ranges see something",
+                                       topics.ScanTopic(), scan.rate_hz, scan.seen, scan.ranges);
+  if (scan.seen == 0) {
+    return {
+        Grade::kWarning, what,
+        "is it covered, or in the open with nothing within its range? Hold something before it"};
+  }
+  if (scan.within_robot > 0) {
+    return {Grade::kBad,
+            fmt::format(
+                "{}, {} of them within the robot itself, one {:.2f} m {} its axle, {:.2f} m "
+                "to the {}",
+                what, scan.within_robot, std::abs(scan.first_within.x()),
+                scan.first_within.x() >= 0.0 ? "ahead of" : "behind",
+                std::abs(scan.first_within.y()), scan.first_within.y() >= 0.0 ? "left" : "right"),
+            "it would wait for itself: say how wide it is and where its scanner is (--robot-width, "
+            "--scan-ahead), or have the driver leave out what the robot hides"};
+  }
+  if (scan.rate_hz < kFewestScans_hz) return {Grade::kWarning, what, kRare};
+  return {Grade::kGood, what, ""};
+}
+
+Finding JudgeRange(const agent::RobotMeasures& measures, const dds::Ros2Options& topics,
+                   std::size_t sensor) {
+  const std::string topic = "range " + topics.RangeTopic(sensor);
+  const agent::RangeMeasures& range = measures.ranges[sensor];
+  if (range.ranges == 0) {
+    const auto& rangers = measures.peers.rangers;
+    return Silent(topic, sensor < rangers.size() && rangers[sensor] > 0);
+  }
+  const std::string what =
+      fmt::format("{}: {:.0f} a second, {}, a cone of {:.0f} degrees", topic, range.rate_hz,
+                  motion::Points(range.last, {}).empty()
+                      ? std::string("sees nothing")
+                      : fmt::format("sees something at {:.2f} m",
+                                    std::max<double>(range.last.range_m, range.last.least_m)),
+                  57.3 * range.last.field_rad);
+  if (range.rate_hz < kFewestScans_hz) return {Grade::kWarning, what, kRare};
+  return {Grade::kGood, what, ""};
+}
+
 }  // namespace
+
+std::vector<Finding> JudgeObstacleSensors(const agent::RobotMeasures& measures,
+                                          const dds::Ros2Options& topics) {
+  std::vector<Finding> findings;
+  if (!topics.scan.empty()) findings.push_back(JudgeScan(measures, topics));
+  for (std::size_t i = 0; i < topics.ranges.size(); ++i) {
+    findings.push_back(JudgeRange(measures, topics, i));
+  }
+  return findings;
+}
 
 std::vector<Finding> JudgeRobot(const agent::RobotMeasures& measures,
                                 const dds::Ros2Options& topics) {
@@ -180,6 +249,8 @@ std::vector<Finding> JudgeRobot(const agent::RobotMeasures& measures,
   if (measures.pictures == 0) return findings;
   findings.push_back(JudgePicture(measures));
   findings.push_back(JudgeRates(measures, !topics.odometry.empty()));
+  const std::vector<Finding> sensors = JudgeObstacleSensors(measures, topics);
+  findings.insert(findings.end(), sensors.begin(), sensors.end());
   if (measures.odometry > 0) findings.push_back(JudgeStamps(measures));
   if (measures.turn) {
     findings.push_back(JudgeTurn(*measures.turn));

@@ -11,4 +11,8 @@ namespace trailcast::tool {
 [[nodiscard]] std::vector<Finding> JudgeRobot(const agent::RobotMeasures& measures,
                                               const dds::Ros2Options& topics);
 
+// What its scanner's and range sensors' say, as far as it is said to have any.
+[[nodiscard]] std::vector<Finding> JudgeObstacleSensors(const agent::RobotMeasures& measures,
+                                                        const dds::Ros2Options& topics);
+
 }  // namespace trailcast::tool

@@ -111,8 +111,7 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
         options->robot.obstacles = std::move(pillars);
       },
       "What stands where in the world, in metres, from S seconds after it was first told to "
-      "drive, and with +S for how long; in what it scans and ranges alone, not in the pictures")
-      ->excludes(lockstep);
+      "drive, and with +S for how long; in what it scans and ranges alone, not in the pictures");
   AddTimingOptions(*app, lockstep, options->robot.timing);
   app->add_option("--turn-radius", options->turn_radius_m,
                   "Its base steers like a car's, no tighter than so many metres; 0: by two wheels")

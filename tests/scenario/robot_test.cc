@@ -139,14 +139,22 @@ TEST_F(RobotTest, ARobotIsFollowedOverWhatRealOnesDo) {
 // Not seen in the picture, which is another matter.
 TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
   Teach();
-  for (const Words& sensor :
-       {Words{"--scan-topic", "scan"}, Words{"--range-topic", "range@0.25,0,0"}}) {
-    SCOPED_TRACE(sensor.front());
-    const auto robot = Robot("robot1", {"--seed", "3", "--sim-truth", Path("truth.csv"),
-                                        "--obstacle", "3,1.5,0.2@0+12"});
-    ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
-    const auto follower = Follow(With(sensor, {"--robot-width", "0.4", "--log", Path("run.log"),
-                                               "--sensor-patience", "1", "--base-patience", "1"}));
+  struct Sensor {
+    Words agent;
+    Words robot;
+    const char* began;
+  };
+  for (const Sensor& sensor :
+       {Sensor{{"--scan-topic", "scan"}, {}, "in real time"},
+        Sensor{{"--range-topic", "range@0.25,0,0", "--lockstep"}, {"--lockstep"}, "in lockstep"}}) {
+    SCOPED_TRACE(sensor.began);
+    const auto robot = Robot("robot1", With({"--seed", "3", "--sim-truth", Path("truth.csv"),
+                                             "--obstacle", "3,1.5,0.2@0+12"},
+                                            sensor.robot));
+    ASSERT_TRUE(robot->WaitForOutput(sensor.began)) << robot->output();
+    const auto follower =
+        Follow(With(sensor.agent, {"--robot-width", "0.4", "--log", Path("run.log"),
+                                   "--sensor-patience", "1", "--base-patience", "1"}));
     ASSERT_TRUE(follower->WaitForOutput("WAITING: something stands")) << follower->output();
     EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
     EXPECT_THAT(follower->output(),

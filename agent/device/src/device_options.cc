@@ -77,30 +77,6 @@ void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
   });
 }
 
-// With a scanner or range sensors it stands before what is in its way.
-void AddObstacleOptions(CLI::App& command, CLI::Option* robot, CLI::Option* lockstep,
-                        Ros2Run& run) {
-  const std::string group = "What stands in its way";
-  ObstacleOptions& obstacles = run.obstacles;
-  AddScanTopicOption(command, robot, group, run.topics)->excludes(lockstep);
-  AddRangeTopicOption(command, robot, group, run.topics, obstacles.range_mounts)
-      ->excludes(lockstep);
-  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
-    return command.add_option(flag, value, text)->needs(robot)->group(group);
-  };
-  add("--scan-ahead", obstacles.scan_ahead_m,
-      "Metres from the axle that the robot turns about ahead to its scanner")
-      ->check(CLI::Range(-2.0, 2.0));
-  add("--robot-width", obstacles.robot_width_m,
-      "Metres, the whole; the robot is taken to reach as far ahead of its axle as half of it, or "
-      "to its scanner if that is further")
-      ->check(CLI::Range(0.05, 3.0));
-  add("--obstacle-gap", obstacles.gap_m,
-      "Metres from what stands in its way at which the robot waits until it is gone; no protection "
-      "of people")
-      ->check(CLI::Range(0.05, 5.0));
-}
-
 CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scout) {
   const std::string robot = "ROS 2 robot (no ROS needed)";
   dds::Ros2Options& topics = options.ros2.topics;
@@ -126,13 +102,21 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
         ->check(CLI::Range(0.0, 86400.0));
     AddDriveLimits(command, ros2, options.ros2.limits);
   }
-  CLI::Option* lockstep =
-      command
-          .add_flag("--lockstep", options.ros2.lockstep,
-                    "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
-          ->needs(ros2)
-          ->group(robot);
-  if (!scout) AddObstacleOptions(command, ros2, lockstep, options.ros2);
+  command
+      .add_flag("--lockstep", options.ros2.lockstep,
+                "The robot waits for the answer to each frame ('trailcast robot --lockstep')")
+      ->needs(ros2)
+      ->group(robot);
+  if (!scout) {
+    AddObstacleSensorOptions(command, ros2, topics, options.ros2.obstacles);
+    command
+        .add_option("--obstacle-gap", options.ros2.obstacles.gap_m,
+                    "Metres from what stands in its way at which the robot waits until it is gone; "
+                    "no protection of people")
+        ->check(CLI::Range(0.05, 5.0))
+        ->needs(ros2)
+        ->group("What stands in its way");
+  }
   if (scout) {
     add("--end-when-still", options.still_at_end_s,
         "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
@@ -285,6 +269,23 @@ CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const st
              "ahead; or so many metres from the axle, turned to the left; '' for none")
       ->needs(robot)
       ->group(group);
+}
+
+void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Options& topics,
+                              ObstacleOptions& obstacles) {
+  const std::string group = "What stands in its way";
+  AddScanTopicOption(command, robot, group, topics);
+  AddRangeTopicOption(command, robot, group, topics, obstacles.range_mounts);
+  const auto add = [&](const std::string& flag, double& value, const std::string& text) {
+    return command.add_option(flag, value, text)->needs(robot)->group(group);
+  };
+  add("--scan-ahead", obstacles.scan_ahead_m,
+      "Metres from the axle that the robot turns about ahead to its scanner")
+      ->check(CLI::Range(-2.0, 2.0));
+  add("--robot-width", obstacles.robot_width_m,
+      "Metres, the whole; the robot is taken to reach as far ahead of its axle as half of it, or "
+      "to its scanner if that is further")
+      ->check(CLI::Range(0.05, 3.0));
 }
 
 CLI::Validator CameraRollValidator() {

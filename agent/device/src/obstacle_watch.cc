@@ -8,8 +8,6 @@
 namespace trailcast::agent {
 namespace {
 
-// To either side: scanners and paths are not exact.
-constexpr double kMargin_m = 0.05;
 // A small base does more; those who carry something should not.
 constexpr double kDeceleration_mps2 = 0.5;
 // From when something is scanned until the base obeys: a scan's time, and a command's.
@@ -33,19 +31,18 @@ double SpeedWithin(double way_m) {
 
 ObstacleWatch::ObstacleWatch(const ObstacleOptions& options, bool has_scan)
     : options_(options),
-      outline_{std::max(options.robot_width_m / 2.0, options.scan_ahead_m),
-               options.robot_width_m / 2.0 + kMargin_m},
+      outline_(OutlineOf(options)),
       has_scan_(has_scan),
       ranges_(options.range_mounts.size()) {}
 
 void ObstacleWatch::See(Time now, const motion::Scan& scan) {
-  scan_ = steady_.Next(scan, options_.scan_ahead_m);
+  scan_ = Look{now, steady_.Next(scan, options_.scan_ahead_m)};
   Note(now);
 }
 
 void ObstacleWatch::See(Time now, std::size_t sensor, const motion::ConeRange& range) {
   const motion::Pose2 front{outline_.front_m, 0.0, 0.0};
-  ranges_[sensor] = motion::Points(range, options_.range_mounts[sensor].value_or(front));
+  ranges_[sensor] = Look{now, motion::Points(range, options_.range_mounts[sensor].value_or(front))};
   Note(now);
 }
 
@@ -56,10 +53,15 @@ std::optional<std::size_t> ObstacleWatch::silent_range() const {
   return std::nullopt;
 }
 
+bool ObstacleWatch::Reaches(Time time) const {
+  const auto reaches = [&](const std::optional<Look>& look) { return look && look->at >= time; };
+  return (!has_scan_ || reaches(scan_)) && std::all_of(ranges_.begin(), ranges_.end(), reaches);
+}
+
 void ObstacleWatch::Note(Time now) {
-  points_ = scan_.value_or(std::vector<Eigen::Vector2d>{});
-  for (const Look& look : ranges_) {
-    if (look) points_.insert(points_.end(), look->begin(), look->end());
+  points_ = scan_ ? scan_->points : std::vector<Eigen::Vector2d>{};
+  for (const std::optional<Look>& look : ranges_) {
+    if (look) points_.insert(points_.end(), look->points.begin(), look->points.end());
   }
   if (!waits_) return;
   if (!Clear()) {

@@ -32,6 +32,8 @@ class ObstacleWatch {
   [[nodiscard]] bool has_seen_all() const {
     return (!has_scan_ || has_scanned()) && !silent_range();
   }
+  // The newest of each of them is of that time, or later.
+  [[nodiscard]] bool Reaches(Time time) const;
 
   // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
   // looks: the same bend, slower, or nothing, for which the robot then waits.
@@ -40,7 +42,10 @@ class ObstacleWatch {
   [[nodiscard]] const std::optional<std::string>& waits() const { return waits_; }
 
  private:
-  using Look = std::optional<std::vector<Eigen::Vector2d>>;
+  struct Look {
+    Time at;
+    std::vector<Eigen::Vector2d> points;
+  };
   void Note(Time now);
   [[nodiscard]] bool Clear() const;
   [[nodiscard]] motion::VelocityCommand Slowed(const motion::VelocityCommand& command,
@@ -51,8 +56,8 @@ class ObstacleWatch {
   motion::Outline outline_;
   bool has_scan_;
   motion::SteadyPoints steady_;
-  Look scan_;  // the newest one's points; nothing: there was none yet
-  std::vector<Look> ranges_;
+  std::optional<Look> scan_;  // the newest; nothing: there was none yet
+  std::vector<std::optional<Look>> ranges_;
   std::vector<Eigen::Vector2d> points_;  // of them all
   motion::VelocityCommand wanted_;
   std::optional<std::string> waits_;

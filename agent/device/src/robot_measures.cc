@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/scan_measures.h"
 #include "agent/device/src/stamp_clock.h"
 #include "agent/device/src/turn_series.h"
 #include "services/base/angles.h"
@@ -77,7 +78,12 @@ class PictureShift {
 class Measuring {
  public:
   Measuring(dds::Ros2Driver& driver, const MeasureOptions& options)
-      : driver_(driver), options_(options), shift_(options.intake) {}
+      : driver_(driver),
+        options_(options),
+        shift_(options.intake),
+        ranges_come_(options.topics.ranges.size()) {
+    measures_.ranges.resize(options.topics.ranges.size());
+  }
 
   [[nodiscard]] RobotMeasures Run();
 
@@ -85,6 +91,8 @@ class Measuring {
   void Listen(milliseconds duration, const std::optional<motion::VelocityCommand>& command);
   void Note(const dds::Ros2Odometry& odometry, steady_clock::time_point now);
   void Note(const Ros2Picture& picture, steady_clock::time_point now);
+  void Note(const dds::Ros2Scan& scan, steady_clock::time_point now);
+  void Note(const dds::Ros2Range& range, steady_clock::time_point now);
   [[nodiscard]] TurnMeasures Turn();
 
   dds::Ros2Driver& driver_;
@@ -94,6 +102,8 @@ class Measuring {
   StampClock odometry_clock_;
   SensorTime odometry_stamp_{};
   PictureShift shift_;
+  Coming scans_come_;
+  std::vector<Coming> ranges_come_;
   std::vector<double> came_s_;  // pictures
   // By stamps; odometry's also by when it came.
   std::vector<TimedValue> shifts_;
@@ -127,6 +137,19 @@ void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
   shifts_.push_back({trailcast::Seconds(*taken), shift_.right()});
 }
 
+void Measuring::Note(const dds::Ros2Scan& scan, steady_clock::time_point now) {
+  scans_come_.Note(now);
+  measures_.scan = MeasureScan(scan.scan, options_.obstacles);
+  measures_.scan.scans = scans_come_.count();
+  measures_.scan.rate_hz = scans_come_.rate_hz();
+}
+
+void Measuring::Note(const dds::Ros2Range& range, steady_clock::time_point now) {
+  Coming& coming = ranges_come_[range.sensor];
+  coming.Note(now);
+  measures_.ranges[range.sensor] = {coming.count(), coming.rate_hz(), range.range};
+}
+
 void Measuring::Listen(milliseconds duration,
                        const std::optional<motion::VelocityCommand>& command) {
   const auto until = steady_clock::now() + duration;
@@ -140,6 +163,10 @@ void Measuring::Listen(milliseconds duration,
       const auto now = steady_clock::now();
       if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
         Note(*odometry, now);
+      } else if (const auto* scan = std::get_if<dds::Ros2Scan>(&sensed)) {
+        Note(*scan, now);
+      } else if (const auto* range = std::get_if<dds::Ros2Range>(&sensed)) {
+        Note(*range, now);
       } else if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
         Note(Ros2Picture(std::move(*jpeg)), now);
       } else {

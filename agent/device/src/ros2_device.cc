@@ -46,6 +46,7 @@ Ros2Device::State::State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver>
 
 bool Ros2Device::State::ready(steady_clock::time_point now) const {
   if (!newest || trouble || (obstacles && !obstacles->has_seen_all())) return false;
+  if (run.lockstep && obstacles && !obstacles->Reaches(AsTime(newest->stamp()))) return false;
   if (!has_odometry()) return true;
   if (!poses.has_odometry()) return false;
   return poses.Reaches(newest->taken) || now - unserved_since > kOdometryLate;

@@ -40,7 +40,7 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     return;
   }
   if (const auto* scan = std::get_if<dds::Ros2Scan>(&sensed)) {
-    KeepScan(scan->scan, now);
+    KeepScan(*scan, now);
     return;
   }
   if (const auto* range = std::get_if<dds::Ros2Range>(&sensed)) {
@@ -71,15 +71,15 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   newest = Ros2Frame{now, *taken, std::move(picture)};
 }
 
-void Ros2Device::State::KeepScan(const motion::Scan& scan, steady_clock::time_point now) {
+void Ros2Device::State::KeepScan(const dds::Ros2Scan& scan, steady_clock::time_point now) {
   watch.SawScan(now);
-  obstacles->See(now, scan);
+  obstacles->See(run.lockstep ? AsTime(scan.stamp) : now, scan.scan);
   SlowDown();
 }
 
 void Ros2Device::State::KeepRange(const dds::Ros2Range& range, steady_clock::time_point now) {
   watch.SawRange(now, range.sensor);
-  obstacles->See(now, range.sensor, range.range);
+  obstacles->See(run.lockstep ? AsTime(range.stamp) : now, range.sensor, range.range);
   SlowDown();
 }
 
@@ -99,11 +99,24 @@ void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   if (!trouble && obstacles && obstacles->waits()) {
     trouble = {RobotWatch::Trouble::Part::kObstacle, *obstacles->waits()};
   }
+  if (run.lockstep && trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
+    AnswerByStanding();
+  }
   const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
   if (!trouble && !stale) return;
   if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
   // What cannot be handed over is said again, too.
   if (now <= stop_said_until) (void)Tell({});
+}
+
+// The time of a robot in lockstep passes only when its frames are answered, also while it waits for
+// its way to be free.
+void Ros2Device::State::AnswerByStanding() {
+  if (!newest) return;
+  given_before = std::exchange(given, newest->stamp());
+  answered = true;
+  newest.reset();
+  (void)Tell({});
 }
 
 Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {

@@ -25,6 +25,12 @@ namespace trailcast::agent {
 // How long either thread listens at a time.
 constexpr std::chrono::milliseconds kListen{20};
 
+// The robot's own time, where it is that which counts.
+[[nodiscard]] inline std::chrono::steady_clock::time_point AsTime(SensorTime stamp) {
+  return std::chrono::steady_clock::time_point(
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(stamp));
+}
+
 // A picture, until Next takes it.
 struct Ros2Frame {
   [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
@@ -44,9 +50,10 @@ struct Ros2Device::State {
   void Hear();
   void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
-  void KeepScan(const motion::Scan& scan, std::chrono::steady_clock::time_point now);
+  void KeepScan(const dds::Ros2Scan& scan, std::chrono::steady_clock::time_point now);
   void KeepRange(const dds::Ros2Range& range, std::chrono::steady_clock::time_point now);
   void SlowDown();
+  void AnswerByStanding();
   void StopIfInDoubt(std::chrono::steady_clock::time_point now);
 
   // Any thread, with the lock.

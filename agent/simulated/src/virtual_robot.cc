@@ -60,6 +60,7 @@ class VirtualRobot {
   [[nodiscard]] motion::VelocityCommand Obey(steady_clock::time_point now);
   [[nodiscard]] Result<void> Say(const Observation& seen);
   [[nodiscard]] Result<void> SayOdometry(const Observation& seen);
+  [[nodiscard]] steady_clock::time_point Now() const;
   [[nodiscard]] std::vector<Pillar> Obstacles() const;
   [[nodiscard]] Result<void> SayWhatStands(SensorTime stamp);
   [[nodiscard]] Result<void> SayPictures(const Observation& seen);
@@ -78,6 +79,7 @@ class VirtualRobot {
   double pictures_due_ = 1.0;
   motion::Pose2 odometry_from_;  // where what is said begins
   std::optional<motion::Pose2> odometry_;
+  SensorTime seen_at_{0};
   SensorTime odometry_back_{0};
   SensorTime pictures_back_{0};
   std::optional<SensorTime> stands_at_;                       // the pictures' stamps
@@ -145,6 +147,7 @@ void VirtualRobot::Fail(steady_clock::time_point now) {
 }
 
 Result<void> VirtualRobot::Say(const Observation& seen) {
+  seen_at_ = seen.stamp;
   // The picture last: the others are there when it comes.
   if (auto said = SayOdometry(seen); !said) return said;
   if (auto said = SayWhatStands(seen.stamp); !said) return said;
@@ -158,9 +161,15 @@ Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
       dds::Ros2Odometry{seen.stamp - odometry_back_, motion::Between(odometry_from_, *odometry_)});
 }
 
+// Whose time passes only by frames in lockstep.
+steady_clock::time_point VirtualRobot::Now() const {
+  if (!options_.lockstep) return steady_clock::now();
+  return steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(seen_at_));
+}
+
 std::vector<Pillar> VirtualRobot::Obstacles() const {
   std::vector<Pillar> there;
-  const auto driven_s = faults_.SecondsDriven(steady_clock::now());
+  const auto driven_s = faults_.SecondsDriven(Now());
   for (const Pillar& pillar : options_.obstacles) {
     if (driven_s && pillar.spell.contains(*driven_s)) there.push_back(pillar);
   }
@@ -237,7 +246,7 @@ void VirtualRobot::Hear(const dds::Ros2Command& command) {
   heard_.push_back({now, command.velocity});
   ++commands_;
   const bool stand = command.velocity == motion::VelocityCommand{};
-  if (!stand) faults_.DroveAt(now);
+  if (!stand) faults_.DroveAt(Now());
   if (stand && faults_.first_began_at() && !told_to_stand_at_) told_to_stand_at_ = now;
 }
 

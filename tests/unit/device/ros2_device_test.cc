@@ -427,6 +427,48 @@ TEST_F(Ros2DeviceTest, ARangeSensorThatIsNotThereIsNamed) {
   EXPECT_THAT(seen.error().message, HasSubstr("nobody publishes /robot1/sonar"));
 }
 
+// A robot in lockstep goes no further before each of its frames is answered.
+TEST_F(Ros2DeviceTest, InLockstepItAnswersEachFrameWhileItWaits) {
+  run_.lockstep = true;
+  OpenWithAScanner();
+  ASSERT_TRUE(device_->Drive(kAhead));
+  ASSERT_TRUE(Told(kAhead));
+  EXPECT_EQ(latest_.stamp, stamp_);
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  for (int frame = 0; frame < 5; ++frame) {
+    GoOn(0.0);
+    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    do {
+      SayScan(0.55F);
+      Say();
+      (void)Told(kStand, milliseconds(50));
+    } while (latest_.stamp != stamp_ && steady_clock::now() < deadline);
+    ASSERT_EQ(latest_.stamp, stamp_);
+    ASSERT_EQ(latest_.velocity, kStand);
+  }
+  ASSERT_NE(next.wait_for(milliseconds(0)), std::future_status::ready);
+  // Its half a second is that of the robot's stamps.
+  const SensorTime free_from = stamp_ + kFrame;
+  int answered = 0;
+  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  while (next.wait_for(milliseconds(0)) != std::future_status::ready &&
+         steady_clock::now() < deadline) {
+    GoOn(0.0);
+    while (latest_.stamp != stamp_ && next.wait_for(milliseconds(0)) != std::future_status::ready &&
+           steady_clock::now() < deadline) {
+      SayScan(std::nullopt);
+      Say();
+      (void)Told(kStand, milliseconds(50));
+    }
+    ++answered;
+  }
+  const auto seen = next.get();
+  ASSERT_TRUE(seen);
+  EXPECT_GE((*seen)->stamp - free_from, milliseconds(500));
+  EXPECT_LE((*seen)->stamp - free_from, milliseconds(600));
+  EXPECT_GE(answered, 15);
+}
+
 TEST_F(Ros2DeviceTest, WithAScanTopicItDoesNotDriveBeforeTheFirstScan) {
   run_.topics.scan = "scan";
   run_.patience = milliseconds(500);

@@ -40,6 +40,36 @@ TEST_F(RobotCheckupTest, FindsNothingWrongWithAGoodRobot) {
   EXPECT_EQ(JudgeRobot(measures_, topics_).size(), 6U);
 }
 
+TEST_F(RobotCheckupTest, JudgesTheScannerOfARobotThatHasOne) {
+  topics_.scan = "scan";
+  EXPECT_THAT(Complaints(), HasSubstr("BAD   scan /robot1/scan: nobody publishes it"));
+  measures_.peers.scanners = 1;
+  EXPECT_THAT(Complaints(), HasSubstr("BAD   scan /robot1/scan: nothing came that can be one"));
+  measures_.scan = {30, 10.0, 360, 200, 0};
+  EXPECT_EQ(Complaints(), "");
+  measures_.scan.rate_hz = 2.0;
+  EXPECT_THAT(Complaints(),
+              AllOf(HasSubstr("scan /robot1/scan: 2 a second"), HasSubstr("--sensor-timeout")));
+  measures_.scan = {30, 10.0, 360, 0, 0};
+  EXPECT_THAT(Complaints(), HasSubstr("0 of 360 ranges see something"));
+  measures_.scan = {30, 10.0, 360, 200, 12, {0.1, -0.2}};
+  EXPECT_THAT(Complaints(),
+              AllOf(HasSubstr("BAD   scan"),
+                    HasSubstr("12 of them within the robot itself, one 0.10 m ahead of its axle, "
+                              "0.20 m to the right"),
+                    HasSubstr("--robot-width")));
+}
+
+TEST_F(RobotCheckupTest, JudgesEachOfItsRangeSensors) {
+  topics_.ranges = {"left", "right"};
+  measures_.ranges.resize(2);
+  measures_.ranges[0] = {30, 10.0, {0.5, 0.02, 4.0, 1.5F}};
+  EXPECT_THAT(Complaints(), AllOf(HasSubstr("BAD   range /robot1/right: nobody publishes it"),
+                                  Not(HasSubstr("/robot1/left"))));
+  const auto findings = JudgeObstacleSensors(measures_, topics_);
+  EXPECT_THAT(CheckupText(findings), HasSubstr("sees something at 1.50 m, a cone of 29 degrees"));
+}
+
 TEST_F(RobotCheckupTest, TellsWhoIsMissingAndWhereItLooked) {
   measures_ = {};
   measures_.peers.tried = "the loopback";

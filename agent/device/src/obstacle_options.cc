@@ -1,13 +1,17 @@
+#include "agent/device/obstacle_options.h"
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
-#include "agent/device/obstacle_options.h"
 #include "services/base/number.h"
 
 namespace trailcast::agent {
 namespace {
 
+// To either side: scanners and paths are not exact.
+constexpr double kMargin_m = 0.05;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kMost_m = 5.0;
 constexpr double kMost_deg = 180.0;
@@ -29,6 +33,11 @@ std::optional<motion::Pose2> ParseMount(std::string_view text) {
 }
 
 }  // namespace
+
+motion::Outline OutlineOf(const ObstacleOptions& options) {
+  const double half_m = options.robot_width_m / 2.0;
+  return {std::max(half_m, options.scan_ahead_m), half_m + kMargin_m};
+}
 
 Result<RangeSensor> ParseRangeSensor(const std::string& text) {
   const std::size_t at = text.find('@');
