@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "services/base/time.h"
 #include "services/image/image.h"
+#include "services/motion/imu.h"
 #include "services/motion/motion.h"
 
 namespace trailcast::agent {
@@ -16,6 +18,7 @@ struct Observation {
   // How far the robot may have driven and turned since the last frame, one way or the other,
   // besides what odometry says: where that has jumped, or was silent.
   motion::OdometryIncrement unknown{};
+  std::vector<motion::ImuSample> imu{};  // since the last frame, of a robot that has one
 };
 
 }  // namespace trailcast::agent

@@ -25,10 +25,11 @@ inline constexpr std::uint32_t kFormatVersion = 2;
 // Coordinates are rounded to 1/16 px, lengths to 0.1 mm, angles to 0.01 mrad, durations to 1 ms,
 // knot times to 1/255, the heading polynomial to single precision. The first knot's time is written
 // as 0 and the last one's as 1; a knot between them that rounds onto its neighbour is left out.
-// Of key views, places are rounded to 1/4 px, sizes to a sixteenth of an octave, `s` to 1/255.
-// Expects at most kMaxFeatures features of 2 to kMaxKnots knots each, kMaxKeyViews key views of
-// kMaxKeyViewFeatures features, all numbers finite; descriptors of features are written if any of
-// them has one.
+// Of key views, places are rounded to 1/4 px, sizes to a sixteenth of an octave, `s` to 1/255. Of
+// the terrain, shaking is rounded to 1/10000 of the picture, acceleration to 1 cm/s2, slope to 1
+// mrad. Expects at most kMaxFeatures features of 2 to kMaxKnots knots each, kMaxKeyViews key views
+// of kMaxKeyViewFeatures features, all numbers finite; descriptors of features are written if any
+// of them has one.
 [[nodiscard]] Bytes Encode(const Segment& segment);
 
 // kCorrupt with what is wrong for bytes that are no segment: truncated, oversize, absurd counts,

@@ -8,6 +8,7 @@
 
 #include "services/base/ids.h"
 #include "services/route/key_view.h"
+#include "services/route/terrain.h"
 
 namespace trailcast::route {
 
@@ -64,6 +65,7 @@ struct Segment {
   double turn_before_rad = 0.0;
   std::vector<Feature> features;
   std::vector<KeyView> key_views;  // in rising s; none in segments taught before there were any
+  Terrain terrain;
 
   [[nodiscard]] double speed_mps() const { return duration_s > 0.0 ? length_m / duration_s : 0.0; }
   bool operator==(const Segment&) const = default;

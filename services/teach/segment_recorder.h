@@ -83,6 +83,8 @@ class SegmentRecorder {
   // only stands uneasily.
   [[nodiscard]] bool behind() const { return furthest_.has_value(); }
   [[nodiscard]] bool backs() const { return backed_m_ > options_.backed_m; }
+  // The last image given to Add was taken further on than the one before.
+  [[nodiscard]] bool advanced() const { return advanced_; }
   // Turned on the spot since the last segment, counter-clockwise positive: of a route that ends so,
   // nothing else tells it.
   [[nodiscard]] double turned_rad() const {
@@ -125,6 +127,7 @@ class SegmentRecorder {
   std::vector<route::DescribedFeature> first_;
   std::vector<Moment> moments_;
   SensorTime last_stamp_{0};
+  bool advanced_ = false;
   // When the robot last moved.
   std::optional<motion::Pose2> moved_odometry_;
   Features moved_features_;

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/teach/ground_feel.h"
+#include "services/teach/picture_shake.h"
 #include "services/vision/view_features.h"
 
 namespace trailcast::agent {
@@ -14,15 +16,19 @@ constexpr std::size_t kMinFeatures = 8;
 }  // namespace
 
 struct TeachSession::State {
-  State(const TeachOptions& options, int width_px, bool odometry)
+  State(const TeachOptions& options, const image::GrayImage& frame, bool odometry)
       : tracker(options.features),
-        recorder(width_px, options.recorder),
-        key_views(width_px, odometry ? options.key_views_with_odometry : options.key_views),
+        recorder(frame.width, options.recorder),
+        shake(frame.height),
+        key_views(frame.width, odometry ? options.key_views_with_odometry : options.key_views),
         middle_features(options.middle_features) {}
 
   vision::FeatureTracker tracker;
   vision::ViewDescriber describer;
   teach::SegmentRecorder recorder;
+  teach::PictureShake shake;
+  teach::GroundFeel feel;
+  std::optional<SensorTime> last_stamp;
   teach::KeyViewRecorder key_views;
   int middle_features;
   route::View last_view;
@@ -32,6 +38,9 @@ struct TeachSession::State {
 
   using Event = teach::SegmentRecorder::Event;
   [[nodiscard]] Event Add(const image::GrayImage& frame, const Observation& observation);
+  void FeelGround(const Observation& observation,
+                  const std::vector<route::TrackedFeature>& tracked);
+  [[nodiscard]] std::optional<route::Segment> EndSegment();
   void BeginSegment(const Observation& observation);
   void KeepView(const image::GrayImage& frame);
 };
@@ -44,8 +53,26 @@ TeachSession::State::Event TeachSession::State::Add(const image::GrayImage& fram
   const Event event =
       recorder.Add(observation.stamp, by_features ? tracked : std::vector<route::TrackedFeature>{},
                    observation.odometry);
+  FeelGround(observation, tracked);
   if (event != Event::kGoesOn || recording != Recording::kBlind || recorder.behind()) return event;
   return tracker.Detect().size() >= kMinFeatures ? Event::kEnds : Event::kGoesOn;
+}
+
+void TeachSession::State::FeelGround(const Observation& observation,
+                                     const std::vector<route::TrackedFeature>& tracked) {
+  const double dt_s = last_stamp ? Seconds(observation.stamp - *last_stamp) : 0.0;
+  last_stamp = observation.stamp;
+  shake.Add(observation.stamp, tracked, recorder.advanced());
+  feel.Add(observation.imu, dt_s, recorder.advanced());
+}
+
+std::optional<route::Segment> TeachSession::State::EndSegment() {
+  auto segment = recorder.Finish();
+  if (!segment) return segment;
+  segment->terrain = {shake.Measure(), feel.vertical_mps2(), feel.slope_rad()};
+  shake.EndSegment();
+  feel.EndSegment();
+  return segment;
 }
 
 void TeachSession::State::BeginSegment(const Observation& observation) {
@@ -55,6 +82,7 @@ void TeachSession::State::BeginSegment(const Observation& observation) {
     features.clear();
     tracker.Follow({});
   }
+  shake.Begin(tracker.Current());
   recording = !features.empty()      ? Recording::kFeatures
               : observation.odometry ? Recording::kBlind
                                      : Recording::kNothing;
@@ -77,8 +105,7 @@ TeachSession::TeachSession(TeachSession&&) noexcept = default;
 Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
   const image::GrayImage& frame = intake_.Take(observation.image);
-  if (!state_)
-    state_ = std::make_unique<State>(options_, frame.width, observation.odometry.has_value());
+  if (!state_) state_ = std::make_unique<State>(options_, frame, observation.odometry.has_value());
   State& s = *state_;
   TeachStep step;
   const State::Event event = s.Add(frame, observation);
@@ -91,7 +118,7 @@ Result<TeachStep> TeachSession::Observe(const Observation& observation) {
         "spot");
   }
   if (event != State::Event::kGoesOn && s.recording != State::Recording::kTurn) {
-    step.finished = s.recorder.Finish();
+    step.finished = s.EndSegment();
   }
   if (event == State::Event::kEnds) s.BeginSegment(observation);
   if (event == State::Event::kTurns) s.recording = State::Recording::kTurn;
@@ -110,7 +137,7 @@ std::optional<route::Segment> TeachSession::Finish() {
   State& s = *state_;
   if (!s.last_is_kept && s.key_views.Keep(s.last_view)) s.recorder.Keep(s.key_views.kept());
   s.recording = State::Recording::kNothing;
-  return s.recorder.Finish();
+  return s.EndSegment();
 }
 
 }  // namespace trailcast::agent

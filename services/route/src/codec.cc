@@ -22,6 +22,13 @@ constexpr int kLastKnotTime = 255;
 constexpr double kStepsPerViewPixel = 4.0;
 constexpr double kSizeStepsPerOctave = 16.0;
 constexpr int kSizeOfOnePixel = 64;
+constexpr double kStepsPerPictureHeight = 1e4;
+constexpr double kStepsPerMps2 = 1e2;
+constexpr double kSlopeStepsPerRadian = 1e3;
+// More than this shakes no robot, and nothing that drives stands steeper.
+constexpr std::uint32_t kMostShake = 10'000;
+constexpr std::uint32_t kMostVertical = 10'000;
+constexpr std::int32_t kSteepest = 1571;
 constexpr std::size_t kPackedPatchBytes = (std::tuple_size_v<Patch> + 1) / 2;
 constexpr std::size_t kDescriptorBytes = std::tuple_size_v<Descriptor>;
 
@@ -119,6 +126,40 @@ void SetOdometry(const Segment& segment, format::v1::Odometry& out) {
   out.set_heading_variation_centi_mrad(Quantise(segment.heading_variation_rad, kStepsPerRadian));
   for (const double c : segment.heading.c) out.add_heading_polynomial(static_cast<float>(c));
   out.set_turn_before_centi_mrad(Quantise(segment.turn_before_rad, kStepsPerRadian));
+}
+
+std::uint32_t QuantiseAmount(double value, double steps_per_unit, std::uint32_t most) {
+  return static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(Quantise(value, steps_per_unit), 0, most));
+}
+
+void SetTerrain(const Terrain& terrain, format::v1::Terrain& out) {
+  if (terrain.shake)
+    out.set_shake(QuantiseAmount(*terrain.shake, kStepsPerPictureHeight, kMostShake));
+  if (terrain.vertical_mps2) {
+    out.set_vertical_cm_per_s2(
+        QuantiseAmount(*terrain.vertical_mps2, kStepsPerMps2, kMostVertical));
+  }
+  if (terrain.slope_rad) {
+    out.set_slope_mrad(
+        std::clamp(Quantise(*terrain.slope_rad, kSlopeStepsPerRadian), -kSteepest, kSteepest));
+  }
+}
+
+Result<Terrain> ReadTerrain(const format::v1::Terrain& in) {
+  if (in.shake() > kMostShake || in.vertical_cm_per_s2() > kMostVertical ||
+      in.slope_mrad() < -kSteepest || in.slope_mrad() > kSteepest) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment's terrain shakes {} (most {}) and {} cm/s2 (most {}), slopes {} mrad "
+                "(steepest {})",
+                in.shake(), kMostShake, in.vertical_cm_per_s2(), kMostVertical, in.slope_mrad(),
+                kSteepest);
+  }
+  Terrain terrain;
+  if (in.has_shake()) terrain.shake = in.shake() / kStepsPerPictureHeight;
+  if (in.has_vertical_cm_per_s2()) terrain.vertical_mps2 = in.vertical_cm_per_s2() / kStepsPerMps2;
+  if (in.has_slope_mrad()) terrain.slope_rad = in.slope_mrad() / kSlopeStepsPerRadian;
+  return terrain;
 }
 
 Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
@@ -307,6 +348,7 @@ Bytes Encode(const Segment& segment) {
     AppendTrack(feature.track, out);
   }
   for (const KeyView& view : segment.key_views) AppendKeyView(view, *out.add_key_views());
+  if (segment.terrain.known()) SetTerrain(segment.terrain, *out.mutable_terrain());
   Bytes bytes(out.ByteSizeLong());
   google::protobuf::io::ArrayOutputStream array(bytes.data(), static_cast<int>(bytes.size()));
   google::protobuf::io::CodedOutputStream stream(&array);
@@ -343,6 +385,11 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
   }
   if (Result<void> views = ReadKeyViews(in, segment); !views) {
     return tl::unexpected(views.error());
+  }
+  if (in.has_terrain()) {
+    const Result<Terrain> terrain = ReadTerrain(in.terrain());
+    if (!terrain) return tl::unexpected(terrain.error());
+    segment.terrain = *terrain;
   }
   return segment;
 }

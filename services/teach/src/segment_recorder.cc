@@ -98,6 +98,7 @@ SegmentRecorder::Way SegmentRecorder::Follow(const motion::Pose2& from, const mo
 SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
                                             const std::vector<route::TrackedFeature>& tracked,
                                             const std::optional<motion::Pose2>& odometry) {
+  advanced_ = false;
   Features features;
   for (const route::TrackedFeature& feature : tracked) features[feature.id] = feature;
   std::optional<motion::OdometryIncrement> step;
@@ -133,6 +134,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     moment.heading_rad += step ? step->heading_change_rad : 0.0;
   }
   moment.features = std::move(features);
+  advanced_ = moved;
   if (moved) {
     moments_.push_back(std::move(moment));
   } else {

@@ -74,6 +74,16 @@ TEST(CodecDamage, KeyViewsWhoseColumnsDisagreeAreRefused) {
               HasSubstr("65 key views, more than 64"));
 }
 
+TEST(CodecDamage, TerrainOutOfBoundsIsRefused) {
+  EXPECT_EQ(ErrorAfter([](auto& m) { m.mutable_terrain()->set_slope_mrad(-1571); }), "accepted");
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_terrain()->set_slope_mrad(-1572); }),
+              HasSubstr("slopes -1572 mrad"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_terrain()->set_shake(10'001); }),
+              HasSubstr("shakes 10001"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_terrain()->set_vertical_cm_per_s2(10'001); }),
+              HasSubstr("10001 cm/s2"));
+}
+
 TEST(CodecDamage, OnlyVersion2MayLeaveDescriptorsOut) {
   EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_descriptors(); }),
               HasSubstr("0 of descriptors (expected 96)"));

@@ -26,6 +26,30 @@ TEST(Codec, KeyViewsAndTheTurnBeforeComeBackUnchanged) {
   EXPECT_EQ(*decoded, segment);
 }
 
+TEST(Codec, TerrainComesBackUnchangedEachPartOnItsOwnAndTakesAFewBytes) {
+  for (const Terrain& terrain :
+       {Terrain{}, Terrain{0.0, {}, {}}, Terrain{{}, 0.0, {}}, Terrain{{}, {}, 0.0},
+        Terrain{0.0123, {}, {}}, Terrain{0.0071, 1.23, -0.087}, Terrain{1.0, 100.0, 1.571}}) {
+    Segment segment = SampleSegment(7, 3);
+    const std::size_t without = Encode(segment).size();
+    segment.terrain = terrain;
+    const Bytes bytes = Encode(segment);
+    const Result<Segment> decoded = Decode(bytes);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(*decoded, segment);
+    EXPECT_LE(bytes.size() - without, terrain.known() ? 11U : 0U);
+    EXPECT_EQ(bytes[1], 1) << "version 1, whose readers skip it";
+  }
+}
+
+TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
+  Segment segment = SampleSegment(7, 3);
+  segment.terrain = {-1.0, 1e9, -1e9};
+  const Result<Segment> decoded = Decode(Encode(segment));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(decoded->terrain, (Terrain{0.0, 100.0, -1.571}));
+}
+
 TEST(Codec, WhatVersion1CanExpressIsWrittenInIt) {
   const Bytes first = Encode(SampleSegment(7, 2));
   EXPECT_EQ(first[1], 1);

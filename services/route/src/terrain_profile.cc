@@ -1,0 +1,65 @@
+#include "services/route/terrain_profile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/base/angles.h"
+
+namespace trailcast::route {
+namespace {
+
+constexpr double kAsSteep_rad = Radians(1.5);
+
+bool Alike(const Terrain& a, const Terrain& b) {
+  if (RoughnessOf(a) != RoughnessOf(b) || a.slope_rad.has_value() != b.slope_rad.has_value()) {
+    return false;
+  }
+  return !a.slope_rad || std::abs(*a.slope_rad - *b.slope_rad) <= kAsSteep_rad;
+}
+
+void TakeUp(const Terrain& terrain, double length, TerrainStretch& stretch) {
+  const double before = stretch.end - stretch.begin;
+  stretch.terrain.shake = std::max(stretch.terrain.shake, terrain.shake);
+  stretch.terrain.vertical_mps2 = std::max(stretch.terrain.vertical_mps2, terrain.vertical_mps2);
+  if (terrain.slope_rad && before + length > 0.0) {
+    *stretch.terrain.slope_rad +=
+        (*terrain.slope_rad - *stretch.terrain.slope_rad) * length / (before + length);
+  }
+  stretch.end += length;
+}
+
+}  // namespace
+
+void TerrainProfile::Add(const Segment& segment) {
+  const double length = segment.has_odometry ? segment.length_m : segment.duration_s;
+  const double begin = stretches_.empty() ? 0.0 : stretches_.back().end;
+  if (!stretches_.empty() && Alike(stretches_.back().terrain, segment.terrain)) {
+    TakeUp(segment.terrain, length, stretches_.back());
+  } else {
+    stretches_.push_back({begin, begin + length, segment.index, segment.terrain});
+  }
+}
+
+std::string SlopeText(double slope_rad) {
+  return fmt::format("{:.1f} degrees {}", Degrees(std::abs(slope_rad)),
+                     slope_rad >= 0.0 ? "uphill" : "downhill");
+}
+
+std::string RoughnessText(const Terrain& terrain) {
+  const auto roughness = RoughnessOf(terrain);
+  if (!roughness) return "not known";
+  return terrain.vertical_mps2
+             ? fmt::format("{} ({:.2f} m/s2)", NameOf(*roughness), *terrain.vertical_mps2)
+             : fmt::format("{} (shakes by {:.2f} % of the picture)", NameOf(*roughness),
+                           100.0 * *terrain.shake);
+}
+
+std::string TerrainText(const Terrain& terrain) {
+  if (!terrain.slope_rad) return RoughnessText(terrain);
+  if (!RoughnessOf(terrain)) return SlopeText(*terrain.slope_rad);
+  return RoughnessText(terrain) + ", " + SlopeText(*terrain.slope_rad);
+}
+
+}  // namespace trailcast::route
