@@ -35,7 +35,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast routes\n"
     "  trailcast routes --name aisle-3 --json\n"
-    "  trailcast routes --name aisle-3 --long     # and where it is weak\n"
+    "  trailcast routes --name aisle-3 --long     # where it is weak, rough, steep\n"
     "  trailcast routes --prefix barn- --tag night --sort longest\n"
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
     "  trailcast routes --network-interface lo --timeout 2\n"
@@ -119,7 +119,8 @@ std::string TextOf(const exchange::CatalogReply& reply, const RouteStudies& stud
   std::string text = RoutesTable(reply, now_unix_ms);
   for (const route::RouteInfo& info : reply.page.routes) {
     const auto study = studies.find(info.key);
-    if (study != studies.end()) text += WeakPlacesText(info, study->second);
+    if (study == studies.end()) continue;
+    text += WeakPlacesText(info, study->second) + GroundText(info, study->second);
   }
   return text;
 }
@@ -190,8 +191,10 @@ Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common)
   app->add_option("--limit", options->limit, "Routes to list at most")
       ->check(CLI::Range(1, 10'000'000));
   app->add_flag("--json", options->json, "For programs");
-  app->add_flag("--long", options->looked_into,
-                "Fetch each route that is listed and tell where followers may be lost, and why");
+  app->add_flag(
+      "--long", options->looked_into,
+      "Fetch each route that is listed and tell where followers may be lost, and why, and how "
+      "rough and steep its ground is");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->check(CLI::Range(0.1, 3600.0));
   const std::vector<Command> edits = AddRouteEdits(*app, common, options->timeout_s);

@@ -6,6 +6,7 @@
 
 #include "services/base/result.h"
 #include "services/route/route.h"
+#include "services/route/terrain_profile.h"
 #include "services/tool/routes/transfer.h"
 #include "services/view/weak_places.h"
 
@@ -14,6 +15,7 @@ namespace trailcast::tool {
 // What a route's segments say of it besides its catalog entry.
 struct RouteStudy {
   std::vector<view::WeakPlace> weak_places;
+  std::vector<route::TerrainStretch> terrain{};
 };
 using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 
@@ -26,5 +28,9 @@ using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 [[nodiscard]] std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study);
 // For programs: an array.
 [[nodiscard]] std::string WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study);
+
+// The same of the ground: a line a stretch; or that nothing is known of it.
+[[nodiscard]] std::string GroundText(const route::RouteInfo& info, const RouteStudy& study);
+[[nodiscard]] std::string GroundJson(const route::RouteInfo& info, const RouteStudy& study);
 
 }  // namespace trailcast::tool

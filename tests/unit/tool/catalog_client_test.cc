@@ -145,6 +145,27 @@ TEST(RoutesTable, TellsWhereARouteIsWeak) {
   EXPECT_THAT(RoutesJson(Reply({Aisle()})), Not(HasSubstr("weak")));
 }
 
+TEST(RoutesTable, TellsHowRoughAndSteepItsGroundIs) {
+  const RouteStudy study{{},
+                         {{0.0, 4.5, SegmentIndex(0), {0.0011, {}, {}}},
+                          {4.5, 9.25, SegmentIndex(3), {0.02, 1.25, -0.07}},
+                          {9.25, 10.0, SegmentIndex(5), {}}}};
+  const std::string text = GroundText(Aisle(), study);
+  EXPECT_THAT(text, HasSubstr("'aisle-3' revision 3: its ground\n"));
+  EXPECT_THAT(text, HasSubstr("0.0 to      4.5 m  smooth (shakes by 0.11 % of the picture)\n"));
+  EXPECT_THAT(text, HasSubstr("4.5 to      9.2 m  rough (1.25 m/s2), 4.0 degrees downhill\n"));
+  EXPECT_THAT(text, HasSubstr("9.2 to     10.0 m  not known\n"));
+  EXPECT_THAT(GroundText(Aisle(), {{}, {{0.0, 10.0, SegmentIndex(0), {}}}}),
+              HasSubstr("of its ground nothing is known"));
+  EXPECT_THAT(
+      RoutesJson(Reply({Aisle()}), {{Aisle().key, study}}),
+      HasSubstr(
+          "\"terrain\": [{\"begin_m\": 0.00, \"end_m\": 4.50, \"roughness\": \"smooth\", "
+          "\"shake\": 0.0011}, {\"begin_m\": 4.50, \"end_m\": 9.25, \"roughness\": \"rough\", "
+          "\"shake\": 0.0200, \"vertical_mps2\": 1.25, \"slope_deg\": -4.0}, "
+          "{\"begin_m\": 9.25, \"end_m\": 10.00}]"));
+}
+
 TEST(RoutesTable, SaysThatThereAreNone) { EXPECT_EQ(RoutesTable({}, 0), "no routes\n"); }
 
 TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {

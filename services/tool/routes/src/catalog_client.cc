@@ -197,7 +197,8 @@ std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& 
                         text.size() > 1 ? ",\n  " : "\n  ", route,
                         JsonTexts(HoldersOf(info.key, reply)), LackingOf(info.key, reply));
     if (const auto study = studies.find(info.key); study != studies.end()) {
-      text += fmt::format(", \"weak\": {}", WeakPlacesJson(info, study->second));
+      text += fmt::format(", \"weak\": {}, \"terrain\": {}", WeakPlacesJson(info, study->second),
+                          GroundJson(info, study->second));
     }
     text += "}";
   }
