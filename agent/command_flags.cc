@@ -44,6 +44,27 @@ void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
       ->check(CLI::Range(0.0, kLongest_s));
 }
 
+void AddTerrainOptions(CLI::App& command, ReplayCommand& replay) {
+  const std::string group = "The ground, as it was felt when the route was taught";
+  command
+      .add_option("--max-slope", replay.max_slope_deg,
+                  "Degrees, up or down, that the robot can drive: it refuses a route with more")
+      ->check(CLI::Range(0.0, 90.0))
+      ->group(group);
+  std::vector<std::string> names;
+  for (const route::RoughnessClass& each : route::RoughnessClasses()) names.emplace_back(each.name);
+  command
+      .add_option("--max-roughness", replay.max_roughness,
+                  "How rough the ground may be that the robot can drive: it refuses a route with "
+                  "more")
+      ->check(CLI::IsMember(names))
+      ->group(group);
+  command
+      .add_flag("--comfort", replay.comfort,
+                "Slower than it was taught where the ground is rough, from before it begins")
+      ->group(group);
+}
+
 }  // namespace
 
 void AddSharedOptions(CLI::App& app, CommandOptions& options) {
@@ -127,6 +148,7 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
           "With --server: metres along the path to keep from followers ahead; 0: keeps none")
       ->check(CLI::Range(0.0, 1000.0));
   AddDeviceOptions(command, replay.device, false);
+  AddTerrainOptions(command, replay);
 }
 
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch) {

@@ -10,6 +10,7 @@
 
 #include "agent/fetch.h"
 #include "agent/teachings.h"
+#include "services/base/angles.h"
 #include "services/base/time.h"
 #include "services/program/open_exchange.h"
 #include "services/program/output_file.h"
@@ -92,6 +93,9 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   }
   // A recording drives on, whatever it is told.
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
+  if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);
+  follower.terrain.roughness = route::FindRoughness(replay.max_roughness);
+  follower.comfort = replay.comfort;
   return follower;
 }
 

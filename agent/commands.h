@@ -51,6 +51,9 @@ struct ReplayCommand {
   bool from_start = false;
   std::string start = "left";
   double keep_distance_m = KeepDistanceOptions{}.distance_m;
+  std::optional<double> max_slope_deg;
+  std::string max_roughness;  // empty: any
+  bool comfort = false;
 };
 
 // Flags of the program and of its commands, which fill the structs.

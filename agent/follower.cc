@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "agent/comfort.h"
 #include "agent/device/standstill.h"
 #include "agent/progress_watch.h"
 #include "agent/yielding.h"
@@ -36,7 +37,9 @@ class Loop {
         link_(link),
         diagnosis_(std::move(diagnosis)),
         watch_(options.stuck_after),
-        yielding_(options.link.agent, options.keep_distance) {}
+        yielding_(options.link.agent, options.keep_distance),
+        terrain_(options.terrain),
+        comfort_(options.comfort) {}
 
   // Ends when there is no more to do; the error is final.
   [[nodiscard]] Result<void> Run();
@@ -49,6 +52,7 @@ class Loop {
   [[nodiscard]] Result<bool> Step(const Observation& observation);
   [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
   [[nodiscard]] bool NothingToFollow() const;
+  [[nodiscard]] bool Refuses();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
   bool End(std::string state, std::string reason);
@@ -59,6 +63,9 @@ class Loop {
   Diagnosis diagnosis_;
   ProgressWatch watch_;
   Yielding yielding_;
+  TerrainCheck terrain_;
+  Comfort comfort_;
+  bool all_is_to_come_ = false;  // the route is complete, if not here
   std::optional<ReplaySession> session_;
   std::uint32_t segments_ = 0;  // given to the session
   bool complete_ = false;
@@ -79,17 +86,21 @@ Result<void> Loop::TakeFeed() {
     fed_ = true;
     if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
       session_.emplace(options_.session, *route);
+      all_is_to_come_ = route->state == route::RouteState::kComplete;
       diagnosis_.Begin({*route, options_.link.agent.value(), device_.camera(),
                         ToString(options_.session.method)});
     } else if (const auto* left = std::get_if<LeftAt>(&*item)) {
       session_->GoOnFrom(*left);
       left_ = *left;
     } else if (auto* segment = std::get_if<route::Segment>(&*item)) {
+      terrain_.Add(*segment);
+      comfort_.Add(*segment);
       if (auto added = session_->AddSegment(std::move(*segment)); !added) return added;
       ++segments_;
     } else if (std::get_if<RouteComplete>(&*item) != nullptr) {
       session_->MarkComplete();
       complete_ = true;
+      if (const auto text = terrain_.NotKnown()) spdlog::warn("{}", *text);
       diagnosis_.Note("complete", fmt::format("all {} segments are known", segments_));
     } else if (auto* error = std::get_if<Error>(&*item)) {
       return tl::unexpected(*error);
@@ -101,15 +112,25 @@ Result<void> Loop::TakeFeed() {
 bool Loop::NothingToFollow() const {
   // It begins with all that its own store holds: a run over one store is the same each time.
   if (segments_ == 0 || segments_ < link_.held_before()) return true;
+  if (terrain_.any() && all_is_to_come_ && !complete_) return true;
   if (left_ && !complete_ && session_->known_m() <= left_->along_m) return true;
   const bool waiting = last_ && last_->state == ReplayState::kWaiting;
   return waiting && !fed_ && !complete_;
 }
 
+// Where the ground is more than the robot can drive; it ends the run.
+bool Loop::Refuses() {
+  const auto refusal = terrain_.Refusal(left_ ? left_->along_m : 0.0);
+  if (refusal) End("REFUSED", *refusal);
+  return refusal.has_value();
+}
+
 // False: the run is over.
 Result<bool> Loop::WaitForFeed() {
-  const auto began = steady_clock::now();
+  auto began = steady_clock::now();
+  auto known = segments_;
   while (NothingToFollow()) {
+    if (std::exchange(known, segments_) != segments_) began = steady_clock::now();
     if (options_.link.stop()) return End("STOPPED", "stopped by a signal");
     // Before the first segment the link has bounds of its own, and says more precisely what fails.
     const auto bound = options_.link.wait + (session_ ? milliseconds(0) : milliseconds(5000));
@@ -136,7 +157,7 @@ Result<void> Loop::Run() {
     if (auto taken = TakeFeed(); !taken) return taken;
     auto ready = WaitForFeed();
     if (!ready) return tl::unexpected(ready.error());
-    if (!*ready) return {};
+    if (!*ready || Refuses()) return {};
     if (last_ && last_->state == ReplayState::kYielding) link_.WaitForNews(kStandingFrame);
     auto observation = device_.Next();
     if (!observation) return tl::unexpected(observation.error());
@@ -158,7 +179,7 @@ Result<ReplayStep> Loop::Decide(const Observation& observation) {
   if (auto standing = yielding_.StandOn(observation.stamp, now)) return *standing;
   auto step = session_->Observe(observation);
   if (!step) return step;
-  return yielding_.Apply(*std::move(step), observation.stamp, now);
+  return yielding_.Apply(comfort_.Apply(*std::move(step)), observation.stamp, now);
 }
 
 // False: the run is over.

@@ -11,6 +11,7 @@
 #include "agent/diagnosis/summary.h"
 #include "agent/keep_distance.h"
 #include "agent/link/follower_link.h"
+#include "agent/terrain_check.h"
 
 namespace trailcast::agent {
 
@@ -24,11 +25,15 @@ struct FollowerOptions {
   KeepDistanceOptions keep_distance;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.
   std::chrono::seconds stuck_after{60};
+  // What ground the robot can drive: with limits, and a route that is complete, it looks at all of
+  // it before it moves; of one that is still being taught it knows no more than has come.
+  TerrainLimits terrain{};
+  bool comfort = false;  // it drives slower where the ground is rough
 };
 
 struct ReplayOutcome {
   bool success = false;        // arrived; or a recording was replayed to its end and not lost there
-  std::string state;           // the last: ARRIVED, LOST, STUCK, WAITING, ...
+  std::string state;           // the last: ARRIVED, LOST, STUCK, REFUSED, WAITING, ...
   std::string reason;          // one line for people
   std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;

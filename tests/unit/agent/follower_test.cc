@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <future>
 
 #include "agent/fetch.h"
+#include "services/base/angles.h"
 #include "services/route/labels.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -75,6 +77,43 @@ TEST_F(FollowerTest, ArrivesAtTheEndOfARouteFromItsOwnStore) {
   ASSERT_GT(device_.told.size(), 100U);
   EXPECT_GT(device_.told[50].linear_mps, 0.0);
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+// Of a hill that goes up by 0.1 rad.
+class SlopeTest : public FollowerTest {
+ protected:
+  void TeachUphill(const std::string& agent, bool send) {
+    WalkDevice scout(kFrames);
+    scout.imu = {{.attitude = motion::Attitude{0.0, -std::sin(0.05), 0.0, std::cos(0.05)}}};
+    const auto summary = swarm_.Teach(scout, swarm_.ScoutNamed(agent), send);
+    ASSERT_TRUE(summary) << summary.error().message;
+  }
+  FollowerOptions Limited(double slope_deg) {
+    auto options = swarm_.FollowerNamed("robot");
+    options.terrain.slope_rad = Radians(slope_deg);
+    return options;
+  }
+};
+
+TEST_F(SlopeTest, ARouteThatIsTooSteepIsRefusedBeforeTheRobotMoves) {
+  TeachUphill("robot", false);
+  const auto outcome = swarm_.Replay(device_, Limited(5.0), false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_FALSE(outcome->success);
+  EXPECT_EQ(outcome->state, "REFUSED");
+  EXPECT_THAT(outcome->reason, HasSubstr("in segment 0, 0.0 to "));
+  EXPECT_THAT(outcome->reason, HasSubstr("it goes 5.7 degrees uphill, and this robot's limit is "
+                                         "5.0 degrees"));
+  for (const auto& command : device_.told) EXPECT_EQ(command, motion::VelocityCommand{});
+  EXPECT_EQ(outcome->log.frames(), 0);
+}
+
+TEST_F(SlopeTest, OneThatIsNotTooSteepIsFetchedWholeAndFollowed) {
+  swarm_.StartServer();
+  TeachUphill("scout", true);
+  const auto outcome = swarm_.Replay(device_, Limited(6.0), true);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_TRUE(outcome->success) << outcome->reason;
 }
 
 TEST_F(FollowerTest, WritesOneRowAFrame) {

@@ -19,6 +19,7 @@ class WalkDevice : public agent::RobotDevice {
   std::function<motion::Pose2(int)> odometry = [](int frame) {
     return motion::Pose2{0.02 * frame, 0.0, 0.0};
   };
+  std::vector<motion::ImuSample> imu;  // what its IMU says with each frame; nothing: it has none
   std::vector<motion::VelocityCommand> told;
   int next = 0;
   bool blind = false;  // the lens is covered
@@ -31,6 +32,7 @@ class WalkDevice : public agent::RobotDevice {
     observation.image = WalkFrame(next);
     if (blind) observation.image.pixels.assign(observation.image.pixels.size(), 0);
     observation.odometry = odometry(next);
+    observation.imu = imu;
     ++next;
     return observation;
   }
