@@ -68,6 +68,10 @@ CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const st
 void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Options& topics,
                               ObstacleOptions& obstacles);
 
+// The same of an IMU.
+CLI::Option* AddImuTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                               dds::Ros2Options& topics);
+
 // The robot's topics, if they name no interface, are on the network's.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
 

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "agent/device/device.h"
 #include "services/base/result.h"
+#include "services/sim/core/bumps.h"
 #include "services/sim/places/place_options.h"
 
 namespace trailcast::agent {
@@ -20,6 +22,7 @@ struct SimulatedRun {
   bool stays_at_end = false;      // the scout goes on looking where its drive ended
   double rate_hz = 30.0;          // of its steps, each with odometry and a picture
   double turn_radius_m = 0.0;     // it steers like a car, no tighter; 0: by two driven wheels
+  std::vector<sim::RoughPatch> rough{};  // what its wheels feel besides the place's ground
 };
 
 class SimulatedRobot : public RobotDevice {

@@ -11,6 +11,7 @@
 #include "services/base/result.h"
 #include "services/base/time.h"
 #include "services/motion/cone_range.h"
+#include "services/motion/imu.h"
 #include "services/motion/motion.h"
 #include "services/motion/scan.h"
 
@@ -32,6 +33,7 @@ struct Ros2Options {
   std::string odometry = "odom";    // empty: none
   std::string scan;                 // empty: none
   std::vector<std::string> ranges;  // sensors that measure in a cone, any number
+  std::string imu;                  // empty: none
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
 
@@ -40,6 +42,7 @@ struct Ros2Options {
   [[nodiscard]] std::string OdometryTopic() const;
   [[nodiscard]] std::string ScanTopic() const;
   [[nodiscard]] std::string RangeTopic(std::size_t sensor) const;
+  [[nodiscard]] std::string ImuTopic() const;
   [[nodiscard]] std::string CommandTopic() const;
   [[nodiscard]] bool image_is_compressed() const;
   // kInvalidArgument for a topic name that ROS or DDS would refuse.
@@ -83,13 +86,20 @@ struct Ros2Range {
   motion::ConeRange range;
 };
 
+// sensor_msgs/Imu.
+struct Ros2Imu {
+  SensorTime stamp{};
+  motion::ImuSample felt;
+};
+
 // geometry_msgs/Twist or TwistStamped.
 struct Ros2Command {
   SensorTime stamp{};  // of the frame that it answers; Twist has none
   motion::VelocityCommand velocity;
 };
 
-using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range>;
+using Ros2Sensed =
+    std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range, Ros2Imu>;
 
 // Who drives the robot: senses and commands. One thread may Take while another calls the rest.
 class Ros2Driver {
@@ -114,6 +124,7 @@ class Ros2Driver {
     std::string tried;           // on which network interfaces they are sought, for people
     int scanners = 0;            // who publishes the scan topic
     std::vector<int> rangers{};  // who publishes each of the range topics
+    int imus = 0;                // who publishes the IMU topic
   };
   [[nodiscard]] Peers peers() const;
 
@@ -138,12 +149,15 @@ class Ros2Robot {
   [[nodiscard]] Result<void> Publish(const Ros2Scan& scan);
   // If there is that range topic.
   [[nodiscard]] Result<void> Publish(const Ros2Range& range);
+  // If there is an IMU topic.
+  [[nodiscard]] Result<void> Publish(const Ros2Imu& imu);
   // The latest command that came since, if any, after waiting for one at most so long.
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
   // Whether somebody is there to look at its pictures.
   [[nodiscard]] bool watched() const;
   [[nodiscard]] bool scan_is_heard() const;  // the same of its scans
   [[nodiscard]] bool range_is_heard(std::size_t sensor) const;
+  [[nodiscard]] bool imu_is_heard() const;
 
  private:
   struct State;

@@ -29,6 +29,8 @@ constexpr const char* kExamples =
     "  trailcast robot --sim indoor --ros2 /robot1 --fail base-stops@4+3 --fail odometry-jumps@9\n"
     "  trailcast robot --sim indoor --ros2 /robot1 --obstacle 3,1.5,0.2@0+10\n"
     "                  # and see 'trailcast-agent replay --scan-topic scan' wait before it\n"
+    "  trailcast robot --sim indoor --ros2 /scout --scout --rough 3,1.5,1,0.02\n"
+    "                  # and see 'trailcast-agent teach --imu-topic imu' note it\n"
     "It runs until a signal ends it, and then says what it heard from its agent.";
 
 void AddTimingOptions(CLI::App& app, CLI::Option* lockstep, agent::RobotTiming& timing) {
@@ -88,6 +90,8 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
   agent::AddRos2TopicOptions(*app, ros2, "Topics", options->robot.topics);
   options->robot.topics.scan = "scan";
   agent::AddScanTopicOption(*app, ros2, "Topics", options->robot.topics);
+  options->robot.topics.imu = "imu";
+  agent::AddImuTopicOption(*app, ros2, "Topics", options->robot.topics);
   options->robot.topics.ranges = {"range"};
   options->robot.range_mounts.resize(1);
   agent::AddRangeTopicOption(*app, ros2, "Topics", options->robot.topics,

@@ -2,8 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
+#include <cmath>
 #include <utility>
+#include <vector>
 
+#include "services/base/csv_line.h"
+#include "services/base/number.h"
 #include "services/program/several.h"
 #include "services/program/stop_signal.h"
 
@@ -118,6 +123,7 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
         ->group("What stands in its way");
   }
   if (scout) {
+    AddImuTopicOption(command, ros2, robot, topics);
     add("--end-when-still", options.still_at_end_s,
         "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
         ->check(CLI::Range(0.0, 3600.0));
@@ -133,7 +139,47 @@ std::string WhatIsHeard(const dds::Ros2Options& topics) {
   for (std::size_t i = 0; i < topics.ranges.size(); ++i) {
     text += ", ranges from " + topics.RangeTopic(i);
   }
+  if (!topics.imu.empty()) text += ", an IMU on " + topics.ImuTopic();
   return text;
+}
+
+// "3,1.5,1,0.01": where, how wide, how high.
+Result<sim::RoughPatch> ParseRoughPatch(const std::string& text) {
+  const auto cells = CsvCells(text);
+  std::array<double, 4> numbers{};
+  bool right = cells && cells->size() == numbers.size();
+  for (std::size_t i = 0; right && i < numbers.size(); ++i) {
+    const auto number = ParseNumber<double>((*cells)[i]);
+    right = number && std::isfinite(*number);
+    if (right) numbers[i] = *number;
+  }
+  if (!right || !(numbers[2] > 0.0) || numbers[3] < 0.0 || numbers[3] > 0.1) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'{}' is no rough ground: expected X,Y,RADIUS,HEIGHT in metres, its bumps 0.1 high "
+                "at most, as 3,1.5,1,0.01",
+                text);
+  }
+  return sim::RoughPatch{{numbers[0], numbers[1]}, numbers[2], numbers[3]};
+}
+
+CLI::Option* AddRoughPatches(CLI::App& command, std::vector<sim::RoughPatch>& patches) {
+  const auto wrong = [](const std::string& text) {
+    const auto patch = ParseRoughPatch(text);
+    return patch ? std::string() : patch.error().message;
+  };
+  return command
+      .add_option_function<std::vector<std::string>>(
+          "--rough",
+          [&patches](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) patches.push_back(ParseRoughPatch(text).value());
+          },
+          "Where in the world its wheels feel bumps, so high (RMS), in metres; may be given "
+          "several "
+          "times")
+      ->check(CLI::Validator(wrong, "X,Y,RADIUS,HEIGHT"))
+      ->expected(1, 20)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
@@ -183,6 +229,7 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
         ->default_str("")
         ->check(CLI::Range(0.05, 2.0));
   }
+  AddRoughPatches(command, simulated.rough)->needs(world)->group(simulation);
   add("--sim-truth", options.truth, "Writes the true poses here, for a judge");
   return world;
 }
@@ -286,6 +333,17 @@ void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Op
       "Metres, the whole; the robot is taken to reach as far ahead of its axle as half of it, or "
       "to its scanner if that is further")
       ->check(CLI::Range(0.05, 3.0));
+}
+
+CLI::Option* AddImuTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                               dds::Ros2Options& topics) {
+  return command
+      .add_option(
+          "--imu-topic", topics.imu,
+          "sensor_msgs/Imu in the base's frame, by which the route knows how rough and steep "
+          "its ground is; '' for none")
+      ->needs(robot)
+      ->group(group);
 }
 
 CLI::Validator CameraRollValidator() {

@@ -118,6 +118,20 @@ void Ros2Device::State::ShareNews() {
   for (const std::string& line : poses.TakeNews()) spdlog::warn("{}", line);
 }
 
+// An IMU that says nothing fails nobody; but whoever asked for it should know.
+std::vector<motion::ImuSample> Ros2Device::State::TakeImu() {
+  constexpr int kTellAfter = 60;
+  if (has_imu() && frames_without_imu >= 0) {
+    frames_without_imu = imu.empty() ? frames_without_imu + 1 : -1;
+    if (frames_without_imu == kTellAfter) {
+      spdlog::warn("nothing comes from the IMU {} ({}): neither slope nor roughness is known by it",
+                   run.topics.ImuTopic(),
+                   driver->peers().imus > 0 ? "somebody publishes it" : "nobody publishes it");
+    }
+  }
+  return std::exchange(imu, {});
+}
+
 Ros2Device::Ros2Device(std::unique_ptr<State> state) : state_(std::move(state)) {
   state_->hearing = std::thread([s = state_.get()] { s->Hear(); });
 }
@@ -188,6 +202,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
       observation.unknown = s.poses.TakeUnknown();
       if (s.still.Over(frame.taken, *observation.odometry)) return std::nullopt;
     }
+    observation.imu = s.TakeImu();
     guard.unlock();
     auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
     guard.lock();

@@ -18,6 +18,8 @@ constexpr double kLongestRamp_s = 0.1;
 // So gently a base is tried that stood against its commands.
 constexpr double kTrySpeed_mps = 0.15;
 constexpr double kTryTurn_radps = 0.3;
+// Of an IMU, between two frames: a second's worth of a fast one.
+constexpr std::size_t kMostImu = 1000;
 
 }  // namespace
 
@@ -47,6 +49,10 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     KeepRange(*range, now);
     return;
   }
+  if (const auto* inertia = std::get_if<dds::Ros2Imu>(&sensed)) {
+    KeepImu(inertia->felt);
+    return;
+  }
   if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
     KeepFrame(std::move(*jpeg), now);
   } else {
@@ -69,6 +75,10 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   last_bytes = bytes;
   if (!newest) unserved_since = now;
   newest = Ros2Frame{now, *taken, std::move(picture)};
+}
+
+void Ros2Device::State::KeepImu(const motion::ImuSample& felt) {
+  if (imu.size() < kMostImu) imu.push_back(felt);
 }
 
 void Ros2Device::State::KeepScan(const dds::Ros2Scan& scan, steady_clock::time_point now) {

@@ -45,11 +45,13 @@ struct Ros2Device::State {
 
   [[nodiscard]] bool has_odometry() const { return !run.topics.odometry.empty(); }
   [[nodiscard]] bool has_scan() const { return !run.topics.scan.empty(); }
+  [[nodiscard]] bool has_imu() const { return !run.topics.imu.empty(); }
 
   // The hearing thread's.
   void Hear();
   void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
+  void KeepImu(const motion::ImuSample& felt);
   void KeepScan(const dds::Ros2Scan& scan, std::chrono::steady_clock::time_point now);
   void KeepRange(const dds::Ros2Range& range, std::chrono::steady_clock::time_point now);
   void SlowDown();
@@ -71,6 +73,7 @@ struct Ros2Device::State {
   void Leave(const Error& damage);
   void ShareTrouble();
   void ShareNews();
+  [[nodiscard]] std::vector<motion::ImuSample> TakeImu();
 
   Ros2Run run;
   std::unique_ptr<dds::Ros2Driver> driver;
@@ -82,7 +85,9 @@ struct Ros2Device::State {
   RobotWatch watch;
   std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
   SensedPoses poses;
-  bool odometry_stands = false;  // it comes, with stamps that do not advance
+  bool odometry_stands = false;        // it comes, with stamps that do not advance
+  std::vector<motion::ImuSample> imu;  // since the last frame that was handed out
+  int frames_without_imu = 0;          // that were, until the first sample comes
   std::optional<Ros2Frame> newest;
   std::chrono::steady_clock::time_point unserved_since;  // since when there has been a newest frame
   std::optional<SensorTime> last_stamp;                  // of the frame before, handed out or not

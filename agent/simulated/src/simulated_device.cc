@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "agent/simulated/body_imu.h"
 #include "agent/simulated/camera_file.h"
 #include "services/base/text_file.h"
 #include "services/sim/core/judge.h"
@@ -36,6 +37,7 @@ struct SimulatedDevice::State {
   double along_m = 0.0;  // the scout's place on it
   bool stays_at_end = false;
   motion::VelocityCommand command;
+  BodyImu imu;
   std::vector<TruePose> truth;
 
   [[nodiscard]] Observation Note(sim::Observation seen);
@@ -60,6 +62,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   options.seed = run.seed;
   options.rate_hz = run.rate_hz;
   options.body.turn_radius_m = run.turn_radius_m;
+  options.rough = run.rough;
   auto robot = sim::SimulatedRobot::Create(place->world, options);
   if (!robot) return tl::unexpected(robot.error());
   auto state = std::make_unique<State>();
@@ -96,7 +99,8 @@ Observation SimulatedDevice::State::Note(sim::Observation seen) {
   // Looked for near where it was: a loop passes some places twice.
   along_m =
       sim::Nearest(path, motion::Position(truth.back().pose), along_m - 1.0, along_m + 2.0).along_m;
-  return {seen.stamp, std::move(seen.image), seen.odometry, {}};
+  const motion::ImuSample felt = imu.Feel(seen.stamp, sim::Judge(*robot).WorldFromBody());
+  return {seen.stamp, std::move(seen.image), seen.odometry, {}, {felt}};
 }
 
 motion::Scan SimulatedDevice::Scan(const std::vector<Pillar>& pillars) const {

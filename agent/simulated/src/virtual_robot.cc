@@ -63,6 +63,7 @@ class VirtualRobot {
   [[nodiscard]] steady_clock::time_point Now() const;
   [[nodiscard]] std::vector<Pillar> Obstacles() const;
   [[nodiscard]] Result<void> SayWhatStands(SensorTime stamp);
+  [[nodiscard]] Result<void> SayImu(const Observation& seen);
   [[nodiscard]] Result<void> SayPictures(const Observation& seen);
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
@@ -151,6 +152,7 @@ Result<void> VirtualRobot::Say(const Observation& seen) {
   // The picture last: the others are there when it comes.
   if (auto said = SayOdometry(seen); !said) return said;
   if (auto said = SayWhatStands(seen.stamp); !said) return said;
+  if (auto said = SayImu(seen); !said) return said;
   return SayPictures(seen);
 }
 
@@ -188,6 +190,11 @@ Result<void> VirtualRobot::SayWhatStands(SensorTime stamp) {
     if (auto said = link_.Publish(dds::Ros2Range{stamp, i, range}); !said) return said;
   }
   return {};
+}
+
+Result<void> VirtualRobot::SayImu(const Observation& seen) {
+  if (seen.imu.empty() || !link_.imu_is_heard()) return {};
+  return link_.Publish(dds::Ros2Imu{seen.stamp, seen.imu.back()});
 }
 
 Result<void> VirtualRobot::SayPictures(const Observation& seen) {

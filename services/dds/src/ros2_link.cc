@@ -18,6 +18,7 @@ namespace {
 constexpr int kNewestFrames = 2;
 constexpr int kNewestPoses = 64;
 constexpr int kNewestScans = 2;
+constexpr int kNewestImu = 256;
 constexpr std::chrono::milliseconds kWriteTimeout{100};
 constexpr std::size_t kMaxSamplesPerTake = 256;
 // Our own messages are small; a camera's picture of 12 megapixels in colour is not.
@@ -128,6 +129,7 @@ std::string Ros2Options::ScanTopic() const { return Resolve(robot, scan); }
 std::string Ros2Options::RangeTopic(std::size_t sensor) const {
   return Resolve(robot, ranges[sensor]);
 }
+std::string Ros2Options::ImuTopic() const { return Resolve(robot, imu); }
 std::string Ros2Options::CommandTopic() const { return Resolve(robot, command); }
 bool Ros2Options::image_is_compressed() const { return image.ends_with("/compressed"); }
 
@@ -135,6 +137,7 @@ Result<void> Ros2Options::Validate() const {
   std::vector<std::string> names{ImageTopic(), CommandTopic()};
   if (!odometry.empty()) names.push_back(OdometryTopic());
   if (!scan.empty()) names.push_back(ScanTopic());
+  if (!imu.empty()) names.push_back(ImuTopic());
   for (std::size_t i = 0; i < ranges.size(); ++i) names.push_back(RangeTopic(i));
   for (const std::string& name : names) {
     if (!IsRosName(name)) {
@@ -155,6 +158,7 @@ struct Ros2Driver::State {
   std::optional<Reader> odometry;
   std::optional<Reader> scan;
   std::vector<Reader> ranges;
+  std::optional<Reader> imu;
   Writer command;
 };
 
@@ -180,6 +184,12 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
     if (!reader) return tl::unexpected(reader.error());
     scan = *std::move(reader);
   }
+  std::optional<Reader> imu;
+  if (!options.imu.empty()) {
+    auto reader = node->Hear(ImuType(), options.ImuTopic(), SensorQos(kNewestImu));
+    if (!reader) return tl::unexpected(reader.error());
+    imu = *std::move(reader);
+  }
   std::vector<Reader> ranges;
   for (std::size_t i = 0; i < options.ranges.size(); ++i) {
     auto reader = node->Hear(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
@@ -189,9 +199,9 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
-  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
-      new State{options, std::move(network), *std::move(node), *std::move(image),
-                std::move(odometry), std::move(scan), std::move(ranges), *std::move(command)})));
+  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(new State{
+      options, std::move(network), *std::move(node), *std::move(image), std::move(odometry),
+      std::move(scan), std::move(ranges), std::move(imu), *std::move(command)})));
 }
 
 std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
@@ -218,6 +228,12 @@ std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
                              if (!info.valid_data) return;
                              if (auto range = RangeFromWire(sample, i)) sensed.emplace_back(*range);
                            });
+  }
+  if (s.imu) {
+    (void)s.imu->Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+      if (!info.valid_data) return;
+      if (auto imu = ImuFromWire(sample)) sensed.emplace_back(*imu);
+    });
   }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
     if (info.valid_data) {
@@ -253,6 +269,10 @@ Ros2Driver::Peers Ros2Driver::peers() const {
     peers.rangers.push_back(s.ranges[i].matched());
     mismatches.push_back(Mismatch(s.options.RangeTopic(i), s.ranges[i].refused_policy()));
   }
+  if (s.imu) {
+    peers.imus = s.imu->matched();
+    mismatches.push_back(Mismatch(s.options.ImuTopic(), s.imu->refused_policy()));
+  }
   std::erase(mismatches, std::string());
   peers.mismatch = fmt::format("{}", fmt::join(mismatches, ", "));
   return peers;
@@ -266,6 +286,7 @@ struct Ros2Robot::State {
   Writer odometry;
   std::optional<Writer> scan;
   std::vector<Writer> ranges;
+  std::optional<Writer> imu;
 };
 
 Ros2Robot::Ros2Robot(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -292,6 +313,12 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
     if (!writer) return tl::unexpected(writer.error());
     scan = *std::move(writer);
   }
+  std::optional<Writer> imu;
+  if (!options.imu.empty()) {
+    auto writer = node->Speak(ImuType(), options.ImuTopic(), SensorQos(kNewestImu));
+    if (!writer) return tl::unexpected(writer.error());
+    imu = *std::move(writer);
+  }
   std::vector<Writer> ranges;
   for (std::size_t i = 0; i < options.ranges.size(); ++i) {
     auto writer = node->Speak(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
@@ -300,7 +327,7 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
   }
   return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(
       new State{options, *std::move(node), *std::move(command), *std::move(image),
-                *std::move(odometry), std::move(scan), std::move(ranges)})));
+                *std::move(odometry), std::move(scan), std::move(ranges), std::move(imu)})));
 }
 
 Result<void> Ros2Robot::Publish(const Ros2Image& image) {
@@ -325,6 +352,11 @@ Result<void> Ros2Robot::Publish(const Ros2Range& range) {
                       [&](const void* sample) { return ranges[range.sensor].Write(sample); });
 }
 
+Result<void> Ros2Robot::Publish(const Ros2Imu& imu) {
+  if (!state_->imu) return Fail(ErrorCode::kInvalidArgument, "the robot has no IMU topic");
+  return WithRos2Wire(imu, [&](const void* sample) { return state_->imu->Write(sample); });
+}
+
 std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {
   std::optional<Ros2Command> latest;
   State& s = *state_;
@@ -343,5 +375,7 @@ bool Ros2Robot::scan_is_heard() const { return state_->scan && state_->scan->mat
 bool Ros2Robot::range_is_heard(std::size_t sensor) const {
   return sensor < state_->ranges.size() && state_->ranges[sensor].matched() > 0;
 }
+
+bool Ros2Robot::imu_is_heard() const { return state_->imu && state_->imu->matched() > 0; }
 
 }  // namespace trailcast::dds

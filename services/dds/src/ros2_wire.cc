@@ -7,9 +7,13 @@
 
 #include "ros2.h"
 #include "services/motion/attitude.h"
+#include "services/motion/imu.h"
 
 namespace trailcast::dds {
 namespace {
+
+// sensor_msgs/Imu: first in the covariance of what an IMU does not measure.
+constexpr double kNotMeasured = -1.0;
 
 // IDL strings are mutable in C; nobody writes to these.
 template <std::size_t N>
@@ -58,6 +62,8 @@ const dds_topic_descriptor_t& OdometryType() { return nav_msgs_msg_dds__Odometry
 const dds_topic_descriptor_t& ScanType() { return sensor_msgs_msg_dds__LaserScan__desc; }
 
 const dds_topic_descriptor_t& RangeType() { return sensor_msgs_msg_dds__Range__desc; }
+
+const dds_topic_descriptor_t& ImuType() { return sensor_msgs_msg_dds__Imu__desc; }
 
 const dds_topic_descriptor_t& CommandType(Ros2CommandType type) {
   return type == Ros2CommandType::kTwist ? geometry_msgs_msg_dds__Twist__desc
@@ -125,6 +131,25 @@ Result<void> WithRos2Wire(const Ros2Range& range, const UseSample& use) {
   return use(&wire);
 }
 
+Result<void> WithRos2Wire(const Ros2Imu& imu, const UseSample& use) {
+  std::array<char, 10> body{"base_link"};
+  sensor_msgs_msg_dds__Imu_ wire{};
+  wire.header.stamp = ToTime(imu.stamp);
+  wire.header.frame_id = Text(body);
+  wire.angular_velocity_covariance[0] = kNotMeasured;
+  wire.orientation_covariance[0] = kNotMeasured;
+  if (const auto& attitude = imu.felt.attitude) {
+    wire.orientation = {attitude->x, attitude->y, attitude->z, attitude->w};
+    wire.orientation_covariance[0] = 0.0;
+  }
+  wire.linear_acceleration_covariance[0] = kNotMeasured;
+  if (const auto& acceleration = imu.felt.acceleration_mps2) {
+    wire.linear_acceleration = {acceleration->x(), acceleration->y(), acceleration->z()};
+    wire.linear_acceleration_covariance[0] = 0.0;
+  }
+  return use(&wire);
+}
+
 Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type, const UseSample& use) {
   if (type == Ros2CommandType::kTwist) {
     const auto wire = ToTwist(command.velocity);
@@ -184,6 +209,24 @@ std::optional<Ros2Range> RangeFromWire(const void* sample, std::size_t sensor) {
                         {wire.field_of_view, wire.min_range, wire.max_range, wire.range}};
   if (!motion::Plausible(range.range)) return std::nullopt;
   return range;
+}
+
+std::optional<Ros2Imu> ImuFromWire(const void* sample) {
+  const auto& wire = *static_cast<const sensor_msgs_msg_dds__Imu_*>(sample);
+  Ros2Imu imu{FromTime(wire.header.stamp), {}};
+  const auto& q = wire.orientation;
+  const motion::Attitude attitude{q.x, q.y, q.z, q.w};
+  // Drivers without an orientation leave zeros, too.
+  if (wire.orientation_covariance[0] != kNotMeasured && motion::Climb(attitude)) {
+    imu.felt.attitude = attitude;
+  }
+  const auto& a = wire.linear_acceleration;
+  const Eigen::Vector3d acceleration_mps2(a.x, a.y, a.z);
+  if (wire.linear_acceleration_covariance[0] != kNotMeasured && acceleration_mps2.allFinite()) {
+    imu.felt.acceleration_mps2 = acceleration_mps2;
+  }
+  if (!imu.felt.attitude && !imu.felt.acceleration_mps2) return std::nullopt;
+  return imu;
 }
 
 std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type) {

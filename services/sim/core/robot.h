@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "services/motion/motion.h"
+#include "services/sim/core/bumps.h"
 #include "services/sim/core/disturbances.h"
 #include "services/sim/core/random.h"
 #include "services/sim/core/stage.h"
@@ -53,6 +55,8 @@ class DifferentialDriveRobot {
   void PlaceAt(const motion::Pose2& pose);
   // So much of what each wheel turns moves the robot, 1 on good ground; odometry does not notice.
   void SetGrip(double left, double right) { grip_ = {left, right}; }
+  // What its wheels feel besides the world's ground.
+  void SetRough(std::vector<RoughPatch> patches);
 
  private:
   struct Wheels {
@@ -76,6 +80,7 @@ class DifferentialDriveRobot {
   double right_mps_ = 0.0;
   double curvature_per_m_ = 0.0;  // a steering axle's
   Wheels grip_{1.0, 1.0};
+  std::vector<RoughPatch> rough_;
   double z_m_ = 0.0;
   double roll_rad_ = 0.0;   // right side down is positive
   double pitch_rad_ = 0.0;  // nose down is positive

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/base/time.h"
@@ -31,6 +32,7 @@ struct SimulatedRobotOptions {
   double rate_hz = 30.0;
   std::optional<Lighting> lighting;  // nothing: the world's own
   Actors actors;                     // by this robot's clock; the world itself stays as it is
+  std::vector<RoughPatch> rough{};   // what its wheels feel besides the world's ground
 };
 
 // What a robot gets to know in a step, and all that it gets to know.

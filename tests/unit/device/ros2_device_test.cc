@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <limits>
 #include <optional>
@@ -89,6 +90,13 @@ class Ros2DeviceTest : public testing::Test {
     }
     return next.get();
   }
+  // Lying so far uphill.
+  void SayImu(double climb_rad) {
+    dds::Ros2Imu imu{stamp_, {}};
+    imu.felt.attitude =
+        motion::Attitude{0.0, -std::sin(climb_rad / 2.0), 0.0, std::cos(climb_rad / 2.0)};
+    ASSERT_TRUE(robot_->Publish(imu));
+  }
   void OpenWithAScanner() {
     run_.topics.scan = "scan";
     Open();
@@ -143,6 +151,28 @@ class Ros2DeviceTest : public testing::Test {
   motion::Pose2 pose_{3.0, -2.0, 2.5};
   int frame_ = 0;
 };
+
+TEST_F(Ros2DeviceTest, AFrameComesWithWhatTheImuSaidSinceTheOneBefore) {
+  run_.topics.imu = "imu";
+  Open();
+  std::size_t felt = 0;
+  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  while (felt == 0 && steady_clock::now() < deadline) {
+    auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+    while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+      GoOn();
+      for (int i = 0; i < 4; ++i) SayImu(0.1);
+      Say();
+    }
+    const auto seen = next.get();
+    ASSERT_TRUE(seen) << seen.error().message;
+    felt = (*seen)->imu.size();
+    if (felt > 0) {
+      EXPECT_NEAR(motion::Climb((*seen)->imu.front().attitude.value()).value(), 0.1, 1e-9);
+    }
+  }
+  EXPECT_GT(felt, 0U);
+}
 
 TEST_F(Ros2DeviceTest, GivesWhatTheRobotSees) {
   Open();

@@ -48,6 +48,24 @@ TEST(Robot, WheelsNeedTimeToReachTheirSpeed) {
   EXPECT_NEAR(robot.true_velocity().linear_mps, 0.5, 1e-6);
 }
 
+TEST(Robot, IsShakenByRoughGroundWhereItIsAndNowhereElse) {
+  DifferentialDriveRobot robot(SmallWorld().Ground(GroundMode::kFlat).Build(), {}, RobotErrors{},
+                               {}, 1.0, 1);
+  robot.SetRough({{{2.0, 0.0}, 1.0, 0.02}});
+  std::vector<double> before_m;
+  std::vector<double> there_m;
+  for (int i = 0; i < 150; ++i) {
+    robot.Drive({0.5, 0.0}, kPeriod_s);
+    const double x_m = robot.true_pose().x_m;
+    const double z_m = robot.WorldFromBody().translation().z();
+    if (x_m < 0.8) before_m.push_back(z_m);
+    if (x_m > 1.3 && x_m < 2.0) there_m.push_back(z_m);
+  }
+  ASSERT_GT(there_m.size(), 30U);
+  EXPECT_EQ(Sigma(before_m), 0.0);
+  EXPECT_GT(Sigma(there_m), 0.003);
+}
+
 // Ten metres straight by odometry, then one turn on the spot, by two hundred robots.
 TEST(Robot, OdometryErrorsAreAsLargeAsAskedFor) {
   const auto world = SmallWorld().Ground(GroundMode::kFlat).Build();

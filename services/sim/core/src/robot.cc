@@ -117,14 +117,17 @@ DifferentialDriveRobot::Obstacle DifferentialDriveRobot::FeelAhead(double step_m
 }
 
 void DifferentialDriveRobot::StandOnGround() {
-  if (world_->ground() == GroundMode::kFlat) {
+  const bool flat = world_->ground() == GroundMode::kFlat;
+  if (flat && rough_.empty()) {
     z_m_ = roll_rad_ = pitch_rad_ = 0.0;
     return;
   }
   const auto height = [&](double ahead_m, double left_m) {
     const motion::Pose2 at = motion::Compose(pose_, {ahead_m, left_m, 0.0});
+    const double bump_m = BumpAt(rough_, motion::Position(at));
+    if (flat) return bump_m;
     const auto ground = world_->GroundHeight(at.x_m, at.y_m, z_m_ + kClimb_m);
-    return ground && *ground > z_m_ - kDrop_m ? *ground : z_m_;
+    return ground && *ground > z_m_ - kDrop_m ? *ground + bump_m : z_m_;
   };
   const double a = body_.length_m / 2.0;
   const double b = body_.wheel_base_m / 2.0;
@@ -144,6 +147,11 @@ Eigen::Isometry3d DifferentialDriveRobot::WorldFromBody() const {
   pose.rotate(Eigen::AngleAxisd(pitch_rad_, Eigen::Vector3d::UnitY()));
   pose.rotate(Eigen::AngleAxisd(roll_rad_, Eigen::Vector3d::UnitX()));
   return pose;
+}
+
+void DifferentialDriveRobot::SetRough(std::vector<RoughPatch> patches) {
+  rough_ = std::move(patches);
+  StandOnGround();
 }
 
 void DifferentialDriveRobot::PlaceAt(const motion::Pose2& pose) {

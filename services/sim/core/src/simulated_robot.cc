@@ -65,7 +65,9 @@ SimulatedRobot::SimulatedRobot(const std::shared_ptr<const World>& world,
       stage_(world, options.actors),
       renderer_(world, options.camera, options.lighting.value_or(world->lighting())),
       sensor_(options.camera, WithGain(options.sensor, errors.gain)),
-      noise_(options.seed, "pixels") {}
+      noise_(options.seed, "pixels") {
+  robot_.SetRough(options.rough);
+}
 
 Observation SimulatedRobot::Step(const motion::VelocityCommand& command) {
   Observation observation = StepBlind(command);
