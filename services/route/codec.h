@@ -17,9 +17,9 @@ inline constexpr int kMaxCoordinatePx = 1 << 16;
 inline constexpr std::size_t kMaxKeyViews = 64;
 inline constexpr std::size_t kMaxKeyViewFeatures = 255;
 
-// The newest version of the route format; older ones are read, too. Segments that version 1 can
-// express are written in it.
-inline constexpr std::uint32_t kFormatVersion = 2;
+// The newest version of the route format; older ones are read, too. A segment is written in the
+// oldest that can express it.
+inline constexpr std::uint32_t kFormatVersion = 3;
 
 // The route format (idl/route.proto), in bytes. Deterministic: equal segments give equal bytes.
 // Coordinates are rounded to 1/16 px, lengths to 0.1 mm, angles to 0.01 mrad, durations to 1 ms,
@@ -28,8 +28,8 @@ inline constexpr std::uint32_t kFormatVersion = 2;
 // Of key views, places are rounded to 1/4 px, sizes to a sixteenth of an octave, `s` to 1/255. Of
 // the terrain, shaking is rounded to 1/10000 of the picture, acceleration to 1 cm/s2, slope to 1
 // mrad. Expects at most kMaxFeatures features of 2 to kMaxKnots knots each, kMaxKeyViews key views
-// of kMaxKeyViewFeatures features, all numbers finite; descriptors of features are written if any
-// of them has one.
+// of kMaxKeyViewFeatures features, all numbers finite, odometry where it is driven backwards;
+// descriptors of features are written if any of them has one.
 [[nodiscard]] Bytes Encode(const Segment& segment);
 
 // kCorrupt with what is wrong for bytes that are no segment: truncated, oversize, absurd counts,

@@ -63,6 +63,9 @@ struct Segment {
   // Turned on the spot before the segment's first image, counter-clockwise positive: the segment
   // begins where the last one ended, and heads so much further to the left.
   double turn_before_rad = 0.0;
+  // Driven backwards, the camera looking ahead. All else is as driven: metres, heading and knots
+  // from where the robot began to, its features becoming smaller on the way.
+  bool reverse = false;
   std::vector<Feature> features;
   std::vector<KeyView> key_views;  // in rising s; none in segments taught before there were any
   Terrain terrain;

@@ -327,19 +327,27 @@ Result<void> ReadKeyViews(const format::v1::Segment& in, Segment& segment) {
   return {};
 }
 
+// The least that has what the segment needs: who reads no more than that follows it all the same,
+// and who does not know of driving backwards does not drive it forwards.
+std::uint32_t VersionOf(const Segment& segment) {
+  if (segment.reverse) return 3;
+  return segment.key_views.empty() && segment.turn_before_rad == 0.0 ? 1 : 2;
+}
+
 }  // namespace
 
 Bytes Encode(const Segment& segment) {
   assert(segment.features.size() <= kMaxFeatures);
+  assert(segment.has_odometry || !segment.reverse);
   format::v1::Segment out;
-  const bool first_version = segment.key_views.empty() && segment.turn_before_rad == 0.0;
-  out.set_format_version(first_version ? 1 : kFormatVersion);
+  const std::uint32_t version = VersionOf(segment);
+  out.set_format_version(version);
   out.set_index(segment.index.value());
   out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
   const bool described =
-      first_version || std::any_of(segment.features.begin(), segment.features.end(),
-                                   [](const Feature& f) { return IsDescribed(f.descriptor); });
+      version == 1 || std::any_of(segment.features.begin(), segment.features.end(),
+                                  [](const Feature& f) { return IsDescribed(f.descriptor); });
   for (const Feature& feature : segment.features) {
     AppendPatch(feature.patch, *out.mutable_patches());
     if (described) {
@@ -349,6 +357,7 @@ Bytes Encode(const Segment& segment) {
   }
   for (const KeyView& view : segment.key_views) AppendKeyView(view, *out.add_key_views());
   if (segment.terrain.known()) SetTerrain(segment.terrain, *out.mutable_terrain());
+  out.set_reverse(segment.reverse);
   Bytes bytes(out.ByteSizeLong());
   google::protobuf::io::ArrayOutputStream array(bytes.data(), static_cast<int>(bytes.size()));
   google::protobuf::io::CodedOutputStream stream(&array);
@@ -379,6 +388,13 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
     if (Result<void> odometry = ReadOdometry(in.odometry(), segment); !odometry) {
       return tl::unexpected(odometry.error());
     }
+  }
+  segment.reverse = in.reverse();
+  if (segment.reverse && (in.format_version() < 3 || !segment.has_odometry)) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment is driven backwards, which takes route format 3 and odometry: it is in "
+                "format {}, {} odometry",
+                in.format_version(), segment.has_odometry ? "with" : "without");
   }
   if (Result<void> features = ReadFeatures(in, segment); !features) {
     return tl::unexpected(features.error());

@@ -35,7 +35,7 @@ TEST(CodecDamage, MessageLeftAsItIsIsAccepted) {
 }
 
 TEST(CodecDamage, OtherFormatVersionIsRefusedAndNamed) {
-  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(3); }), HasSubstr("route format 3"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(4); }), HasSubstr("route format 4"));
   EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_format_version(); }), HasSubstr("route format 0"));
 }
 
@@ -92,6 +92,15 @@ TEST(CodecDamage, OnlyVersion2MayLeaveDescriptorsOut) {
               m.set_format_version(2);
             }),
             "accepted");
+}
+
+TEST(CodecDamage, DrivenBackwardsTakesVersion3AndOdometry) {
+  const Segment sample = SampleSegmentDrivenBackwards(5, 3);
+  EXPECT_EQ(ErrorAfter([](auto&) {}, sample), "accepted");
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_format_version(2); }, sample),
+              HasSubstr("driven backwards, which takes route format 3"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.clear_odometry(); }, sample),
+              HasSubstr("without odometry"));
 }
 
 TEST(CodecDamage, LastFeatureWithoutMilestoneIsRefused) {

@@ -50,10 +50,11 @@ TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
   EXPECT_EQ(decoded->terrain, (Terrain{0.0, 100.0, -1.571}));
 }
 
-TEST(Codec, WhatVersion1CanExpressIsWrittenInIt) {
+TEST(Codec, ASegmentIsWrittenInTheOldestVersionThatCanExpressIt) {
   const Bytes first = Encode(SampleSegment(7, 2));
   EXPECT_EQ(first[1], 1);
   EXPECT_EQ(Encode(SampleSegmentWithKeyViews(7, 2))[1], 2);
+  EXPECT_EQ(Encode(SampleSegmentDrivenBackwards(7, 2))[1], 3);
 }
 
 TEST(Codec, AFeatureOfAKeyViewTakes38BytesAndOneOfASegmentWithThem32Less) {

@@ -15,6 +15,7 @@ namespace {
 const std::filesystem::path kGolden = std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden";
 const std::filesystem::path kFile = kGolden / "segment-v1.bin";
 const std::filesystem::path kFileOfVersion2 = kGolden / "segment-v2.bin";
+const std::filesystem::path kFileOfVersion3 = kGolden / "segment-v3.bin";
 
 Bytes ReadFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -33,7 +34,8 @@ class Golden : public testing::Test {
     if (std::getenv("TRAILCAST_WRITE_GOLDEN") == nullptr) return;
     Write(kFile, Encode(SampleSegment(42, 3, 4)));
     Write(kFileOfVersion2, Encode(SampleSegmentWithKeyViews(42, 3)));
-    GTEST_SKIP() << "wrote " << kFile << " and " << kFileOfVersion2
+    Write(kFileOfVersion3, Encode(SampleSegmentDrivenBackwards(42, 3)));
+    GTEST_SKIP() << "wrote " << kFile << " and those of later versions"
                  << "; see tests/golden/README.md before committing it";
   }
 };
@@ -52,6 +54,14 @@ TEST_F(Golden, SegmentWithKeyViewsIsEncodedToItsFileAndDecodedFromIt) {
   const Segment segment = SampleSegmentWithKeyViews(42, 3);
   EXPECT_EQ(Encode(segment), ReadFile(kFileOfVersion2));
   const Result<Segment> decoded = Decode(ReadFile(kFileOfVersion2));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
+}
+
+TEST_F(Golden, SegmentDrivenBackwardsIsEncodedToItsFileAndDecodedFromIt) {
+  const Segment segment = SampleSegmentDrivenBackwards(42, 3);
+  EXPECT_EQ(Encode(segment), ReadFile(kFileOfVersion3));
+  const Result<Segment> decoded = Decode(ReadFile(kFileOfVersion3));
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(*decoded, segment);
 }

@@ -60,4 +60,11 @@ namespace trailcast::route {
   return segment;
 }
 
+[[nodiscard]] inline Segment SampleSegmentDrivenBackwards(std::uint32_t index, int features) {
+  Segment segment = SampleSegmentWithKeyViews(index, features);
+  segment.turn_before_rad = 0.0;
+  segment.reverse = true;
+  return segment;
+}
+
 }  // namespace trailcast::route
