@@ -53,7 +53,7 @@ double Comfort::MostMps(double along_m, double speed_mps, std::size_t segment) c
 
 ReplayStep Comfort::Apply(ReplayStep step) const {
   const std::size_t segment = step.segment.value();
-  const double speed_mps = step.command.linear_mps;
+  const double speed_mps = std::abs(step.command.linear_mps);
   if (!wanted_ || speed_mps <= 0.0 || segment >= stretches_.size()) return step;
   const Stretch& here = stretches_[segment];
   const double along_m = step.along_m.value_or(here.begin_m + step.fraction * here.length_m);

@@ -37,8 +37,8 @@ struct Drive {
   std::size_t features = 0;  // in finished segments
   bool has_odometry = false;
   bool dark = false;
-  bool backs = false;       // is driven backwards, and has not come forwards again
-  double turned_rad = 0.0;  // on the spot, at the end
+  bool reverse = false;                                       // is driven backwards
+  double turned_rad = 0.0;                                    // on the spot, at the end
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
 };
 
@@ -82,19 +82,16 @@ void TellWeakness(const TeachStep& step, Drive& drive) {
   }
 }
 
-void TellBacking(const TeachStep& step, Drive& drive) {
-  if (step.backs == drive.backs) return;
-  drive.backs = step.backs;
-  if (drive.backs) {
-    spdlog::warn(
-        "frame {}: the robot is driven backwards, which no robot follows: nothing of it is taught. "
-        "Drive it forwards again over the same way, and teaching goes on where it was",
+void TellReverse(const TeachStep& step, Drive& drive) {
+  if (step.reverse == drive.reverse) return;
+  drive.reverse = step.reverse;
+  if (drive.reverse) {
+    spdlog::info(
+        "frame {}: the robot is driven backwards: so will those be that follow, which takes "
+        "odometry and the method 'default'",
         drive.frames);
   } else {
-    spdlog::info(
-        "frame {}: the robot is where it was before it was driven backwards: teaching "
-        "goes on",
-        drive.frames);
+    spdlog::info("frame {}: the robot is driven forwards again", drive.frames);
   }
 }
 
@@ -118,7 +115,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     if (step->finished) result = HandOver(std::move(*step->finished), link, drive, now);
     TellDarkness(*step, drive);
     TellWeakness(*step, drive);
-    TellBacking(*step, drive);
+    TellReverse(*step, drive);
     ++drive.frames;
     now.features = step->features;
     now.drive_progress = device.drive_progress();
@@ -247,7 +244,7 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
   if (!judged) return tl::unexpected(judged.error());
   TellEarlier(*outcome);
   TellTaught(*outcome, drive.has_odometry, send);
-  TellNotTaught(drive.backs, drive.turned_rad);
+  TellNotTaught(drive.turned_rad);
   return Summarize(*outcome, drive);
 }
 

@@ -93,12 +93,7 @@ void TellTaught(const ScoutLink::Outcome& outcome, bool has_odometry, bool sent)
   }
 }
 
-void TellNotTaught(bool backs, double turned_rad) {
-  if (backs) {
-    spdlog::warn(
-        "the route ends where the robot was first driven backwards, and not forwards again over "
-        "the same way: nothing that it drove since is taught, as no robot follows backwards");
-  }
+void TellNotTaught(double turned_rad) {
   if (std::abs(turned_rad) > kToldTurn_rad) {
     spdlog::warn(
         "the route ends before the turn on the spot at its end, by {:.0f} degrees to the {}: a "

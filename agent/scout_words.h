@@ -10,9 +10,8 @@ namespace trailcast::agent {
 // follow from now on.
 void TellTaught(const ScoutLink::Outcome& outcome, bool has_odometry, bool sent);
 
-// And what of its end is not in the route: `backs`, the robot was driven backwards there;
-// `turned_rad`, it turned on the spot.
-void TellNotTaught(bool backs, double turned_rad);
+// And what of its end is not in the route: `turned_rad`, it turned on the spot.
+void TellNotTaught(double turned_rad);
 
 // The same of what earlier runs taught and this one delivered.
 void TellEarlier(const ScoutLink::Outcome& outcome);

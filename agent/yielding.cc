@@ -1,5 +1,6 @@
 #include "agent/yielding.h"
 
+#include <cmath>
 #include <utility>
 
 namespace trailcast::agent {
@@ -17,9 +18,9 @@ ReplayStep Stand(ReplayStep step, const Spacing& spacing, KeepDistance::Time now
 }  // namespace
 
 Spacing Yielding::SpacingFor(const ReplayStep& step, Time now) {
-  const bool drives = step.command.linear_mps > 0.0;
+  const bool drives = step.command.linear_mps != 0.0;
   if (!enabled_ || !drives || !step.along_m) return {};
-  return keep_distance_.Keep(*step.along_m, step.command.linear_mps, neighbours_, now);
+  return keep_distance_.Keep(*step.along_m, std::abs(step.command.linear_mps), neighbours_, now);
 }
 
 std::optional<ReplayStep> Yielding::StandOn(SensorTime stamp, Time now) {

@@ -32,8 +32,7 @@ struct TeachStep {
   std::optional<route::Segment> finished;  // a segment that ended with this frame
   int features = 0;                        // still tracked in the current segment
   bool too_few_features = false;           // nothing to hold on to in this frame (dark, blank)
-  // It is driven backwards, of which nothing is taught before it has come forwards again.
-  bool backs = false;
+  bool reverse = false;                    // it is driven backwards, as followers will be
   // Whether followers will recognise this place.
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;
 };
@@ -46,8 +45,7 @@ class TeachSession {
   ~TeachSession();
   TeachSession(TeachSession&&) noexcept;
 
-  // Errors: a frame of another size than the first; odometry that appears or vanishes midway; a
-  // robot that went another way after it was driven backwards.
+  // Errors: a frame of another size than the first; odometry that appears or vanishes midway.
   [[nodiscard]] Result<TeachStep> Observe(const Observation& observation);
 
   // Turned on the spot since the last segment: of a teaching that ends so this is not taught.

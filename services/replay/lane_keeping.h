@@ -11,7 +11,9 @@ struct LaneKeepingOptions {
 };
 
 // Steers back onto the taught path and along its bends: omega = kappa v - c1 alpha - c2 e with both
-// gains from one length, e no larger than what the steepest approach asks for.
+// gains from one length, e no larger than what the steepest approach asks for. With a negative
+// speed the robot drives back along the path as offset and curvature have it, which is given as if
+// it was driven forwards.
 [[nodiscard]] double LaneKeepingTurnRate(const PathOffset& offset, double curvature_per_m,
                                          double speed_mps, const LaneKeepingOptions& options = {});
 

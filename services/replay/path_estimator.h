@@ -63,16 +63,20 @@ class PathEstimator {
  public:
   PathEstimator(int scout_width_px, double magnification, const PathEstimatorOptions& options = {});
 
+  // Here and below a segment that was driven backwards is given as if it had been driven forwards
+  // (src/as_forward.h); the robot enters it at its length and leaves it at 0.
+
   // A segment of the route, before it is driven: what it says of the scout's camera.
   void Learn(const route::Segment& segment) { flow_.Learn(segment); }
   // The next segment begins where the last one ends; its features are seen from here on, also while
-  // its start is still ahead (`along_m` is negative until then).
+  // its start is still ahead (`along_m` is negative until then; driven backwards, above its
+  // length).
   void Begin(const route::Segment& segment);
   // Begins a segment with the camera so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
 
-  // The path turns on the spot at the segment's start, counter-clockwise positive, the robot not
-  // yet: where it stands is from now on counted along, and beside, what comes after the turn.
+  // The path turns on the spot where the segment is entered, counter-clockwise positive, the robot
+  // not yet: where it stands is from now on counted along, and beside, what comes after the turn.
   void TurnPath(double turn_rad);
 
   // The robot moved.

@@ -19,7 +19,9 @@ struct PathFollowerOptions {
   // camera with a narrower view loses the taught ones early.
   int few_features = 10;
   double early_fraction = 0.4;
-  // Turning on the spot: so fast for each radian that is left, but no slower; until so few are.
+  // Turning on the spot, where the path turns so far (less is made up for while driving): so fast
+  // for each radian that is left, but no slower; until so few are.
+  double spot_turn_least_rad = 0.2;
   double spot_turn_gain_hz = 1.5;
   double spot_turn_slowest_radps = 0.2;
   double spot_turn_done_rad = 0.05;
@@ -33,7 +35,7 @@ class PathFollower final : public Follower {
  public:
   PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
 
-  void Learn(const route::Segment& segment) override { estimator_.Learn(segment); }
+  void Learn(const route::Segment& segment) override;
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
@@ -56,9 +58,14 @@ class PathFollower final : public Follower {
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;
   [[nodiscard]] const route::Segment& segment() const override { return segment_; }
 
-  [[nodiscard]] PathOffset offset() const { return estimator_.offset(); }
+  [[nodiscard]] PathOffset offset() const;
 
  private:
+  // Of the segment, where the estimator says that one is so far along it; and the other way round.
+  [[nodiscard]] double Driven_m(double along_m) const {
+    return segment_.reverse ? segment_.length_m - along_m : along_m;
+  }
+  [[nodiscard]] double TurnRate(const PathOffset& along, double speed_mps) const;
   [[nodiscard]] FollowStep TurnOnTheSpot(const std::vector<route::TrackedFeature>& seen);
 
   PathFollowerOptions options_;

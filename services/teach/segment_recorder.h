@@ -34,27 +34,23 @@ struct SegmentRecorderOptions {
   // closer together than the second figure, but three at least.
   int knots = 4;
   double knot_spacing_m = 0.15;
-  // Driven backwards no further than this, a robot only stands uneasily. Further, nothing is taught
-  // before it has come forwards again to where it was, so far beside it and turned so far at most:
-  // nobody follows backwards.
-  double backed_m = 0.1;
-  double beside_m = 0.1;
-  double beside_rad = 0.2;
+  // Driven the other way no further than this, backwards or forwards, a robot only stands uneasily,
+  // and nothing of it is taught.
+  double shunt_m = 0.05;
   SegmentIndex first_index{0};  // of a teaching that goes on: as many segments as there are already
 };
 
 // Turns the tracked features of one segment after the other into what the route stores of it.
 // Begin a segment, add frames until Add says it ends, take it with Finish, begin the next with the
-// same frame. A turn on the spot belongs to no segment: it is what the next one begins with. What
-// is driven backwards, and forwards again over the same way, belongs to none either.
+// same frame. A turn on the spot belongs to no segment: it is what the next one begins with. Where
+// the robot goes on the other way, backwards or forwards, a segment ends; as that is clear only a
+// little later, what it drove to there and back again by then belongs to none.
 class SegmentRecorder {
  public:
   enum class Event {
     kGoesOn,
-    kEnds,       // with this image, the segment or the turn on the spot
-    kTurns,      // on the spot; with the first such image the segment has ended, before the turn
-    kElsewhere,  // having been driven backwards it goes another way, which does not join what was
-                 // taught: the last that Finish gives is what was driven before
+    kEnds,   // with this image, the segment or the turn on the spot
+    kTurns,  // on the spot; with the first such image the segment has ended, before the turn
   };
 
   // `width_px`: of the scout's frames.
@@ -79,12 +75,12 @@ class SegmentRecorder {
   // the features that were tracked throughout. Nothing if the robot has not moved since Begin.
   [[nodiscard]] std::optional<route::Segment> Finish();
 
-  // The robot stands behind where it has been, driven backwards; and further than a robot that
-  // only stands uneasily.
+  // The robot has gone back a little from where it has been, of which nothing is taught so far.
   [[nodiscard]] bool behind() const { return furthest_.has_value(); }
-  [[nodiscard]] bool backs() const { return backed_m_ > options_.backed_m; }
   // The last image given to Add was taken further on than the one before.
   [[nodiscard]] bool advanced() const { return advanced_; }
+  // It is driven backwards.
+  [[nodiscard]] bool reverse() const { return way_ < 0.0; }
   // Turned on the spot since the last segment, counter-clockwise positive: of a route that ends so,
   // nothing else tells it.
   [[nodiscard]] double turned_rad() const {
@@ -111,9 +107,11 @@ class SegmentRecorder {
                            const std::optional<motion::OdometryIncrement>& step) const;
   [[nodiscard]] bool LongEnough() const;
   [[nodiscard]] Event TurnOnTheSpot(SpotTurnWatch::State before);
-  enum class Way { kAhead, kBehind, kElsewhere };
+  enum class Way { kOn, kBehind, kOther };
   [[nodiscard]] Way Follow(const motion::Pose2& from, const motion::Pose2& now,
                            motion::OdometryIncrement& step);
+  [[nodiscard]] std::size_t End() const;
+  [[nodiscard]] Moment PlaceOf(const motion::Pose2& back) const;
   void PutBefore(std::vector<route::View> views);
   [[nodiscard]] std::size_t MostFeatures(const route::Segment& segment) const;
   [[nodiscard]] int KnotsFor(double length_m) const;
@@ -132,9 +130,10 @@ class SegmentRecorder {
   std::optional<motion::Pose2> moved_odometry_;
   Features moved_features_;
 
-  // Where the robot was before it was driven backwards, until it is there again.
+  double way_ = 1.0;  // -1: the segment is driven backwards
+  // Where the robot was before it went back a little, until it is there again.
   std::optional<motion::Pose2> furthest_;
-  double backed_m_ = 0.0;  // the furthest since then
+  std::optional<Moment> other_way_from_;  // the next segment goes, beside this place of this one
 
   SpotTurnWatch turn_;
   bool turning_ = false;       // and the segment has ended

@@ -49,14 +49,25 @@ replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
   if (const auto magnification = place_.Magnification(seen.frame->width)) {
     search_.hand_over().SetRunMagnification(*magnification);
   }
+  replay::FollowStep step;
   if (!follower_ || standing.state == ReplayState::kWaiting) {
     if (!BeginNext(seen.looked_s, standing)) return {};
-    const replay::FollowStep first =
-        follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
-    Judge(first, seen, standing);
-    return first;
+    step = follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
+    Judge(step, seen, standing);
+  } else {
+    step = follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
   }
-  return follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
+  RefuseReverse(standing);
+  return step;
+}
+
+// By a method that drives forwards only.
+void FeatureFollower::RefuseReverse(Standing& standing) const {
+  if (!AsPrinted(options_.method) || !follower_->segment().reverse) return;
+  standing = {ReplayState::kLost, Trust::kLost,
+              fmt::format("the route is driven backwards here, which the method '{}' does not do: "
+                          "follow it by the method 'default'",
+                          ToString(options_.method))};
 }
 
 // On the spot, before a segment: by odometry, and by the segment's features once they come into
@@ -92,7 +103,7 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   // What covers this segment's features covers the next one's too.
   const bool covered = standing.trust == Trust::kCovered || confidence_.view_is_going();
   const bool wants_next = step.wants_next && next_is_here && !covered &&
-                          route_.turn_after_rad(follower_->segment().index) == 0.0;
+                          !route_.stands_after(follower_->segment().index);
   if (standing.state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(standing);
   // A segment that has just begun is not as far along as the last one was.
   if (follower_->segment().index != before) {
@@ -103,8 +114,8 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   return step;
 }
 
-// A segment is over once the camera is past it; but where the robot is to stop, or to turn on the
-// spot, it is the axle that has to come there.
+// A segment is over once the camera is past it; but where the robot is to stop, to turn on the spot
+// or to drive on the other way, it is the axle that has to come there.
 bool FeatureFollower::EndsAtTheAxle() const {
   return route_.stands_after(follower_->segment().index);
 }
@@ -128,8 +139,9 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
   if (!place_.where().held) return;
   const bool here = std::abs(place_.where().along - place_.AlongOf(point)) <= kElsewhere;
   sighting.elsewhere = !here && place_.where().agreed >= kEnoughAgreed;
-  sighting.recognised =
-      here && options_.method == ReplayMethod::kDefault && place_.agreed_now() >= kEnoughAgreed;
+  // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
+  sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
+                        !follower_->segment().reverse && place_.agreed_now() >= kEnoughAgreed;
 }
 
 void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
@@ -161,8 +173,7 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   look_again_at_s_ = (turn + 1) * kLookAgain_s;
   const SegmentIndex index = follower_->segment().index;
   const std::size_t next = index.value() + 1;
-  const bool ahead =
-      !elsewhere && route_.has(next) && turn % 2 == 0 && route_.turn_after_rad(index) == 0.0;
+  const bool ahead = !elsewhere && route_.has(next) && turn % 2 == 0 && !route_.stands_after(index);
   const RoutePoint point = elsewhere ? place_.point()
                            : ahead   ? RoutePoint{route_.segments()[next].index, 0.0}
                                      : RoutePoint{index, fraction};

@@ -41,6 +41,8 @@ class FeatureFollower {
   // What is told of such a step; {}: that nothing is followed yet.
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
 
+  // Driven backwards, it comes along the route.
+  [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
   // Of the segment being followed; nullptr before the first.
   [[nodiscard]] const replay::Follower* follower() const { return follower_.get(); }
 
@@ -63,6 +65,7 @@ class FeatureFollower {
   [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
   [[nodiscard]] bool EndsAtTheAxle() const;
+  void RefuseReverse(Standing& standing) const;
   [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);

@@ -8,8 +8,8 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kUncertainSpeedFactor = 0.6;
-// Where the robot is to stand, at the route's end and before a turn on the spot, it is approached
-// ever more slowly.
+// Where the robot is to stand, at the route's end, before a turn on the spot and before it drives
+// on the other way, it is approached ever more slowly.
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
@@ -22,12 +22,12 @@ double FeatureFollower::SpeedShare(const replay::FollowStep& step, Trust trust) 
       trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
   const route::Segment& segment = follower_->segment();
   if (AsPrinted(options_.method) || !route_.stands_after(segment.index) ||
-      step.command.linear_mps <= 0.0) {
+      step.command.linear_mps == 0.0) {
     return share;
   }
   const double left_m = (1.0 - step.fraction) * segment.length_m;
   const double bound_mps = kEndSpeed_mps + std::sqrt(2.0 * kEndDeceleration_mps2 * left_m);
-  return std::min(share, bound_mps / step.command.linear_mps);
+  return std::min(share, bound_mps / std::abs(step.command.linear_mps));
 }
 
 ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standing& standing) const {

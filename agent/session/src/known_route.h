@@ -35,9 +35,14 @@ class KnownRoute {
     const std::size_t next = index.value() + 1;
     return has(next) ? segments_[next].turn_before_rad : 0.0;
   }
-  // It is the last one, or turned on the spot after.
+  // Driven on the other way after the segment, backwards or forwards.
+  [[nodiscard]] bool reverses_after(SegmentIndex index) const {
+    const std::size_t next = index.value() + 1;
+    return has(next) && segments_[next].reverse != segments_[index.value()].reverse;
+  }
+  // It is the last one, turned on the spot after, or driven on the other way.
   [[nodiscard]] bool stands_after(SegmentIndex index) const {
-    return is_last(index) || turn_after_rad(index) != 0.0;
+    return is_last(index) || turn_after_rad(index) != 0.0 || reverses_after(index);
   }
   [[nodiscard]] bool complete() const { return complete_; }
   [[nodiscard]] double begin_m(SegmentIndex index) const { return begin_m_[index.value()]; }

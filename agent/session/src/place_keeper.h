@@ -14,7 +14,7 @@ namespace trailcast::agent {
 
 // How a robot moved since the last frame.
 struct FrameMotion {
-  std::optional<motion::OdometryIncrement> odometry;
+  std::optional<motion::OdometryIncrement> odometry;  // along the route
   double flow = 0.0;  // of most features in the picture, as a share of its width
   double dt_s = 0.0;
   double unknown_m = 0.0;  // besides, one way or the other

@@ -103,7 +103,9 @@ void ReplaySession::State::StartPlace(int width_px) {
 // A robot that is sure of its features asks what is recognised of the route only now and then.
 void ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
-  place.Move({seen.driven, seen.flow, seen.dt_s, seen.unknown.distance_m});
+  std::optional<motion::OdometryIncrement> along = seen.driven;
+  if (along && by_features.reverses()) along->distance_m = -along->distance_m;
+  place.Move({along, seen.flow, seen.dt_s, seen.unknown.distance_m});
   if (ByViews() || standing.trust != Trust::kSure || place.LookIsDue()) place.LookAt(*seen.frame);
 }
 

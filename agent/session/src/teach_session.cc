@@ -70,6 +70,8 @@ std::optional<route::Segment> TeachSession::State::EndSegment() {
   auto segment = recorder.Finish();
   if (!segment) return segment;
   segment->terrain = {shake.Measure(), feel.vertical_mps2(), feel.slope_rad()};
+  auto& uphill_rad = segment->terrain.slope_rad;
+  if (uphill_rad && segment->reverse) uphill_rad = -*uphill_rad;  // the nose points downhill
   shake.EndSegment();
   feel.EndSegment();
   return segment;
@@ -109,14 +111,6 @@ Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   State& s = *state_;
   TeachStep step;
   const State::Event event = s.Add(frame, observation);
-  if (event == State::Event::kElsewhere) {
-    return Fail(
-        ErrorCode::kInvalidArgument,
-        "the robot was driven backwards, and on from there by another way. No robot follows "
-        "backwards, so that this other way does not join what was taught: teach on from "
-        "where it began to drive backwards, and drive forwards only; it may turn on the "
-        "spot");
-  }
   if (event != State::Event::kGoesOn && s.recording != State::Recording::kTurn) {
     step.finished = s.EndSegment();
   }
@@ -126,7 +120,7 @@ Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   step.features = s.tracker.count();
   step.weakness = s.key_views.weakness();
   step.too_few_features = s.recording != State::Recording::kFeatures;
-  step.backs = s.recorder.backs();
+  step.reverse = s.recorder.reverse();
   return step;
 }
 

@@ -23,6 +23,9 @@ constexpr double kTurnTime_s = 0.3;  // over which a turn is carried out
 constexpr const char* kTurn =
     "the route turns on the spot here, and this robot has no odometry to tell how far it is round: "
     "only a robot with odometry follows it from here";
+constexpr const char* kReverse =
+    "the route is driven backwards here, and this robot has no odometry to do so by: only a robot "
+    "with odometry follows it from here";
 constexpr const char* kOnlyTheEnd =
     "what is seen looks like the route's end, where the robot was put and has not come by itself: "
     "put it further back";
@@ -62,17 +65,23 @@ bool ViewFollower::HasCome() const {
          std::min(place_.metric() ? kCome_m : kCome_s, 0.5 * place_.belief().length());
 }
 
-// Where the views are of one place, whatever way they look, none tells where to go.
-bool ViewFollower::IsAtTurn() const {
-  if (!place_.where().held) return false;
+// What comes, at the place or shortly after, that nobody drives by views: of a turn on the spot
+// they are of one place, whatever way they look, and none tells where to go; and those of a way
+// back ask for the wrong turn.
+std::string_view ViewFollower::DoesNotDrive() const {
+  if (!place_.where().held) return "";
   const RoutePoint point = place_.point();
-  if (std::abs(route_.turn_after_rad(point.segment)) <= kTurnsAway_rad) return false;
-  const RoutePoint turn{SegmentIndex(point.segment.value() + 1), 0.0};
-  return place_.AlongOf(turn) - place_.where().along < kTurn_m;
+  if (route_.segment(point.segment).reverse) return kReverse;
+  const RoutePoint next{SegmentIndex(point.segment.value() + 1), 0.0};
+  if (!route_.has(next.segment.value()) || place_.AlongOf(next) - place_.where().along >= kTurn_m) {
+    return "";
+  }
+  if (route_.segment(next.segment).reverse) return kReverse;
+  return std::abs(route_.turn_after_rad(point.segment)) > kTurnsAway_rad ? kTurn : "";
 }
 
 std::string_view ViewFollower::Doubt() const {
-  if (IsAtTurn()) return kTurn;
+  if (const std::string_view what = DoesNotDrive(); !what.empty()) return what;
   return route_.complete() && SeesTheEnd() && !HasCome() ? kOnlyTheEnd : "";
 }
 

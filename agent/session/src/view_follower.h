@@ -38,7 +38,7 @@ class ViewFollower {
   // there: what looks like the end from where it was put may be the beginning, of a lap, say.
   [[nodiscard]] bool SeesTheEnd() const;
   [[nodiscard]] bool HasCome() const;
-  [[nodiscard]] bool IsAtTurn() const;
+  [[nodiscard]] std::string_view DoesNotDrive() const;
   // What speaks against driving on although the place is held; empty: nothing.
   [[nodiscard]] std::string_view Doubt() const;
   [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);

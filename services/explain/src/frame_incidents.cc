@@ -110,9 +110,9 @@ std::vector<Incident> Slow(const RunLog& log) {
   return Find(log, {"slow", 15.0,
                     [&](std::size_t i) {
                       return Driving(log.frames[i]) &&
-                             log.frames[i].linear_mps < kSlowShare * taught_mps[i];
+                             std::abs(log.frames[i].linear_mps) < kSlowShare * taught_mps[i];
                     },
-                    [](const FrameRow& row) { return -row.linear_mps; },
+                    [](const FrameRow& row) { return -std::abs(row.linear_mps); },
                     [](const FrameRow& row, std::size_t frames) {
                       return fmt::format("slower than taught: down to {:.2f} m/s ({} frames)",
                                          row.linear_mps, frames);

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "services/explain/src/incidents.h"
 #include "services/explain/src/run_index.h"
@@ -76,7 +77,7 @@ std::string FateOfFeatures(const RunLog& log, std::size_t row) {
 std::string SpeedText(const RunLog& log, const Spell& spell) {
   double fastest_mps = 0.0;
   for (std::size_t i = spell.first; i < spell.end; ++i) {
-    fastest_mps = std::max(fastest_mps, log.frames[i].linear_mps);
+    fastest_mps = std::max(fastest_mps, std::abs(log.frames[i].linear_mps));
   }
   return fastest_mps > 0.0 ? fmt::format("at up to {:.2f} m/s", fastest_mps) : "standing";
 }

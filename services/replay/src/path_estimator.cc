@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "services/base/square.h"
+#include "services/replay/src/as_forward.h"
 #include "services/route/heading.h"
 #include "services/route/track.h"
 
@@ -37,9 +38,12 @@ PathEstimator::PathEstimator(int scout_width_px, double magnification,
 }
 
 void PathEstimator::Begin(const route::Segment& segment) {
-  state_[kAlong] -= segment_.length_m;
-  last_heading_ = segment_.heading;
-  last_length_m_ = segment_.length_m;
+  state_[kAlong] += EntryOf(segment) - ExitOf(segment_);
+  // What lies before the segment's start: where both are driven forwards the last segment,
+  // otherwise the bend goes on.
+  const bool on = !segment.reverse && !segment_.reverse;
+  last_heading_ = on ? segment_.heading : segment.heading;
+  last_length_m_ = on ? segment_.length_m : 0.0;
   segment_ = segment;
   depths_ = flow_.Depths(segment_);
   last_look_.reset();
@@ -49,7 +53,7 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   state_[kLeft] = state_[kHeading] = 0.0;
   carried_.reset();
   BeUnsure();
-  state_[kAlong] = segment_.length_m + along_m;
+  state_[kAlong] = ExitOf(segment_) - EntryOf(segment) + along_m;
   Begin(segment);
   last_heading_ = {};
 }
@@ -59,7 +63,9 @@ void PathEstimator::TurnPath(double turn_rad) {
   rotated(kAlong, kAlong) = rotated(kLeft, kLeft) = std::cos(turn_rad);
   rotated(kAlong, kLeft) = std::sin(turn_rad);
   rotated(kLeft, kAlong) = -std::sin(turn_rad);
+  state_[kAlong] -= EntryOf(segment_);
   state_ = rotated * state_;
+  state_[kAlong] += EntryOf(segment_);
   covariance_ = rotated * covariance_ * rotated.transpose();
   state_[kHeading] -= turn_rad;
   covariance_(kHeading, kHeading) += Square(options_.turn_noise_share * turn_rad);
@@ -287,7 +293,7 @@ std::vector<route::TrackedFeature> PathEstimator::ExpectIn(const State& state) c
 std::vector<route::TrackedFeature> PathEstimator::ExpectAtMilestone() const {
   State there = state_;
   there[kLeft] = there[kHeading] = there[kRoll] = 0.0;
-  there[kAlong] = segment_.length_m;
+  there[kAlong] = ExitOf(segment_);
   return ExpectIn(there);
 }
 

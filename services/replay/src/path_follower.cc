@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/replay/src/as_forward.h"
+
 namespace trailcast::replay {
 namespace {
 
@@ -18,20 +20,29 @@ PathFollower::PathFollower(int scout_width_px, double magnification,
 void PathFollower::Begin(const route::Segment& segment) {
   const bool next = begun_ && segment.index.value() == segment_.index.value() + 1;
   if (next) {
-    estimator_.Begin(segment);
+    estimator_.Begin(AsForward(segment));
     segment_ = segment;
   } else {
     // A robot is put to the route's start with its axle.
     const double camera_m = begun_ ? 0.0 : options_.estimator.camera_ahead_m;
-    BeginAt(segment, camera_m / std::max(1e-3, segment.length_m));
+    const double driven_m = segment.reverse ? -camera_m : camera_m;
+    BeginAt(segment, driven_m / std::max(1e-3, segment.length_m));
   }
-  turning_ = segment.turn_before_rad != 0.0;
-  if (turning_) estimator_.TurnPath(segment.turn_before_rad);
+  if (segment.turn_before_rad != 0.0) estimator_.TurnPath(segment.turn_before_rad);
+  turning_ = std::abs(segment.turn_before_rad) >= options_.spot_turn_least_rad;
+}
+
+void PathFollower::Learn(const route::Segment& segment) { estimator_.Learn(AsForward(segment)); }
+
+PathOffset PathFollower::offset() const {
+  PathOffset offset = estimator_.offset();
+  offset.along_m = Driven_m(offset.along_m);
+  return offset;
 }
 
 void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
-  estimator_.Restart(segment, fraction * segment.length_m);
   segment_ = segment;
+  estimator_.Restart(AsForward(segment), Driven_m(fraction * segment.length_m));
   begun_ = true;
   turning_ = false;
 }
@@ -45,7 +56,7 @@ FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>&
   if (static_cast<int>(seen.size()) >= options_.few_features) {
     step.agreeing = estimator_.Update(seen).agreeing;
   }
-  step.offset = estimator_.offset();
+  step.offset = offset();
   step.mount_yaw_rad = estimator_.mount_yaw_rad();
   const double left_rad = -step.offset->heading_rad;
   turning_ = std::abs(left_rad) > options_.spot_turn_done_rad;
@@ -55,6 +66,18 @@ FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>&
   step.command = motion::Limit({0.0, std::copysign(rate, left_rad)}, options_.limits);
   step.turn_rad = step.odometry_turn_rad = -step.command.angular_radps * kTurnTime_s;
   return step;
+}
+
+// By the bend where the robot will be when it does what it is told, but not beyond the segment.
+double PathFollower::TurnRate(const PathOffset& along, double speed_mps) const {
+  const double there_m = along.along_m + speed_mps * options_.base_delay_s;
+  const double soon_m = segment_.reverse
+                            ? std::max(there_m, 0.5 * kCurvatureStep_m)
+                            : std::min(there_m, segment_.length_m - 0.5 * kCurvatureStep_m);
+  const double curvature =
+      estimator_.TaughtTurn(soon_m - 0.5 * kCurvatureStep_m, soon_m + 0.5 * kCurvatureStep_m) /
+      kCurvatureStep_m;
+  return LaneKeepingTurnRate(along, curvature, speed_mps, options_.lane_keeping);
 }
 
 FollowStep PathFollower::Step(const FollowInput& input) {
@@ -68,21 +91,17 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.rejected_by_px = agreement.rejected_by_px;
   step.carried_left_m = agreement.carried_left_m;
   step.roll_rad = estimator_.roll_rad();
-  const PathOffset offset = estimator_.offset();
-  step.offset = offset;
+  step.offset = offset();
   step.mount_yaw_rad = estimator_.mount_yaw_rad();
-  const double speed_mps = options_.speed_factor * segment_.speed_mps();
-  const double soon_m = std::min(offset.along_m + speed_mps * options_.base_delay_s,
-                                 segment_.length_m - 0.5 * kCurvatureStep_m);
-  const double curvature =
-      estimator_.TaughtTurn(soon_m - 0.5 * kCurvatureStep_m, soon_m + 0.5 * kCurvatureStep_m) /
-      kCurvatureStep_m;
-  const double turn_rate = LaneKeepingTurnRate(offset, curvature, speed_mps, options_.lane_keeping);
+  const double ahead_mps = options_.speed_factor * segment_.speed_mps();
+  const double speed_mps = segment_.reverse ? -ahead_mps : ahead_mps;
+  const double turn_rate = TurnRate(estimator_.offset(), speed_mps);
   step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
   step.turn_rad = -turn_rate * kTurnTime_s;
-  const double along_m = estimator_.camera_along_m();
-  step.fraction = segment_.length_m > 0.0 ? std::clamp(along_m / segment_.length_m, 0.0, 1.0) : 1.0;
-  step.ended = along_m >= segment_.length_m;
+  const double driven_m = Driven_m(estimator_.camera_along_m());
+  step.fraction =
+      segment_.length_m > 0.0 ? std::clamp(driven_m / segment_.length_m, 0.0, 1.0) : 1.0;
+  step.ended = driven_m >= segment_.length_m;
   step.wants_next =
       step.fraction > options_.early_fraction && step.agreeing < options_.few_features;
   settled_ = settled_ || step.agreeing >= options_.few_features;

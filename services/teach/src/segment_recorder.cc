@@ -30,6 +30,8 @@ void SegmentRecorder::Begin(SensorTime stamp, std::vector<route::DescribedFeatur
   moments_.push_back(std::move(first));
   last_stamp_ = stamp;
   moved_odometry_ = odometry;
+  if (other_way_from_) way_ = -way_;
+  other_way_from_.reset();
   if (!turning_) turn_ = SpotTurnWatch();  // what may have been the beginning of a turn is driven
 }
 
@@ -68,31 +70,38 @@ SegmentRecorder::Event SegmentRecorder::TurnOnTheSpot(SpotTurnWatch::State befor
   }
   if (turn_.state() == State::kTurns) {
     turning_ = true;
-    if (!backs()) furthest_.reset();
+    furthest_.reset();
     return Event::kTurns;
   }
   return Event::kGoesOn;
 }
 
-// Of a robot that drives, and not only ahead. Ahead of all that it has driven, `step` becomes what
-// it has come further.
+// Of a robot that drives, and not only on. Further on than all that it has driven, `step` becomes
+// what it has come further.
 SegmentRecorder::Way SegmentRecorder::Follow(const motion::Pose2& from, const motion::Pose2& now,
                                              motion::OdometryIncrement& step) {
   if (!furthest_) {
-    if (motion::Between(from, now).x_m >= 0.0) return Way::kAhead;
+    if (way_ * motion::Between(from, now).x_m >= 0.0) return Way::kOn;
     furthest_ = from;
-    backed_m_ = 0.0;
   }
-  const motion::Pose2 at = motion::Between(*furthest_, now);
-  backed_m_ = std::max(backed_m_, -at.x_m);
-  if (at.x_m < -kStep_m) return Way::kBehind;
-  const bool beside =
-      std::abs(at.y_m) > options_.beside_m || std::abs(at.heading_rad) > options_.beside_rad;
-  if (backs() && beside) return Way::kElsewhere;
+  const double on_m = way_ * motion::Between(*furthest_, now).x_m;
+  if (on_m < -options_.shunt_m) {
+    other_way_from_ = PlaceOf(motion::Between(*std::exchange(furthest_, std::nullopt), now));
+    return Way::kOther;
+  }
+  if (on_m < -kStep_m) return Way::kBehind;
   step = motion::IncrementBetween(*furthest_, now);
   furthest_.reset();
-  backed_m_ = 0.0;
-  return Way::kAhead;
+  return Way::kOn;
+}
+
+// The robot, now so far back from the furthest that it came, goes on the other way: where, of this
+// segment, it is now, and how it heads there.
+SegmentRecorder::Moment SegmentRecorder::PlaceOf(const motion::Pose2& back) const {
+  Moment place;
+  place.distance_m = moments_.back().distance_m + way_ * back.x_m;
+  place.heading_rad = moments_.back().heading_rad + back.heading_rad;
+  return place;
 }
 
 SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
@@ -117,10 +126,9 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     const SpotTurnWatch::State before = turn_.state();
     std::ignore = turn_.Add(*step);
     const Event event = TurnOnTheSpot(before);
-    if (event == Event::kTurns && backs()) return Event::kElsewhere;
     if (event != Event::kGoesOn) return event;
     const Way way = Follow(*from, *odometry, *step);
-    if (way == Way::kElsewhere) return Event::kElsewhere;
+    if (way == Way::kOther) return Event::kEnds;
     if (way == Way::kBehind) return Event::kGoesOn;
   } else if (turning_) {
     return Event::kTurns;
@@ -130,7 +138,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
   if (moved) {
     moment.key_views.clear();
     moment.moving += took;
-    moment.distance_m += step ? step->distance_m : 0.0;
+    moment.distance_m += step ? way_ * step->distance_m : 0.0;
     moment.heading_rad += step ? step->heading_change_rad : 0.0;
   }
   moment.features = std::move(features);
@@ -213,19 +221,31 @@ std::size_t SegmentRecorder::MostFeatures(const route::Segment& segment) const {
   return std::max(options_.fewest_kept, by_length);
 }
 
+// Position of the first moment that is not of the segment, but was seen before it was clear that
+// the robot turns on the spot, or goes on the other way.
+std::size_t SegmentRecorder::End() const {
+  if (turning_) return std::min(turn_from_, moments_.size());
+  std::size_t end = moments_.size();
+  if (!other_way_from_) return end;
+  while (end > 1 && moments_[end - 1].distance_m > other_way_from_->distance_m) --end;
+  return end;
+}
+
 std::optional<route::Segment> SegmentRecorder::Finish() {
-  std::vector<route::View> turn_views;  // that were seen before it was clear that the robot turned
-  if (turning_ && turn_from_ < moments_.size()) {
-    for (std::size_t i = turn_from_; i < moments_.size(); ++i) {
-      std::move(moments_[i].key_views.begin(), moments_[i].key_views.end(),
-                std::back_inserter(turn_views));
-    }
-    moments_.resize(turn_from_);
+  std::vector<route::View> later_views;
+  for (std::size_t i = End(); i < moments_.size(); ++i) {
+    std::move(moments_[i].key_views.begin(), moments_[i].key_views.end(),
+              std::back_inserter(later_views));
   }
+  moments_.resize(End());
   if (!LongEnough()) {
-    if (turning_ && !moments_.empty()) turn_before_rad_ += moments_.back().heading_rad;
+    if (other_way_from_) {
+      turn_before_rad_ += other_way_from_->heading_rad;
+    } else if (turning_ && !moments_.empty()) {
+      turn_before_rad_ += moments_.back().heading_rad;
+    }
     for (Moment& moment : moments_) PutBefore(std::move(moment.key_views));
-    PutBefore(std::move(turn_views));
+    PutBefore(std::move(later_views));
     moments_.clear();
     return std::nullopt;
   }
@@ -238,6 +258,9 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
     segment.length_m = moments_.back().distance_m;
     segment.heading_change_rad = moments_.back().heading_rad;
     segment.turn_before_rad = std::exchange(turn_before_rad_, 0.0);
+    segment.reverse = way_ < 0.0;
+    if (other_way_from_)
+      turn_before_rad_ = other_way_from_->heading_rad - moments_.back().heading_rad;
     std::vector<HeadingSample> headings;
     headings.reserve(moments_.size());
     for (const Moment& moment : moments_) {
@@ -255,7 +278,7 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
     }
   }
   segment.key_views = TakeKeyViews();
-  PutBefore(std::move(turn_views));
+  PutBefore(std::move(later_views));
   moments_.clear();
   return segment;
 }

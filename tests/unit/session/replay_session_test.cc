@@ -279,6 +279,90 @@ TEST(ReplaySessionTurning, StandsAfterATurnOnTheSpotWhereItDoesNotSeeTheWayOn) {
               HasSubstr("after turning on the spot by 69 degrees the way on is not found"));
 }
 
+constexpr int kTurnsAt = 45;  // of the walk's frames
+constexpr int kTurnsAgainAt = 15;
+constexpr int kEndsAt = 55;
+
+// Along the walk, back again most of it, and on: at which frame of it the robot is, one by one.
+std::vector<int> ThereAndBack() {
+  std::vector<int> at;
+  for (int i = 0; i < kTurnsAt; ++i) at.push_back(i);
+  for (int i = kTurnsAt; i > kTurnsAgainAt; --i) at.push_back(i);
+  for (int i = kTurnsAgainAt; i <= kEndsAt; ++i) at.push_back(i);
+  return at;
+}
+
+std::vector<route::Segment> TaughtThereAndBack() {
+  TeachSession session;
+  std::vector<route::Segment> segments;
+  const std::vector<int> at = ThereAndBack();
+  const auto keep = [&](std::optional<route::Segment> segment) {
+    if (segment) segments.push_back(std::move(*segment));
+  };
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    auto step = session.Observe({StampOf(static_cast<int>(i)),
+                                 Walk()[static_cast<std::size_t>(at[i])], PoseAt(at[i], true)});
+    EXPECT_TRUE(step);
+    keep(std::move(step->finished));
+  }
+  keep(session.Finish());
+  return segments;
+}
+
+TEST(ReplaySessionReverse, DrivesBackwardsWhereItWasTaughtTo) {
+  const std::vector<route::Segment> segments = TaughtThereAndBack();
+  ReplaySession session = SessionOn(segments);
+  ReplayStep last;
+  double place_m = 0.0;
+  double furthest_m = 0.0;  // before it first drives back
+  double nearest_m = 9.0;   // after that
+  double along_m = 0.0;
+  for (int i = 0; i < 600 && last.state != ReplayState::kArrived; ++i) {
+    const auto picture = static_cast<std::size_t>(
+        std::clamp(std::lround(place_m / kStep_m), 0L, static_cast<long>(kFrames - 1)));
+    const double seen_m = kStep_m * static_cast<double>(picture);
+    const auto step =
+        session.Observe({StampOf(i), Walk()[picture], motion::Pose2{seen_m, 0.0, 0.0}});
+    ASSERT_TRUE(step);
+    last = *step;
+    ASSERT_TRUE(last.state == ReplayState::kFollowing || last.state == ReplayState::kArrived)
+        << i << ": " << ToString(last.state) << ", " << last.reason;
+    EXPECT_GE(last.along_m.value_or(0.0), along_m - 0.1) << "along the route it comes on";
+    along_m = last.along_m.value_or(0.0);
+    EXPECT_NEAR(session.known_m() * last.believed->place, along_m, 0.3) << i;
+    place_m += last.command.linear_mps / kFrames_hz;
+    if (last.command.linear_mps < 0.0) nearest_m = std::min(nearest_m, place_m);
+    if (nearest_m > 8.0) furthest_m = std::max(furthest_m, place_m);
+  }
+  EXPECT_EQ(last.state, ReplayState::kArrived) << last.reason;
+  EXPECT_NEAR(furthest_m, kStep_m * kTurnsAt, 0.12);
+  EXPECT_NEAR(nearest_m, kStep_m * kTurnsAgainAt, 0.12);
+  EXPECT_NEAR(place_m, kStep_m * kEndsAt, 0.12);
+}
+
+TEST(ReplaySessionReverse, WhoDoesNotDriveBackwardsStandsBeforeItAndSaysSo) {
+  const std::vector<route::Segment> segments = TaughtThereAndBack();
+  for (const bool odometry : {true, false}) {
+    ReplayMethodOptions options;
+    if (odometry) options.method = ReplayMethod::kPaper;
+    ReplaySession session = SessionOn(segments, options);
+    ReplayStep last;
+    int frame = 0;
+    for (int i = 0; i < 4 * kFrames && last.state != ReplayState::kLost; ++i) {
+      if (last.command.linear_mps > 0.0) frame = std::min(frame + 1, kFrames - 1);
+      const auto step = session.Observe(
+          {StampOf(i), Walk()[static_cast<std::size_t>(frame)], PoseAt(frame, odometry)});
+      ASSERT_TRUE(step);
+      last = *step;
+      EXPECT_GE(last.command.linear_mps, 0.0);
+    }
+    EXPECT_EQ(last.state, ReplayState::kLost);
+    EXPECT_TRUE(Stands(last));
+    EXPECT_THAT(last.reason, HasSubstr("is driven backwards here"));
+    EXPECT_NEAR(frame, kTurnsAt, 18);
+  }
+}
+
 TEST(ReplaySessionByViews, ARobotThatWasPutAtTheEndIsNotDrivenPastIt) {
   ReplayMethodOptions options;
   options.anywhere = true;

@@ -190,7 +190,6 @@ struct Drive {
   motion::Pose2 pose;
   int frame = 0;
   std::vector<route::Segment> segments;
-  bool elsewhere = false;
 
   explicit Drive(const route::View& view = {}) {
     recorder.Begin(SensorTime{0}, test::Describe(Features(20)), pose);
@@ -201,7 +200,6 @@ struct Drive {
       pose = motion::Advance(pose, {step_m, step_rad});
       ++frame;
       const Event event = recorder.Add(FromSeconds(frame / 30.0), Features(20, frame), pose);
-      elsewhere = elsewhere || event == Event::kElsewhere;
       if (event != Event::kGoesOn) Finish();
       if (event == Event::kEnds) {
         recorder.Begin(FromSeconds(frame / 30.0), test::Describe(Features(20)), pose);
@@ -247,20 +245,67 @@ TEST(SegmentRecorder, ATurnThatNothingIsDrivenAfterIsTold) {
   EXPECT_NEAR(drive.recorder.turned_rad(), -1.2, 0.04);
 }
 
-TEST(SegmentRecorder, WhatIsDrivenBackwardsAndForwardsAgainIsNotTaught) {
+// Where a robot ends that drives the segments as they say.
+motion::Pose2 EndOf(const std::vector<route::Segment>& segments) {
+  motion::Pose2 pose;
+  for (const route::Segment& segment : segments) {
+    pose.heading_rad += segment.turn_before_rad;
+    constexpr int kSteps = 200;
+    const double step_m = segment.length_m / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+      pose = motion::Advance(pose, {segment.reverse ? -step_m : step_m,
+                                    route::HeadingAt(segment.heading, (i + 1) * step_m) -
+                                        route::HeadingAt(segment.heading, i * step_m)});
+    }
+  }
+  return pose;
+}
+
+TEST(SegmentRecorder, DrivingBackwardsIsASegmentOfItsOwn) {
   Drive drive;
-  drive.Go(50, 0.01, 0.001);
-  drive.Go(40, -0.01, -0.001);
-  EXPECT_TRUE(drive.recorder.backs());
-  drive.Go(40, 0.01, 0.001);
-  EXPECT_FALSE(drive.recorder.backs());
-  drive.Go(50, 0.01, 0.001);
+  drive.Go(80, 0.01, 0.004);
+  EXPECT_FALSE(drive.recorder.reverse());
+  drive.Go(90, -0.01, 0.006);
+  EXPECT_TRUE(drive.recorder.reverse());
+  drive.Go(100, 0.01, -0.003);
   drive.Finish();
-  EXPECT_FALSE(drive.elsewhere);
+  ASSERT_EQ(drive.segments.size(), 3U);
+  EXPECT_FALSE(drive.segments[0].reverse);
+  EXPECT_NEAR(drive.segments[0].length_m, 0.8 - 0.05, 0.02);
+  EXPECT_TRUE(drive.segments[1].reverse);
+  EXPECT_NEAR(drive.segments[1].length_m, 0.9 - 0.10, 0.03);
+  EXPECT_NEAR(drive.segments[1].heading_change_rad, 0.006 * 80, 0.02);
+  EXPECT_NEAR(drive.segments[1].speed_mps(), 0.3, 0.02);
+  EXPECT_FALSE(drive.segments[2].reverse);
+  const motion::Pose2 end = EndOf(drive.segments);
+  EXPECT_NEAR(end.x_m, drive.pose.x_m, 0.02);
+  EXPECT_NEAR(end.y_m, drive.pose.y_m, 0.01);
+  EXPECT_NEAR(end.heading_rad, drive.pose.heading_rad, 1e-3);
+}
+
+TEST(SegmentRecorder, ARouteMayBeginBackwards) {
+  Drive drive;
+  drive.Go(90, -0.01, 0.004);
+  drive.Finish();
   ASSERT_EQ(drive.segments.size(), 1U);
-  EXPECT_NEAR(drive.segments[0].length_m, 1.0, 1e-3);
-  EXPECT_NEAR(drive.segments[0].heading_change_rad, 0.1, 1e-3);
-  EXPECT_NEAR(drive.segments[0].duration_s, 100.0 / 30.0, 0.1);
+  EXPECT_EQ(drive.segments[0].index, SegmentIndex(0));
+  EXPECT_TRUE(drive.segments[0].reverse);
+  EXPECT_NEAR(drive.segments[0].length_m, 0.9 - 0.05, 0.02);
+  EXPECT_NEAR(EndOf(drive.segments).heading_rad, drive.pose.heading_rad, 1e-3);
+}
+
+TEST(SegmentRecorder, ATurnOnTheSpotMayBeFollowedByAWayBack) {
+  Drive drive;
+  drive.Go(80, 0.01, 0.0);
+  drive.Go(40, 0.0, 0.02);
+  drive.Go(80, -0.01, 0.0);
+  drive.Finish();
+  ASSERT_EQ(drive.segments.size(), 2U);
+  EXPECT_TRUE(drive.segments[1].reverse);
+  EXPECT_NEAR(drive.segments[1].turn_before_rad, 0.8, 0.03);
+  const motion::Pose2 end = EndOf(drive.segments);
+  EXPECT_NEAR(end.x_m, drive.pose.x_m, 0.08);
+  EXPECT_NEAR(end.y_m, drive.pose.y_m, 0.08);
 }
 
 TEST(SegmentRecorder, AnUneasyStandIsNotDrivingBackwards) {
@@ -269,26 +314,12 @@ TEST(SegmentRecorder, AnUneasyStandIsNotDrivingBackwards) {
   for (int i = 0; i < 20; ++i) {
     drive.Go(1, -0.003, 0.0);
     drive.Go(1, 0.003, 0.0);
-    EXPECT_FALSE(drive.recorder.backs());
+    EXPECT_FALSE(drive.recorder.reverse());
   }
   drive.Go(50, 0.01, 0.0);
   drive.Finish();
   ASSERT_EQ(drive.segments.size(), 1U);
   EXPECT_NEAR(drive.segments[0].length_m, 1.0, 1e-6);
-}
-
-TEST(SegmentRecorder, WhatIsDrivenBeforeTheRobotBacksAndGoesAnotherWayIsKept) {
-  const auto other_ways = {std::pair(0.01, 0.02), std::pair(0.0, 0.03)};  // a bend, on the spot
-  for (const auto& [step_m, step_rad] : other_ways) {
-    Drive drive;
-    drive.Go(50, 0.01, 0.0);
-    drive.Go(40, -0.01, 0.0);
-    EXPECT_FALSE(drive.elsewhere);
-    drive.Go(60, step_m, step_rad);
-    EXPECT_TRUE(drive.elsewhere);
-    ASSERT_GE(drive.segments.size(), 1U);
-    EXPECT_NEAR(drive.segments[0].length_m, 0.5, 1e-6);
-  }
 }
 
 TEST(SegmentRecorder, ATightBendIsNoTurnOnTheSpot) {
