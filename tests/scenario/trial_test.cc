@@ -150,6 +150,26 @@ TEST(Trial, ARouteThatTurnsOnTheSpotIsFollowedOrRefused) {
   EXPECT_LT(rows[1].verdict.driven_m, 2.2) << TrialTable(rows);
 }
 
+// Forwards, backwards, forwards: by the features that it looks at all the while.
+TEST(Trial, ARouteThatIsDrivenBackAndForthIsFollowedOrRefused) {
+  TrialOptions options;
+  options.methods = {"default", "paper"};
+  options.trials = 1;
+  auto setup = PrepareTrials(options);
+  ASSERT_TRUE(setup.has_value()) << setup.error().message;
+  setup->path.points = {{1.9, 1.5}, {2.9, 1.5}, {1.9, 1.5}, {1.0, 1.1}, {3.2, 2.0}};
+  setup->path.shunts_from = sim::Gear::kForwards;
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_TRUE(rows[0].arrived) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.final_error_m, 0.15) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.worst_path_error_m, 0.15) << TrialTable(rows);
+  EXPECT_GT(rows[0].verdict.driven_m, 4.5) << TrialTable(rows);
+  EXPECT_EQ(rows[1].state, "lost") << TrialTable(rows);
+  EXPECT_THAT(rows[1].reason, HasSubstr("driven backwards here"));
+  EXPECT_LT(rows[1].verdict.driven_m, 1.6) << TrialTable(rows);
+}
+
 TEST(Trial, TheSameSeedGivesTheSameRowsOnOneThreadAsOnTwo) {
   TrialOptions options;
   options.trials = 2;

@@ -55,7 +55,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   for (const std::string& warning : place->world->warnings()) spdlog::warn("{}", warning);
   sim::SimulatedRobotOptions options;
   options.camera = *camera;
-  options.start = sim::StartPose(place->path.points);
+  options.start = sim::StartPose(place->path);
   options.start_z_max_m = place->path.z_max_m;
   if (run.drives_itself) options.disturbances = sim::Disturbances::ForScout();
   options.disturbances.slip = place->slip;
@@ -73,6 +73,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   state->path = std::move(place->path.points);
   if (run.drives_itself) {
     sim::DriverOptions driver;
+    driver.shunts_from = place->path.shunts_from;
     driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
     state->operator_.emplace(state->path, driver);
   }

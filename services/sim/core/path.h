@@ -13,10 +13,15 @@ namespace trailcast::sim {
 // Way-points on the world's level plane, metres.
 using Polyline = std::vector<Eigen::Vector2d>;
 
+enum class Gear { kForwards, kBackwards };
+
 struct DrivenPath {
   Polyline points;  // at least two, no two neighbours the same
   // The robot starts on the highest surface below this, if it is given.
   std::optional<double> z_max_m;
+  // Where the points double back the robot turns on the spot; or, if this is given, it changes
+  // between driving forwards and backwards, and begins so.
+  std::optional<Gear> shunts_from = std::nullopt;
 };
 
 // Ten kilometres: the curve that is driven is held in memory in steps of centimetres.
@@ -28,6 +33,8 @@ inline constexpr double kLongestPath_m = 10'000.0;
 
 // At the first way-point, heading for the second. `points` has at least two.
 [[nodiscard]] motion::Pose2 StartPose(const Polyline& points);
+// The same; with its back to the second, if it begins backwards.
+[[nodiscard]] motion::Pose2 StartPose(const DrivenPath& path);
 [[nodiscard]] double Length(const Polyline& points);
 // The corners replaced by arcs of about `radius_m` (smaller where a leg is short), sampled every
 // `spacing_m`; the ends stay.

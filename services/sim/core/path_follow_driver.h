@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "services/motion/motion.h"
@@ -14,13 +15,14 @@ struct DriverOptions {
   double acceleration_mps2 = 0.4;
   double look_ahead_m = 0.30;    // of the pure pursuit; shorter cuts corners less but weaves
   double corner_radius_m = 0.6;  // way-points' corners are driven as arcs of this
-  double spot_turn_rad = 2.4;    // sharper ones are turned on the spot
+  double spot_turn_rad = 2.4;    // sharper ones are turned on the spot, or shunted
   double arrived_within_m = 0.015;
+  std::optional<Gear> shunts_from = std::nullopt;  // as DrivenPath has it
 };
 
 // The human operator who drives the scout along way-points: sees where the robot truly is, steers
 // by pure pursuit, slows down in turns, stops at the end; where the path doubles back, stops and
-// turns on the spot.
+// turns on the spot, or goes on the other way.
 class PathFollowDriver {
  public:
   explicit PathFollowDriver(const Polyline& way_points, const DriverOptions& options = {});
@@ -33,7 +35,7 @@ class PathFollowDriver {
   [[nodiscard]] const Polyline& path() const { return path_; }
 
  private:
-  // From one turn on the spot to the next.
+  // From one turn on the spot, or change of gear, to the next.
   struct Leg {
     Polyline path;
     double length_m = 0.0;
@@ -41,6 +43,9 @@ class PathFollowDriver {
   };
   void AddLeg(const Polyline& way_points);
   void PlanSpeeds(Leg& leg) const;
+  [[nodiscard]] bool backwards() const;
+  [[nodiscard]] bool EndsLeg(const Eigen::Vector2d& place);
+  [[nodiscard]] motion::VelocityCommand Drive(const motion::Pose2& pose);
 
   DriverOptions options_;
   Polyline path_;

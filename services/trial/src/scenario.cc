@@ -61,6 +61,7 @@ std::vector<Scenario> MakeScenarios() {
   add("corridor", "30 m of corridor, 4 m of it without texture", "corridor");
   add("field", "30 m in the open, all features far away", "field");
   add("dead-end", "18 m into a dead end and back, turned on the spot", "dead-end");
+  add("shunt", "22 m, backwards out of a parking place and on", "parking-place");
   add("dusk", "indoor, taught at noon and followed at dusk", "indoor").gain = 0.4;
   return all;
 }

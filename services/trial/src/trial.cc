@@ -30,7 +30,7 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
                                                    const TrialSeeds& seeds) {
   sim::SimulatedRobotOptions options;
   options.camera = trial_case.follower_camera;
-  options.start = sim::StartPose(setup.path.points);
+  options.start = sim::StartPose(setup.path);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
   options.seed = seeds.follower;

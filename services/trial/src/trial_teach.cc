@@ -21,7 +21,7 @@ Result<sim::SimulatedRobotOptions> ScoutOptions(const TrialSetup& setup,
                                                 std::uint64_t seed) {
   sim::SimulatedRobotOptions options;
   options.camera = camera;
-  options.start = sim::StartPose(setup.path.points);
+  options.start = sim::StartPose(setup.path);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = sim::Disturbances::ForScout();
   options.disturbances.slip = setup.follower.slip;  // it is the same ground
@@ -36,7 +36,10 @@ class Teaching {
  public:
   Teaching(const TrialSetup& setup, const sim::CameraModel& camera,
            const std::vector<agent::TeachOptions>& teachings, sim::SimulatedRobot& robot)
-      : robot_(robot), truth_(robot), driver_(setup.path.points, {.speed_mps = setup.speed_mps}) {
+      : robot_(robot),
+        truth_(robot),
+        driver_(setup.path.points,
+                {.speed_mps = setup.speed_mps, .shunts_from = setup.path.shunts_from}) {
     for (const auto& options : teachings) {
       recorders_.emplace_back(setup.scenario, camera.name, options);
     }

@@ -19,13 +19,15 @@ struct Drive {
   double slowest_in_turn_mps = 9.0;
   double sharpest_radps = 0.0;
   double furthest_x_m = -9.0;
+  double fastest_back_mps = 0.0;
   motion::Pose2 end;
 };
 
-Drive DriveAlong(const Polyline& points, const motion::Pose2& start, std::uint64_t seed) {
+Drive DriveAlong(const Polyline& points, const motion::Pose2& start, std::uint64_t seed,
+                 const DriverOptions& options = {}) {
   DifferentialDriveRobot robot(test::SmallWorld().Build(), {},
                                DrawRobot(Disturbances::ForScout(), seed), start, 1.0, seed);
-  PathFollowDriver driver(points);
+  PathFollowDriver driver(points, options);
   Drive drive;
   for (int step = 0; step < 30 * 120 && !driver.arrived(); ++step) {
     const motion::VelocityCommand command = driver.Command(robot.true_pose());
@@ -34,6 +36,7 @@ Drive DriveAlong(const Polyline& points, const motion::Pose2& start, std::uint64
     drive.worst_m = std::max(drive.worst_m, off_m);
     drive.furthest_x_m = std::max(drive.furthest_x_m, robot.true_pose().x_m);
     drive.fastest_mps = std::max(drive.fastest_mps, command.linear_mps);
+    drive.fastest_back_mps = std::max(drive.fastest_back_mps, -command.linear_mps);
     drive.sharpest_radps = std::max(drive.sharpest_radps, std::abs(command.angular_radps));
     if (std::abs(command.angular_radps) > 0.25) {
       drive.slowest_in_turn_mps = std::min(drive.slowest_in_turn_mps, command.linear_mps);
@@ -73,6 +76,18 @@ TEST(PathFollowDriver, TurnsOnTheSpotWhereThePathDoublesBack) {
   EXPECT_LT(drive.worst_m, 0.06);
   EXPECT_GT(drive.furthest_x_m, 1.95);
   EXPECT_LT(std::hypot(drive.end.x_m + 3.0, drive.end.y_m - 3.0), 0.05);
+}
+
+TEST(PathFollowDriver, GoesOnTheOtherWayWhereThePathDoublesBack) {
+  const DrivenPath path{{{2, 0}, {-1, 0}, {-2, 2}, {-2, 3}, {-2, -1}}, {}, Gear::kBackwards};
+  const Drive drive =
+      DriveAlong(path.points, StartPose(path), 1, {.shunts_from = path.shunts_from});
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_LT(drive.worst_m, 0.06);
+  EXPECT_NEAR(drive.fastest_back_mps, 0.4, 0.01);
+  EXPECT_NEAR(drive.fastest_mps, 0.4, 0.01);
+  EXPECT_LT(std::hypot(drive.end.x_m + 2.0, drive.end.y_m + 1.0), 0.05);
+  EXPECT_NEAR(drive.end.heading_rad, Radians(-90.0), 0.1);
 }
 
 TEST(PathFollowDriver, ArrivedAsksForNothing) {

@@ -63,7 +63,10 @@ TEST(Path, LengthAndPointsAlong) {
   EXPECT_TRUE(PointAlong(kCorner, 5.0).isApprox(Eigen::Vector2d(4, 1)));
   EXPECT_TRUE(PointAlong(kCorner, -1.0).isApprox(Eigen::Vector2d(0, 0)));
   EXPECT_TRUE(PointAlong(kCorner, 99.0).isApprox(Eigen::Vector2d(4, 3)));
-  EXPECT_NEAR(StartPose({{1, 1}, {1, 2}}).heading_rad, 1.5708, 1e-4);
+  const Polyline points = {{1, 1}, {1, 2}};
+  EXPECT_NEAR(StartPose(points).heading_rad, 1.5708, 1e-4);
+  EXPECT_NEAR(StartPose(DrivenPath{points, {}, Gear::kForwards}).heading_rad, 1.5708, 1e-4);
+  EXPECT_NEAR(StartPose(DrivenPath{points, {}, Gear::kBackwards}).heading_rad, -1.5708, 1e-4);
 }
 
 TEST(Path, NearestPlaceIsSignedToTheLeft) {

@@ -38,6 +38,7 @@ const std::vector<Expected> kExpected = {
     {"turns", 25.0, 0.5, 60'000, GroundMode::kFlat},
     {"corridor", 30.0, 0.5, 60'000, GroundMode::kFlat},
     {"dead-end", 18.0, 0.5, 60'000, GroundMode::kFlat},
+    {"parking-place", 22.0, 0.5, 150'000, GroundMode::kFlat},
     {"field", 30.0, 20.0, 150'000, GroundMode::kFlat},
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "services/base/angles.h"
 #include "services/base/number_table.h"
 
 namespace trailcast::sim {
@@ -56,6 +57,14 @@ Result<DrivenPath> ReadPath(const std::filesystem::path& file) {
 motion::Pose2 StartPose(const Polyline& points) {
   const Eigen::Vector2d ahead = points[1] - points[0];
   return {points[0].x(), points[0].y(), std::atan2(ahead.y(), ahead.x())};
+}
+
+motion::Pose2 StartPose(const DrivenPath& path) {
+  motion::Pose2 pose = StartPose(path.points);
+  if (path.shunts_from == Gear::kBackwards) {
+    pose.heading_rad = WrapAngle(pose.heading_rad + Radians(180.0));
+  }
+  return pose;
 }
 
 double Length(const Polyline& points) {

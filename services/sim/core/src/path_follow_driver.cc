@@ -75,28 +75,48 @@ void PathFollowDriver::PlanSpeeds(Leg& leg) const {
   }
 }
 
+bool PathFollowDriver::backwards() const {
+  if (!options_.shunts_from) return false;
+  return (*options_.shunts_from == Gear::kBackwards) == (leg_ % 2 == 0);
+}
+
+// True where the leg ends: the next one begins, or all is driven.
+bool PathFollowDriver::EndsLeg(const Eigen::Vector2d& place) {
+  const Leg& leg = legs_[leg_];
+  along_m_ = Nearest(leg.path, place, along_m_, along_m_ + kSearch_m).along_m;
+  if (leg.length_m - along_m_ >= options_.arrived_within_m) return false;
+  arrived_ = leg_ + 1 == legs_.size();
+  if (arrived_) return true;
+  ++leg_;
+  along_m_ = 0.0;
+  aligned_ = options_.shunts_from.has_value();
+  return true;
+}
+
+// Backwards as forwards, with the robot's back in front.
 motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose) {
   if (arrived_) return {};
+  if (EndsLeg(motion::Position(true_pose))) return Command(true_pose);
+  if (!backwards()) return Drive(true_pose);
+  motion::Pose2 turned = true_pose;
+  turned.heading_rad = WrapAngle(turned.heading_rad + Radians(180.0));
+  const motion::VelocityCommand command = Drive(turned);
+  return {-command.linear_mps, command.angular_radps};
+}
+
+// Along the leg, with the front that `pose` has.
+motion::VelocityCommand PathFollowDriver::Drive(const motion::Pose2& pose) {
   const Leg& leg = legs_[leg_];
   const Polyline& path = leg.path;
-  const Eigen::Vector2d place = motion::Position(true_pose);
-  along_m_ = Nearest(path, place, along_m_, along_m_ + kSearch_m).along_m;
+  const Eigen::Vector2d place = motion::Position(pose);
   const double left_m = leg.length_m - along_m_;
-  if (left_m < options_.arrived_within_m) {
-    arrived_ = leg_ + 1 == legs_.size();
-    if (arrived_) return {};
-    ++leg_;
-    along_m_ = 0.0;
-    aligned_ = false;
-    return Command(true_pose);
-  }
   // Near the end there is nothing further ahead on the path: aim along its last direction.
   const Eigen::Vector2d end_direction = (path.back() - path[path.size() - 2]).normalized();
   const double beyond_m = std::max(0.0, options_.look_ahead_m - left_m);
   const Eigen::Vector2d aim =
       PointAlong(path, along_m_ + options_.look_ahead_m) + beyond_m * end_direction;
   const Eigen::Vector2d to_aim = aim - place;
-  const double bearing_rad = WrapAngle(std::atan2(to_aim.y(), to_aim.x()) - true_pose.heading_rad);
+  const double bearing_rad = WrapAngle(std::atan2(to_aim.y(), to_aim.x()) - pose.heading_rad);
   if (std::abs(bearing_rad) < kFacing_rad) aligned_ = true;
   if (!aligned_ || std::abs(bearing_rad) > Radians(60.0)) {
     aligned_ = false;

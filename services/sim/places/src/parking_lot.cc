@@ -1,6 +1,8 @@
 #include "services/sim/places/src/parking_lot.h"
 
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "services/sim/places/src/outdoor_kit.h"
 #include "services/sim/places/src/parking_row.h"
@@ -140,9 +142,7 @@ void SetOutFurniture(StreetFurniture& street) {
   }
 }
 
-}  // namespace
-
-Result<Place> MakePavedWorld() {
+Result<Place> MakeLot(const std::string& name, Polyline points) {
   OutdoorKit kit(kSeed);
   LayGround(kit.paving);
   ParkCars(kit);
@@ -150,8 +150,20 @@ Result<Place> MakePavedWorld() {
   Plant(kit.plants);
   SetOutFurniture(kit.street);
   kit.lighting.toward_sun = kSunBehind;
-  return FinishOutdoors(kit, "paved", GroundMode::kFlat,
-                        {{0, -0.8}, {14, 0.6}, {26, -0.6}, {38, 1.0}, {48, 5.5}, {58, 7.5}});
+  return FinishOutdoors(kit, name, GroundMode::kFlat, std::move(points));
+}
+
+}  // namespace
+
+Result<Place> MakePavedWorld() {
+  return MakeLot("paved", {{0, -0.8}, {14, 0.6}, {26, -0.6}, {38, 1.0}, {48, 5.5}, {58, 7.5}});
+}
+
+Result<Place> MakeParkingPlaceWorld() {
+  auto place = MakeLot("parking-place",
+                       {{27.85, -7.4}, {27.85, -0.8}, {30.6, -0.2}, {31.6, -0.2}, {20.0, -0.2}});
+  if (place) place->path.shunts_from = Gear::kBackwards;
+  return place;
 }
 
 }  // namespace trailcast::sim

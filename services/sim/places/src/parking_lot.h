@@ -9,6 +9,9 @@ namespace trailcast::sim {
 // buildings round it.
 [[nodiscard]] Result<Place> MakePavedWorld();
 
+// `parking-place`: the same lot, with a path of 22 m backwards out of a bay and on along the lane.
+[[nodiscard]] Result<Place> MakeParkingPlaceWorld();
+
 // `loop`: 380 m round a larger one, closed: the last way-point is the first. Most of it passes
 // rows of cars and trees; along the north there is little near by but asphalt.
 [[nodiscard]] Result<Place> MakeLoopWorld();

@@ -40,6 +40,8 @@ constexpr std::array kPlaces = {
     BuiltInPlace{"corridor", "30 m of corridor, 4 m of it without texture", MakeCorridorWorld},
     BuiltInPlace{"dead-end", "18 m into a laboratory's dead end and back, turned on the spot",
                  MakeDeadEndWorld},
+    BuiltInPlace{"parking-place", "22 m, backwards out of a parking place and on",
+                 MakeParkingPlaceWorld},
     BuiltInPlace{"field", "30 m in the open, all features far away", MakeFieldWorld},
 };
 
