@@ -30,6 +30,7 @@ struct PlottedPath {
   std::vector<Eigen::Vector2d> points_m;
   bool taught = false;  // drawn dashed and thicker, below the others
   bool failed = false;  // its end gets a cross in place of a disc
+  bool band = false;    // a broad band below all others, and no disc
 };
 
 struct Plan {

@@ -7,6 +7,7 @@
 #include "agent/session/teach_session.h"
 #include "services/base/result.h"
 #include "services/route/route.h"
+#include "services/route/terrain_profile.h"
 #include "services/trial/recording/taught_frames.h"
 
 namespace trailcast::trial {
@@ -15,6 +16,7 @@ namespace trailcast::trial {
 struct TaughtRoute {
   route::RouteInfo info;
   std::vector<route::SegmentPiece> pieces;
+  route::TerrainProfile ground{};
 };
 
 // Teaches a route for a trial, which is never stored or sent.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "services/base/result.h"
+#include "services/route/terrain_profile.h"
 #include "services/trial/path_judge.h"
 #include "services/trial/teachings.h"
 #include "services/trial/trial_report.h"
@@ -12,6 +13,7 @@ struct TrialOutcome {
   TrialRow row;
   TruePath taught;
   TruePath replayed;
+  std::vector<route::TerrainStretch> ground{};  // of the taught one
 };
 
 // One replay in closed loop, in process, of what a scout taught before: what it taught goes through

@@ -15,6 +15,9 @@ namespace trailcast::trial {
 [[nodiscard]] std::vector<plot::PlottedPath> ReplayedPaths(
     const std::vector<TrialOutcome>& outcomes);
 
+// Where the ground was felt to be rough, along the path as it was taught.
+[[nodiscard]] std::vector<plot::PlottedPath> RoughStretches(const TrialOutcome& outcome);
+
 // The part of the world that lies around the paths, seen from above and made pale.
 [[nodiscard]] plot::Backdrop WorldBackdrop(const sim::World& world,
                                            const std::vector<plot::PlottedPath>& paths);

@@ -71,6 +71,11 @@ void DrawAxes(Drawing& drawing, const Frame& frame, bool grid) {
   drawing.Text("y [m]", {8.0, kTop_px - 8.0}, kTextHeight_px, kInk);
 }
 
+double WidthOf(const PlottedPath& path) {
+  if (path.band) return 14.0;
+  return path.taught ? 4.0 : 2.0;
+}
+
 void DrawPath(Drawing& drawing, const Frame& frame, const PlottedPath& path) {
   if (path.points_m.empty()) return;
   std::vector<PixelPoint> points;
@@ -82,7 +87,8 @@ void DrawPath(Drawing& drawing, const Frame& frame, const PlottedPath& path) {
       points.push_back(point);
     }
   }
-  if (points.size() > 1) drawing.Line(points, path.color, path.taught ? 4.0 : 2.0, path.taught);
+  if (points.size() > 1) drawing.Line(points, path.color, WidthOf(path), path.taught);
+  if (path.band) return;
   if (path.taught) drawing.Disc(points.front(), 5.0, path.color);
   if (path.failed) {
     drawing.Cross(points.back(), 8.0, path.color, 3.0);
@@ -99,7 +105,7 @@ void DrawLegend(Drawing& drawing, const Frame& frame, const std::vector<PlottedP
     if (!HasLabel(path)) continue;
     const double middle = y - 0.4 * kTextHeight_px;
     drawing.Line({{kLeft_px, middle}, {kLeft_px + kLegendSample_px, middle}}, path.color,
-                 path.taught ? 4.0 : 2.0, path.taught);
+                 WidthOf(path), path.taught);
     drawing.Text(path.label, {kLeft_px + kLegendSample_px + 10.0, y}, kTextHeight_px, kInk);
     y += kLegendLine_px;
   }
@@ -148,10 +154,13 @@ Drawing DrawPlan(const Plan& plan) {
   DrawAxes(drawing, frame, !plan.backdrop);
   drawing.Text(plan.title, {kLeft_px, 24.0}, kTitleHeight_px, kInk);
   for (const PlottedPath& path : plan.paths) {
+    if (path.band) DrawPath(drawing, frame, path);
+  }
+  for (const PlottedPath& path : plan.paths) {
     if (path.taught) DrawPath(drawing, frame, path);
   }
   for (const PlottedPath& path : plan.paths) {
-    if (!path.taught) DrawPath(drawing, frame, path);
+    if (!path.taught && !path.band) DrawPath(drawing, frame, path);
   }
   DrawLegend(drawing, frame, plan.paths);
   return drawing;

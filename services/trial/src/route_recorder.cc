@@ -45,6 +45,7 @@ Result<TaughtRoute> RouteRecorder::Finish() {
 void RouteRecorder::Keep(const std::optional<route::Segment>& segment, int last_frame) {
   if (!segment) return;
   taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
+  taught_.ground.Add(*segment);
   taught_.info.segment_count += 1;
   taught_.info.length_m += segment->length_m;
   taught_.info.bytes += taught_.pieces.back().bytes.size();

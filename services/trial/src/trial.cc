@@ -227,7 +227,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   }
   if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
   TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, **taught, route), (*taught)->path,
-                       replaying.path()};
+                       replaying.path(), route.ground.stretches()};
   replaying.Fill(outcome.row);
   return outcome;
 }

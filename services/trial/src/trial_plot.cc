@@ -1,18 +1,24 @@
 #include "services/trial/trial_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <utility>
 
+#include "services/route/terrain_profile.h"
 #include "services/sim/core/plan_view.h"
 
 namespace trailcast::trial {
 namespace {
 
 constexpr double kMargin_m = 1.5;
-constexpr int kPaleness = 150;          // of 255: how far towards white the world is drawn
-constexpr double kPlanCut_m = 1.6;      // above the floor
+constexpr int kPaleness = 150;      // of 255: how far towards white the world is drawn
+constexpr double kPlanCut_m = 1.6;  // above the floor
+// Uneven, rough, very rough.
+constexpr std::array<image::Color, 3> kBandColors{
+    {{250, 225, 170}, {245, 185, 120}, {235, 140, 100}}};
 constexpr std::size_t kMaxLegend = 12;  // replays, or cases, named one by one
 
 std::uint8_t Pale(std::uint8_t value) {
@@ -44,6 +50,17 @@ image::RgbImage Crop(const sim::PlanView& plan, const plot::PlanArea& area) {
     }
   }
   return crop;
+}
+
+// The part of a path that lies so far along it.
+std::vector<Eigen::Vector2d> Between(const TruePath& path, double from_m, double to_m) {
+  std::vector<Eigen::Vector2d> part;
+  double along_m = 0.0;
+  for (std::size_t i = 0; i < path.points_m().size(); ++i) {
+    if (i > 0) along_m += (path.points_m()[i] - path.points_m()[i - 1]).norm();
+    if (along_m >= from_m && along_m <= to_m) part.push_back(path.points_m()[i]);
+  }
+  return part;
 }
 
 std::string Label(const TrialRow& row) {
@@ -89,6 +106,23 @@ std::vector<plot::PlottedPath> ReplayedPaths(const std::vector<TrialOutcome>& ou
   return paths;
 }
 
+std::vector<plot::PlottedPath> RoughStretches(const TrialOutcome& outcome) {
+  std::vector<plot::PlottedPath> bands;
+  std::set<route::Roughness> named;
+  if (outcome.ground.empty() || outcome.ground.back().end <= 0.0) return bands;
+  const double share = outcome.taught.length_m() / outcome.ground.back().end;
+  for (const route::TerrainStretch& stretch : outcome.ground) {
+    const auto roughness = route::RoughnessOf(stretch.terrain);
+    if (!roughness || *roughness == route::Roughness::kSmooth) continue;
+    const bool first = named.insert(*roughness).second;
+    bands.push_back({first ? fmt::format("{} ground", route::NameOf(*roughness)) : "",
+                     kBandColors[static_cast<std::size_t>(*roughness) - 1],
+                     Between(outcome.taught, share * stretch.begin, share * stretch.end), false,
+                     false, true});
+  }
+  return bands;
+}
+
 plot::Backdrop WorldBackdrop(const sim::World& world, const std::vector<plot::PlottedPath>& paths) {
   const plot::PlanArea area = plot::AreaAround(paths, kMargin_m);
   sim::PlanOptions options;
@@ -112,6 +146,9 @@ Result<void> WriteTrialPlot(const TrialSetup& setup, const std::vector<TrialOutc
   plan.paths.push_back({"taught (first trial)", plot::PathColor(0),
                         outcomes.front().taught.points_m(), true, false});
   for (plot::PlottedPath& path : ReplayedPaths(outcomes)) plan.paths.push_back(std::move(path));
+  for (plot::PlottedPath& band : RoughStretches(outcomes.front())) {
+    plan.paths.push_back(std::move(band));
+  }
   plan.backdrop = WorldBackdrop(*setup.world, plan.paths);
   return plot::DrawPlan(plan).Write(file);
 }

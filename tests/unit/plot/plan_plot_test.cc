@@ -52,6 +52,16 @@ TEST(DrawPlan, ShowsEachPathInItsColour) {
   EXPECT_LT(CountNear(DrawPlan(without).Render(), plan.paths[1].color), 200);
 }
 
+TEST(DrawPlan, ABandLiesBelowThePaths) {
+  Plan plan = TwoPaths();
+  const int path = CountNear(DrawPlan(plan).Render(), plan.paths[1].color);
+  const image::Color pale{250, 225, 170};
+  plan.paths.push_back({"", pale, {{0.0, 0.5}, {8.0, 0.5}}, false, false, true});
+  const image::RgbImage picture = DrawPlan(plan).Render();
+  EXPECT_GT(CountNear(picture, pale), 3000);
+  EXPECT_NEAR(CountNear(picture, plan.paths[1].color), path, 20);
+}
+
 TEST(DrawPlan, BothAxesHaveTheSameScale) {
   Plan plan;
   plan.paths.push_back({"", PathColor(0), {{0.0, 0.0}, {18.0, 0.0}}, true, false});

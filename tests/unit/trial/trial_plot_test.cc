@@ -20,6 +20,25 @@ TrialOutcome Replayed(const std::string& method, int trial, bool arrived = true)
   return outcome;
 }
 
+TEST(RoughStretches, LieAlongTheTaughtPathWhereTheGroundIsNotSmooth) {
+  TrialOutcome outcome;
+  for (int i = 0; i <= 100; ++i) outcome.taught.Add({0.1 * i, 1.0});
+  // By odometry, which is 5 % short, 9.5 m.
+  outcome.ground = {{0.0, 3.8, SegmentIndex(0), {0.001, {}, {}}},
+                    {3.8, 5.7, SegmentIndex(2), {0.02, {}, {}}},
+                    {5.7, 7.6, SegmentIndex(3), {0.01, {}, {}}},
+                    {7.6, 9.5, SegmentIndex(4), {0.02, {}, {}}}};
+  const auto bands = RoughStretches(outcome);
+  ASSERT_EQ(bands.size(), 3U);
+  EXPECT_EQ(bands[0].label, "rough ground");
+  EXPECT_TRUE(bands[0].band);
+  EXPECT_NEAR(bands[0].points_m.front().x(), 4.0, 0.11);
+  EXPECT_NEAR(bands[0].points_m.back().x(), 6.0, 0.11);
+  EXPECT_EQ(bands[1].label, "uneven ground");
+  EXPECT_EQ(bands[2].label, "") << "named already";
+  EXPECT_EQ(bands[2].color, bands[0].color);
+}
+
 TEST(ReplayedPaths, NamesEveryReplayOfOneCase) {
   const auto paths = ReplayedPaths({Replayed("default", 1), Replayed("default", 2, false)});
   ASSERT_EQ(paths.size(), 2U);
