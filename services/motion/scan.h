@@ -26,4 +26,7 @@ constexpr std::size_t kMostRanges = 65536;
 // at its least range.
 [[nodiscard]] std::optional<double> Measured(const Scan& scan, float range_m);
 
+// Whether it looks that way at all: counter-clockwise from straight ahead.
+[[nodiscard]] bool LooksTo(const Scan& scan, double angle_rad);
+
 }  // namespace trailcast::motion

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "services/base/angles.h"
 
 namespace trailcast::agent {
 namespace {
@@ -19,6 +22,9 @@ constexpr double kFurther_m = 0.1;
 constexpr std::chrono::milliseconds kClearFor{500};
 // Less is ahead, not to a side.
 constexpr double kAside_m = 0.05;
+// Who looks straight back, and so far to either side, sees where a robot backs to.
+constexpr double kBack_rad = std::numbers::pi;
+constexpr double kBehind_rad = 0.4;
 
 // How fast one may be that has so far to go: after the reaction it can still brake.
 double SpeedWithin(double way_m) {
@@ -33,10 +39,22 @@ ObstacleWatch::ObstacleWatch(const ObstacleOptions& options, bool has_scan)
     : options_(options),
       outline_(OutlineOf(options)),
       has_scan_(has_scan),
+      looks_back_(RangeLooksBack()),
       ranges_(options.range_mounts.size()) {}
+
+bool ObstacleWatch::RangeLooksBack() const {
+  return std::any_of(options_.range_mounts.begin(), options_.range_mounts.end(),
+                     [](const std::optional<motion::Pose2>& mount) {
+                       return mount &&
+                              std::abs(WrapAngle(mount->heading_rad - kBack_rad)) < kBehind_rad;
+                     });
+}
 
 void ObstacleWatch::See(Time now, const motion::Scan& scan) {
   scan_ = Look{now, steady_.Next(scan, options_.scan_ahead_m)};
+  looks_back_ = RangeLooksBack() || (motion::LooksTo(scan, kBack_rad - kBehind_rad) &&
+                                     motion::LooksTo(scan, kBack_rad) &&
+                                     motion::LooksTo(scan, kBack_rad + kBehind_rad));
   Note(now);
 }
 
@@ -88,9 +106,14 @@ motion::VelocityCommand ObstacleWatch::Slowed(const motion::VelocityCommand& com
   return {share * command.linear_mps, share * command.angular_radps};
 }
 
-motion::VelocityCommand ObstacleWatch::Want(const motion::VelocityCommand& command) {
-  wanted_ = command;
+motion::VelocityCommand ObstacleWatch::Want(const motion::VelocityCommand& wanted) {
+  wanted_ = wanted;
   if (waits_) return {};
+  motion::VelocityCommand command = wanted;
+  if (backs_unseen() && wanted.linear_mps < -kUnseen_mps) {
+    command.angular_radps *= kUnseen_mps / -wanted.linear_mps;
+    command.linear_mps = -kUnseen_mps;
+  }
   const auto met = motion::FirstMet(points_, outline_, command);
   if (!met) return command;
   const motion::VelocityCommand slowed = Slowed(command, met->way_m);

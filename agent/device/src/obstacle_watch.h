@@ -36,8 +36,12 @@ class ObstacleWatch {
   [[nodiscard]] bool Reaches(Time time) const;
 
   // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
-  // looks: the same bend, slower, or nothing, for which the robot then waits.
-  [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& command);
+  // looks: the same bend, slower, or nothing, for which the robot then waits. Backwards, where none
+  // of them looks, no faster than kUnseen_mps.
+  [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& wanted);
+  static constexpr double kUnseen_mps = 0.15;
+  // It is to drive backwards, and none of them looks there.
+  [[nodiscard]] bool backs_unseen() const { return wanted_.linear_mps < 0.0 && !looks_back_; }
   // What it waits for, one line for people, the same until it goes on; nothing: it may drive.
   [[nodiscard]] const std::optional<std::string>& waits() const { return waits_; }
 
@@ -47,6 +51,7 @@ class ObstacleWatch {
     std::vector<Eigen::Vector2d> points;
   };
   void Note(Time now);
+  [[nodiscard]] bool RangeLooksBack() const;
   [[nodiscard]] bool Clear() const;
   [[nodiscard]] motion::VelocityCommand Slowed(const motion::VelocityCommand& command,
                                                double way_m) const;
@@ -55,6 +60,7 @@ class ObstacleWatch {
   ObstacleOptions options_;
   motion::Outline outline_;
   bool has_scan_;
+  bool looks_back_;
   motion::SteadyPoints steady_;
   std::optional<Look> scan_;  // the newest; nothing: there was none yet
   std::vector<std::optional<Look>> ranges_;

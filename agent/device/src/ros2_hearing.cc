@@ -1,4 +1,6 @@
 // A ROS 2 robot as it is heard, and told to stand when in doubt.
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -166,6 +168,13 @@ motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand&
   const motion::VelocityCommand shaped = Shaped(wanted);
   if (!obstacles) return shaped;
   const motion::VelocityCommand allowed = obstacles->Want(shaped);
+  if (obstacles->backs_unseen() && !backs_unseen) {
+    spdlog::warn(
+        "the robot drives backwards, where no scanner and no range sensor looks: it does not see "
+        "what stands there, and goes no faster than {:g} m/s",
+        ObstacleWatch::kUnseen_mps);
+  }
+  backs_unseen = obstacles->backs_unseen();
   if (obstacles->waits()) stop_said_until = steady_clock::now() + kSayAgain;
   return allowed;
 }

@@ -84,6 +84,7 @@ struct Ros2Device::State {
   bool ending = false;
   RobotWatch watch;
   std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
+  bool backs_unseen = false;               // it is told to
   SensedPoses poses;
   bool odometry_stands = false;        // it comes, with stamps that do not advance
   std::vector<motion::ImuSample> imu;  // since the last frame that was handed out

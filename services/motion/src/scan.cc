@@ -1,5 +1,6 @@
 #include "services/motion/scan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,16 @@ std::optional<double> Measured(const Scan& scan, float range_m) {
   const bool there =
       std::isfinite(range_m) && range_m > 0.0F && range_m >= scan.least_m && range_m <= scan.most_m;
   return there ? std::optional<double>(range_m) : std::nullopt;
+}
+
+bool LooksTo(const Scan& scan, double angle_rad) {
+  const double last_rad =
+      scan.first_rad + scan.step_rad * static_cast<double>(scan.ranges_m.size() - 1);
+  const double low_rad = std::min(scan.first_rad, last_rad);
+  // A scanner that looks all round leaves out a step, or less.
+  const double turned_rad = std::abs(last_rad - scan.first_rad) + std::abs(scan.step_rad);
+  const double off_rad = std::remainder(angle_rad - low_rad, 2.0 * std::numbers::pi);
+  return (off_rad < 0.0 ? off_rad + 2.0 * std::numbers::pi : off_rad) <= turned_rad;
 }
 
 }  // namespace trailcast::motion

@@ -214,5 +214,34 @@ TEST_F(ObstacleWatchTest, EachOfItsSensorsCounts) {
   EXPECT_TRUE(watch.waits()) << "by the first of its ranges";
 }
 
+// Of the quarter turn ahead only.
+motion::Scan LookAhead() {
+  motion::Scan scan{-0.785, 0.01, 0.1, 10.0, {}};
+  scan.ranges_m.assign(158, std::numeric_limits<float>::infinity());
+  return scan;
+}
+
+TEST_F(ObstacleWatchTest, BackwardsWhereNothingLooksItGoesSlowlyAndKnowsIt) {
+  const motion::VelocityCommand back{-0.4, 0.2};
+  See(std::nullopt);
+  EXPECT_EQ(watch_.Want(back), back) << "looks all round";
+  EXPECT_FALSE(watch_.backs_unseen());
+  See(Eigen::Vector2d(-0.6, 0.0));
+  EXPECT_EQ(watch_.Want({-0.4, 0.0}), kStand);
+  ObstacleWatch ahead{ObstacleOptions{}, true};
+  ahead.See(now_, LookAhead());
+  EXPECT_EQ(ahead.Want(kAhead), kAhead);
+  EXPECT_FALSE(ahead.backs_unseen());
+  const motion::VelocityCommand slow = ahead.Want(back);
+  EXPECT_TRUE(ahead.backs_unseen());
+  EXPECT_NEAR(slow.linear_mps, -ObstacleWatch::kUnseen_mps, 1e-9);
+  EXPECT_NEAR(slow.angular_radps / slow.linear_mps, back.angular_radps / back.linear_mps, 1e-9);
+  ObstacleOptions options;
+  options.range_mounts = {motion::Pose2{-0.2, 0.0, std::numbers::pi}};
+  ObstacleWatch behind{options, true};
+  behind.See(now_, LookAhead());
+  EXPECT_EQ(behind.Want(back), back);
+}
+
 }  // namespace
 }  // namespace trailcast::agent
