@@ -2,9 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <memory>
+#include <sstream>
 #include <thread>
+#include <utility>
 
+#include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -20,6 +27,24 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 constexpr int kFrames = 150;
+
+// What is said while it lives.
+class Said {
+ public:
+  Said() {
+    auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(text_);
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("said", std::move(sink)));
+  }
+  ~Said() { spdlog::set_default_logger(before_); }
+  Said(const Said&) = delete;
+  Said& operator=(const Said&) = delete;
+
+  [[nodiscard]] std::string text() const { return text_.str(); }
+
+ private:
+  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+  std::ostringstream text_;
+};
 
 class ScoutTest : public testing::Test {
  protected:
@@ -98,8 +123,10 @@ TEST_F(ScoutTest, TeachesWhatIsDrivenBackwardsAsSuch) {
   device_.odometry = [](int frame) {
     return motion::Pose2{0.02 * (frame < 100 ? frame : 200 - frame), 0.0, 0.0};
   };
+  const Said said;
   const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), false);
   ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_THAT(said.text(), HasSubstr("driven backwards: so will those be that follow"));
   const auto route = Taught("scout");
   EXPECT_FALSE(route.cut_off);
   EXPECT_NEAR(route.length_m, 2.0 + 1.0, 0.2);
@@ -112,6 +139,19 @@ TEST_F(ScoutTest, TeachesWhatIsDrivenBackwardsAsSuch) {
   }
   EXPECT_GE(reverse, 1);
   EXPECT_LT(reverse, static_cast<int>(route.segment_count));
+}
+
+TEST_F(ScoutTest, SaysThatATurnAtTheVeryEndIsNotTaught) {
+  device_.odometry = [](int frame) {
+    return motion::Pose2{0.02 * std::min(frame, 100), 0.0, -0.03 * std::max(0, frame - 100)};
+  };
+  const Said said;
+  const auto summary = swarm_.Teach(device_, swarm_.ScoutNamed("scout"), false);
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_THAT(said.text(),
+              AllOf(HasSubstr("the route ends before the turn on the spot at its end, by 8"),
+                    HasSubstr("to the right")));
+  EXPECT_NEAR(Taught("scout").length_m, 2.0, 0.06);
 }
 
 TEST_F(ScoutTest, EndsTheRouteWhereASignalStopsIt) {

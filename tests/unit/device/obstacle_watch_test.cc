@@ -226,7 +226,7 @@ TEST_F(ObstacleWatchTest, BackwardsWhereNothingLooksItGoesSlowlyAndKnowsIt) {
   See(std::nullopt);
   EXPECT_EQ(watch_.Want(back), back) << "looks all round";
   EXPECT_FALSE(watch_.backs_unseen());
-  See(Eigen::Vector2d(-0.6, 0.0));
+  See(Eigen::Vector2d(-0.6, 0.05));
   EXPECT_EQ(watch_.Want({-0.4, 0.0}), kStand);
   ObstacleWatch ahead{ObstacleOptions{}, true};
   ahead.See(now_, LookAhead());
