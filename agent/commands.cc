@@ -82,6 +82,8 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.speed_factor = replay.speed_factor;
   follower.session.intake = replay.device.intake;
   follower.session.camera_ahead_m = replay.device.camera_ahead_m;
+  follower.session.passing.most_m = replay.device.pass_obstacles_m;
+  follower.session.passing.robot = OutlineOf(replay.device.ros2.obstacles);
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;

@@ -222,6 +222,11 @@ void Loop::Tell(const ReplayStep& step) {
   } else if (last_->segment != step.segment) {
     spdlog::info("segment {}: {} features", step.segment.value(), step.features);
   }
+  const std::string before = last_ ? last_->passing : std::string();
+  if (step.passing == before) return;
+  const std::string now = step.passing.empty() ? "nothing stands on the path" : step.passing;
+  spdlog::info("{}", now);
+  diagnosis_.Note("passing", now);
 }
 
 // The robot stands, and may drive on when it is over; meanwhile there are no steps to report.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Observation {
   // besides what odometry says: where that has jumped, or was silent.
   motion::OdometryIncrement unknown{};
   std::vector<motion::ImuSample> imu{};  // since the last frame, of a robot that has one
+  // Where something stands, by its scanner's newest look, seen from its axle: x ahead, y left;
+  // nothing: it has no scanner.
+  std::optional<std::vector<Eigen::Vector2d>> stands{};
 };
 
 }  // namespace trailcast::agent

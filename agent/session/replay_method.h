@@ -7,6 +7,7 @@
 #include "services/base/result.h"
 #include "services/motion/motion.h"
 #include "services/replay/follower.h"
+#include "services/replay/passing.h"
 #include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
@@ -40,6 +41,8 @@ struct ReplayMethodOptions {
   vision::IntakeOptions intake = {};
   // From the axle that the robot turns about ahead to its camera, more than on the scout.
   double camera_ahead_m = 0.0;
+  // Round what stands on the path, by the default method with odometry.
+  replay::PassingOptions passing = {};
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

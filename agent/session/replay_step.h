@@ -38,7 +38,8 @@ struct ReplayStep {
   replay::FollowStep decision;  // what the method saw and asked for
   Sight sight;
   std::optional<Believed> believed;
-  std::string reason;  // kLost, kBlind, kWaiting: one line for people
+  std::string reason;   // kLost, kBlind, kWaiting: one line for people
+  std::string passing;  // as replay::Passing says it
   // What of the robot has failed, for which it stands until that is over; empty: nothing.
   std::string robot_trouble;
   // What the robot stands for that is no failure, until it is gone; empty: nothing.

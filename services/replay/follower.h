@@ -19,6 +19,9 @@ struct FollowInput {
   std::optional<motion::OdometryIncrement> odometry;
   // How far it may have driven and turned besides, one way or the other.
   motion::OdometryIncrement unknown{};
+  // To the left of the taught path, where to drive rather than on it, for methods that estimate
+  // where that is.
+  double aside_m = 0.0;
 };
 
 // Where the robot is beside the path as it was taught.

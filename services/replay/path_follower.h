@@ -65,7 +65,7 @@ class PathFollower final : public Follower {
   [[nodiscard]] double Driven_m(double along_m) const {
     return segment_.reverse ? segment_.length_m - along_m : along_m;
   }
-  [[nodiscard]] double TurnRate(const PathOffset& along, double speed_mps) const;
+  [[nodiscard]] double TurnRate(const PathOffset& along, double speed_mps, double aside_m) const;
   [[nodiscard]] FollowStep TurnOnTheSpot(const std::vector<route::TrackedFeature>& seen);
 
   PathFollowerOptions options_;

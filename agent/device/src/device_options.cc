@@ -77,6 +77,12 @@ void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
       throw CLI::RequiresError(image ? "--image-topic" : "--odom-topic", "--ros2 or --bag");
     }
     CheckObstacleOptions(command, options.ros2.topics);
+    if (options.pass_obstacles_m > 0.0 && options.ros2.topics.scan.empty()) {
+      throw CLI::RequiresError("--pass-obstacles", "--scan-topic");
+    }
+    if (options.pass_obstacles_m > 0.0 && options.ros2.topics.odometry.empty()) {
+      throw CLI::RequiresError("--pass-obstacles", "--odom-topic");
+    }
     if (image) options.bag.image_topic = options.ros2.topics.image;
     if (odometry) options.bag.odom_topic = options.ros2.topics.odometry;
   });
@@ -119,6 +125,13 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
                     "Metres from what stands in its way at which the robot waits until it is gone; "
                     "no protection of people")
         ->check(CLI::Range(0.05, 5.0))
+        ->needs(ros2)
+        ->group("What stands in its way");
+    command
+        .add_option("--pass-obstacles", options.pass_obstacles_m,
+                    "Metres beside the taught path to which the robot may go round what its "
+                    "scanner sees on it, by odometry and the default method; 0: it waits before it")
+        ->check(CLI::Range(0.0, 2.0))
         ->needs(ros2)
         ->group("What stands in its way");
   }

@@ -1,4 +1,4 @@
-#include "agent/device/src/obstacle_watch.h"
+#include "agent/device/obstacle_watch.h"
 
 #include <fmt/format.h>
 

@@ -197,6 +197,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     const Ros2Frame& frame = **awaited;
     Observation observation;
     observation.stamp = frame.taken;
+    if (s.obstacles) observation.stands = s.obstacles->scanned();
     if (s.has_odometry()) {
       observation.odometry = s.poses.At(frame.taken);
       observation.unknown = s.poses.TakeUnknown();

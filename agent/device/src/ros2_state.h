@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "agent/device/obstacle_watch.h"
 #include "agent/device/ros2_device.h"
-#include "agent/device/src/obstacle_watch.h"
 #include "agent/device/src/robot_watch.h"
 #include "agent/device/src/ros2_picture.h"
 #include "agent/device/src/sensed_poses.h"

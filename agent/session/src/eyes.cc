@@ -41,6 +41,7 @@ Result<Seen> Eyes::See(const Observation& observation) {
   seen.frame = &intake_.Take(observation.image);
   seen.driven = Driven(observation);
   seen.unknown = observation.unknown;
+  if (observation.stands) seen.stands = &*observation.stands;
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
   const std::vector<route::TrackedFeature> before = tracker_.Current();

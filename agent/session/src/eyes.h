@@ -22,8 +22,9 @@ struct Seen {
   double flow = 0.0;                                // how far most moved, as a share of the width
   std::optional<motion::OdometryIncrement> driven;  // since the last frame; nothing: no odometry
   motion::OdometryIncrement unknown{};              // besides, as in Observation
-  double dt_s = 0.0;                                // the same
-  double looked_s = 0.0;                            // the same, and no longer than kLongestFrame_s
+  const std::vector<Eigen::Vector2d>* stands = nullptr;  // as in Observation; until the next
+  double dt_s = 0.0;                                     // the same
+  double looked_s = 0.0;  // the same, and no longer than kLongestFrame_s
 };
 
 // A picture's first station: checked, taken in, its features tracked.

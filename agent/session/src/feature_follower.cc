@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "agent/session/src/path_ahead.h"
 #include "agent/session/src/view_follower.h"
 #include "services/base/angles.h"
 
@@ -42,7 +43,8 @@ FeatureFollower::FeatureFollower(const ReplayMethodOptions& options, int scout_w
       eyes_(eyes),
       place_(place),
       search_(!AsPrinted(options.method), scout_width_px, eyes, place),
-      confidence_(ConfidenceOf(options.method)) {}
+      confidence_(ConfidenceOf(options.method)),
+      passing_(options.passing) {}
 
 replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
   search_.Open(*seen.frame);
@@ -91,8 +93,11 @@ replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
 
 replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   const SegmentIndex before = follower_->segment().index;
-  replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
+  replay::FollowStep step =
+      follower_->Step({seen.features, seen.driven, seen.unknown,
+                       follower_->segment().reverse ? 0.0 : passing_.left_m()});
   Judge(step, seen, standing);
+  if (follower_->segment().index == before) LookWhatStands(step, seen, standing);
   if (!AsPrinted(options_.method)) {
     search_.Refresh(*follower_, step.agreeing, seen.looked_s, step.carried_left_m.has_value());
   }
@@ -112,6 +117,16 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   }
   if (confidence_.recognised_only()) SteerByWholeView(step);
   return step;
+}
+
+// For the next frame to steer by.
+void FeatureFollower::LookWhatStands(const replay::FollowStep& step, const Seen& seen,
+                                     const Standing& standing) {
+  if (seen.stands == nullptr || !step.offset || follower_->segment().reverse) return;
+  const SegmentIndex index = follower_->segment().index;
+  const double along_m = step.offset->along_m;
+  passing_.Look(*step.offset, route_.begin_m(index) + along_m, standing.trust == Trust::kSure,
+                PathAheadOf(route_, index, along_m, options_.passing.look_ahead_m), *seen.stands);
 }
 
 // A segment is over once the camera is past it; but where the robot is to stop, to turn on the spot

@@ -16,6 +16,7 @@
 #include "agent/session/src/standing.h"
 #include "services/motion/motion.h"
 #include "services/replay/follower.h"
+#include "services/replay/passing.h"
 #include "services/route/route.h"
 
 namespace trailcast::agent {
@@ -70,6 +71,7 @@ class FeatureFollower {
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
   void LookAgain(double fraction, bool elsewhere);
+  void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
   void SteerByWholeView(replay::FollowStep& step) const;
   // Share of the method's speed that is driven.
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step, Trust trust) const;
@@ -81,6 +83,7 @@ class FeatureFollower {
   PlaceKeeper& place_;
   FeatureSearch search_;
   Confidence confidence_;
+  replay::Passing passing_;
   PlaceTrust place_trust_;                      // of the printed methods
   double look_again_at_s_ = 0.0;                // of being unsure
   std::optional<PlaceFinder> place_finder_;     // until it has found the place

@@ -55,6 +55,7 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
     if (state == ReplayState::kArrived) report.along_m = route_.length_m();
   }
   report.turn_rad = step.turn_rad;
+  report.passing = passing_.says();
   report.decision = step;
   const bool on_by_odometry =
       state == ReplayState::kBlind && standing.trust == Trust::kBlind && by_odometry();

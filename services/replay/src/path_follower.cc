@@ -9,6 +9,8 @@ namespace trailcast::replay {
 namespace {
 
 constexpr double kCurvatureStep_m = 0.05;
+constexpr double kTightest = 0.5;  // of a bend's radius
+constexpr double kWidest = 2.0;
 constexpr double kTurnTime_s = 0.5;  // over which turn_rad is the heading change asked for
 
 }  // namespace
@@ -69,15 +71,19 @@ FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>&
 }
 
 // By the bend where the robot will be when it does what it is told, but not beyond the segment.
-double PathFollower::TurnRate(const PathOffset& along, double speed_mps) const {
+double PathFollower::TurnRate(const PathOffset& along, double speed_mps, double aside_m) const {
   const double there_m = along.along_m + speed_mps * options_.base_delay_s;
   const double soon_m = segment_.reverse
                             ? std::max(there_m, 0.5 * kCurvatureStep_m)
                             : std::min(there_m, segment_.length_m - 0.5 * kCurvatureStep_m);
-  const double curvature =
+  const double taught =
       estimator_.TaughtTurn(soon_m - 0.5 * kCurvatureStep_m, soon_m + 0.5 * kCurvatureStep_m) /
       kCurvatureStep_m;
-  return LaneKeepingTurnRate(along, curvature, speed_mps, options_.lane_keeping);
+  // Beside the path a bend is wider or tighter.
+  const double curvature = taught / std::clamp(1.0 - taught * aside_m, kTightest, kWidest);
+  PathOffset from_lane = along;
+  from_lane.left_m -= aside_m;
+  return LaneKeepingTurnRate(from_lane, curvature, speed_mps, options_.lane_keeping);
 }
 
 FollowStep PathFollower::Step(const FollowInput& input) {
@@ -95,7 +101,7 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.mount_yaw_rad = estimator_.mount_yaw_rad();
   const double ahead_mps = options_.speed_factor * segment_.speed_mps();
   const double speed_mps = segment_.reverse ? -ahead_mps : ahead_mps;
-  const double turn_rate = TurnRate(estimator_.offset(), speed_mps);
+  const double turn_rate = TurnRate(estimator_.offset(), speed_mps, input.aside_m);
   step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
   step.turn_rad = -turn_rate * kTurnTime_s;
   const double driven_m = Driven_m(estimator_.camera_along_m());

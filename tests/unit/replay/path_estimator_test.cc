@@ -278,7 +278,7 @@ TEST(LaneKeeping, NeverApproachesSteeperThanItsLimit) {
 
 // Drives a robot with a perfect base by the follower's commands over several segments.
 motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robot,
-                    double magnification) {
+                    double magnification, double aside_m = 0.0) {
   PathFollower follower(320, magnification);
   motion::OdometryIncrement moved;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -289,7 +289,9 @@ motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robo
     for (int frame = 0; frame < 900 && !step.ended; ++frame) {
       step = follower.Step({test::Matched(kScene, runs[i], robot, {},
                                           magnification * test::LandmarkScene::kFocal_px),
-                            moved});
+                            moved,
+                            {},
+                            aside_m});
       if (step.ended) {
         moved = {};
         break;
@@ -311,6 +313,17 @@ TEST(PathFollower, ReturnsToThePathAndEndsWhereTeachingEnded) {
     EXPECT_NEAR(end.x_m, third.end.x_m, 0.08) << "magnification " << magnification;
     EXPECT_NEAR(end.y_m, third.end.y_m, 0.08) << "magnification " << magnification;
     EXPECT_NEAR(end.heading_rad, third.end.heading_rad, 0.08);
+  }
+}
+
+TEST(PathFollower, DrivesBesideThePathWhereItIsTold) {
+  const auto first = test::TeachArcs(kScene, {}, {{1.5, 0.0}});
+  const auto second = test::TeachArcs(kScene, first.end, {{1.5, 0.3}});
+  for (const double aside_m : {0.4, -0.4}) {
+    const motion::Pose2 end = Drive({first, second}, {}, 1.0, aside_m);
+    const motion::Pose2 beside = motion::Between(second.end, end);
+    EXPECT_NEAR(beside.y_m, aside_m, 0.06);
+    EXPECT_NEAR(beside.heading_rad, 0.0, 0.06);
   }
 }
 

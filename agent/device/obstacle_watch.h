@@ -26,6 +26,10 @@ class ObstacleWatch {
   // By the range sensor of that number in ObstacleOptions.
   void See(Time now, std::size_t sensor, const motion::ConeRange& range);
   [[nodiscard]] bool has_scanned() const { return scan_.has_value(); }
+  // What the scanner saw last, seen from the axle: x ahead, y left.
+  [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> scanned() const {
+    return scan_ ? std::optional(scan_->points) : std::nullopt;
+  }
   // The first range sensor of which nothing came yet.
   [[nodiscard]] std::optional<std::size_t> silent_range() const;
   // Something came of each of them.
