@@ -8,6 +8,7 @@
 #include "services/base/result.h"
 #include "services/motion/cone_range.h"
 #include "services/motion/scan.h"
+#include "services/sim/core/stage.h"
 #include "services/sim/core/world.h"
 
 namespace trailcast::agent {
@@ -23,14 +24,14 @@ struct Pillar {
 // From "3,1.5,0.2@0+10": where, how wide, and when as for robots' faults.
 [[nodiscard]] Result<Pillar> ParsePillar(const std::string& text);
 
-// What a scanner sees all round: the world's surfaces, and `pillars`. Frame of the scanner: x
-// ahead, y left.
-[[nodiscard]] motion::Scan LookAround(const sim::World& world,
+// What a scanner sees all round: the world's surfaces, who is on `stage`, and `pillars`. Frame of
+// the scanner: x ahead, y left.
+[[nodiscard]] motion::Scan LookAround(const sim::World& world, const sim::Stage& stage,
                                       const Eigen::Isometry3d& world_from_scanner,
                                       const std::vector<Pillar>& pillars);
 
 // What a sonar sees, straight ahead of it along x, within its cone in the level plane.
-[[nodiscard]] motion::ConeRange LookAhead(const sim::World& world,
+[[nodiscard]] motion::ConeRange LookAhead(const sim::World& world, const sim::Stage& stage,
                                           const Eigen::Isometry3d& world_from_sensor,
                                           const std::vector<Pillar>& pillars);
 

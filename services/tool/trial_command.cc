@@ -84,6 +84,9 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
   app.add_option("--follower-camera-ahead", options.follower_ahead_m,
                  "What the follower is told by --camera-ahead, metres")
       ->check(agent::CameraAheadRange());
+  app.add_option("--pass-obstacles", options.pass_obstacles_m,
+                 "What a follower with a scanner is told by --pass-obstacles, metres; 0: it waits")
+      ->check(CLI::Range(0.0, 2.0));
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));

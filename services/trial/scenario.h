@@ -36,6 +36,12 @@ struct Scenario {
   // follower's way for ten seconds.
   bool traffic = false;
   bool somebody_in_the_way = false;
+  double somebody_ahead_m = 0.8;  // of the follower's middle, once there
+  // The follower has a scanner, and stands before what that sees in its way; a cart was left half
+  // on its path; and it may go round that so far beside the path.
+  bool scanner = false;
+  bool parked_cart = false;
+  double pass_m = 0.0;
   std::optional<PaperFigures> paper;     // of the 2009 method
   std::optional<PaperFigures> icra2006;  // of the first version
 };

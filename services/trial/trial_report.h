@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,13 @@
 namespace trailcast::trial {
 
 // One trial: who, under which conditions, and what truth says of it.
+// Of a follower with a scanner.
+struct ScanFigures {
+  double waited_s = 0.0;                                       // before what stood in its way
+  double nearest_m = std::numeric_limits<double>::infinity();  // what it scanned, from its side
+  bool touched = false;                                        // something, by its bumper
+};
+
 struct TrialRow {
   std::string scenario;
   std::string method;
@@ -31,8 +39,9 @@ struct TrialRow {
   double taught_m = 0.0;
   int frames = 0;
   int hand_overs = 0;
-  std::vector<double> lap_ends_m;  // how far from the taught end each lap ended
-  std::string reason;              // why it ended, if it did not arrive
+  std::vector<double> lap_ends_m;   // how far from the taught end each lap ended
+  std::optional<ScanFigures> scan;  // in no CSV
+  std::string reason;               // why it ended, if it did not arrive
 };
 
 // Over all trials; a failed one counts with the distance at which it ended.

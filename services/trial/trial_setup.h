@@ -46,6 +46,7 @@ struct TrialSetup {
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
       [](sim::Role, std::uint64_t) { return sim::Actors{}; };
+  bool scanner = false;          // followers have one
   std::vector<TrialCase> cases;  // at least one
 };
 

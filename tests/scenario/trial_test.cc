@@ -131,6 +131,50 @@ TrialSetup ShortTrip(const TrialOptions& options) {
   return *setup;
 }
 
+// As long as is needed, and no longer, round half of the room.
+TrialSetup WithAScanner(TrialOptions options) {
+  options.trials = 1;
+  auto setup = PrepareTrials(options);
+  EXPECT_TRUE(setup.has_value()) << setup.error().message;
+  return *setup;
+}
+
+TEST(Trial, WhoHasAScannerStandsBeforeSomebodyAndGoesOn) {
+  TrialOptions options;
+  options.scenario = "blocked";
+  options.trials = 1;
+  const std::vector<TrialRow> rows = RunAll(WithAScanner(options), options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows[0].arrived) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.final_error_m, 0.1) << TrialTable(rows);
+  ASSERT_TRUE(rows[0].scan);
+  EXPECT_GT(rows[0].scan->waited_s, 8.0) << TrialTable(rows);
+  EXPECT_LT(rows[0].scan->waited_s, 20.0) << TrialTable(rows);
+  EXPECT_FALSE(rows[0].scan->touched) << TrialTable(rows);
+}
+
+TEST(Trial, WhoMayPassesACartAndComesBack) {
+  TrialOptions options;
+  options.scenario = "parked";
+  options.trials = 1;
+  std::vector<TrialRow> rows = RunAll(WithAScanner(options), options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows[0].arrived) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.final_error_m, 0.1) << TrialTable(rows);
+  EXPECT_GT(rows[0].verdict.max_path_error_m, 0.25) << TrialTable(rows);
+  EXPECT_LT(rows[0].verdict.max_path_error_m, 0.9) << TrialTable(rows);
+  ASSERT_TRUE(rows[0].scan);
+  EXPECT_FALSE(rows[0].scan->touched) << TrialTable(rows);
+  EXPECT_GT(rows[0].scan->nearest_m, 0.05) << TrialTable(rows);
+
+  options.pass_obstacles_m = 0.0;
+  rows = RunAll(WithAScanner(options), options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].state, "stuck") << TrialTable(rows);
+  EXPECT_THAT(rows[0].reason, HasSubstr("in the way: the robot waits"));
+  EXPECT_FALSE(rows[0].scan->touched) << TrialTable(rows);
+}
+
 // There and back, turned on the spot: by odometry and what comes into view; a method that does not
 // turn says so, and does not drive on.
 TEST(Trial, ARouteThatTurnsOnTheSpotIsFollowedOrRefused) {

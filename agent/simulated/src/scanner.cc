@@ -56,14 +56,17 @@ double DistanceTo(const Pillar& pillar, const Eigen::Vector2d& from,
 }
 
 // In the sensor's plane, so far to the left of where it looks; infinity: nothing there.
-double Range(const sim::World& world, const Eigen::Isometry3d& world_from_sensor, double angle_rad,
-             double most_m, const std::vector<Pillar>& pillars) {
+double Range(const sim::World& world, const sim::Stage& stage,
+             const Eigen::Isometry3d& world_from_sensor, double angle_rad, double most_m,
+             const std::vector<Pillar>& pillars) {
   const Eigen::Vector3d from = world_from_sensor.translation();
   const Eigen::Vector3d direction =
       world_from_sensor.linear() * Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0.0);
   double range_m = std::numeric_limits<double>::infinity();
   const auto hit = world.CastRay(from.cast<float>(), direction.cast<float>(), most_m);
   if (hit) range_m = hit->distance_m;
+  const auto met = stage.CastRay(from.cast<float>(), direction.cast<float>(), most_m);
+  if (met) range_m = std::min(range_m, met->distance_m);
   for (const Pillar& pillar : pillars) {
     range_m = std::min(range_m, DistanceTo(pillar, from.head<2>(), direction.head<2>()));
   }
@@ -82,24 +85,26 @@ Result<Pillar> ParsePillar(const std::string& text) {
       text);
 }
 
-motion::Scan LookAround(const sim::World& world, const Eigen::Isometry3d& world_from_scanner,
+motion::Scan LookAround(const sim::World& world, const sim::Stage& stage,
+                        const Eigen::Isometry3d& world_from_scanner,
                         const std::vector<Pillar>& pillars) {
   motion::Scan scan{-std::numbers::pi, 2.0 * std::numbers::pi / kRanges, kLeast_m, kMost_m, {}};
   for (int i = 0; i < kRanges; ++i) {
-    const double range_m =
-        Range(world, world_from_scanner, scan.first_rad + i * scan.step_rad, kMost_m, pillars);
+    const double range_m = Range(world, stage, world_from_scanner,
+                                 scan.first_rad + i * scan.step_rad, kMost_m, pillars);
     scan.ranges_m.push_back(static_cast<float>(range_m));
   }
   return scan;
 }
 
-motion::ConeRange LookAhead(const sim::World& world, const Eigen::Isometry3d& world_from_sensor,
+motion::ConeRange LookAhead(const sim::World& world, const sim::Stage& stage,
+                            const Eigen::Isometry3d& world_from_sensor,
                             const std::vector<Pillar>& pillars) {
   double nearest_m = kFurthestSonar_m;
   for (int i = 0; i < kSonarRays; ++i) {
     const double angle_rad = kSonar_rad * (static_cast<double>(i) / (kSonarRays - 1) - 0.5);
-    nearest_m =
-        std::min(nearest_m, Range(world, world_from_sensor, angle_rad, kFurthestSonar_m, pillars));
+    nearest_m = std::min(
+        nearest_m, Range(world, stage, world_from_sensor, angle_rad, kFurthestSonar_m, pillars));
   }
   const bool there = nearest_m < kFurthestSonar_m;
   return {kSonar_rad, kNearestSonar_m, kFurthestSonar_m,

@@ -105,17 +105,19 @@ Observation SimulatedDevice::State::Note(sim::Observation seen) {
 }
 
 motion::Scan SimulatedDevice::Scan(const std::vector<Pillar>& pillars) const {
-  const Eigen::Isometry3d body = sim::Judge(*state_->robot).WorldFromBody();
-  return LookAround(*state_->world, body * Eigen::Translation3d(0.0, 0.0, kScanner_m), pillars);
+  const sim::Judge truth(*state_->robot);
+  return LookAround(*state_->world, truth.stage(),
+                    truth.WorldFromBody() * Eigen::Translation3d(0.0, 0.0, kScanner_m), pillars);
 }
 
 motion::ConeRange SimulatedDevice::Range(const motion::Pose2& mount,
                                          const std::vector<Pillar>& pillars) const {
-  const Eigen::Isometry3d body = sim::Judge(*state_->robot).WorldFromBody();
+  const sim::Judge truth(*state_->robot);
   const Eigen::Isometry3d body_from_sensor =
       Eigen::Translation3d(mount.x_m, mount.y_m, kScanner_m) *
       Eigen::AngleAxisd(mount.heading_rad, Eigen::Vector3d::UnitZ());
-  return LookAhead(*state_->world, body * body_from_sensor, pillars);
+  return LookAhead(*state_->world, truth.stage(), truth.WorldFromBody() * body_from_sensor,
+                   pillars);
 }
 
 void SimulatedDevice::SetGrip(double left, double right) { state_->robot->SetGrip(left, right); }

@@ -21,7 +21,13 @@ namespace trailcast::sim {
 // The place's own, or nobody.
 [[nodiscard]] Result<Actors> TrafficFor(const Place& place, Role role, std::uint64_t seed);
 
-// Somebody in a long coat who stands in the robot's way, somewhere on the middle third of the path.
-[[nodiscard]] Result<Actor> SomebodyInTheWay(const Place& place, std::uint64_t seed);
+// Somebody in a long coat who steps in front of the robot, so far ahead of its middle, and stands
+// in its way, somewhere on the middle third of the path.
+[[nodiscard]] Result<Actor> SomebodyInTheWay(const Place& place, std::uint64_t seed,
+                                             double ahead_m);
+
+// A cart that was left on the path, where it goes straight, with one side of it a little beyond the
+// path's middle: on that side of the path where there is less room.
+[[nodiscard]] Result<Actor> CartOnThePath(const Place& place, std::uint64_t seed);
 
 }  // namespace trailcast::sim

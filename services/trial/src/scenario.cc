@@ -45,6 +45,15 @@ std::vector<Scenario> MakeScenarios() {
   add("traffic", "80 m of narrow road, a pedestrian passes, then a van", "road").traffic = true;
   add("occlusion", "a person stands in front of the camera for ten seconds", "indoor")
       .somebody_in_the_way = true;
+  Scenario& blocked =
+      add("blocked", "with a scanner: a person stands in the way for ten seconds", "indoor");
+  blocked.somebody_in_the_way = true;
+  blocked.somebody_ahead_m = 1.6;  // so that it is the scanner that lets the robot stand
+  blocked.scanner = true;
+  Scenario& parked = add("parked", "with a scanner: a cart was left half on the path", "indoor");
+  parked.parked_cart = true;
+  parked.scanner = true;
+  parked.pass_m = 0.8;
   add("wide", "indoor's world through a 110 degree lens", "indoor").cameras = {{"wide", "wide"}};
   add("omni", "indoor's world through a 360 degree mirror", "indoor").cameras = {{"omni", "omni"}};
   Scenario& twocams = add("twocams", "a parking lot with one camera, then with another", "paved");

@@ -9,6 +9,7 @@
 #include "services/sim/core/random.h"
 #include "services/sim/core/simulated_robot.h"
 #include "services/trial/cpu_time.h"
+#include "services/trial/src/scanned_way.h"
 #include "services/trial/src/served_route.h"
 #include "services/trial/src/standstill_watch.h"
 #include "services/trial/src/trial_log.h"
@@ -51,7 +52,8 @@ using SessionOpener = std::function<Result<agent::ReplaySession>()>;
 class Replaying {
  public:
   Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
-            SessionOpener open_next, int laps, agent::Diagnosis diagnosis, double push_m)
+            SessionOpener open_next, int laps, agent::Diagnosis diagnosis, double push_m,
+            std::optional<ScannedWay> way)
       : robot_(robot),
         truth_(robot),
         judge_(taught.path),
@@ -61,6 +63,7 @@ class Replaying {
         diagnosis_(std::move(diagnosis)),
         push_at_m_(0.5 * taught.path.length_m()),
         push_m_(push_m),
+        way_(std::move(way)),
         limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
   // One frame. False when the replay is over; `state` and `reason` then say how.
@@ -69,14 +72,18 @@ class Replaying {
     sim::Observation seen = robot_.Step(last_.command);
     const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
     const double off_m = judge_.Observe(position_m);
+    if (Waits(seen.stamp)) return !Ended(position_m, off_m, Seconds(seen.stamp));
     const double began_ms = ThreadCpuMs();
-    const agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
+    agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
+    if (way_) observation.stands = way_->scanned();
     auto step = session_.Observe(observation);
     const double cpu_ms = ThreadCpuMs() - began_ms;
     cpu_ms_ += cpu_ms;
     ++frames_;
     if (!step) return tl::unexpected(step.error());
     last_ = std::move(*step);
+    if (way_) last_.command = way_->Allow(last_.command);
+    NotePassing();
     diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, session_, last_);
     if (Ended(position_m, off_m, Seconds(seen.stamp))) return false;
     if (last_.state == ReplayState::kArrived) return BeginLap();
@@ -97,12 +104,27 @@ class Replaying {
     row.ms_per_frame = frames_ > 0 ? cpu_ms_ / frames_ : 0.0;
     row.state = state_;
     row.reason = reason_;
+    if (way_) row.scan = way_->figures();
     row.arrived = state_ == "arrived";
   }
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
   [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
 
  private:
+  // Before what its scanner sees in its way.
+  bool Waits(SensorTime now) {
+    if (!way_) return false;
+    way_->Look(now, truth_);
+    const auto& waits = way_->waits();
+    if (waits) last_.reason = *waits;
+    if (waits.has_value() != waits_) diagnosis_.Note("robot", waits ? *waits : "drives again");
+    return waits_ = waits.has_value();
+  }
+  void NotePassing() {
+    if (last_.passing == passing_) return;
+    passing_ = last_.passing;
+    diagnosis_.Note("passing", passing_.empty() ? "nothing stands on the path" : passing_);
+  }
   void Push() {
     diagnosis_.Note("pushed", fmt::format("{:.2f} m to the left, by the trial", push_m_));
     truth_.Shove({0.0, push_m_, 0.0});
@@ -162,7 +184,10 @@ class Replaying {
   std::vector<double> lap_ends_m_;  // how far from the taught end each lap ended
   agent::Diagnosis diagnosis_;
   double push_at_m_;
-  double push_m_;  // 0: none, or done
+  double push_m_;                  // 0: none, or done
+  std::optional<ScannedWay> way_;  // of one with a scanner
+  bool waits_ = false;
+  std::string passing_;  // as it says it
   double limit_s_;
   StandstillWatch standstill_;
   ReplayStep last_;  // a first Step of the robot with no command is a look at the start
@@ -215,7 +240,8 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   Replaying replaying(**robot, **taught, std::move(*session), open, setup.laps,
-                      std::move(*diagnosis), trial_case.push_m);
+                      std::move(*diagnosis), trial_case.push_m,
+                      setup.scanner ? std::optional<ScannedWay>(setup.world) : std::nullopt);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");

@@ -106,6 +106,11 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
     if (row.lap_ends_m.size() > 1) {
       text += fmt::format("  laps end {:.2f} m off", fmt::join(row.lap_ends_m, ", "));
     }
+    if (row.scan) {
+      text +=
+          fmt::format("  waited {:.1f} s, {} {:.2f} m off what it scanned", row.scan->waited_s,
+                      row.scan->touched ? "touched something," : "nearest", row.scan->nearest_m);
+    }
     text += row.reason.empty() ? "\n" : fmt::format("  {}\n", row.reason);
   }
   return text;

@@ -7,6 +7,7 @@
 #include "agent/simulated/camera_file.h"
 #include "services/sim/places/traffic.h"
 #include "services/trial/scenario.h"
+#include "services/trial/src/scanned_way.h"
 
 namespace trailcast::trial {
 namespace {
@@ -55,9 +56,14 @@ Result<sim::Actors> DrawActors(const Scenario& scenario, const sim::Place& place
     actors = std::move(*traffic);
   }
   if (scenario.somebody_in_the_way && role == sim::Role::kFollower) {
-    auto somebody = sim::SomebodyInTheWay(place, seed);
+    auto somebody = sim::SomebodyInTheWay(place, seed, scenario.somebody_ahead_m);
     if (!somebody) return tl::unexpected(somebody.error());
     actors.push_back(std::move(*somebody));
+  }
+  if (scenario.parked_cart && role == sim::Role::kFollower) {
+    auto cart = sim::CartOnThePath(place, seed);
+    if (!cart) return tl::unexpected(cart.error());
+    actors.push_back(std::move(*cart));
   }
   return actors;
 }
@@ -138,6 +144,9 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   setup.scout_roll_deg = options.scout_roll_deg;
   setup.follower_options.intake.roll_deg = options.follower_roll_deg;
   setup.follower_options.camera_ahead_m = options.follower_ahead_m;
+  setup.scanner = scenario->scanner;
+  setup.follower_options.passing.most_m = options.pass_obstacles_m.value_or(scenario->pass_m);
+  setup.follower_options.passing.robot = agent::OutlineOf(SimulatedBody());
   if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
   if (auto opened = OpenScene(*scenario, options, setup); !opened) {
     return tl::unexpected(opened.error());

@@ -89,7 +89,7 @@ TEST(PavementTraffic, PeopleWalkInSightAndOutOfTheWayOthersEachTime) {
 }
 
 TEST(SomebodyInTheWay, StandsOnTheMiddleOfThePath) {
-  const auto somebody = SomebodyInTheWay(Road(), 3);
+  const auto somebody = SomebodyInTheWay(Road(), 3, 0.8);
   ASSERT_TRUE(somebody);
   ASSERT_TRUE(somebody->encounter);
   const PlaceOnPath where = Nearest(Road().path.points, somebody->encounter->place);

@@ -37,25 +37,43 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 TEST(Scanner, SeesTheWorldAndWhatStandsInIt) {
   const auto world = Wall();
-  ExpectRanges(LookAround(*world, Above(1.0, 0.0), {}), 2.0F, kNothing, kNothing);
+  ExpectRanges(LookAround(*world, sim::Stage(world, {}), Above(1.0, 0.0), {}), 2.0F, kNothing,
+               kNothing);
   const Pillar ahead{{2.0, 0.0}, 0.25, {}};
   const Pillar left{{1.0, 1.5}, 0.5, {}};
-  ExpectRanges(LookAround(*world, Above(1.0, 0.0), {ahead, left}), 0.75F, 1.0F, kNothing);
+  ExpectRanges(LookAround(*world, sim::Stage(world, {}), Above(1.0, 0.0), {ahead, left}), 0.75F,
+               1.0F, kNothing);
   const Pillar behind_the_wall{{4.0, 0.0}, 0.25, {}};
-  ExpectRanges(LookAround(*world, Above(1.0, 0.0), {behind_the_wall}), 2.0F, kNothing, kNothing);
+  ExpectRanges(LookAround(*world, sim::Stage(world, {}), Above(1.0, 0.0), {behind_the_wall}), 2.0F,
+               kNothing, kNothing);
+}
+
+TEST(Scanner, SeesWhoIsThere) {
+  const auto world = Wall();
+  sim::SceneBuilder builder;
+  builder.Box(builder.AddMaterial("grey", {110, 105, 100}), {-0.25, -0.25, 0}, {0.25, 0.25, 1});
+  auto shape = std::make_shared<sim::ActorShape>();
+  shape->parts.push_back({*sim::World::Build(builder.Take("box"))});
+  sim::Timetable stands(0.0, {2.25, 0.0, 0.0});
+  stands.Stand(10.0);
+  sim::Stage stage(world, {sim::Actor{shape, stands, std::nullopt}});
+  stage.Advance(1.0, {1.0, 0.0, 0.0});
+  ExpectRanges(LookAround(*world, stage, Above(1.0, 0.0), {}), 1.0F, kNothing, kNothing);
+  EXPECT_FLOAT_EQ(LookAhead(*world, stage, Above(1.0, 0.0), {}).range_m, 1.0F);
 }
 
 TEST(Sonar, SeesTheNearestWithinItsCone) {
   const auto world = Wall();
-  EXPECT_TRUE(motion::Plausible(LookAhead(*world, Above(1.0, 0.0), {})));
-  EXPECT_FLOAT_EQ(LookAhead(*world, Above(1.0, 0.0), {}).range_m, 2.0F);
+  EXPECT_TRUE(motion::Plausible(LookAhead(*world, sim::Stage(world, {}), Above(1.0, 0.0), {})));
+  EXPECT_FLOAT_EQ(LookAhead(*world, sim::Stage(world, {}), Above(1.0, 0.0), {}).range_m, 2.0F);
   const Pillar aside{{2.0, 0.3}, 0.1, {}};
-  const float range_m = LookAhead(*world, Above(1.0, 0.0), {aside}).range_m;
+  const float range_m = LookAhead(*world, sim::Stage(world, {}), Above(1.0, 0.0), {aside}).range_m;
   EXPECT_GT(range_m, 0.9F);
   EXPECT_LT(range_m, 1.05F);
   const Pillar outside{{2.0, 0.6}, 0.1, {}};
-  EXPECT_FLOAT_EQ(LookAhead(*world, Above(1.0, 0.0), {outside}).range_m, 2.0F);
-  EXPECT_EQ(LookAhead(*world, Above(-3.0, 0.0), {}).range_m, kNothing);
+  EXPECT_FLOAT_EQ(LookAhead(*world, sim::Stage(world, {}), Above(1.0, 0.0), {outside}).range_m,
+                  2.0F);
+  EXPECT_EQ(LookAhead(*world, sim::Stage(world, {}), Above(-3.0, 0.0), {}).range_m, kNothing);
 }
 
 TEST(Pillar, IsAPlaceAWidthAndATime) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "services/sim/core/random.h"
 #include "services/sim/core/scene_builder.h"
+#include "services/sim/looks/furniture.h"
 #include "services/sim/looks/pedestrian.h"
 #include "services/sim/looks/vehicles.h"
 
@@ -91,19 +93,36 @@ Timetable Strolls(const BesidePath& road, Random& random) {
                  random.Uniform(0.9, 1.3), 0, random.Uniform(0.0, 20.0));
 }
 
-// On the middle of the path, where it goes straight: a robot in a bend would pass.
-Eigen::Vector2d OnStraight(const Polyline& path, Random& random) {
+// Between two shares of the path, where it goes straight: a robot in a bend would pass.
+struct OnPath {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double heading_rad = 0.0;
+};
+OnPath OnStraight(const Polyline& path, Random& random, double from, double to) {
   constexpr double kStretch_m = 1.5;
   constexpr int kAttempts = 50;
   double along_m = 0.0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    along_m = random.Uniform(0.3, 0.7) * Length(path);
+    along_m = random.Uniform(from, to) * Length(path);
     const Eigen::Vector2d at = PointAlong(path, along_m);
     const Eigen::Vector2d before = at - PointAlong(path, along_m - kStretch_m);
     const Eigen::Vector2d after = PointAlong(path, along_m + kStretch_m) - at;
     if (before.normalized().dot(after.normalized()) > 0.995) break;
   }
-  return PointAlong(path, along_m);
+  const Eigen::Vector2d way =
+      PointAlong(path, along_m + kStretch_m) - PointAlong(path, along_m - kStretch_m);
+  return {PointAlong(path, along_m), std::atan2(way.y(), way.x())};
+}
+
+// Free room beside a place on the path, on the side that is there.
+double RoomBeside(const World& world, const Eigen::Vector2d& at, double towards_rad) {
+  constexpr double kFar_m = 5.0;
+  constexpr double kHeight_m = 0.5;
+  const double z_m = world.FloorHeight(at.x(), at.y()).value_or(0.0) + kHeight_m;
+  const Eigen::Vector3d from(at.x(), at.y(), z_m);
+  const Eigen::Vector3d towards(std::cos(towards_rad), std::sin(towards_rad), 0.0);
+  const auto hit = world.CastRay(from.cast<float>(), towards.cast<float>(), kFar_m);
+  return hit ? hit->distance_m : kFar_m;
 }
 
 }  // namespace
@@ -148,13 +167,44 @@ Result<Actors> TrafficFor(const Place& place, Role role, std::uint64_t seed) {
   return place.traffic != nullptr ? place.traffic(place, role, seed) : Actors{};
 }
 
-Result<Actor> SomebodyInTheWay(const Place& place, std::uint64_t seed) {
+Result<Actor> SomebodyInTheWay(const Place& place, std::uint64_t seed, double ahead_m) {
   Random random(seed, "encounter");
   auto shape = MakePedestrian(random.Bits(), {.long_coat = true});
   if (!shape) return tl::unexpected(shape.error());
   Encounter encounter;
-  encounter.place = OnStraight(place.path.points, random);
+  encounter.place = OnStraight(place.path.points, random, 0.3, 0.7).at;
+  encounter.ahead_m = ahead_m;
   return Actor{std::move(*shape), std::nullopt, encounter};
+}
+
+Result<Actor> CartOnThePath(const Place& place, std::uint64_t seed) {
+  constexpr float kLong_m = 0.7F;
+  constexpr float kWide_m = 0.5F;
+  constexpr float kHigh_m = 0.9F;
+  Random random(seed, "cart");
+  SceneBuilder builder;
+  Furniture furniture(builder, random.Bits());
+  furniture.Stand(-0.5F * kLong_m, -0.5F * kWide_m, 0.0);
+  furniture.Cupboard(kLong_m, kHigh_m, kWide_m);
+  auto body = World::Build(builder.Take("cart"));
+  if (!body) return tl::unexpected(body.error());
+  ActorShape shape;
+  shape.parts.push_back({std::move(*body)});
+  const OnPath on = OnStraight(place.path.points, random, 0.15, 0.85);
+  const double left_rad = on.heading_rad + std::numbers::pi / 2.0;
+  const double room_left_m = RoomBeside(*place.world, on.at, left_rad);
+  const double room_right_m = RoomBeside(*place.world, on.at, left_rad + std::numbers::pi);
+  const double beyond_m = random.Uniform(0.0, 0.15);
+  const double left_m = (room_left_m < room_right_m ? 1.0 : -1.0) * (0.5 * kWide_m - beyond_m);
+  const Eigen::Vector2d at =
+      on.at + left_m * Eigen::Vector2d(std::cos(left_rad), std::sin(left_rad));
+  // Before the robot is there, and for longer than it may take.
+  constexpr double kFrom_s = -1.0;
+  constexpr double kFor_s = 1e6;
+  Timetable stands(kFrom_s, {at.x(), at.y(), on.heading_rad});
+  stands.Stand(kFor_s);
+  return Actor{std::make_shared<const ActorShape>(std::move(shape)), std::move(stands),
+               std::nullopt};
 }
 
 }  // namespace trailcast::sim

@@ -1,0 +1,37 @@
+#include "services/trial/src/scanned_way.h"
+
+#include "agent/simulated/scanner.h"
+
+namespace trailcast::trial {
+namespace {
+
+constexpr std::chrono::milliseconds kScan{100};
+constexpr double kScanner_m = 0.2;  // above the ground
+constexpr double kWidth_m = 0.4;    // of sim::RobotBody
+
+}  // namespace
+
+agent::ObstacleOptions SimulatedBody() {
+  agent::ObstacleOptions body;
+  body.robot_width_m = kWidth_m;
+  return body;
+}
+
+void ScannedWay::Look(SensorTime now, const sim::Judge& robot) {
+  if (waits() && last_ >= SensorTime(0)) figures_.waited_s += Seconds(now - last_);
+  figures_.touched = figures_.touched || robot.blocked();
+  last_ = now;
+  if (now < scan_at_) return;
+  scan_at_ = now + kScan;
+  const Eigen::Isometry3d scanner =
+      robot.WorldFromBody() * Eigen::Translation3d(0.0, 0.0, kScanner_m);
+  watch_.See(agent::ObstacleWatch::Time(
+                 std::chrono::duration_cast<agent::ObstacleWatch::Time::duration>(now)),
+             agent::LookAround(*world_, robot.stage(), scanner, {}));
+  const auto points = watch_.scanned();
+  for (const Eigen::Vector2d& at : *points) {
+    figures_.nearest_m = std::min(figures_.nearest_m, at.norm() - 0.5 * kWidth_m);
+  }
+}
+
+}  // namespace trailcast::trial
