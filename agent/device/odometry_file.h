@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "agent/device/src/pose_history.h"
+#include "agent/device/pose_history.h"
 #include "services/base/result.h"
 #include "services/base/time.h"
 #include "services/motion/motion.h"

@@ -5,22 +5,12 @@
 #include <vector>
 
 #include "agent/diagnosis/summary.h"
-#include "agent/simulated/robot_faults.h"
+#include "agent/simulated/robot_electronics.h"
 #include "agent/simulated/scanner.h"
 #include "agent/simulated/simulated_device.h"
 #include "services/dds/ros2_link.h"
 
 namespace trailcast::agent {
-
-// How a virtual robot's camera and base are slower, or later, than one would wish.
-struct RobotTiming {
-  double rate_hz = 30.0;          // of the base: steps, odometry; the simulated robot's own
-  double picture_rate_hz = 30.0;  // no higher
-  double dropped = 0.0;           // share of the pictures that are lost, drawn
-  double picture_delay_s = 0.0;   // from when a picture is taken until it is said
-  double base_delay_s = 0.0;      // from when a command is heard until it is obeyed
-  double stamps_late_s = 0.0;     // of pictures, against odometry's
-};
 
 struct VirtualRobotOptions {
   dds::Ros2Options topics;
@@ -38,8 +28,7 @@ struct VirtualRobotOptions {
 };
 
 // A simulated robot as a process of its own: says on the ROS 2 topics what it senses, does as it
-// is told there, until `options.stop`. As real bases do it stands when no command came for 0.5 s.
-// The summary says what it saw of its agent.
+// is told there, until `options.stop`. The summary says what it saw of its agent.
 [[nodiscard]] Result<Summary> RunVirtualRobot(SimulatedDevice& robot,
                                               const VirtualRobotOptions& options);
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "agent/device/pose_history.h"
 #include "agent/device/src/bag_topics.h"
-#include "agent/device/src/pose_history.h"
 #include "services/bag/ros_messages.h"
 #include "services/image/files.h"
 

@@ -8,8 +8,8 @@
 
 #include "agent/device/src/ros2_picture.h"
 #include "agent/device/src/scan_measures.h"
-#include "agent/device/src/stamp_clock.h"
 #include "agent/device/src/turn_series.h"
+#include "agent/device/stamp_clock.h"
 #include "services/base/angles.h"
 #include "services/vision/feature_tracker.h"
 

@@ -13,9 +13,9 @@
 
 #include "agent/device/obstacle_watch.h"
 #include "agent/device/ros2_device.h"
+#include "agent/device/sensed_poses.h"
 #include "agent/device/src/robot_watch.h"
 #include "agent/device/src/ros2_picture.h"
-#include "agent/device/src/sensed_poses.h"
 #include "agent/device/src/still_watch.h"
 
 // What the two threads of a ROS 2 robot's device share: the one that hears the robot and stops it

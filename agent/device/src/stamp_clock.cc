@@ -1,4 +1,4 @@
-#include "agent/device/src/stamp_clock.h"
+#include "agent/device/stamp_clock.h"
 
 #include <fmt/format.h>
 

@@ -2,37 +2,28 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cmath>
-#include <deque>
-#include <thread>
+#include <optional>
 #include <utility>
-
-#include "services/sim/core/random.h"
 
 namespace trailcast::agent {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-using Kind = RobotFault::Kind;
 
-constexpr milliseconds kCommandLife{500};
 constexpr milliseconds kListen{20};
 // In lockstep a frame that nobody answered is said again.
 constexpr milliseconds kSayAgain{500};
-constexpr std::chrono::seconds kClockBack{5};
-const motion::Pose2 kJump{1.6, -1.2, 0.5};
-constexpr double kSlippingGrip = 0.3;
 const motion::Pose2 kFront{0.25, 0.0, 0.0};
 
-dds::Ros2Image ToRos2(const Observation& seen) {
-  const auto width = static_cast<std::uint32_t>(seen.image.width);
-  return {.stamp = seen.stamp,
+dds::Ros2Image ToRos2(RobotElectronics::Picture picture) {
+  const auto width = static_cast<std::uint32_t>(picture.image.width);
+  return {.stamp = picture.stamp,
           .width_px = width,
-          .height_px = static_cast<std::uint32_t>(seen.image.height),
+          .height_px = static_cast<std::uint32_t>(picture.image.height),
           .encoding = "mono8",
           .step = width,
-          .data = seen.image.pixels};
+          .data = std::move(picture.image.pixels)};
 }
 
 class VirtualRobot {
@@ -41,21 +32,12 @@ class VirtualRobot {
       : robot_(robot),
         link_(link),
         options_(options),
-        faults_(options.faults),
-        drops_(options.seed, "dropped pictures") {}
+        electronics_(options.timing, options.faults, options.seed) {}
 
   [[nodiscard]] Result<void> Run();
   [[nodiscard]] Summary Tell() const;
 
  private:
-  struct Heard {
-    steady_clock::time_point at;
-    motion::VelocityCommand command;
-  };
-  struct Taken {
-    steady_clock::time_point at;
-    dds::Ros2Image image;
-  };
   [[nodiscard]] Result<std::optional<Observation>> Sense();
   [[nodiscard]] motion::VelocityCommand Obey(steady_clock::time_point now);
   [[nodiscard]] Result<void> Say(const Observation& seen);
@@ -68,24 +50,14 @@ class VirtualRobot {
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
   void Hear(const dds::Ros2Command& command);
-  void Fail(steady_clock::time_point now);
 
   SimulatedDevice& robot_;
   dds::Ros2Robot& link_;
   const VirtualRobotOptions& options_;
-  RobotFaults faults_;
-  sim::Random drops_;
-  std::deque<Heard> heard_;  // and not yet obeyed; the first one is
-  std::deque<Taken> taken_;  // and not yet said
-  double pictures_due_ = 1.0;
-  motion::Pose2 odometry_from_;  // where what is said begins
-  std::optional<motion::Pose2> odometry_;
+  RobotElectronics electronics_;
+  motion::VelocityCommand answer_;  // in lockstep
   SensorTime seen_at_{0};
-  SensorTime odometry_back_{0};
-  SensorTime pictures_back_{0};
-  std::optional<SensorTime> stands_at_;                       // the pictures' stamps
   std::optional<steady_clock::time_point> told_to_stand_at_;  // first after a fault
-  std::vector<std::uint8_t> frozen_;
   steady_clock::time_point next_tick_ = steady_clock::now();
   std::size_t frames_ = 0;
   std::size_t said_again_ = 0;
@@ -94,8 +66,9 @@ class VirtualRobot {
 
 Result<void> VirtualRobot::Run() {
   while (!options_.stop()) {
-    const auto now = steady_clock::now();
-    Fail(now);
+    const auto now = Now();
+    for (const std::string& name : electronics_.Advance(now)) spdlog::warn("from now on: {}", name);
+    robot_.SetGrip(electronics_.grip(), 1.0);
     if (auto driven = robot_.Drive(Obey(now)); !driven) return driven;
     auto seen = Sense();
     if (!seen) return tl::unexpected(seen.error());
@@ -110,41 +83,15 @@ Result<void> VirtualRobot::Run() {
   return {};
 }
 
-// What was heard a base's delay ago, unless that is too old.
 motion::VelocityCommand VirtualRobot::Obey(steady_clock::time_point now) {
-  const auto delay = FromSeconds(options_.timing.base_delay_s);
-  while (heard_.size() > 1 && now - heard_[1].at >= delay) heard_.pop_front();
-  if (heard_.empty() || faults_.active(Kind::kBaseStops)) return {};
-  if (options_.lockstep) return heard_.back().command;
-  const auto age = now - heard_.front().at;
-  return age >= delay && age <= kCommandLife + delay ? heard_.front().command
-                                                     : motion::VelocityCommand{};
+  return options_.lockstep ? answer_ : electronics_.Obey(now);
 }
 
 // A camera that is slower than the base has no picture now.
 Result<std::optional<Observation>> VirtualRobot::Sense() {
-  if (!options_.lockstep) {
-    pictures_due_ += options_.timing.picture_rate_hz / options_.timing.rate_hz;
-    if (pictures_due_ < 1.0) return std::optional(robot_.NextBlind());
-    pictures_due_ -= 1.0;
-    if (drops_.Uniform(0.0, 1.0) < options_.timing.dropped)
-      return std::optional(robot_.NextBlind());
-  }
+  if (!options_.lockstep && !electronics_.TakesPicture()) return std::optional(robot_.NextBlind());
   ++frames_;
   return robot_.Next();
-}
-
-// Faults begin when their time has come.
-void VirtualRobot::Fail(steady_clock::time_point now) {
-  for (const std::string& name : faults_.Advance(now)) {
-    spdlog::warn("from now on: {}", name);
-    if (name == "odometry-restarts") odometry_from_ = odometry_.value_or(motion::Pose2{});
-    if (name == "odometry-jumps") odometry_from_ = motion::Compose(odometry_from_, kJump);
-    if (name == "odometry-clock-back") odometry_back_ += kClockBack;
-    if (name == "camera-clock-back") pictures_back_ += kClockBack;
-  }
-  const double grip = faults_.active(Kind::kWheelSlips) ? kSlippingGrip : 1.0;
-  robot_.SetGrip(grip, 1.0);
 }
 
 Result<void> VirtualRobot::Say(const Observation& seen) {
@@ -157,10 +104,10 @@ Result<void> VirtualRobot::Say(const Observation& seen) {
 }
 
 Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
-  odometry_ = seen.odometry;
-  if (!odometry_ || faults_.active(Kind::kOdometryStops)) return {};
-  return link_.Publish(
-      dds::Ros2Odometry{seen.stamp - odometry_back_, motion::Between(odometry_from_, *odometry_)});
+  if (!seen.odometry) return {};
+  const auto said = electronics_.Say(seen.stamp, *seen.odometry);
+  if (!said) return {};
+  return link_.Publish(dds::Ros2Odometry{said->stamp, said->pose});
 }
 
 // Whose time passes only by frames in lockstep.
@@ -171,7 +118,7 @@ steady_clock::time_point VirtualRobot::Now() const {
 
 std::vector<Pillar> VirtualRobot::Obstacles() const {
   std::vector<Pillar> there;
-  const auto driven_s = faults_.SecondsDriven(Now());
+  const auto driven_s = electronics_.faults().SecondsDriven(Now());
   for (const Pillar& pillar : options_.obstacles) {
     if (driven_s && pillar.spell.contains(*driven_s)) there.push_back(pillar);
   }
@@ -198,24 +145,10 @@ Result<void> VirtualRobot::SayImu(const Observation& seen) {
 }
 
 Result<void> VirtualRobot::SayPictures(const Observation& seen) {
-  const auto now = steady_clock::now();
-  if (!seen.image.empty() && !faults_.active(Kind::kCameraStops)) {
-    dds::Ros2Image image = ToRos2(seen);
-    image.stamp += FromSeconds(options_.timing.stamps_late_s) - pictures_back_;
-    if (faults_.active(Kind::kCameraStampsStand)) {
-      if (!stands_at_) stands_at_ = image.stamp;
-      image.stamp = *stands_at_;
-    }
-    if (faults_.active(Kind::kCameraFreezes)) {
-      if (frozen_.empty()) frozen_ = image.data;
-      image.data = frozen_;
-    }
-    taken_.push_back({now, std::move(image)});
-  }
-  while (!taken_.empty() &&
-         now - taken_.front().at >= FromSeconds(options_.timing.picture_delay_s)) {
-    if (auto said = link_.Publish(taken_.front().image); !said) return said;
-    taken_.pop_front();
+  const auto now = Now();
+  if (!seen.image.empty()) electronics_.Take(now, {seen.stamp, seen.image});
+  while (auto picture = electronics_.Due(now)) {
+    if (auto said = link_.Publish(ToRos2(std::move(*picture))); !said) return said;
   }
   return {};
 }
@@ -249,12 +182,14 @@ void VirtualRobot::WaitForTick() {
 }
 
 void VirtualRobot::Hear(const dds::Ros2Command& command) {
-  const auto now = steady_clock::now();
-  heard_.push_back({now, command.velocity});
+  const auto now = Now();
+  electronics_.Hear(now, command.velocity);
+  answer_ = command.velocity;
   ++commands_;
   const bool stand = command.velocity == motion::VelocityCommand{};
-  if (!stand) faults_.DroveAt(Now());
-  if (stand && faults_.first_began_at() && !told_to_stand_at_) told_to_stand_at_ = now;
+  if (stand && electronics_.faults().first_began_at() && !told_to_stand_at_) {
+    told_to_stand_at_ = now;
+  }
 }
 
 Summary VirtualRobot::Tell() const {
@@ -262,7 +197,7 @@ Summary VirtualRobot::Tell() const {
   summary.Add("frames", std::to_string(frames_));
   summary.Add("commands", std::to_string(commands_));
   summary.Add("said_again", std::to_string(said_again_));
-  if (const auto began = faults_.first_began_at()) {
+  if (const auto began = electronics_.faults().first_began_at()) {
     summary.Add(
         "told_to_stand_after_s",
         told_to_stand_at_ ? fmt::format("{:.3f}", Seconds(*told_to_stand_at_ - *began)) : "never");

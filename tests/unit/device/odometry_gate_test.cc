@@ -1,4 +1,4 @@
-#include "agent/device/src/odometry_gate.h"
+#include "agent/device/odometry_gate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "agent/device/src/pose_history.h"
+#include "agent/device/pose_history.h"
 
 #include <gtest/gtest.h>
 

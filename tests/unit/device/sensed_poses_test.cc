@@ -1,4 +1,4 @@
-#include "agent/device/src/sensed_poses.h"
+#include "agent/device/sensed_poses.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "agent/device/src/odometry_gate.h"
-#include "agent/device/src/pose_history.h"
-#include "agent/device/src/stamp_clock.h"
+#include "agent/device/odometry_gate.h"
+#include "agent/device/pose_history.h"
+#include "agent/device/stamp_clock.h"
 
 namespace trailcast::agent {
 
