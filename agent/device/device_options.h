@@ -25,10 +25,10 @@ struct DeviceOptions {
   double sensor_patience_s = 10.0;
   double base_patience_s = 30.0;
   double still_at_end_s = 0.0;
-  vision::IntakeOptions intake;   // how its camera is mounted
-  double camera_ahead_m = 0.0;    // the same, as ReplayMethodOptions has it
-  double pass_obstacles_m = 0.0;  // as PassingOptions::most_m
-  std::filesystem::path truth;    // where a simulated robot's true poses go; empty: nowhere
+  vision::IntakeOptions intake;          // how its camera is mounted
+  std::optional<double> camera_ahead_m;  // the same, as ReplayMethodOptions has it
+  double pass_obstacles_m = 0.0;         // as PassingOptions::most_m
+  std::filesystem::path truth;           // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
   [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }

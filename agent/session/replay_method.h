@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ struct ReplayMethodOptions {
   // the route's start, or where it was left.
   bool anywhere = false;
   vision::IntakeOptions intake = {};
-  // From the axle that the robot turns about ahead to its camera, more than on the scout.
-  double camera_ahead_m = 0.0;
+  // From the axle that the robot turns about ahead to its camera, more than on the scout; nothing:
+  // not told, and learnt in bends.
+  std::optional<double> camera_ahead_m = {};
   // Round what stands on the path, by the default method with odometry.
   replay::PassingOptions passing = {};
 };

@@ -13,9 +13,12 @@ namespace trailcast::replay {
 
 struct PathEstimatorOptions {
   TaughtFlowOptions flow;
-  // From the axle that the robot turns about ahead to its camera, more than on the scout. The
-  // filter's state is the camera's place; offset() is the axle's, by which one steers.
-  double camera_ahead_m = 0.0;
+  // From the axle that the robot turns about ahead to its camera, more than on the scout; nothing:
+  // not told, and learnt where the path bends. The filter's state is the camera's place; offset()
+  // is the axle's, by which one steers.
+  std::optional<double> camera_ahead_m;
+  double told_ahead_m = 0.02;   // how sure that is when told,
+  double untold_ahead_m = 0.2;  // and when not
   // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
   // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
   double feature_noise_px = 3.0;
@@ -39,6 +42,11 @@ struct PathEstimatorOptions {
   double magnification_noise = 0.001;
   double roll_rad = 0.05;  // of each frame alone, as pitch
   double pitch_rad = 0.05;
+  // Knocked: all that is seen is turned by more than so much, and so many times what is believed
+  // to be possible, and feature by feature by the same, but for a share of it.
+  double knock_least_rad = 0.03;
+  double knock_sigmas = 3.0;
+  double knock_spread = 0.25;
   // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
   // place at least so far from the believed one has to explain what is seen. Asked every so many
   // looks: it costs as much as a few of them. Being carried is the rarest of explanations: so many
@@ -74,6 +82,8 @@ class PathEstimator {
   void Begin(const route::Segment& segment);
   // Begins a segment with the camera so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
+  // Begins a segment with the axle where it is entered: the camera is as far along as it is ahead of that.
+  void StartAt(const route::Segment& segment);
 
   // The path turns on the spot where the segment is entered, counter-clockwise positive, the robot
   // not yet: where it stands is from now on counted along, and beside, what comes after the turn.
@@ -101,6 +111,7 @@ class PathEstimator {
   }
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
+  [[nodiscard]] double camera_ahead_m() const { return state_[kAhead]; }
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const { return ExpectIn(state_); }
@@ -117,6 +128,7 @@ class PathEstimator {
     kMountYaw,
     kHeight,
     kBias,
+    kAhead,
     kCarried,
     kRoll = kCarried,
     kPitch,
@@ -159,6 +171,10 @@ class PathEstimator {
     int looks = 0;          // that say so
   };
   void BeUnsure();
+  // Whether all that is seen is turned at once by more than odometry can have missed: somebody has
+  // turned the robot on its wheels, or its camera on its mount. Which of the two only driving on
+  // tells: a robot that was turned gets off the path. Until then either is as likely.
+  void AllowForKnock(const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] Equations Linearise(const State& state, const Prior& prior,
                                     const std::vector<route::TrackedFeature>& seen,
                                     double cauchy_px) const;

@@ -21,13 +21,14 @@ struct TrialOptions {
   // What the two robots are told of how their cameras are mounted.
   double scout_roll_deg = 0.0;
   double follower_roll_deg = 0.0;
-  double follower_ahead_m = 0.0;
+  std::optional<double> follower_ahead_m;
   // How far beside the path a follower with a scanner may pass what stands on it; nothing: as the
   // scenario says.
   std::optional<double> pass_obstacles_m;
-  double speed_mps = 0.0;  // of the scout on the straight; 0: the scenario's own
-  int trials = 10;         // of each method and each of the scenario's cases
-  std::uint64_t seed = 1;  // trial i of n is drawn from seed + i - 1 alone
+  std::vector<std::string> flaws;  // of the follower, each for itself; empty: the scenario's
+  double speed_mps = 0.0;          // of the scout on the straight; 0: the scenario's own
+  int trials = 10;                 // of each method and each of the scenario's cases
+  std::uint64_t seed = 1;          // trial i of n is drawn from seed + i - 1 alone
   // The robot that taught follows, with the same camera on the same mount and the same wheels, past
   // nobody, under the sun of its teaching: how the paper measured.
   bool same_robot = false;

@@ -18,6 +18,14 @@ constexpr double kCurvatureStep_m = 0.1;
 // Within these two looks are from one place.
 constexpr double kStands_m = 0.001;
 constexpr double kStands_rad = 0.001;
+constexpr std::size_t kFewestOfKnock = 10;  // features: a handful may be mismatches
+
+// Not of nothing.
+double Median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 void Count(double residual_px, double outlier_px, Agreement& agreement) {
   if (residual_px < outlier_px) {
@@ -34,6 +42,9 @@ PathEstimator::PathEstimator(int scout_width_px, double magnification,
                              const PathEstimatorOptions& options)
     : options_(options), scout_width_px_(scout_width_px), flow_(scout_width_px, options.flow) {
   state_[kMagnification] = magnification;
+  state_[kAhead] = options_.camera_ahead_m.value_or(0.0);
+  covariance_(kAhead, kAhead) =
+      Square(options_.camera_ahead_m ? options_.told_ahead_m : options_.untold_ahead_m);
   BeUnsure();
 }
 
@@ -58,6 +69,13 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   last_heading_ = {};
 }
 
+void PathEstimator::StartAt(const route::Segment& segment) {
+  Restart(segment, EntryOf(segment) + state_[kAhead]);
+  const double variance = covariance_(kAhead, kAhead);
+  covariance_(kAlong, kAlong) += variance;
+  covariance_(kAlong, kAhead) = covariance_(kAhead, kAlong) = variance;
+}
+
 void PathEstimator::TurnPath(double turn_rad) {
   Covariance rotated = Covariance::Identity();
   rotated(kAlong, kAlong) = rotated(kLeft, kLeft) = std::cos(turn_rad);
@@ -75,11 +93,10 @@ void PathEstimator::TurnPath(double turn_rad) {
 }
 
 double PathEstimator::TaughtHeading(double along_m) const {
-  const double beyond_m = along_m - segment_.length_m;
-  if (beyond_m > 0.0 && options_.camera_ahead_m > 0.0) {  // straight on: a cubic bends away
-    return route::HeadingAt(segment_.heading, segment_.length_m);
+  // Beyond the end straight on: a cubic bends away.
+  if (along_m >= 0.0) {
+    return route::HeadingAt(segment_.heading, std::min(along_m, segment_.length_m));
   }
-  if (along_m >= 0.0) return route::HeadingAt(segment_.heading, along_m);
   return route::HeadingAt(last_heading_, last_length_m_ + along_m) -
          route::HeadingAt(last_heading_, last_length_m_);
 }
@@ -111,8 +128,11 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
+// What it has learnt of its own camera's place on the robot stays true wherever that is.
 void PathEstimator::BeUnsure() {
+  const double ahead_variance = covariance_(kAhead, kAhead);
   covariance_.setZero();
+  covariance_(kAhead, kAhead) = ahead_variance;
   covariance_(kLeft, kLeft) = Square(options_.start_left_m);
   covariance_(kHeading, kHeading) = Square(options_.start_heading_rad);
   covariance_(kAlong, kAlong) = Square(options_.start_along_m);
@@ -139,7 +159,7 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
       TaughtTurn(before_m - 0.5 * kCurvatureStep_m, before_m + 0.5 * kCurvatureStep_m) /
       kCurvatureStep_m;
   const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
-  const double aside_m = options_.camera_ahead_m * moved.heading_change_rad;  // of the camera
+  const double aside_m = state_[kAhead] * moved.heading_change_rad;  // of the camera
   const double along_m = (moved.distance_m * std::cos(alpha) - aside_m * std::sin(alpha)) / stretch;
   const double turned = TaughtTurn(before_m, before_m + along_m);
   state_[kAlong] += along_m;
@@ -150,6 +170,8 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
 
   Covariance f = Covariance::Identity();
   f(kLeft, kHeading) = moved.distance_m;
+  f(kLeft, kAhead) = moved.heading_change_rad * std::cos(alpha);
+  f(kAlong, kAhead) = -moved.heading_change_rad * std::sin(alpha) / stretch;
   f(kHeading, kBias) = moved.distance_m;
   covariance_ = f * covariance_ * f.transpose();
   const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
@@ -249,7 +271,28 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
   return equations;
 }
 
+void PathEstimator::AllowForKnock(const std::vector<route::TrackedFeature>& seen) {
+  if (seen.size() < kFewestOfKnock) return;
+  std::vector<double> turns_rad;
+  for (const route::TrackedFeature& feature : seen) {
+    const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state_);
+    turns_rad.push_back((feature.u_px - p.u_px) / p.du[kHeading]);
+  }
+  const double turned_rad = Median(turns_rad);
+  for (double& turn_rad : turns_rad) turn_rad = std::abs(turn_rad - turned_rad);
+  const double known_to_rad =
+      std::sqrt(covariance_(kHeading, kHeading) + covariance_(kMountYaw, kMountYaw) +
+                2.0 * covariance_(kHeading, kMountYaw));
+  const double possible_rad = options_.knock_least_rad + options_.knock_sigmas * known_to_rad;
+  if (std::abs(turned_rad) < possible_rad) return;
+  if (Median(turns_rad) > options_.knock_spread * std::abs(turned_rad)) return;
+  covariance_(kHeading, kHeading) += Square(turned_rad);
+  covariance_(kMountYaw, kMountYaw) += Square(turned_rad);
+  last_look_.reset();
+}
+
 Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
+  AllowForKnock(seen);
   const bool stands =
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
@@ -267,7 +310,7 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
 }
 
 PathOffset PathEstimator::offset() const {
-  const double ahead_m = options_.camera_ahead_m;
+  const double ahead_m = state_[kAhead];
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   const double turned = TaughtTurn(along_m, state_[kAlong]);
   const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
@@ -275,10 +318,12 @@ PathOffset PathEstimator::offset() const {
 }
 
 double PathEstimator::offset_sigma_m() const {
-  const double ahead_m = options_.camera_ahead_m;
-  const double variance = covariance_(kLeft, kLeft) - 2.0 * ahead_m * covariance_(kLeft, kHeading) +
-                          Square(ahead_m) * covariance_(kHeading, kHeading);
-  return std::sqrt(std::max(0.0, variance));
+  const double along_m = state_[kAlong] - state_[kAhead] * std::cos(state_[kHeading]);
+  Row left = Row::Zero();  // of the axle, by the state
+  left[kLeft] = 1.0;
+  left[kHeading] = -state_[kAhead];
+  left[kAhead] = -std::sin(state_[kHeading]) - 0.5 * TaughtTurn(along_m, state_[kAlong]);
+  return std::sqrt(std::max(0.0, (left * covariance_ * left.transpose()).value()));
 }
 
 std::vector<route::TrackedFeature> PathEstimator::ExpectIn(const State& state) const {

@@ -26,9 +26,9 @@ void PathFollower::Begin(const route::Segment& segment) {
     segment_ = segment;
   } else {
     // A robot is put to the route's start with its axle.
-    const double camera_m = begun_ ? 0.0 : options_.estimator.camera_ahead_m;
-    const double driven_m = segment.reverse ? -camera_m : camera_m;
-    BeginAt(segment, driven_m / std::max(1e-3, segment.length_m));
+    const bool at_start = !begun_;
+    BeginAt(segment, 0.0);
+    if (at_start) estimator_.StartAt(AsForward(segment));
   }
   if (segment.turn_before_rad != 0.0) estimator_.TurnPath(segment.turn_before_rad);
   turning_ = std::abs(segment.turn_before_rad) >= options_.spot_turn_least_rad;
