@@ -47,6 +47,7 @@ struct PathEstimatorOptions {
   double knock_least_rad = 0.03;
   double knock_sigmas = 3.0;
   double knock_spread = 0.25;
+  double knock_apart_m = 0.5;  // what turns again within so much is the robot
   // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
   // place at least so far from the believed one has to explain what is seen. Asked every so many
   // looks: it costs as much as a few of them. Being carried is the rarest of explanations: so many
@@ -173,8 +174,10 @@ class PathEstimator {
   void BeUnsure();
   // Whether all that is seen is turned at once by more than odometry can have missed: somebody has
   // turned the robot on its wheels, or its camera on its mount. Which of the two only driving on
-  // tells: a robot that was turned gets off the path. Until then either is as likely.
+  // tells: a robot that was turned gets off the path. Until then either is as likely; but what goes
+  // on turning is the robot, whose wheels slip.
   void AllowForKnock(const std::vector<route::TrackedFeature>& seen);
+  [[nodiscard]] bool WasTurnedLately() const;
   [[nodiscard]] Equations Linearise(const State& state, const Prior& prior,
                                     const std::vector<route::TrackedFeature>& seen,
                                     double cauchy_px) const;
@@ -206,6 +209,7 @@ class PathEstimator {
   int looks_ = 0;
   double driven_m_ = 0.0;
   std::optional<CarriedTo> carried_;
+  std::optional<double> turned_at_m_;  // driven when all was turned at once
 };
 
 }  // namespace trailcast::replay

@@ -28,6 +28,8 @@ struct ScoutCamera {
   double ahead_u_px = 0.0;
   double ahead_v_px = 0.0;
 
+  // Where a feature at (u, v) is after a turn to the left, however large: its flow integrated.
+  [[nodiscard]] Eigen::Vector2d Turned(const Eigen::Vector2d& place, double turn_rad) const;
   // Flow of a feature at (u, v) for a small turn to the left, pixels per radian.
   [[nodiscard]] double TurnU(double u_px) const {
     return focal_px + widening * u_px * u_px / focal_px;

@@ -18,6 +18,10 @@ struct FeatureTrackerOptions {
   double middle_share = 0.25;  // of width and height: the picture's middle, for Detect
   int window_px = 7;           // the paper's figure
   int pyramid_levels = 3;      // beyond the full image: motions up to about 40 px between frames
+  // A turn is believed to move features by this share of the width for each radian, as with a usual
+  // webcam, once that is more than so many pixels: that far they are found without.
+  double turn_share = 0.87;
+  double turn_least_px = 12.0;
   // A feature tracked forward and back again must return to where it came from this closely.
   double forward_backward_px = 0.7;
 };
@@ -39,7 +43,10 @@ class FeatureTracker {
   FeatureTracker(FeatureTracker&&) noexcept;
 
   // Takes the next frame and finds the current features in it. The first frame gives none.
-  std::vector<route::TrackedFeature> Track(const image::GrayImage& frame);
+  // `turned_rad`: what odometry says that the robot turned meanwhile, counter-clockwise positive. A
+  // turn that moves features further than they can be followed, at few frames a second, says where
+  // about to look for them.
+  std::vector<route::TrackedFeature> Track(const image::GrayImage& frame, double turned_rad = 0.0);
 
   // Forgets the current features and detects new ones in the last frame, ids from 0: those spread
   // over the picture and, where fewer than `in_the_middle` of them are in its middle, more there,

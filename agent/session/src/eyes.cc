@@ -45,7 +45,7 @@ Result<Seen> Eyes::See(const Observation& observation) {
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
   const std::vector<route::TrackedFeature> before = tracker_.Current();
-  seen.features = tracker_.Track(*seen.frame);
+  seen.features = tracker_.Track(*seen.frame, seen.driven ? seen.driven->heading_change_rad : 0.0);
   seen.flow = Flow(before, seen.features, seen.frame->width);
   return seen;
 }

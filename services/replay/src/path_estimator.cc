@@ -170,8 +170,10 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
 
   Covariance f = Covariance::Identity();
   f(kLeft, kHeading) = moved.distance_m;
-  f(kLeft, kAhead) = moved.heading_change_rad * std::cos(alpha);
-  f(kAlong, kAhead) = -moved.heading_change_rad * std::sin(alpha) / stretch;
+  if (!WasTurnedLately()) {  // otherwise odometry's turns say nothing of where the camera swings
+    f(kLeft, kAhead) = moved.heading_change_rad * std::cos(alpha);
+    f(kAlong, kAhead) = -moved.heading_change_rad * std::sin(alpha) / stretch;
+  }
   f(kHeading, kBias) = moved.distance_m;
   covariance_ = f * covariance_ * f.transpose();
   const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
@@ -210,11 +212,12 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   const double k = state[kMagnification];
   const double rho = depths_[index].At(std::min(along_m, segment_.length_m));
   const double alpha = state[kHeading] + state[kMountYaw];
-  const double turn_u = camera.TurnU(u);
-  const double turn_v = camera.TurnV(u, v);
-  const double scout_u = u + turn_u * alpha + f * rho * state[kLeft] - v * state[kRoll];
+  const Eigen::Vector2d turned = camera.Turned({u, v}, alpha);
+  const double turn_u = camera.TurnU(turned.x());
+  const double turn_v = camera.TurnV(turned.x(), turned.y());
+  const double scout_u = turned.x() + f * rho * state[kLeft] - v * state[kRoll];
   const double scout_v =
-      v + alpha * turn_v + u * state[kRoll] + f * state[kPitch] + f * rho * state[kHeight];
+      turned.y() + u * state[kRoll] + f * state[kPitch] + f * rho * state[kHeight];
   Row du = Row::Zero();
   Row dv = Row::Zero();
   du[kLeft] = f * rho;
@@ -271,6 +274,10 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
   return equations;
 }
 
+bool PathEstimator::WasTurnedLately() const {
+  return turned_at_m_ && driven_m_ - *turned_at_m_ < options_.knock_apart_m;
+}
+
 void PathEstimator::AllowForKnock(const std::vector<route::TrackedFeature>& seen) {
   if (seen.size() < kFewestOfKnock) return;
   std::vector<double> turns_rad;
@@ -287,7 +294,8 @@ void PathEstimator::AllowForKnock(const std::vector<route::TrackedFeature>& seen
   if (std::abs(turned_rad) < possible_rad) return;
   if (Median(turns_rad) > options_.knock_spread * std::abs(turned_rad)) return;
   covariance_(kHeading, kHeading) += Square(turned_rad);
-  covariance_(kMountYaw, kMountYaw) += Square(turned_rad);
+  if (!WasTurnedLately()) covariance_(kMountYaw, kMountYaw) += Square(turned_rad);
+  turned_at_m_ = driven_m_;
   last_look_.reset();
 }
 

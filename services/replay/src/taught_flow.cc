@@ -10,6 +10,11 @@
 namespace trailcast::replay {
 namespace {
 
+// Below, the flow of a turn is the same all over the picture.
+constexpr double kLeastWidening = 1e-4;
+// What a turn takes further round is no more in front of the camera.
+constexpr double kSideways_rad = 1.4;
+
 constexpr int kIterations = 6;
 constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer is ever in view
 constexpr double kCauchySigmas = 3.0;
@@ -73,6 +78,13 @@ struct TaughtFlow::Equations {
     depth_gradient += weight * depth_slope * residual;
   }
 };
+
+Eigen::Vector2d ScoutCamera::Turned(const Eigen::Vector2d& place, double turn_rad) const {
+  const double root = std::sqrt(std::max(kLeastWidening, widening));
+  const double from_rad = std::atan(root * place.x() / focal_px);
+  const double to_rad = std::clamp(from_rad + root * turn_rad, -kSideways_rad, kSideways_rad);
+  return {focal_px / root * std::tan(to_rad), place.y() * std::cos(from_rad) / std::cos(to_rad)};
+}
 
 TaughtFlow::TaughtFlow(int scout_width_px, const TaughtFlowOptions& options)
     : options_(options), noise_px_(options.track_noise_px_at_320 * scout_width_px / 320.0) {

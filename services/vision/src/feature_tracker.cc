@@ -76,6 +76,7 @@ struct FeatureTracker::State {
   [[nodiscard]] Flow FlowTo(const Pyramid& from, const Pyramid& to,
                             const std::vector<cv::Point2f>& start,
                             const std::vector<cv::Point2f>& guess) const;
+  [[nodiscard]] std::vector<cv::Point2f> Turned(double turned_rad) const;
   void KeepThoseThatReturn(const Flow& forward, const Flow& backward);
   void DetectInTheMiddle(const cv::Mat& frame, const cv::Mat& where, int wanted);
   [[nodiscard]] std::vector<route::TrackedFeature> Current() const;
@@ -95,6 +96,15 @@ Flow FeatureTracker::State::FlowTo(const Pyramid& from, const Pyramid& to,
                            pyramid_levels, kFlowEnd, cv::OPTFLOW_USE_INITIAL_FLOW,
                            kFlowMinEigenvalue);
   return flow;
+}
+
+// Where the features are after a turn, if it moves them far.
+std::vector<cv::Point2f> FeatureTracker::State::Turned(double turned_rad) const {
+  std::vector<cv::Point2f> guess = points;
+  const double right_px = turned_rad * options.turn_share * last.front().cols;
+  if (std::abs(right_px) < options.turn_least_px) return guess;
+  for (cv::Point2f& point : guess) point.x += static_cast<float>(right_px);
+  return guess;
 }
 
 void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow& backward) {
@@ -170,13 +180,14 @@ FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
 FeatureTracker::~FeatureTracker() = default;
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 
-std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame) {
+std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame,
+                                                         double turned_rad) {
   State& s = *state_;
   s.Build(View(frame), s.next);
   if (s.frames++ % kSurroundEvery == 0) s.surround.Add(View(frame));
   s.losses = {};
   if (!s.points.empty()) {
-    const Flow forward = s.FlowTo(s.last, s.next, s.points, s.points);
+    const Flow forward = s.FlowTo(s.last, s.next, s.points, s.Turned(turned_rad));
     const Flow backward = s.FlowTo(s.next, s.last, forward.points, s.points);
     s.KeepThoseThatReturn(forward, backward);
   }

@@ -85,19 +85,24 @@ TEST(PathEstimator, LearnsInBendsHowFarItsCameraIsAhead) {
   constexpr double kTurn_radpm = 0.4;
   for (const double ahead_m : {0.0, 0.3, -0.2}) {
     PathEstimator estimator(320, 1.0);
-    motion::Pose2 scout;
-    motion::Pose2 robot;
+    std::vector<test::TaughtRun> runs;
     for (int segment = 0; segment < 4; ++segment) {
+      const motion::Pose2 scout = runs.empty() ? motion::Pose2{} : runs.back().end;
       const double turn_rad = segment < 2 ? kTurn_radpm : -kTurn_radpm;
-      const auto run = test::TeachArcs(kScene, scout, {{1.0, turn_rad}});
-      segment == 0 ? estimator.StartAt(run.segment) : estimator.Begin(run.segment);
-      for (int i = 0; i < 50; ++i) {
-        const motion::Pose2 camera = motion::Compose(robot, {ahead_m, 0.0, 0.0});
-        estimator.Update(test::Matched(kScene, run, camera));
-        robot = motion::Advance(robot, {0.02, 0.02 * turn_rad});
-        estimator.Predict({0.02, 0.02 * turn_rad});
+      runs.push_back(test::TeachArcs(kScene, scout, {{1.0, turn_rad}}));
+    }
+    estimator.StartAt(runs[0].segment);
+    std::size_t segment = 0;
+    motion::Pose2 robot;
+    for (int i = 0; i < 200; ++i) {
+      if (estimator.camera_along_m() >= 1.0 && segment < 3) {
+        estimator.Begin(runs[++segment].segment);
       }
-      scout = robot;
+      const motion::Pose2 camera = motion::Compose(robot, {ahead_m, 0.0, 0.0});
+      estimator.Update(test::Matched(kScene, runs[segment], camera));
+      const double turn_rad = 0.02 * (i < 100 ? kTurn_radpm : -kTurn_radpm);
+      robot = motion::Advance(robot, {0.02, turn_rad});
+      estimator.Predict({0.02, turn_rad});
     }
     EXPECT_NEAR(estimator.camera_ahead_m(), ahead_m, 0.12);
     EXPECT_NEAR(estimator.offset().along_m, 1.0, 0.06) << ahead_m;
@@ -119,23 +124,37 @@ TEST(PathEstimator, ASpotTurnSwingsACameraAheadAndNotTheAxle) {
   EXPECT_NEAR(estimator.camera_along_m(), 0.3, 0.02);
 }
 
-// How far off a straight path a robot gets, in closed loop, whose camera's mount is knocked by so
-// much to the left half way.
-double FarthestAfterKnock(double knock_rad) {
+struct Mishap {
+  double knock_rad = 0.0;  // the camera's mount, to the left
+  double left_grip = 1.0;  // of the left wheel, for a second
+  double frame_s = kDt_s;
+};
+
+// How far off a straight path a robot gets, in closed loop, to which that happens half way.
+double FarthestAfter(const Mishap& mishap) {
+  constexpr double kWheelBase_m = 0.34;
   constexpr double kSpeed_mps = 0.4;
   const test::LandmarkScene scene = test::LandmarkScene::Corridor(2.0, 24.0, 240, 7);
   PathEstimator estimator(320, 1.0);
   motion::Pose2 robot;
   double farthest_m = 0.0;
+  double slipped_s = 0.0;
   for (int segment = 0; segment < 8; ++segment) {
     const auto run = test::TeachArcs(scene, {1.0 * segment, 0.0, 0.0}, {{1.0, 0.0}});
     estimator.Begin(run.segment);
     while (estimator.offset().along_m < 1.0) {
-      const double mount_rad = robot.x_m > 4.2 ? knock_rad : 0.0;
+      const bool happened = robot.x_m > 4.2;
+      const double mount_rad = happened ? mishap.knock_rad : 0.0;
       estimator.Update(test::Matched(scene, run, motion::Compose(robot, {0.0, 0.0, mount_rad})));
       const double turn_rate = LaneKeepingTurnRate(estimator.offset(), 0.0, kSpeed_mps);
-      const motion::OdometryIncrement moved{kSpeed_mps * kDt_s, turn_rate * kDt_s};
-      robot = motion::Advance(robot, moved);
+      const motion::OdometryIncrement moved{kSpeed_mps * mishap.frame_s,
+                                            turn_rate * mishap.frame_s};
+      const bool slips = happened && slipped_s < 1.0;
+      if (slips) slipped_s += mishap.frame_s;
+      const double left_m = moved.distance_m - 0.5 * kWheelBase_m * moved.heading_change_rad;
+      const double lost_m = slips ? (1.0 - mishap.left_grip) * left_m : 0.0;
+      robot = motion::Advance(robot, {moved.distance_m - 0.5 * lost_m,
+                                      moved.heading_change_rad + lost_m / kWheelBase_m});
       estimator.Predict(moved);
       farthest_m = std::max(farthest_m, std::abs(robot.y_m));
       if (std::abs(robot.y_m) > 2.0) return farthest_m;
@@ -145,9 +164,18 @@ double FarthestAfterKnock(double knock_rad) {
 }
 
 TEST(PathEstimator, IsNotLedFarByAMountThatIsKnockedOnTheWay) {
-  EXPECT_LT(FarthestAfterKnock(0.0), 0.03);
+  EXPECT_LT(FarthestAfter({}), 0.03);
   for (const double knock_rad : {0.09, -0.09, 0.05}) {
-    EXPECT_LT(FarthestAfterKnock(knock_rad), 0.06) << knock_rad;
+    EXPECT_LT(FarthestAfter({.knock_rad = knock_rad}), 0.06) << knock_rad;
+  }
+}
+
+TEST(PathEstimator, IsNotLedFarByAWheelThatSlips) {
+  for (const double frame_s : {kDt_s, 0.1, 0.2}) {
+    for (const double grip : {0.3, 0.6}) {
+      EXPECT_LT(FarthestAfter({.left_grip = grip, .frame_s = frame_s}), 0.2)
+          << grip << " " << frame_s;
+    }
   }
 }
 
