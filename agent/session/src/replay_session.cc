@@ -7,6 +7,7 @@
 
 #include "agent/session/src/eyes.h"
 #include "agent/session/src/feature_follower.h"
+#include "agent/session/src/frame_pace.h"
 #include "agent/session/src/known_route.h"
 #include "agent/session/src/place_keeper.h"
 #include "agent/session/src/standing.h"
@@ -52,6 +53,7 @@ struct ReplaySession::State {
   KnownRoute route;
   Eyes eyes;
   UprightWatch upright;
+  FramePace pace;
   PlaceKeeper place;
   FeatureFollower by_features;
   ViewFollower by_views;
@@ -85,6 +87,7 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
 
 void ReplaySession::State::NoteTime(SensorTime stamp) {
   const auto before = std::exchange(last_stamp, stamp);
+  if (before) pace.Note(Seconds(stamp - *before));
   looked_s = before ? std::clamp(Seconds(stamp - *before), 0.0, kLongestFrame_s) : kFirstFrame_s;
 }
 
@@ -174,6 +177,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
   s.Locate(*seen);
   s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
+  if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};
