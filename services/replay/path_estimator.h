@@ -83,7 +83,7 @@ class PathEstimator {
   void Begin(const route::Segment& segment);
   // Begins a segment with the camera so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
-  // Begins a segment with the axle where it is entered: the camera is as far along as it is ahead of that.
+  // Begins a segment with the axle where that is entered, and the camera as far ahead as it is.
   void StartAt(const route::Segment& segment);
 
   // The path turns on the spot where the segment is entered, counter-clockwise positive, the robot

@@ -10,6 +10,7 @@
 #include "agent/device/device_options.h"
 #include "services/program/live_lines.h"
 #include "services/tool/command.h"
+#include "services/trial/flaws.h"
 #include "services/trial/scenario.h"
 #include "services/trial/trial_batch.h"
 #include "services/trial/trial_csv.h"
@@ -33,6 +34,7 @@ constexpr const char* kExamples =
     "  trailcast trial --scenario rough --method paper,icra2006 --same-robot   # as the paper did\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --scenario loop --laps 10 --trials 1   # does it drift from lap to lap?\n"
+    "  trailcast trial --flaw upside-down,late,all --trials 3   # as real robots are\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.log\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
@@ -41,6 +43,13 @@ std::string ScenarioHelp() {
   std::string help = "A built-in one:";
   for (const trial::Scenario& each : trial::Scenarios())
     help += fmt::format("\n{:<8} {}", each.name, each.summary);
+  return help;
+}
+
+std::string FlawHelp() {
+  std::string help = "What is wrong with the follower, one or several, each in trials of its own:";
+  for (const trial::Flaw& each : trial::Flaws())
+    help += fmt::format("\n{:<11} {}", each.name, each.summary);
   return help;
 }
 
@@ -87,6 +96,7 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
   app.add_option("--pass-obstacles", options.pass_obstacles_m,
                  "What a follower with a scanner is told by --pass-obstacles, metres; 0: it waits")
       ->check(CLI::Range(0.0, 2.0));
+  app.add_option("--flaw", options.flaws, FlawHelp())->delimiter(',');
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--trials", options.trials, "How many")->check(CLI::Range(1, 10000));

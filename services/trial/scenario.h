@@ -22,7 +22,7 @@ struct CameraPair {
 };
 
 // One of the experiments that following is measured by. Each trial is run once for every pair of
-// cameras and for every push.
+// cameras, for every push and for every flaw.
 struct Scenario {
   std::string name;
   std::string summary;
@@ -31,7 +31,9 @@ struct Scenario {
   // The follower is shoved this far to the side, half way; its odometry does not notice.
   std::vector<double> pushes_m = {0.0};
   bool through_server = false;  // followers replay what a route server gives them
-  std::optional<double> gain;   // exposure of the follower against the scout's; drawn
+  // What the follower has of real robots' flaws, each in trials of its own; empty: none.
+  std::vector<std::string> flaws = {""};
+  std::optional<double> gain;  // exposure of the follower against the scout's; drawn
   // Others move about while the robots drive: the place's traffic, and somebody who stands in the
   // follower's way for ten seconds.
   bool traffic = false;

@@ -26,6 +26,7 @@ struct TrialRow {
   std::string follower_camera;
   bool same_robot = false;  // the robot that taught followed
   double push_m = 0.0;      // to the left, half way
+  std::string flaw;         // of the follower; empty: none
   int trial = 0;            // from 1
   std::uint64_t seed = 0;   // `--trials 1 --seed <this>` repeats this trial alone
   bool arrived = false;     // by itself, within 2 m, never more than 5 m off
@@ -63,7 +64,8 @@ struct TrialSummary {
 [[nodiscard]] TrialSummary Summarize(const std::vector<TrialRow>& rows);
 
 // What sets a trial's row apart from others of its scenario, besides the seed: method, cameras,
-// whether one robot did both, and push; and the rows of each, in the order of their first ones.
+// whether one robot did both, push and flaw; and the rows of each, in the order of their first
+// ones.
 [[nodiscard]] std::string CaseName(const TrialRow& row);
 [[nodiscard]] std::vector<std::vector<TrialRow>> Cases(const std::vector<TrialRow>& rows);
 

@@ -25,6 +25,7 @@ struct TrialCase {
   sim::CameraModel follower_camera;
   double push_m = 0.0;  // to the left, half way; 0: none
   bool through_server = false;
+  std::string flaw;  // of the follower, one of Flaws(); empty: none
 };
 
 // How a scout of that method teaches: as printed, segments end by the 50 % rule or at the length

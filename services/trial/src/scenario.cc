@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "services/sim/core/camera.h"
+#include "services/trial/flaws.h"
 
 namespace trailcast::trial {
 namespace {
@@ -71,6 +72,11 @@ std::vector<Scenario> MakeScenarios() {
   add("field", "30 m in the open, all features far away", "field");
   add("dead-end", "18 m into a dead end and back, turned on the spot", "dead-end");
   add("shunt", "22 m, backwards out of a parking place and on", "parking-place");
+  Scenario& robots = add("robots", "indoor, and all that real robots do wrong", "indoor");
+  for (const std::string& flaw : FlawNames()) robots.flaws.push_back(flaw);
+  Scenario& robots_paved = add("robots-paved", "the same on a parking lot", "paved");
+  robots_paved.flaws = robots.flaws;
+  robots_paved.traffic = true;
   add("dusk", "indoor, taught at noon and followed at dusk", "indoor").gain = 0.4;
   return all;
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "services/sim/core/random.h"
 #include "services/sim/core/simulated_robot.h"
 #include "services/trial/cpu_time.h"
+#include "services/trial/src/flawed_robot.h"
 #include "services/trial/src/scanned_way.h"
 #include "services/trial/src/served_route.h"
 #include "services/trial/src/standstill_watch.h"
@@ -27,10 +29,10 @@ constexpr int kProgressEvery = 15;   // frames
 constexpr double kTeachShare = 0.4;  // of a trial's work
 
 Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
-                                                   const TrialCase& trial_case,
+                                                   const sim::CameraModel& camera,
                                                    const TrialSeeds& seeds) {
   sim::SimulatedRobotOptions options;
-  options.camera = trial_case.follower_camera;
+  options.camera = camera;
   options.start = sim::StartPose(setup.path);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
@@ -51,10 +53,11 @@ using SessionOpener = std::function<Result<agent::ReplaySession>()>;
 // lap, each with a session of its own, from where the one before has left the robot.
 class Replaying {
  public:
-  Replaying(sim::SimulatedRobot& robot, const Taught& taught, agent::ReplaySession session,
-            SessionOpener open_next, int laps, agent::Diagnosis diagnosis, double push_m,
-            std::optional<ScannedWay> way)
+  Replaying(sim::SimulatedRobot& robot, std::optional<FlawedRobot> flawed, const Taught& taught,
+            agent::ReplaySession session, SessionOpener open_next, int laps,
+            agent::Diagnosis diagnosis, double push_m, std::optional<ScannedWay> way)
       : robot_(robot),
+        flawed_(std::move(flawed)),
         truth_(robot),
         judge_(taught.path),
         session_(std::move(session)),
@@ -69,14 +72,12 @@ class Replaying {
   // One frame. False when the replay is over; `state` and `reason` then say how.
   Result<bool> Step() {
     if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
-    sim::Observation seen = robot_.Step(last_.command);
-    const Eigen::Vector2d position_m = motion::Position(truth_.true_pose());
-    const double off_m = judge_.Observe(position_m);
-    if (Waits(seen.stamp)) return !Ended(position_m, off_m, Seconds(seen.stamp));
+    std::optional<agent::Observation> observation = See();
+    if (!observation) return !End("blind", "no picture came for long");
+    if (Waits()) return !Ended(motion::Position(truth_.true_pose()));
+    if (way_) observation->stands = way_->scanned();
     const double began_ms = ThreadCpuMs();
-    agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
-    if (way_) observation.stands = way_->scanned();
-    auto step = session_.Observe(observation);
+    auto step = session_.Observe(*observation);
     const double cpu_ms = ThreadCpuMs() - began_ms;
     cpu_ms_ += cpu_ms;
     ++frames_;
@@ -84,8 +85,8 @@ class Replaying {
     last_ = std::move(*step);
     if (way_) last_.command = way_->Allow(last_.command);
     NotePassing();
-    diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, off_m}, session_, last_);
-    if (Ended(position_m, off_m, Seconds(seen.stamp))) return false;
+    diagnosis_.Add({observation->stamp, observation->odometry, cpu_ms, off_m_}, session_, last_);
+    if (Ended(motion::Position(truth_.true_pose()))) return false;
     if (last_.state == ReplayState::kArrived) return BeginLap();
     return true;
   }
@@ -112,9 +113,9 @@ class Replaying {
 
  private:
   // Before what its scanner sees in its way.
-  bool Waits(SensorTime now) {
+  bool Waits() {
     if (!way_) return false;
-    way_->Look(now, truth_);
+    way_->Look(now_, truth_);
     const auto& waits = way_->waits();
     if (waits) last_.reason = *waits;
     if (waits.has_value() != waits_) diagnosis_.Note("robot", waits ? *waits : "drives again");
@@ -124,6 +125,21 @@ class Replaying {
     if (last_.passing == passing_) return;
     passing_ = last_.passing;
     diagnosis_.Note("passing", passing_.empty() ? "nothing stands on the path" : passing_);
+  }
+  // What the agent sees next; the robot drives until then as it was told last.
+  std::optional<agent::Observation> See() {
+    if (!flawed_) {
+      sim::Observation seen = robot_.Step(last_.command);
+      Judge(seen.stamp);
+      return agent::Observation{seen.stamp, std::move(seen.image), seen.odometry};
+    }
+    auto seen = flawed_->Next(last_.command, [this](SensorTime now) { Judge(now); });
+    for (const std::string& line : flawed_->TakeNews()) diagnosis_.Note("robot", line);
+    return seen;
+  }
+  void Judge(SensorTime now) {
+    now_ = now;
+    off_m_ = judge_.Observe(motion::Position(truth_.true_pose()));
   }
   void Push() {
     diagnosis_.Note("pushed", fmt::format("{:.2f} m to the left, by the trial", push_m_));
@@ -144,7 +160,7 @@ class Replaying {
     return fmt::format("at {}segment {}, {:.0f} % of the way", lap, last_.segment.value(),
                        100.0 * last_.progress);
   }
-  bool Ended(const Eigen::Vector2d& position_m, double off_m, double time_s) {
+  bool Ended(const Eigen::Vector2d& position_m) {
     if (last_.state == ReplayState::kArrived) {
       const double error_m = judge_.verdict().final_error_m;
       lap_ends_m_.push_back(error_m);
@@ -156,15 +172,15 @@ class Replaying {
     if (last_.state == ReplayState::kLost) {
       return End("lost", fmt::format("{}: {}", Where(), last_.reason));
     }
-    if (off_m > kStrayLimit_m) {
+    if (off_m_ > kStrayLimit_m) {
       return End("strayed", fmt::format("{}: over {:.0f} m off the path", Where(), kStrayLimit_m));
     }
-    if (standstill_.Stuck(position_m, time_s)) {
+    if (standstill_.Stuck(position_m, Seconds(now_))) {
       return End("stuck",
                  fmt::format("{}: no further for {:.0f} s{}{}", Where(), StandstillWatch::kBound_s,
                              last_.reason.empty() ? "" : ": ", last_.reason));
     }
-    if (time_s > limit_s_) {
+    if (Seconds(now_) > limit_s_) {
       return End("timeout", fmt::format("{}: still under way after {:.0f} s", Where(), limit_s_));
     }
     return false;
@@ -176,6 +192,7 @@ class Replaying {
   }
 
   sim::SimulatedRobot& robot_;
+  std::optional<FlawedRobot> flawed_;  // drives robot_
   sim::Judge truth_;
   PathJudge judge_;
   agent::ReplaySession session_;
@@ -191,6 +208,8 @@ class Replaying {
   double limit_s_;
   StandstillWatch standstill_;
   ReplayStep last_;  // a first Step of the robot with no command is a look at the start
+  SensorTime now_{};
+  double off_m_ = 0.0;  // the taught path
   double cpu_ms_ = 0.0;
   int frames_ = 0;
   std::string state_;
@@ -206,6 +225,7 @@ TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uin
   row.follower_camera = trial_case.follower_camera.name;
   row.same_robot = setup.same_robot;
   row.push_m = trial_case.push_m;
+  row.flaw = trial_case.flaw;
   row.trial = trial;
   row.seed = seed;
   row.end_m = taught.path.end_m();
@@ -225,7 +245,10 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
                                     [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
   const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
-  const auto options_of_follower = FollowerOptions(setup, trial_case, SeedsOf(options, trial));
+  const TrialSeeds seeds = SeedsOf(options, trial);
+  const RobotFlaws flaws =
+      DrawFlaws(trial_case.flaw, trial_case.follower_camera, (*taught)->duration_s, seeds.follower);
+  const auto options_of_follower = FollowerOptions(setup, flaws.camera, seeds);
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
   const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");
@@ -234,12 +257,16 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   if (!served) return tl::unexpected(served.error());
   agent::ReplayMethodOptions follower = setup.follower_options;
   follower.method = trial_case.method;
+  follower.intake.roll_deg += flaws.told_roll_deg;
+  if (flaws.told_ahead_m) follower.camera_ahead_m = flaws.told_ahead_m;
   const auto open = [&] { return OpenSession(*served, follower); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  Replaying replaying(**robot, **taught, std::move(*session), open, setup.laps,
+  std::optional<FlawedRobot> flawed;
+  if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
+  Replaying replaying(**robot, std::move(flawed), **taught, std::move(*session), open, setup.laps,
                       std::move(*diagnosis), trial_case.push_m,
                       setup.scanner ? std::optional<ScannedWay>(setup.world) : std::nullopt);
   for (int frame = 0;; ++frame) {

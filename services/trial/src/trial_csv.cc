@@ -45,6 +45,7 @@ TrialRow RowOf(CsvLine& line) {
   line.Read("p90_path_error_m", verdict.p90_path_error_m);
   line.ReadAll("lap_ends_m", row.lap_ends_m);
   row.same_robot = line.Text("same_robot") == "1";
+  row.flaw = line.Text("flaw");
   row.reason = line.Text("reason");
   return row;
 }
@@ -55,14 +56,14 @@ std::string TrialCsvHeader() {
   return "scenario,method,scout_camera,follower_camera,trial,seed,arrived,final_error_m,final_x_m,"
          "final_y_m,end_x_m,end_y_m,mean_path_error_m,max_path_error_m,found_share,segments,"
          "bytes_per_m,ms_per_frame,state,taught_m,driven_m,worst_path_error_m,frames,hand_overs,"
-         "push_m,after_push_m,p90_path_error_m,lap_ends_m,same_robot,reason";
+         "push_m,after_push_m,p90_path_error_m,lap_ends_m,same_robot,flaw,reason";
 }
 
 std::string TrialCsvLine(const TrialRow& row) {
   const PathVerdict& verdict = row.verdict;
   return fmt::format(
       "{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f},"
-      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{:.4f},{:.4f},{},{}",
+      "{:.3f},{},{:.3f},{:.3f},{:.4f},{},{},{:.1f},{},{:.4f},{:.4f},{},{},{}",
       CsvText(row.scenario), row.method, CsvText(row.scout_camera), CsvText(row.follower_camera),
       row.trial, row.seed, row.arrived ? 1 : 0, verdict.final_error_m, verdict.final_m.x(),
       verdict.final_m.y(), row.end_m.x(), row.end_m.y(), verdict.mean_path_error_m,
@@ -70,7 +71,7 @@ std::string TrialCsvLine(const TrialRow& row) {
       row.state, row.taught_m, verdict.driven_m, verdict.worst_path_error_m, row.frames,
       row.hand_overs, row.push_m,
       verdict.after_push_m ? fmt::format("{:.4f}", *verdict.after_push_m) : "",
-      verdict.p90_path_error_m, fmt::join(row.lap_ends_m, " "), row.same_robot ? 1 : 0,
+      verdict.p90_path_error_m, fmt::join(row.lap_ends_m, " "), row.same_robot ? 1 : 0, row.flaw,
       CsvText(row.reason));
 }
 

@@ -72,6 +72,7 @@ std::string CaseName(const TrialRow& row) {
       fmt::format("{:<8} {} > {}", row.method, row.scout_camera, row.follower_camera);
   if (row.same_robot) name += ", same robot";
   if (row.push_m != 0.0) name += fmt::format(", pushed {:+.0f} m", row.push_m);
+  if (!row.flaw.empty()) name += ", " + row.flaw;
   return name;
 }
 
@@ -143,9 +144,10 @@ std::string SummaryTable(const std::vector<TrialRow>& rows) {
   const auto beside = [&](double PaperFigures::*figure) {
     return paper ? fmt::format("{:.2f} m", (*paper).*figure) : std::string();
   };
-  std::string text = fmt::format("{}, method {}, taught by {}, followed by {}{}\n", first.scenario,
-                                 first.method, first.scout_camera, first.follower_camera,
-                                 first.same_robot ? " of the same robot" : "");
+  std::string text = fmt::format(
+      "{}, method {}, taught by {}, followed by {}{}{}\n", first.scenario, first.method,
+      first.scout_camera, first.follower_camera, first.same_robot ? " of the same robot" : "",
+      first.flaw.empty() ? "" : ", flaw " + first.flaw);
   text += SummaryLine("", "ours", paper ? "the paper" : "");
   text += SummaryLine("accuracy (RMS at the end)", meters(summary.accuracy_m),
                       beside(&PaperFigures::accuracy_m));

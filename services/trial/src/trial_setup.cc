@@ -6,6 +6,7 @@
 
 #include "agent/simulated/camera_file.h"
 #include "services/sim/places/traffic.h"
+#include "services/trial/flaws.h"
 #include "services/trial/scenario.h"
 #include "services/trial/src/scanned_way.h"
 
@@ -27,10 +28,14 @@ Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::stri
   return methods;
 }
 
-// Every method with every pair of cameras and every push.
+// Every method with every pair of cameras, every push and every flaw.
 Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOptions& options) {
   const auto methods = FindMethods(options.methods);
   if (!methods) return tl::unexpected(methods.error());
+  const std::vector<std::string>& flaws = options.flaws.empty() ? scenario.flaws : options.flaws;
+  for (const std::string& flaw : flaws) {
+    if (auto known = CheckFlaw(flaw); !known) return tl::unexpected(known.error());
+  }
   std::vector<TrialCase> cases;
   for (const agent::ReplayMethod method : *methods) {
     for (const CameraPair& pair : scenario.cameras) {
@@ -40,7 +45,9 @@ Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOp
           agent::CameraFromWord(pair.follower.empty() ? options.follower_camera : pair.follower);
       if (!follower) return tl::unexpected(follower.error());
       for (const double push_m : scenario.pushes_m) {
-        cases.push_back({method, *scout, *follower, push_m, scenario.through_server});
+        for (const std::string& flaw : flaws) {
+          cases.push_back({method, *scout, *follower, push_m, scenario.through_server, flaw});
+        }
       }
     }
   }

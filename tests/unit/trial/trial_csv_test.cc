@@ -59,6 +59,7 @@ TEST(TrialCsv, WhatWasWrittenIsReadAgain) {
   TrialRow pushed = EndedAt(0.3, 0.4);
   pushed.push_m = -2.0;
   pushed.same_robot = true;
+  pushed.flaw = "upside-down";
   pushed.verdict.after_push_m = 0.125;
   pushed.verdict.p90_path_error_m = 0.25;
   pushed.lap_ends_m = {0.05, 0.0625};
@@ -71,6 +72,7 @@ TEST(TrialCsv, WhatWasWrittenIsReadAgain) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(TrialCsvLine((*read)[i]), TrialCsvLine(rows[i]));
   }
+  EXPECT_EQ((*read)[1].flaw, "upside-down");
   EXPECT_EQ((*read)[1].verdict.p90_path_error_m, 0.25);
   EXPECT_EQ((*read)[1].lap_ends_m, (std::vector<double>{0.05, 0.0625}));
 }
@@ -85,7 +87,7 @@ TEST(TrialCsv, SaysWhichLineIsNotATrial) {
   const std::string header = TrialCsvHeader() + "\n";
   const std::string good = TrialCsvLine(EndedAt(0.0, 0.0)) + "\n";
   EXPECT_THAT(message("x_m,y_m\n"), HasSubstr("not a table of trials"));
-  EXPECT_THAT(message(header + good + "indoor,default\n"), HasSubstr("line 3: expected 30 cells"));
+  EXPECT_THAT(message(header + good + "indoor,default\n"), HasSubstr("line 3: expected 31 cells"));
   std::string bad = good;
   bad.replace(bad.find("10.0000"), 7, "far");
   EXPECT_THAT(message(header + bad), HasSubstr("line 2: final_x_m is 'far', expected a number"));
