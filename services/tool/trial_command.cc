@@ -49,7 +49,7 @@ std::string ScenarioHelp() {
 std::string FlawHelp() {
   std::string help = "What is wrong with the follower, one or several, each in trials of its own:";
   for (const trial::Flaw& each : trial::Flaws())
-    help += fmt::format("\n{:<11} {}", each.name, each.summary);
+    help += fmt::format("\n{:<15} {}", each.name, each.summary);
   return help;
 }
 

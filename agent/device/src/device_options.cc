@@ -390,7 +390,7 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
     command
         .add_option("--camera-ahead", options.camera_ahead_m,
                     "Metres from the axle that the robot turns about ahead to its camera, more "
-                    "than on the robot that taught")
+                    "than on the robot that taught; untold, it is learnt on the way")
         ->check(CameraAheadRange())
         ->group("Camera");
   }

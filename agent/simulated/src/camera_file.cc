@@ -36,7 +36,8 @@ std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model
           {"knock_yaw_deg", &camera.knock_yaw_deg},
           {"knock_at_s", &camera.knock_at_s},
           {"exposure_swing", &camera.exposure_swing},
-          {"exposure_period_s", &camera.exposure_period_s}};
+          {"exposure_period_s", &camera.exposure_period_s},
+          {"readout_s", &camera.readout_s}};
 }
 
 bool Assign(const Field& field, const std::string& text) {

@@ -44,6 +44,8 @@ struct CameraModel {
   // Auto exposure: brightness wanders between so many times less and more, each within a period.
   double exposure_swing = 1.0;
   double exposure_period_s = 4.0;
+  // Rolling shutter: its rows are read from the first to the last within so long; 0: all at once.
+  double readout_s = 0.0;
 };
 
 // Says which key is wrong, what it is and what is accepted.

@@ -14,6 +14,12 @@
 
 namespace trailcast::sim {
 
+// How the camera moves while it takes a picture, in its own frame (x right, y down, z ahead).
+struct CameraMotion {
+  Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
+};
+
 // What a perfect camera would see: no noise, no blur, not yet cut to 8 bits. Row-major, one entry a
 // pixel; outside the lens's picture grey is 0 and depth that of the sky.
 struct PerfectView {
@@ -39,9 +45,11 @@ class CameraRenderer {
       : CameraRenderer(world, camera, world->lighting()) {}
 
   // The view from `world_from_camera` (camera frame: x right, y down, z ahead), with `actors` in
-  // the world. The result is overwritten by the next call.
+  // the world. A camera that reads its rows one after the other has seen the upper ones before, by
+  // `motion`: the last one from there. The result is overwritten by the next call.
   [[nodiscard]] const PerfectView& Render(const Eigen::Isometry3d& world_from_camera,
-                                          std::span<const PlacedPart> actors = {});
+                                          std::span<const PlacedPart> actors = {},
+                                          const CameraMotion& motion = {});
 
   [[nodiscard]] const Lens& lens() const { return lens_; }
   [[nodiscard]] bool InPicture(int x, int y) const { return rays_.spread[Index(x, y)] > 0.0F; }
@@ -65,6 +73,11 @@ class CameraRenderer {
   [[nodiscard]] Eigen::Vector3f Direction(std::size_t pixel) const {
     return {rays_.x[pixel], rays_.y[pixel], rays_.z[pixel]};
   }
+  struct Pose {  // world from camera
+    Eigen::Matrix3f rotation;
+    Eigen::Vector3f origin;
+  };
+  [[nodiscard]] Pose PoseAtRow(int y) const;
   void MakeRay(int x, int y);
   void RenderBlock(int x0, int y0);
   [[nodiscard]] std::uint32_t MaterialOf(std::uint32_t surface) const;
@@ -89,8 +102,9 @@ class CameraRenderer {
   std::vector<Edge> edges_;              // pixels to be sampled more finely
   std::vector<std::size_t> corners_;     // of those, as far as they need a ray
   std::vector<float> corner_gray_;
-  Eigen::Matrix3f rotation_;  // of the camera being rendered
-  Eigen::Vector3f origin_;
+  double readout_s_;
+  CameraMotion motion_;
+  Pose now_;  // of the last row of the picture being rendered
 };
 
 }  // namespace trailcast::sim

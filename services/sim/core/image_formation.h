@@ -19,12 +19,6 @@ struct SensorOptions {
   double shot_noise = 0.028;
 };
 
-// How the camera moves while the shutter is open, in its own frame (x right, y down, z ahead).
-struct CameraMotion {
-  Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
-};
-
 // Turns a perfect view into the picture a real camera gives: motion blur, vignetting, exposure,
 // noise, 8 bits. Blur is a warp: each pixel averages the view along its own motion in the picture,
 // from its depth and the camera's motion. That costs a millisecond where rendering the exposure

@@ -77,6 +77,8 @@ const std::vector<KnownFlaw>& KnownFlaws() {
          robot.camera.exposure_swing = 2.0;
          robot.camera.exposure_period_s = draw.random.Uniform(2.0, 8.0);
        }},
+      {{"rolling-shutter", "the camera reads its rows within 0.03 s, one after the other"},
+       [](RobotFlaws& robot, Drawing&) { robot.camera.readout_s = 0.03; }},
       {{"frame-rate", "5 to 30 pictures a second, and a fifth of them lost"},
        [](RobotFlaws& robot, Drawing& draw) {
          robot.timing.picture_rate_hz = 5.0 * std::pow(6.0, draw.random.Uniform());

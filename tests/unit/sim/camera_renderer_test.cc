@@ -62,6 +62,29 @@ TEST(CameraRenderer, KnowsTheDepthOfWhatItSees) {
   EXPECT_NEAR(view.depth_m[120 * 320 + 160], 3.0F, 0.01F);
 }
 
+TEST(CameraRenderer, ARollingShutterHasSeenItsUpperRowsEarlier) {
+  const auto world = SmallWorld().WhiteBox({3.0F, -2.0F, 0.0F}, {3.2F, 0.2F, 3.0F}).Build();
+  const auto edge_at = [](const PerfectView& view, int y) {
+    int x = 0;
+    while (x < view.width && At(view, x, y) < 200.0F) ++x;
+    return x;
+  };
+  CameraModel camera = Pinhole();
+  CameraRenderer still(world, camera);
+  camera.readout_s = 0.05;
+  CameraRenderer rolling(world, camera);
+  const CameraMotion turning{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  const Eigen::Isometry3d now = AtOrigin();
+  Eigen::Isometry3d before = now;
+  before.rotate(Eigen::AngleAxisd(-0.05, Eigen::Vector3d::UnitY()));
+  const PerfectView& rolled = rolling.Render(now, {}, turning);
+  const int first = edge_at(rolled, 0);
+  const int last = edge_at(rolled, rolled.height - 1);
+  EXPECT_NEAR(first, edge_at(still.Render(before), 0), 1);
+  EXPECT_NEAR(last, edge_at(still.Render(now), rolled.height - 1), 1);
+  EXPECT_GT(std::abs(first - last), 10);
+}
+
 TEST(CameraRenderer, EdgesBetweenPixelsAreDrawnInBetween) {
   // A thin board whose left edge falls into the middle of pixel 200.
   const CameraModel camera = Pinhole();

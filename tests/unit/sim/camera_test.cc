@@ -161,6 +161,7 @@ TEST(Camera, ImpossibleValuesAreRefusedByTheirKey) {
   refused_for("knock_yaw_deg", [](CameraModel& c) { c.knock_yaw_deg = 90.0; });
   refused_for("knock_at_s", [](CameraModel& c) { c.knock_at_s = -1.0; });
   refused_for("exposure_swing", [](CameraModel& c) { c.exposure_swing = 0.5; });
+  refused_for("readout_s", [](CameraModel& c) { c.readout_s = 0.5; });
   refused_for("exposure_period_s", [](CameraModel& c) { c.exposure_period_s = 0.0; });
   refused_for("height", [](CameraModel& c) { c.height = 100000; });
   refused_for("horizontal_fov_deg", [](CameraModel& c) { c.horizontal_fov_deg = 180.0; });

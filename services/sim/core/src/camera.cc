@@ -47,6 +47,7 @@ Result<void> ValidateEach(const CameraModel& camera) {
       {"knock_at_s", camera.knock_at_s, 0, 1e6, "0 to 1000000 seconds"},
       {"exposure_swing", camera.exposure_swing, 1, 4, "1 (steady) to 4 times"},
       {"exposure_period_s", camera.exposure_period_s, 0.2, 1000, "0.2 to 1000 seconds"},
+      {"readout_s", camera.readout_s, 0, 0.1, "0 to 0.1 seconds"},
   }};
   for (const Range& range : ranges) {
     if (IsWithin(range.value, range.low, range.high)) continue;

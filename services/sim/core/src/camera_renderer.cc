@@ -29,7 +29,10 @@ float Cut(float gray) { return std::min(gray, 255.0F); }
 
 CameraRenderer::CameraRenderer(std::shared_ptr<const World> world, const CameraModel& camera,
                                const Lighting& lighting)
-    : world_(std::move(world)), lens_(camera), tracer_(*world_, lighting) {
+    : world_(std::move(world)),
+      lens_(camera),
+      tracer_(*world_, lighting),
+      readout_s_(camera.readout_s) {
   view_.width = camera.width;
   view_.height = camera.height;
   const std::size_t pixels = Index(0, camera.height);
@@ -41,6 +44,16 @@ CameraRenderer::CameraRenderer(std::shared_ptr<const World> world, const CameraM
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) MakeRay(x, y);
   }
+}
+
+CameraRenderer::Pose CameraRenderer::PoseAtRow(int y) const {
+  if (readout_s_ == 0.0) return now_;
+  const double since_s = readout_s_ * (static_cast<double>(y) / view_.height - 1.0);
+  const Eigen::Vector3f turn = (since_s * motion_.angular_radps).cast<float>();
+  const float angle = turn.norm();
+  const Eigen::Vector3f axis = angle > 0.0F ? Eigen::Vector3f(turn / angle) : turn;
+  return {now_.rotation * Eigen::AngleAxisf(angle, axis).toRotationMatrix(),
+          now_.origin + now_.rotation * (since_s * motion_.linear_mps).cast<float>()};
 }
 
 void CameraRenderer::MakeRay(int x, int y) {
@@ -66,13 +79,14 @@ void CameraRenderer::MakeRay(int x, int y) {
 
 void CameraRenderer::RenderBlock(int x0, int y0) {
   RayPacket packet;
-  packet.origin = origin_;
+  const Pose pose = PoseAtRow(y0);
+  packet.origin = pose.origin;
   std::array<std::size_t, RayPacket::kSize> pixels{};
   float widest = 0.0F;
   for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
     const std::size_t row = i / kBlock;
     pixels[i] = Index(x0, y0) + row * static_cast<std::size_t>(view_.width) + i % kBlock;
-    packet.SetRay(i, rotation_ * Direction(pixels[i]), rays_.spread[pixels[i]]);
+    packet.SetRay(i, pose.rotation * Direction(pixels[i]), rays_.spread[pixels[i]]);
     widest = std::max(widest, packet.spreads[i]);
   }
   if (widest == 0.0F) return;  // all outside the lens's picture
@@ -105,7 +119,7 @@ bool CameraRenderer::OnOnePlane(std::size_t a, std::size_t b) const {
   if (first.material != second.material) return false;
   if (std::abs(first.normal.dot(second.normal)) < 0.9998F) return false;
   const Eigen::Vector3f step = view_.depth_m[a] * Direction(a) - view_.depth_m[b] * Direction(b);
-  const Eigen::Vector3f normal = rotation_.transpose() * first.normal;
+  const Eigen::Vector3f normal = now_.rotation.transpose() * first.normal;
   return std::abs(normal.dot(step)) < 2e-3F * view_.depth_m[a];
 }
 
@@ -191,15 +205,17 @@ float CameraRenderer::Borrow(std::size_t corner, std::uint32_t surface, float de
 
 void CameraRenderer::TraceCorners() {
   RayPacket packet;
-  packet.origin = origin_;
   for (std::size_t first = 0; first < corners_.size(); first += RayPacket::kSize) {
     const std::size_t count = std::min(RayPacket::kSize, corners_.size() - first);
+    // Those of a packet are near each other.
+    const Pose pose = PoseAtRow(static_cast<int>(corners_[first]) / view_.width);
+    packet.origin = pose.origin;
     packet.spreads.fill(0.0F);
     for (std::size_t i = 0; i < count; ++i) {
       const Four pixels = PixelsRound(corners_[first + i]);
       const Eigen::Vector3f direction =
           Direction(pixels[0]) + Direction(pixels[1]) + Direction(pixels[2]) + Direction(pixels[3]);
-      packet.SetRay(i, rotation_ * direction.normalized(), rays_.spread[pixels[0]]);
+      packet.SetRay(i, pose.rotation * direction.normalized(), rays_.spread[pixels[0]]);
     }
     const PacketHits hits = tracer_.FindHits(packet);
     for (std::size_t i = 0; i < count; ++i) {
@@ -223,14 +239,15 @@ void CameraRenderer::NoteMovers() {
     const std::uint32_t surface = std::min(surface_[i], ~surface_[i]);
     const PlacedPart* part = tracer_.PartOf(surface);
     if (part == nullptr) continue;
-    view_.movers.push_back({i, rotation_.transpose() * part->velocity_mps});
+    view_.movers.push_back({i, now_.rotation.transpose() * part->velocity_mps});
   }
 }
 
 const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_camera,
-                                          std::span<const PlacedPart> actors) {
-  rotation_ = world_from_camera.linear().cast<float>();
-  origin_ = world_from_camera.translation().cast<float>();
+                                          std::span<const PlacedPart> actors,
+                                          const CameraMotion& motion) {
+  now_ = {world_from_camera.linear().cast<float>(), world_from_camera.translation().cast<float>()};
+  motion_ = motion;
   tracer_.ShowActors(actors);
   // Where the size is no multiple of the block's, the last ones overlap those before.
   for (int y = 0; y < view_.height; y += kBlock) {

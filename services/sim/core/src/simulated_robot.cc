@@ -110,7 +110,7 @@ image::GrayImage SimulatedRobot::Look() {
       Eigen::Vector3d(velocity.linear_mps, velocity.angular_radps * camera_.ahead_m, 0.0);
   motion.angular_radps = camera_from_body * Eigen::Vector3d(0.0, 0.0, velocity.angular_radps);
   const PerfectView& view =
-      renderer_.Render(robot_.WorldFromBody() * body_from_camera, stage_.parts());
+      renderer_.Render(robot_.WorldFromBody() * body_from_camera, stage_.parts(), motion);
   return sensor_.Form(view, motion, noise_, ExposureNow());
 }
 
