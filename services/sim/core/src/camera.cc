@@ -32,7 +32,7 @@ Result<void> ValidateEach(const CameraModel& camera) {
     double high;
     const char* accepted;
   };
-  const std::array<Range, 14> ranges{{
+  const std::array<Range, 15> ranges{{
       {"width", 1.0 * camera.width, 16, 4096, "16 to 4096 pixels"},
       {"height", 1.0 * camera.height, 16, 4096, "16 to 4096 pixels"},
       {"distortion", camera.distortion, -0.5, 2, "-0.5 (pincushion) to 2 (barrel)"},
