@@ -17,11 +17,11 @@ sim::CameraModel Webcam() { return *sim::FindCamera("webcam"); }
 
 // All of a robot's flaws as one text, to compare robots by.
 std::string Text(const RobotFlaws& robot) {
-  std::string text = fmt::format("{} {} {} {} {} {} {} {} {}", robot.camera.roll_deg,
-                                 robot.camera.ahead_m, robot.camera.centre_u, robot.camera.centre_v,
-                                 robot.camera.knock_yaw_deg, robot.camera.knock_at_s,
-                                 robot.camera.exposure_swing, robot.camera.exposure_period_s,
-                                 robot.told_roll_deg + robot.told_ahead_m.value_or(0.0));
+  std::string text = fmt::format(
+      "{} {} {} {} {} {} {} {} {}", robot.camera.roll_deg, robot.camera.ahead_m,
+      robot.camera.centre_u, robot.camera.centre_v, robot.camera.knock_yaw_deg,
+      robot.camera.knock_at_s, robot.camera.exposure_swing, robot.camera.exposure_period_s,
+      robot.camera.readout_s + robot.told_roll_deg + robot.told_ahead_m.value_or(0.0));
   text += fmt::format(" {} {} {} {} {}", robot.timing.picture_rate_hz, robot.timing.dropped,
                       robot.timing.picture_delay_s, robot.timing.base_delay_s,
                       robot.timing.stamps_late_s);
