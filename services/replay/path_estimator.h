@@ -43,10 +43,12 @@ struct PathEstimatorOptions {
   double roll_rad = 0.05;  // of each frame alone, as pitch
   double pitch_rad = 0.05;
   // Knocked: all that is seen is turned by more than so much, and so many times what is believed
-  // to be possible, and feature by feature by the same, but for a share of it.
+  // to be possible, and feature by feature by the same, but for a share of it; and so much of
+  // what was usually seen still is. Who is carried aside loses sight of all that is near.
   double knock_least_rad = 0.03;
   double knock_sigmas = 3.0;
   double knock_spread = 0.25;
+  double knock_seen = 0.7;
   double knock_apart_m = 0.5;  // what turns again within so much is the robot
   // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
   // place at least so far from the believed one has to explain what is seen. Asked every so many
@@ -192,6 +194,9 @@ class PathEstimator {
   std::optional<double> FindIfCarriedOff(const Prior& before,
                                          const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
+  // None that was not told, until it is larger than twice what it may err by: otherwise a guess
+  // would shift the place where the robot stops.
+  [[nodiscard]] double KnownAhead() const;
   [[nodiscard]] double TaughtHeading(double along_m) const;
   [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;
@@ -208,6 +213,8 @@ class PathEstimator {
   std::optional<LastLook> last_look_;  // nothing: what is believed has changed since otherwise
   int looks_ = 0;
   double driven_m_ = 0.0;
+  double looked_at_m_ = 0.0;   // driven at the last look
+  double usually_seen_ = 0.0;  // features in a look, over the last knock_apart_m
   std::optional<CarriedTo> carried_;
   std::optional<double> turned_at_m_;  // driven when all was turned at once
 };

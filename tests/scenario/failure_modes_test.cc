@@ -42,11 +42,12 @@ TEST(FailureMode, AMissedTransitionIsMadeUpForWithoutAnybodysHelp) {
 }
 
 // Somebody pushes it aside: no wheel feels that, and most features outdoors are far enough away to
-// stay where they were in the picture.
+// stay where they were in the picture. It takes its time: of ten that were shoved by 3 m in trials,
+// half were back within 0.2 m after ten metres, and all within 0.08 m after thirty.
 TEST(FailureMode, ShovedOffThePathItFindsOutAndComesBack) {
   const sim::Place place = test::Open("paved");
   const sim::CameraModel camera = *sim::FindCamera("webcam");
-  const Taught taught = test::TeachIn(place, 16.0, camera, 11);
+  const Taught taught = test::TeachIn(place, 24.0, camera, 11);
   double least_left_m = 0.0;
   bool shoved = false;
   bool found_out = false;
@@ -63,7 +64,7 @@ TEST(FailureMode, ShovedOffThePathItFindsOutAndComesBack) {
   EXPECT_LT(least_left_m, -2.5);
   EXPECT_TRUE(found_out);
   EXPECT_EQ(ending.last.state, agent::ReplayState::kArrived) << ending.last.reason;
-  EXPECT_LT(std::abs(From(ending.pose, place.path.points, 16.0).y()), 0.2);
+  EXPECT_LT(taught.path.DistanceTo(motion::Position(ending.pose)), 0.2);
 }
 
 // A gallery whose walls are one and the same window, a metre wide, over and over again.

@@ -46,7 +46,7 @@ using Bystander = std::function<void(sim::Judge& truth, const agent::ReplayStep&
 inline Ending FollowIn(
     const sim::Place& place, const sim::CameraModel& camera, const Taught& taught,
     std::uint64_t seed, const Bystander& bystander = [](sim::Judge&, const agent::ReplayStep&) {}) {
-  constexpr double kPatience_s = 60.0;
+  constexpr double kPatience_s = 90.0;
   sim::SimulatedRobotOptions options;
   options.camera = camera;
   options.start = sim::StartPose(place.path.points);

@@ -71,9 +71,9 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
 
 void PathEstimator::StartAt(const route::Segment& segment) {
   Restart(segment, EntryOf(segment) + state_[kAhead]);
-  const double variance = covariance_(kAhead, kAhead);
-  covariance_(kAlong, kAlong) += variance;
-  covariance_(kAlong, kAhead) = covariance_(kAhead, kAlong) = variance;
+  // What is seen here is put down to where the robot was put, not to its mount: on a straight path
+  // nothing would ever set that right.
+  covariance_(kAlong, kAlong) += covariance_(kAhead, kAhead);
 }
 
 void PathEstimator::TurnPath(double turn_rad) {
@@ -168,15 +168,21 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
       aside_m * std::cos(alpha);
   state_[kHeading] += moved.heading_change_rad + state_[kBias] * moved.distance_m - turned;
 
+  // How far ahead the camera is, a bend of the path tells. Any other turn swings the camera just as
+  // much, but is made because the robot is, or is thought to be, off the path: what is wrong with
+  // its place there would be put down to the mount.
+  const double change_rad = moved.heading_change_rad;
+  const double bend_rad =
+      WasTurnedLately() ? 0.0
+                        : std::clamp(turned, std::min(0.0, change_rad), std::max(0.0, change_rad));
   Covariance f = Covariance::Identity();
   f(kLeft, kHeading) = moved.distance_m;
-  if (!WasTurnedLately()) {  // otherwise odometry's turns say nothing of where the camera swings
-    f(kLeft, kAhead) = moved.heading_change_rad * std::cos(alpha);
-    f(kAlong, kAhead) = -moved.heading_change_rad * std::sin(alpha) / stretch;
-  }
+  f(kLeft, kAhead) = bend_rad * std::cos(alpha);
+  f(kAlong, kAhead) = -bend_rad * std::sin(alpha) / stretch;
   f(kHeading, kBias) = moved.distance_m;
   covariance_ = f * covariance_ * f.transpose();
-  const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(moved.heading_change_rad);
+  covariance_(kLeft, kLeft) += Square(change_rad - bend_rad) * covariance_(kAhead, kAhead);
+  const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(change_rad);
   covariance_(kAlong, kAlong) += driven * Square(options_.along_noise);
   covariance_(kLeft, kLeft) +=
       driven * (Square(options_.left_noise_m) + Square(options_.left_noise_share * state_[kLeft]));
@@ -280,6 +286,8 @@ bool PathEstimator::WasTurnedLately() const {
 
 void PathEstimator::AllowForKnock(const std::vector<route::TrackedFeature>& seen) {
   if (seen.size() < kFewestOfKnock) return;
+  const bool lost_sight = static_cast<double>(seen.size()) < options_.knock_seen * usually_seen_;
+  if (lost_sight && !WasTurnedLately()) return;
   std::vector<double> turns_rad;
   for (const route::TrackedFeature& feature : seen) {
     const Prediction p = PredictFeature(static_cast<std::size_t>(feature.id), state_);
@@ -301,6 +309,10 @@ void PathEstimator::AllowForKnock(const std::vector<route::TrackedFeature>& seen
 
 Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) {
   AllowForKnock(seen);
+  const double came_m = std::min(driven_m_ - looked_at_m_, options_.knock_apart_m);
+  usually_seen_ +=
+      came_m / options_.knock_apart_m * (static_cast<double>(seen.size()) - usually_seen_);
+  looked_at_m_ = driven_m_;
   const bool stands =
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
@@ -317,8 +329,14 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   return equations.agreement;
 }
 
-PathOffset PathEstimator::offset() const {
+double PathEstimator::KnownAhead() const {
   const double ahead_m = state_[kAhead];
+  const bool known = options_.camera_ahead_m || Square(ahead_m) > 4.0 * covariance_(kAhead, kAhead);
+  return known ? ahead_m : 0.0;
+}
+
+PathOffset PathEstimator::offset() const {
+  const double ahead_m = KnownAhead();
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   const double turned = TaughtTurn(along_m, state_[kAlong]);
   const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
@@ -326,10 +344,11 @@ PathOffset PathEstimator::offset() const {
 }
 
 double PathEstimator::offset_sigma_m() const {
-  const double along_m = state_[kAlong] - state_[kAhead] * std::cos(state_[kHeading]);
+  const double ahead_m = KnownAhead();
+  const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   Row left = Row::Zero();  // of the axle, by the state
   left[kLeft] = 1.0;
-  left[kHeading] = -state_[kAhead];
+  left[kHeading] = -ahead_m;
   left[kAhead] = -std::sin(state_[kHeading]) - 0.5 * TaughtTurn(along_m, state_[kAlong]);
   return std::sqrt(std::max(0.0, (left * covariance_ * left.transpose()).value()));
 }
