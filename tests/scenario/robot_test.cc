@@ -53,6 +53,23 @@ class RobotTest : public RobotsTest {
     }
     return best_m;
   }
+  // How near to a point it came, by its truth.
+  double NearestTo(double point_x_m, double point_y_m) {
+    std::ifstream in(Path("truth.csv"));
+    std::string line;
+    std::getline(in, line);
+    double nearest_m = 100.0;
+    while (std::getline(in, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      double t_s = 0.0;
+      double x_m = 0.0;
+      double y_m = 0.0;
+      words >> t_s >> x_m >> y_m;
+      nearest_m = std::min(nearest_m, std::hypot(x_m - point_x_m, y_m - point_y_m));
+    }
+    return nearest_m;
+  }
   static double Number(const std::string& text, const std::string& key) {
     const auto at = text.find(key + "=");
     double value = -1.0;
@@ -170,6 +187,26 @@ TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
     EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
     EXPECT_GT(stood_m, 2.8 - 0.2 - 0.5);
   }
+}
+
+// Half on the path that it was taught, and for its scanner alone.
+TEST_F(RobotTest, AFollowerThatMayGoesRoundWhatStandsOnItsPath) {
+  constexpr const char* kRoom = "1,1.5\n5.3,1.5\n";  // enough to come back in
+  Teach("routes.db", kRoom);
+  const auto robot = Robot("robot1", {"--seed", "3", "--sim-truth", Path("truth.csv"), "--obstacle",
+                                      "2.8,1.75,0.15@0", "--lockstep"});
+  ASSERT_TRUE(robot->WaitForOutput("in lockstep")) << robot->output();
+  const auto follower = Follow({"--scan-topic", "scan", "--pass-obstacles", "0.8", "--robot-width",
+                                "0.4", "--lockstep", "--log", Path("run.log")});
+  EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
+  EXPECT_THAT(follower->output(),
+              AllOf(HasSubstr("passes what stands on the path"), HasSubstr("state=ARRIVED")));
+  robot->Signal(SIGTERM);
+  ASSERT_EQ(End(*robot).status, 0) << robot->output();
+  const auto [x_m, y_m] = LastTruePlace();
+  EXPECT_NEAR(x_m, 5.3, 0.2);
+  EXPECT_NEAR(y_m, 1.5, 0.1) << follower->output() << robot->output();
+  EXPECT_GT(NearestTo(2.8, 1.75), 0.1 + 0.2) << "it touched what it went round";
 }
 
 TEST_F(RobotTest, ACarArrives) {

@@ -29,8 +29,8 @@ class RobotsTest : public ProgramsTest {
     return {"--ros2", "/" + robot, "--ros-domain", "3", "--ros-dds-tag", tag_};
   }
   // Route 'hall', into this store.
-  void Teach(const std::string& store = "routes.db") {
-    const auto robot = Robot("scout", {"--scout", "--lockstep"});
+  void Teach(const std::string& store = "routes.db", const std::string& path = kPath) {
+    const auto robot = Robot("scout", {"--scout", "--lockstep"}, path);
     const auto scout =
         RunAgent(With(With({"teach", "--route", "hall", "--store", Path(store)}, Drives("scout")),
                       {"--lockstep", "--end-when-still", "1"}));

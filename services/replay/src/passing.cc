@@ -98,17 +98,26 @@ void Passing::Look(const PathOffset& offset, double route_m, bool sure, const Pa
   }
   if (!blocked) return;
   const double past_m = blocked->to_m + 2.0 * options_.robot.side_m;
-  if (aside) back_at_m_ = std::max(back_at_m_, route_m + past_m);
-  const double until_m = std::max(past_m, back_at_m_ - route_m);
-  // It was chosen with more, and what is seen of it varies.
-  if (aside && IsFree(left_m_, left_m_, until_m, 0.5 * options_.clearance_m, beside)) return;
   const double path_m = kApart_m * static_cast<double>(path.size() - 1);
+  const bool ends = path_m < options_.look_ahead_m - kApart_m;
+  const double back_by_m = path_m - options_.come_back_m;
+  const bool too_near = ends && past_m > back_by_m;
+  const double back_at_m = aside ? std::max(back_at_m_, route_m + past_m) : route_m + past_m;
+  const double until_m = back_at_m - route_m;
+  // It was chosen with more, and what is seen of it varies. Of what stands where the path ends only
+  // so much is passed as leaves room to come back.
+  if (aside && !(past && too_near) &&
+      IsFree(left_m_, left_m_, until_m, 0.5 * options_.clearance_m, beside)) {
+    back_at_m_ = too_near ? std::max(back_at_m_, route_m + back_by_m) : back_at_m;
+    return;
+  }
+  if (past) left_m_ = 0.0;
   if (!sure || offset.left_sigma_m > options_.sure_sigma_m) {
     says_ =
         "something stands on the path, and the robot is not sure enough of its place to pass it";
     return;
   }
-  if (path_m < options_.look_ahead_m - kApart_m && past_m + options_.come_back_m > path_m) {
+  if (too_near) {
     says_ = "something stands on the path, and too near where the robot is to stand to pass it";
     return;
   }
@@ -120,7 +129,7 @@ void Passing::Look(const PathOffset& offset, double route_m, bool sure, const Pa
     return;
   }
   left_m_ = *left_m;
-  back_at_m_ = route_m + past_m;
+  back_at_m_ = back_at_m;
   says_ = fmt::format("passes what stands on the path, {:.2f} m to the {} of it", std::abs(left_m_),
                       left_m_ > 0.0 ? "left" : "right");
 }

@@ -124,6 +124,27 @@ TEST_F(PassingTest, NotWhereThePathEndsBehindIt) {
   EXPECT_THAT(passing_->says(), HasSubstr("too near where the robot is to stand"));
 }
 
+// Or it would end there beside the path, and say that it has arrived.
+TEST_F(PassingTest, WhoPassesOneThingComesBackBeforeTheNextAtThePathsEnd) {
+  Look(Cart(2.0, -0.5, 0.1));
+  const double left_m = passing_->left_m();
+  ASSERT_GT(left_m, 0.0);
+  // A second one comes into view where the path ends, on its other side as well.
+  offset_.left_m = left_m;
+  route_m_ += 1.0;
+  path_ = Path(2.4);
+  std::vector<Vector2d> both = Cart(1.0, -0.5 - left_m, 0.1 - left_m);
+  for (const Vector2d& point : Cart(2.4, -0.5 - left_m, 0.1 - left_m)) both.push_back(point);
+  Look(both);
+  EXPECT_EQ(passing_->left_m(), left_m);
+  // Past the first.
+  route_m_ += 1.7;
+  path_ = Path(0.7);
+  Look(Cart(0.7, -0.5 - left_m, 0.1 - left_m));
+  EXPECT_EQ(passing_->left_m(), 0.0);
+  EXPECT_THAT(passing_->says(), HasSubstr("too near where the robot is to stand"));
+}
+
 TEST_F(PassingTest, LooksAlongABend) {
   path_ = Path(3.6, 0.5);
   Look(Cart(2.4, -0.3, 0.3));
