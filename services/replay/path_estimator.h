@@ -17,8 +17,9 @@ struct PathEstimatorOptions {
   // not told, and learnt where the path bends. The filter's state is the camera's place; offset()
   // is the axle's, by which one steers.
   std::optional<double> camera_ahead_m;
-  double told_ahead_m = 0.02;   // how sure that is when told,
-  double untold_ahead_m = 0.2;  // and when not
+  double told_ahead_m = 0.02;     // how sure that is when told,
+  double untold_ahead_m = 0.2;    // and when not
+  double least_bend_per_m = 0.1;  // curvature of the path from which on a bend tells of it
   // Noise of a feature's place. Larger than a tracker's, because it does not change from frame to
   // frame: it is parallax that the model leaves out, a patch seen from elsewhere, a drift.
   double feature_noise_px = 3.0;
@@ -194,9 +195,9 @@ class PathEstimator {
   std::optional<double> FindIfCarriedOff(const Prior& before,
                                          const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
-  // None that was not told, until it is larger than twice what it may err by: otherwise a guess
-  // would shift the place where the robot stops.
-  [[nodiscard]] double KnownAhead() const;
+  // Or has learnt it to half of what it is: with less a guess would shift the place where the robot
+  // stops.
+  [[nodiscard]] bool KnowsAhead() const;
   [[nodiscard]] double TaughtHeading(double along_m) const;
   [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;

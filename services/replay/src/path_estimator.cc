@@ -172,9 +172,9 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   // much, but is made because the robot is, or is thought to be, off the path: what is wrong with
   // its place there would be put down to the mount.
   const double change_rad = moved.heading_change_rad;
+  const bool bends = std::abs(curvature) > options_.least_bend_per_m && !WasTurnedLately();
   const double bend_rad =
-      WasTurnedLately() ? 0.0
-                        : std::clamp(turned, std::min(0.0, change_rad), std::max(0.0, change_rad));
+      bends ? std::clamp(turned, std::min(0.0, change_rad), std::max(0.0, change_rad)) : 0.0;
   Covariance f = Covariance::Identity();
   f(kLeft, kHeading) = moved.distance_m;
   f(kLeft, kAhead) = bend_rad * std::cos(alpha);
@@ -329,22 +329,21 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   return equations.agreement;
 }
 
-double PathEstimator::KnownAhead() const {
-  const double ahead_m = state_[kAhead];
-  const bool known = options_.camera_ahead_m || Square(ahead_m) > 4.0 * covariance_(kAhead, kAhead);
-  return known ? ahead_m : 0.0;
+bool PathEstimator::KnowsAhead() const {
+  return options_.camera_ahead_m || Square(state_[kAhead]) > 4.0 * covariance_(kAhead, kAhead);
 }
 
 PathOffset PathEstimator::offset() const {
-  const double ahead_m = KnownAhead();
+  const double ahead_m = state_[kAhead];
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   const double turned = TaughtTurn(along_m, state_[kAlong]);
   const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
-  return {left_m, state_[kHeading] + turned, along_m, offset_sigma_m()};
+  return {left_m, state_[kHeading] + turned, KnowsAhead() ? along_m : state_[kAlong],
+          offset_sigma_m()};
 }
 
 double PathEstimator::offset_sigma_m() const {
-  const double ahead_m = KnownAhead();
+  const double ahead_m = state_[kAhead];
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   Row left = Row::Zero();  // of the axle, by the state
   left[kLeft] = 1.0;
