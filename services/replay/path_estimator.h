@@ -116,6 +116,8 @@ class PathEstimator {
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double camera_ahead_m() const { return state_[kAhead]; }
+  // Told, or learnt to half of what it is.
+  [[nodiscard]] bool KnowsAhead() const;
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
   // Where each of the segment's features should be now.
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const { return ExpectIn(state_); }
@@ -195,9 +197,6 @@ class PathEstimator {
   std::optional<double> FindIfCarriedOff(const Prior& before,
                                          const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectIn(const State& state) const;
-  // Or has learnt it to half of what it is: with less a guess would shift the place where the robot
-  // stops.
-  [[nodiscard]] bool KnowsAhead() const;
   [[nodiscard]] double TaughtHeading(double along_m) const;
   [[nodiscard]] route::TrackKnot TaughtPlaceAt(std::size_t index, double along_m) const;
   [[nodiscard]] Prediction PredictFeature(std::size_t index, const State& state) const;

@@ -338,8 +338,7 @@ PathOffset PathEstimator::offset() const {
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   const double turned = TaughtTurn(along_m, state_[kAlong]);
   const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
-  return {left_m, state_[kHeading] + turned, KnowsAhead() ? along_m : state_[kAlong],
-          offset_sigma_m()};
+  return {left_m, state_[kHeading] + turned, along_m, offset_sigma_m()};
 }
 
 double PathEstimator::offset_sigma_m() const {

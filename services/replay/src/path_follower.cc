@@ -38,7 +38,8 @@ void PathFollower::Learn(const route::Segment& segment) { estimator_.Learn(AsFor
 
 PathOffset PathFollower::offset() const {
   PathOffset offset = estimator_.offset();
-  offset.along_m = Driven_m(offset.along_m);
+  // A camera's place that is but guessed would shift where the robot stops.
+  offset.along_m = Driven_m(estimator_.KnowsAhead() ? offset.along_m : estimator_.camera_along_m());
   return offset;
 }
 
