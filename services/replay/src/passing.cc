@@ -102,7 +102,8 @@ void Passing::Look(const PathOffset& offset, double route_m, bool sure, const Pa
   const bool ends = path_m < options_.look_ahead_m - kApart_m;
   const double back_by_m = path_m - options_.come_back_m;
   const bool too_near = ends && past_m > back_by_m;
-  const double back_at_m = aside ? std::max(back_at_m_, route_m + past_m) : route_m + past_m;
+  const double back_at_m =
+      aside && !past ? std::max(back_at_m_, route_m + past_m) : route_m + past_m;
   const double until_m = back_at_m - route_m;
   // It was chosen with more, and what is seen of it varies. Of what stands where the path ends only
   // so much is passed as leaves room to come back.

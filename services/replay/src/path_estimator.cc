@@ -342,11 +342,10 @@ PathOffset PathEstimator::offset() const {
 }
 
 double PathEstimator::offset_sigma_m() const {
-  const double ahead_m = state_[kAhead];
-  const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
+  const double along_m = state_[kAlong] - state_[kAhead] * std::cos(state_[kHeading]);
   Row left = Row::Zero();  // of the axle, by the state
   left[kLeft] = 1.0;
-  left[kHeading] = -ahead_m;
+  left[kHeading] = -state_[kAhead];
   left[kAhead] = -std::sin(state_[kHeading]) - 0.5 * TaughtTurn(along_m, state_[kAlong]);
   return std::sqrt(std::max(0.0, (left * covariance_ * left.transpose()).value()));
 }
