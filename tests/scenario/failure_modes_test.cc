@@ -43,7 +43,7 @@ TEST(FailureMode, AMissedTransitionIsMadeUpForWithoutAnybodysHelp) {
 
 // Somebody pushes it aside: no wheel feels that, and most features outdoors are far enough away to
 // stay where they were in the picture. It takes its time: of ten that were shoved by 3 m in trials,
-// half were back within 0.2 m after ten metres, and all within 0.08 m after thirty.
+// two were back within 0.2 m after ten metres, and all within 0.14 m after thirty.
 TEST(FailureMode, ShovedOffThePathItFindsOutAndComesBack) {
   const sim::Place place = test::Open("paved");
   const sim::CameraModel camera = *sim::FindCamera("webcam");
