@@ -34,6 +34,10 @@ void MoveAhead(RobotFlaws& robot, Drawing& draw) {
   robot.camera.ahead_m += draw.random.Uniform(0.1, 0.6);
 }
 
+void Roll(RobotFlaws& robot, double degrees) {
+  robot.camera.roll_deg = std::remainder(robot.camera.roll_deg + degrees, 360.0);
+}
+
 void LoseOdometry(RobotFlaws& robot, Drawing& draw) {
   robot.faults.push_back({Kind::kOdometryRestarts, {draw.Moment_s()}});
   robot.faults.push_back({Kind::kOdometryJumps, {draw.Moment_s()}});
@@ -49,12 +53,12 @@ const std::vector<KnownFlaw>& KnownFlaws() {
   static const std::vector<KnownFlaw> all = {
       {{"upside-down", "the camera hangs upside down, and the agent is told"},
        [](RobotFlaws& robot, Drawing&) {
-         robot.camera.roll_deg += 180.0;
+         Roll(robot, 180.0);
          robot.told_roll_deg = 180.0;
        }},
       {{"crooked", "the camera is mounted with up to 5 degrees of roll"},
        [](RobotFlaws& robot, Drawing& draw) {
-         robot.camera.roll_deg += draw.random.Uniform(-5.0, 5.0);
+         Roll(robot, draw.random.Uniform(-5.0, 5.0));
        }},
       {{"ahead", "the camera sits 0.1 to 0.6 m ahead of the axle"}, MoveAhead},
       {{"ahead-told", "the same, and the agent is told how far"},

@@ -46,6 +46,15 @@ TEST(Flaws, AreDrawnFromTheSeedAlone) {
             Text(DrawFlaws("all", Webcam(), kDrive_s, 8)));
 }
 
+TEST(Flaws, MakeNoCameraThatCannotBe) {
+  for (const std::string& name : FlawNames()) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const auto possible = sim::Validate(DrawFlaws(name, Webcam(), kDrive_s, seed).camera);
+      EXPECT_TRUE(possible) << name << ", seed " << seed << ": " << possible.error().message;
+    }
+  }
+}
+
 TEST(Flaws, HappenWhileTheRobotIsUnderWay) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const RobotFlaws robot = DrawFlaws("all", Webcam(), kDrive_s, seed);
