@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "agent/device/pose_history.h"
+#include "agent/device/recorded_poses.h"
 #include "services/base/result.h"
 #include "services/base/time.h"
 #include "services/motion/motion.h"
@@ -21,14 +24,20 @@ class OdometryFile {
   // nearest row holds; kInvalidArgument beyond.
   [[nodiscard]] Result<motion::Pose2> At(SensorTime time) const;
 
+  // As RecordedPoses has it.
+  [[nodiscard]] motion::OdometryIncrement TakeUnknown(SensorTime until,
+                                                      std::vector<std::string>& news) {
+    return poses_.TakeUnknown(until, news);
+  }
+
   static constexpr double kSlack_s = 0.5;
 
  private:
-  OdometryFile(std::filesystem::path file, PoseHistory poses)
+  OdometryFile(std::filesystem::path file, RecordedPoses poses)
       : file_(std::move(file)), poses_(std::move(poses)) {}
 
   std::filesystem::path file_;
-  PoseHistory poses_;
+  RecordedPoses poses_;
 };
 
 }  // namespace trailcast::agent

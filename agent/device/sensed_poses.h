@@ -60,7 +60,6 @@ class SensedPoses {
   // The same as each of the last periods has it, in which samples of both came.
   std::deque<std::chrono::nanoseconds> apart_;
   Time period_from_;
-  motion::OdometryIncrement speed_;  // by odometry, in a second
   motion::OdometryIncrement unknown_;
   std::vector<std::string> news_;
 };

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "agent/device/pose_history.h"
+#include "agent/device/recorded_poses.h"
 #include "agent/device/src/bag_topics.h"
 #include "services/bag/ros_messages.h"
 #include "services/image/files.h"
@@ -72,9 +72,10 @@ struct BagDevice::State {
   std::unique_ptr<bag::Bag> bag;
   BagTopics topics;
   std::vector<Sample> odometry;
-  PoseHistory poses{nanoseconds::max()};
+  std::optional<RecordedPoses> poses;
   bool by_stamps = true;             // else by the times of recording
   std::optional<Observation> first;  // until it is handed out
+  std::optional<SensorTime> begun;   // when the first picture was taken
   std::optional<SensorTime> last;
   std::uint64_t pictures = 0;  // looked at
   LeftOut left_out;
@@ -137,9 +138,12 @@ Result<void> BagDevice::State::ChooseClock() {
     }
     break;
   }
+  std::vector<RecordedPoses::Sample> samples;
+  samples.reserve(odometry.size());
   for (const Sample& sample : odometry) {
-    poses.Add(by_stamps ? sample.times.stamp : sample.times.logged_at, sample.pose);
+    samples.push_back({by_stamps ? sample.times.stamp : sample.times.logged_at, sample.pose});
   }
+  poses.emplace(samples);
   odometry = {};
   bag->Begin(topics.image);
   return {};
@@ -173,15 +177,23 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
     return std::nullopt;
   }
   if (topics.odometry) {
-    if (poses.FromNearest(observation.stamp) > kOdometryNear) {
+    if (poses->history().FromNearest(observation.stamp) > kOdometryNear) {
       ++left_out.without_odometry;
       return std::nullopt;
     }
-    observation.odometry = poses.At(observation.stamp);
+    observation.odometry = poses->history().At(observation.stamp);
   }
   auto gray = Gray(message);
   if (!gray) return unreadable(gray.error());
   observation.image = std::move(*gray);
+  if (!begun) begun = observation.stamp;
+  if (topics.odometry) {
+    std::vector<std::string> news;
+    observation.unknown = poses->TakeUnknown(observation.stamp, news);
+    for (const std::string& each : news) {
+      spdlog::warn("{:.2f} s into the drive {}", Seconds(observation.stamp - *begun), each);
+    }
+  }
   last = observation.stamp;
   return observation;
 }

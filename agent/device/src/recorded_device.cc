@@ -1,5 +1,7 @@
 #include "agent/device/recorded_device.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -98,6 +100,10 @@ Result<std::optional<Observation>> RecordedDevice::Next() {
     auto pose = odometry_->At(observation.stamp);
     if (!pose) return tl::unexpected(pose.error());
     observation.odometry = *pose;
+    std::vector<std::string> news;
+    observation.unknown = odometry_->TakeUnknown(observation.stamp, news);
+    for (const std::string& each : news)
+      spdlog::warn("at {:.2f} s {}", Seconds(observation.stamp), each);
   }
   return observation;
 }

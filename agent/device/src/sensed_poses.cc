@@ -20,8 +20,6 @@ constexpr milliseconds kSameClockAgain{400};
 constexpr milliseconds kPeriod{500};
 constexpr milliseconds kLongestPeriod{1000};
 constexpr std::size_t kPeriods = 7;
-// Beyond, a base that was driven when its odometry fell silent has been stopped.
-constexpr double kLongestGap_s = 1.0;
 
 bool Same(const motion::Pose2& a, const motion::Pose2& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
@@ -41,21 +39,11 @@ bool SensedPoses::AddOdometry(SensorTime stamp, const motion::Pose2& pose, Time 
   if (!taken) return false;
   newest_stamp_ = stamp;
   newest_raw_ = pose;
-  const OdometryGate::Passed passed = gate_.Pass(*taken, pose);
-  if (passed.gap) {
-    const double seconds = std::min(Seconds(*passed.gap), kLongestGap_s);
-    unknown_.distance_m +=
-        seconds * std::max(std::abs(told.linear_mps), std::abs(speed_.distance_m));
-    unknown_.heading_change_rad +=
-        seconds * std::max(std::abs(told.angular_radps), std::abs(speed_.heading_change_rad));
-    news_.push_back(fmt::format(
-        "odometry jumped by {:.2f} m in {:.2f} s, which no base drives: it goes on from "
-        "where it was, and vision tells the rest",
-        passed.jump_m, Seconds(*passed.gap)));
-  } else if (!poses_.empty()) {
-    const double seconds = Seconds(*taken - poses_.newest());
-    const auto moved = motion::IncrementBetween(poses_.At(poses_.newest()), passed.pose);
-    speed_ = {moved.distance_m / seconds, moved.heading_change_rad / seconds};
+  const OdometryGate::Passed passed = gate_.Pass(*taken, pose, told);
+  if (passed.jump) {
+    unknown_.distance_m += passed.jump->unknown.distance_m;
+    unknown_.heading_change_rad += passed.jump->unknown.heading_change_rad;
+    news_.push_back(passed.jump->Text());
   }
   poses_.Add(*taken, passed.pose);
   CompareClocks(came_at);

@@ -81,6 +81,39 @@ TEST_F(BagDeviceTest, PicturesHaveTheirOwnTimesAndTheOdometryOfThen) {
   EXPECT_DOUBLE_EQ(*(*device)->drive_progress(), 1.0);
 }
 
+TEST_F(BagDeviceTest, OdometryThatJumpsIsBridgedAndHowFarItMayHaveDrivenIsTold) {
+  const auto odometry = [&](int at, double x_m) {
+    Writer().Put("/odom", kOdometry, kBegin + milliseconds(at) + kDelay,
+                 test::OdometryMessage(kBegin + milliseconds(at), {x_m, 0, 0}));
+  };
+  for (int at = 0; at < 1000; at += 50) odometry(at, 4.0 + 1e-3 * at);
+  for (int at = 1000; at <= 2000; at += 50) odometry(at, 1e-3 * (at - 1000));
+  for (int at = 0; at <= 2000; at += 100) Picture(milliseconds(at), at / 100);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 21U);
+  EXPECT_NEAR(all.back().odometry->x_m - all.front().odometry->x_m, 1.95, 1e-6);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(all[i].unknown.distance_m, i == 10 ? 0.05 : 0.0, 1e-6) << i;
+  }
+}
+
+TEST_F(BagDeviceTest, ADriveAsFastAsACarsIsNoJump) {
+  const auto odometry = [&](int at) {
+    Writer().Put("/odom", kOdometry, kBegin + milliseconds(at) + kDelay,
+                 test::OdometryMessage(kBegin + milliseconds(at), {0.012 * at, 0, 0}));
+  };
+  for (int at = 0; at <= 9000; at += 1000) odometry(at);
+  for (int at = 0; at <= 9000; at += 500) Picture(milliseconds(at), at / 500);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 19U);
+  EXPECT_NEAR(all.back().odometry->x_m, 108.0, 1e-6);
+  for (const Observation& each : all) EXPECT_EQ(each.unknown.distance_m, 0.0);
+}
+
 TEST_F(BagDeviceTest, PicturesFarFromAnyOdometryAreLeftOut) {
   for (int at = 1000; at <= 1400; at += 100) Odometry(milliseconds(at));
   for (int at = 3000; at <= 3400; at += 100) Odometry(milliseconds(at));

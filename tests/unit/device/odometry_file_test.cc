@@ -35,6 +35,28 @@ TEST_F(OdometryFileTest, HeadingsInDegreesAreRefused) {
   EXPECT_EQ(ErrorOf(header + "0,0,0,0\n0.05,0,0,0.1\n"), "no error");
 }
 
+TEST_F(OdometryFileTest, OdometryThatBeganAnewGoesOnFromWhereItWas) {
+  std::string text = "t_s,x_m,y_m,heading_rad\n";
+  for (int i = 0; i < 200; ++i) {  // at a metre a second
+    const motion::Pose2 pose = i < 120 ? motion::Pose2{5.0 + 0.05 * i, 0.0, 0.0}
+                                       : motion::Advance({0.0, 0.0, 2.0}, {0.05 * (i - 120), 0.0});
+    text += fmt::format("{},{},{},{}\n", 0.05 * i, pose.x_m, pose.y_m, pose.heading_rad);
+  }
+  auto odometry = Read(text);
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  const auto before = odometry->At(FromSeconds(5.9));
+  const auto after = odometry->At(FromSeconds(6.9));
+  ASSERT_TRUE(before && after);
+  const auto driven = motion::IncrementBetween(*before, *after);
+  EXPECT_NEAR(driven.distance_m, 0.95, 1e-6) << "but for the step that jumped";
+  std::vector<std::string> news;
+  EXPECT_EQ(odometry->TakeUnknown(FromSeconds(5.9), news).distance_m, 0.0);
+  EXPECT_NEAR(odometry->TakeUnknown(FromSeconds(6.0), news).distance_m, 0.05, 1e-6);
+  EXPECT_EQ(odometry->TakeUnknown(FromSeconds(9.0), news).distance_m, 0.0);
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_THAT(news[0], HasSubstr("odometry jumped by 10.95 m"));
+}
+
 TEST_F(OdometryFileTest, TimesOfNoClockAreRefused) {
   const std::string header = "t_s,x_m,y_m,heading_rad\n";
   for (const char* time : {"6.6e69", "-6.6e69", "1e19"}) {

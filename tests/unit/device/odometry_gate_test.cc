@@ -34,10 +34,10 @@ class OdometryGateTest : public testing::Test {
 TEST_F(OdometryGateTest, LetsPassWhatABaseCanDrive) {
   for (int i = 0; i < 100; ++i) {
     const auto passed = Drive(0.05, 0.1);
-    EXPECT_FALSE(passed.gap);
+    EXPECT_FALSE(passed.jump);
     ExpectTrue(passed.pose);
   }
-  EXPECT_FALSE(Drive(1.0, 0.5, 0.5).gap) << "after a silence";
+  EXPECT_FALSE(Drive(1.0, 0.5, 0.5).jump) << "after a silence";
 }
 
 TEST_F(OdometryGateTest, AJumpIsNoMotionAndWhatComesAfterItGoesOn) {
@@ -47,8 +47,8 @@ TEST_F(OdometryGateTest, AJumpIsNoMotionAndWhatComesAfterItGoesOn) {
     raw_ = jump;
     now_ += FromSeconds(kPeriod_s);
     const auto passed = gate_.Pass(now_, raw_);
-    ASSERT_TRUE(passed.gap);
-    EXPECT_NEAR(Seconds(*passed.gap), kPeriod_s, 1e-9);
+    ASSERT_TRUE(passed.jump);
+    EXPECT_NEAR(Seconds(passed.jump->gap), kPeriod_s, 1e-9);
     ExpectTrue(passed.pose);
     for (int i = 0; i < 50; ++i) ExpectTrue(Drive().pose);
   }
@@ -59,8 +59,8 @@ TEST_F(OdometryGateTest, ABaseThatWasStartedAnewHasNotDrivenHomeMeanwhile) {
   raw_ = {};
   now_ += std::chrono::seconds(8);
   const auto passed = gate_.Pass(now_, raw_);
-  ASSERT_TRUE(passed.gap);
-  EXPECT_NEAR(Seconds(*passed.gap), 8.0, 1e-9);
+  ASSERT_TRUE(passed.jump);
+  EXPECT_NEAR(Seconds(passed.jump->gap), 8.0, 1e-9);
   ExpectTrue(passed.pose);
 }
 
