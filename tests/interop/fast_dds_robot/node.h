@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
+
+namespace robot {
+
+namespace dds = eprosima::fastdds::dds;
+
+// How a ROS 2 node over Fast DDS is on the network by its environment (rmw_fastrtps).
+enum class Setting {
+  kDefault,         // all interfaces, multicast, shared memory
+  kLocalhostOnly,   // ROS_LOCALHOST_ONLY=1
+  kLocalhostRange,  // ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
+};
+
+// A participant with topics as ROS 2 names them and with the QoS of its sensor drivers: reliable,
+// volatile, the last ones kept. Throws std::runtime_error.
+class Node {
+ public:
+  Node(std::uint32_t domain, Setting setting);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  // `topic` as in ROS 2, "/robot1/odom".
+  dds::DataWriter* Write(const std::string& topic, dds::TypeSupport type);
+  dds::DataReader* Read(const std::string& topic, dds::TypeSupport type);
+
+ private:
+  dds::Topic* TopicOf(const std::string& name, const dds::TypeSupport& type);
+
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+};
+
+}  // namespace robot

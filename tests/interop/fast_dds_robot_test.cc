@@ -1,0 +1,83 @@
+// A robot whose ROS 2 nodes run over Fast DDS is taught a path and follows it.
+#include <fstream>
+#include <optional>
+
+#include "tests/scenario/programs.h"
+#include "tests/support/network_lab.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::HasSubstr;
+
+#ifdef TRAILCAST_FAST_DDS_ROBOT
+constexpr const char* kRobot = TRAILCAST_FAST_DDS_ROBOT;
+#else
+constexpr const char* kRobot = nullptr;
+#endif
+constexpr const char* kDomain = "7";  // of a computer of its own
+constexpr int kHost = 1;
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr int kPictures = 120;
+
+// By what the robot's nodes are told of the network.
+class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    if (kRobot == nullptr) {
+      GTEST_SKIP() << "built without fastddsgen, java or libfastrtps-dev (config/setup/install.sh "
+                      "check installs them)";
+    }
+    if (const std::string obstacle = NetworkLab::Obstacle(); !obstacle.empty()) {
+      GTEST_SKIP() << obstacle;
+    }
+    lab_.emplace();
+    lab_->AddHost(kHost);
+    std::ofstream film(Path("film"), std::ios::binary);
+    for (int i = 0; i < kPictures; ++i) {
+      const image::GrayImage picture = WalkFrame(i, kWidth, kHeight);
+      film.write(reinterpret_cast<const char*>(picture.pixels.data()),
+                 static_cast<std::streamsize>(picture.pixels.size()));
+    }
+  }
+  std::unique_ptr<Process> Robot(const std::string& does) {
+    return std::make_unique<Process>(
+        lab_->At(kHost, {kRobot, kDomain, GetParam(), Path("film"), std::to_string(kWidth),
+                         std::to_string(kHeight), does}),
+        Path("robot-" + does + ".log"));
+  }
+  Ended RunAgentOfRobot(const std::string& command, const Words& words) {
+    Process agent(lab_->At(kHost, With({std::string(TRAILCAST_BINARY_DIR) + "/trailcast-agent",
+                                        command, "--ros2", "/robot1", "--ros-domain", kDomain,
+                                        "--route", "hall", "--store", Path("routes.db")},
+                                       words)),
+                  Path(command + ".log"));
+    return End(agent);
+  }
+
+  std::optional<NetworkLab> lab_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Settings, FastDdsRobot,
+                         testing::Values("default", "localhost-only", "localhost-range"),
+                         [](const auto& param) {
+                           std::string name = param.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(FastDdsRobot, IsTaughtAndFollows) {
+  {
+    const auto robot = Robot("drive");
+    const auto taught = RunAgentOfRobot("teach", {"--end-when-still", "1"});
+    ASSERT_EQ(taught.status, 0) << taught.output << robot->output();
+  }
+  const auto robot = Robot("obey");
+  const auto followed = RunAgentOfRobot("replay", {});
+  EXPECT_EQ(followed.status, 0) << followed.output << robot->output();
+  EXPECT_THAT(followed.output, HasSubstr("state=ARRIVED"));
+}
+
+}  // namespace
+}  // namespace trailcast::test
