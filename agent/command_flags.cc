@@ -147,6 +147,12 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
           "--keep-distance", replay.keep_distance_m,
           "With --server: metres along the path to keep from followers ahead; 0: keeps none")
       ->check(CLI::Range(0.0, 1000.0));
+  command
+      .add_option("--look-around", replay.look_around_deg,
+                  "Degrees to either side by which a robot that has lost its path from view, and "
+                  "would give up, turns on the spot to find it again, by odometry and the default "
+                  "method; cars and recordings do not. 0: it stands")
+      ->check(CLI::Range(0.0, 180.0));
   AddDeviceOptions(command, replay.device, false);
   AddTerrainOptions(command, replay);
 }

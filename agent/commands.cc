@@ -84,6 +84,9 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.session.camera_ahead_m = replay.device.camera_ahead_m;
   follower.session.passing.most_m = replay.device.pass_obstacles_m;
   follower.session.passing.robot = OutlineOf(replay.device.ros2.obstacles);
+  const bool turns_on_the_spot =
+      !replay.device.is_recorded() && replay.device.ros2.limits.turn_radius_m == 0.0;
+  follower.session.look_around_rad = turns_on_the_spot ? Radians(replay.look_around_deg) : 0.0;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;

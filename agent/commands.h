@@ -8,6 +8,7 @@
 #include "agent/device/device_options.h"
 #include "agent/follower.h"
 #include "agent/scout.h"
+#include "agent/session/look_around.h"
 #include "services/program/command_line.h"
 
 namespace trailcast::agent {
@@ -50,6 +51,7 @@ struct ReplayCommand {
   double speed_factor = 1.0;
   bool from_start = false;
   std::string start = "left";
+  double look_around_deg = kUsualLookAround_deg;
   double keep_distance_m = KeepDistanceOptions{}.distance_m;
   std::optional<double> max_slope_deg;
   std::string max_roughness;  // empty: any

@@ -20,7 +20,8 @@ enum class Phase {
   kBlind,
   kCovered,
   kArrived,
-  kLost
+  kLost,
+  kLooking
 };
 
 [[nodiscard]] const char* ToString(Phase phase);

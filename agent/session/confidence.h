@@ -45,6 +45,7 @@ enum class Trust {
   // still, for a while. Driving on might mean driving into it.
   kCovered,
   kSeeking,  // the route's start has not been found yet: stand still, for a while
+  kLooking,  // it has found nothing of the path for too long: turn on the spot to look for it
   kLost,     // none of these any longer: stop
 };
 
@@ -81,9 +82,9 @@ struct ConfidenceOptions {
   // not found the route yet, may look around, before it is lost.
   double blind_limit_m = 2.5;
   double blind_limit_s = 3.0;
-  // A view of so many times the features it takes to be sure, gone within so many seconds of one
-  // segment, was covered, if this share of its features vanished where they were: in a bend a
-  // camera with a narrow view loses them as fast, over the picture's edge.
+  // A view of so many times the features it takes to be sure, gone within so many seconds, was
+  // covered, if this share of its features vanished where they were: in a bend a camera with a
+  // narrow view loses them as fast, over the picture's edge.
   bool stand_when_covered = true;
   double good_view = 1.5;
   double covered_within_s = 1.5;
@@ -106,9 +107,9 @@ class Confidence {
   // The robot is on the path by other evidence than a segment's features: it may go on as if it had
   // been sure.
   void SetFound() { sure_once_ = true; }
-  // It looks elsewhere from now on, at the beginning of `segment`: until it is sure of that it
-  // stands. `not_found` is why.
-  void SeekAnew(std::uint32_t segment, std::string not_found);
+  // It looks elsewhere from now on: until it is sure of what is there it stands. `not_found` is
+  // why.
+  void SeekAnew(std::string not_found);
   // `moved`: since the last frame; nothing on robots without odometry.
   [[nodiscard]] Verdict Judge(const Sighting& seen,
                               const std::optional<motion::OdometryIncrement>& moved);
@@ -150,8 +151,7 @@ class Confidence {
   bool recognised_only_ = false;
   bool covered_ = false;
   std::optional<double> since_covered_s_;
-  std::uint32_t segment_ = 0;
-  std::optional<double> since_good_s_;  // view of this segment; nothing: there was none
+  std::optional<double> since_good_s_;  // view; nothing: there was none
   int good_features_ = 0;               // then
   int vanished_ = 0;                    // since then
 };

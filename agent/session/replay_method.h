@@ -45,6 +45,9 @@ struct ReplayMethodOptions {
   std::optional<double> camera_ahead_m = {};
   // Round what stands on the path, by the default method with odometry.
   replay::PassingOptions passing = {};
+  // How far to either side a robot that has lost its path from view turns on the spot to find it
+  // again, before it gives up; by the default method with odometry. 0: it stands.
+  double look_around_rad = 0.0;
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

@@ -17,7 +17,7 @@ constexpr std::array kPhases = {
     NamedPhase{"sure", Phase::kSure},       NamedPhase{"unsure", Phase::kUnsure},
     NamedPhase{"distant", Phase::kDistant}, NamedPhase{"blind", Phase::kBlind},
     NamedPhase{"covered", Phase::kCovered}, NamedPhase{"arrived", Phase::kArrived},
-    NamedPhase{"lost", Phase::kLost}};
+    NamedPhase{"lost", Phase::kLost},       NamedPhase{"looking", Phase::kLooking}};
 
 }  // namespace
 

@@ -26,6 +26,8 @@ Phase PhaseOf(const ReplayStep& step) {
       return Phase::kCovered;
     case Trust::kSeeking:
       return Phase::kSeeking;
+    case Trust::kLooking:
+      return Phase::kLooking;
     case Trust::kLost:
       break;
   }

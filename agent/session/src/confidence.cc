@@ -22,6 +22,8 @@ const char* ToString(Trust trust) {
       return "covered";
     case Trust::kSeeking:
       return "seeking";
+    case Trust::kLooking:
+      return "looking";
     case Trust::kLost:
       break;
   }
@@ -39,22 +41,18 @@ void Confidence::NoteView(const Sighting& seen) {
     since_good_s_ = 0.0;
     good_features_ = seen.agreeing;
     vanished_ = 0;
-  } else if (seen.segment != segment_) {
-    since_good_s_.reset();
   } else if (since_good_s_) {
     *since_good_s_ += seen.dt_s;
     vanished_ += seen.vanished;
   }
-  segment_ = seen.segment;
 }
 
-void Confidence::SeekAnew(std::uint32_t segment, std::string not_found) {
+void Confidence::SeekAnew(std::string not_found) {
   options_.not_found = std::move(not_found);
   sure_once_ = recognised_only_ = covered_ = false;
   unsure_m_ = unsure_s_ = 0.0;
   since_covered_s_.reset();
   since_good_s_.reset();
-  segment_ = segment;
 }
 
 void Confidence::NoteCarry() {

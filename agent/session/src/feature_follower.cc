@@ -44,7 +44,8 @@ FeatureFollower::FeatureFollower(const ReplayMethodOptions& options, int scout_w
       place_(place),
       search_(!AsPrinted(options.method), scout_width_px, eyes, place),
       confidence_(ConfidenceOf(options.method)),
-      passing_(options.passing) {}
+      passing_(options.passing),
+      look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad) {}
 
 replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
   search_.Open(*seen.frame);
@@ -84,10 +85,10 @@ replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
   if (follower_->turning()) return step;
   const route::Segment& segment = follower_->segment();
   search_.HandOverTo(*follower_);
-  confidence_.SeekAnew(segment.index.value(),
-                       fmt::format("after turning on the spot by {:.0f} degrees the way on is not "
-                                   "found",
-                                   Degrees(std::abs(segment.turn_before_rad))));
+  confidence_.SeekAnew(
+      fmt::format("after turning on the spot by {:.0f} degrees the way on is not "
+                  "found",
+                  Degrees(std::abs(segment.turn_before_rad))));
   return step;
 }
 
@@ -97,6 +98,7 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
       follower_->Step({seen.features, seen.driven, seen.unknown,
                        follower_->segment().reverse ? 0.0 : passing_.left_m()});
   Judge(step, seen, standing);
+  if (look_around_.turns()) step.command = {0.0, look_around_.turn_rate_radps()};
   if (follower_->segment().index == before) LookWhatStands(step, seen, standing);
   if (!AsPrinted(options_.method)) {
     search_.Refresh(*follower_, step.agreeing, seen.looked_s, step.carried_left_m.has_value());
@@ -106,7 +108,8 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   }
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
   // What covers this segment's features covers the next one's too.
-  const bool covered = standing.trust == Trust::kCovered || confidence_.view_is_going();
+  const bool covered =
+      standing.trust == Trust::kCovered || confidence_.view_is_going() || look_around_.turns();
   const bool wants_next = step.wants_next && next_is_here && !covered &&
                           !route_.stands_after(follower_->segment().index);
   if (standing.state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(standing);
@@ -170,14 +173,32 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
     if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
   }
   standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
+  LookAroundFirst(seen, standing);
   const bool tracked = standing.trust == Trust::kSure && step.offset && step.agreeing > 0;
   const RoutePoint point{follower_->segment().index, step.fraction};
   place_.SetTracked(tracked ? std::optional(point) : std::nullopt, step.agreeing);
   const bool astray = standing.trust == Trust::kBlind || standing.trust == Trust::kSeeking ||
+                      standing.trust == Trust::kLooking ||
                       (elsewhere && standing.trust == Trust::kUnsure) ||
                       confidence_.recognised_only();
   if (confidence_.unsure_s() == 0.0) look_again_at_s_ = kLookAgain_s;
   if (astray && standing.state != ReplayState::kLost) LookAgain(step.fraction, elsewhere);
+}
+
+// Whoever would give up because it does not see the path may have been turned away from it.
+void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
+  if (standing.trust != Trust::kLost) look_around_.Rest();
+  if (standing.trust != Trust::kLost || look_around_.furthest_rad() == 0.0 || !seen.driven ||
+      !confidence_.ever_sure()) {
+    return;
+  }
+  if (look_around_.Turn(seen.driven->heading_change_rad, seen.looked_s)) {
+    standing = {ReplayState::kBlind, Trust::kLooking,
+                "turns on the spot to look for the path: " + standing.reason};
+  } else {
+    standing.reason += fmt::format("; nor is it found {:.0f} degrees to either side",
+                                   Degrees(look_around_.furthest_rad()));
+  }
 }
 
 // Where the belief holds it to be, if that is somewhere else; otherwise about where it is thought
@@ -199,8 +220,12 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
   if (found.empty() || too_far) return;
-  if (elsewhere) follower_->BeginAt(segment, point.fraction);
-  if (ahead) follower_->Begin(segment);
+  // Where a robot faces that was turned, its odometry does not know.
+  if (elsewhere || look_around_.turns()) {
+    follower_->BeginAt(segment, point.fraction);
+  } else if (ahead) {
+    follower_->Begin(segment);
+  }
   search_.TakeUpRecovered(found, *follower_, segment);
 }
 

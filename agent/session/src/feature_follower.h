@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "agent/session/confidence.h"
+#include "agent/session/look_around.h"
 #include "agent/session/place_finder.h"
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
@@ -70,6 +71,7 @@ class FeatureFollower {
   [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
+  void LookAroundFirst(const Seen& seen, Standing& standing);
   void LookAgain(double fraction, bool elsewhere);
   void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
   void SteerByWholeView(replay::FollowStep& step) const;
@@ -84,6 +86,7 @@ class FeatureFollower {
   FeatureSearch search_;
   Confidence confidence_;
   replay::Passing passing_;
+  LookAround look_around_;
   PlaceTrust place_trust_;                      // of the printed methods
   double look_again_at_s_ = 0.0;                // of being unsure
   std::optional<PlaceFinder> place_finder_;     // until it has found the place

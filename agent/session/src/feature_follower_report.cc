@@ -59,7 +59,7 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.decision = step;
   const bool on_by_odometry =
       state == ReplayState::kBlind && standing.trust == Trust::kBlind && by_odometry();
-  if (state == ReplayState::kFollowing || on_by_odometry) {
+  if (state == ReplayState::kFollowing || on_by_odometry || look_around_.turns()) {
     const double share = SpeedShare(step, standing.trust);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
   }

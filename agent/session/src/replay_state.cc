@@ -29,6 +29,7 @@ ReplayState StateOf(Trust trust) {
     case Trust::kBlind:
     case Trust::kCovered:
     case Trust::kSeeking:
+    case Trust::kLooking:
       return ReplayState::kBlind;
     case Trust::kLost:
       break;

@@ -20,6 +20,7 @@ double WeightOf(Phase phase) {
     case Phase::kLost:
       return 100.0;
     case Phase::kCovered:
+    case Phase::kLooking:
       return 60.0;
     case Phase::kBlind:
       return 50.0;
@@ -86,6 +87,8 @@ const char* Meaning(Phase phase) {
   switch (phase) {
     case Phase::kSeeking:
       return "looking for the route's start";
+    case Phase::kLooking:
+      return "turned on the spot to look for the path";
     case Phase::kDistant:
       return "only distant features, slowly on";
     case Phase::kBlind:
@@ -99,7 +102,8 @@ const char* Meaning(Phase phase) {
 
 // Of a stretch where it was not sure, but not lost: how long, and the least that it saw.
 std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
-  const bool by_distance = log.frames[spell.first].driven_m.has_value();
+  const bool by_distance =
+      log.frames[spell.first].driven_m.has_value() && spell.phase != Phase::kLooking;
   std::string text = Meaning(spell.phase);
   text += by_distance ? fmt::format(" for {:.2f} m ({} frames, {})", driven_m,
                                     spell.end - spell.first, SpeedText(log, spell))

@@ -153,7 +153,8 @@ enum FrameKind { kPlain, kNear, kWide, kAgain, kSearching, kFrameKinds };
 std::vector<FrameKind> KindsOf(const RunLog& log) {
   std::vector<FrameKind> kinds;
   for (const FrameRow& row : log.frames) {
-    const bool searching = row.phase == Phase::kBlind || row.phase == Phase::kSeeking;
+    const bool searching =
+        row.phase == Phase::kBlind || row.phase == Phase::kSeeking || row.phase == Phase::kLooking;
     kinds.push_back(searching ? kSearching : kPlain);
   }
   for (const RunEvent& event : log.events) {

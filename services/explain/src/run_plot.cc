@@ -175,8 +175,9 @@ void DrawHead(Drawing& drawing, const RunLog& log) {
   drawing.Text(WhoFollowedWhat(log), {kLeft_px, 22.0}, kTextHeight_px, plot::kInk);
   drawing.Text(Outcome(log), {kLeft_px, 42.0}, kTextHeight_px, plot::kInk);
   double x = kLeft_px;
-  for (const Phase phase : {Phase::kUnsure, Phase::kDistant, Phase::kBlind, Phase::kCovered,
-                            Phase::kSeeking, Phase::kWaiting, Phase::kArrived, Phase::kLost}) {
+  for (const Phase phase :
+       {Phase::kUnsure, Phase::kDistant, Phase::kBlind, Phase::kCovered, Phase::kSeeking,
+        Phase::kLooking, Phase::kWaiting, Phase::kArrived, Phase::kLost}) {
     drawing.FillBox({x, 50.0}, {x + 22.0, 62.0}, PhaseColor(phase));
     drawing.Text(ToString(phase), {x + 28.0, 60.0}, 10.0, plot::kInk);
     x += 46.0 + Drawing::TextWidth(ToString(phase), 10.0);
@@ -191,6 +192,8 @@ Color PhaseColor(Phase phase) {
       return {222, 222, 222};
     case Phase::kSeeking:
       return {190, 220, 250};
+    case Phase::kLooking:
+      return {165, 205, 215};
     case Phase::kUnsure:
       return {255, 236, 170};
     case Phase::kDistant:

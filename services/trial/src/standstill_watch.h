@@ -5,10 +5,11 @@
 
 namespace trailcast::trial {
 
-// Notices a robot that gets nowhere: 20 s without coming 0.2 m further.
+// Notices a robot that gets nowhere, as patiently as its agent: so long without coming 0.2 m
+// further.
 class StandstillWatch {
  public:
-  static constexpr double kBound_s = 20.0;
+  static constexpr double kBound_s = 60.0;
   static constexpr double kDistance_m = 0.2;
 
   // The robot's true position, at rising times.

@@ -4,7 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "agent/session/look_around.h"
 #include "agent/simulated/camera_file.h"
+#include "services/base/angles.h"
 #include "services/sim/places/traffic.h"
 #include "services/trial/flaws.h"
 #include "services/trial/scenario.h"
@@ -153,6 +155,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   setup.follower_options.camera_ahead_m = options.follower_ahead_m;
   setup.scanner = scenario->scanner;
   setup.follower_options.passing.most_m = options.pass_obstacles_m.value_or(scenario->pass_m);
+  setup.follower_options.look_around_rad = Radians(agent::kUsualLookAround_deg);
   setup.follower_options.passing.robot = agent::OutlineOf(SimulatedBody());
   if (scenario->gain) setup.follower.gain_low = setup.follower.gain_high = *scenario->gain;
   if (auto opened = OpenScene(*scenario, options, setup); !opened) {

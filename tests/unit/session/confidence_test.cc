@@ -56,12 +56,12 @@ TEST_F(ConfidenceTest, IsSureWhenEnoughFeaturesAgree) {
 TEST_F(ConfidenceTest, StandsAfterATurnUntilItIsSureOfTheWayOn) {
   See(20, 100);
   NextSegment(kTaught);
-  confidence_.SeekAnew(segment_, "the way on is not found");
+  confidence_.SeekAnew("the way on is not found");
   Verdict verdict = See(0, 89);
   EXPECT_EQ(verdict.trust, Trust::kSeeking);
   EXPECT_THAT(verdict.reason, ::testing::HasSubstr("the way on is not found: 0 of segment 1's 40"));
   EXPECT_EQ(See(8).trust, Trust::kSure);
-  confidence_.SeekAnew(segment_, "the way on is not found");
+  confidence_.SeekAnew("the way on is not found");
   EXPECT_EQ(See(0, 91).trust, Trust::kLost);
 }
 
@@ -171,6 +171,15 @@ TEST_F(ConfidenceTest, ASegmentThatIsNotFoundAtItsStartWasNotCovered) {
   See(30);
   NextSegment(kTaught);
   EXPECT_EQ(See(0, 10).trust, Trust::kBlind);
+}
+
+TEST_F(ConfidenceTest, AViewThatIsGoingWhenASegmentEndsAndGoneAfterItWasCovered) {
+  See(30);
+  Vanish(14);
+  EXPECT_EQ(See(5).trust, Trust::kUnsure);
+  NextSegment(kTaught);
+  Vanish(10);
+  EXPECT_EQ(See(0).trust, Trust::kCovered);
 }
 
 TEST_F(ConfidenceTest, DistantFeaturesAloneDoNotTellThePlace) {

@@ -279,6 +279,77 @@ TEST(ReplaySessionTurning, StandsAfterATurnOnTheSpotWhereItDoesNotSeeTheWayOn) {
               HasSubstr("after turning on the spot by 69 degrees the way on is not found"));
 }
 
+// In mid-walk the robot is turned, which its odometry does not feel: what it sees then is not the
+// path, but for where it faces along it.
+struct Thrown {
+  ReplayStep last;
+  double facing_rad = 0.0;
+  double furthest_rad = 0.0;  // that it turned from where it was thrown
+  bool drove_on = false;
+  bool drove_astray = false;
+};
+
+Thrown ThrowBy(double thrown_rad, double look_around_rad) {
+  constexpr std::size_t kThrownAt = 30;
+  constexpr double kSees_rad = 0.1;
+  ReplayMethodOptions options;
+  options.look_around_rad = look_around_rad;
+  ReplaySession session = SessionOn(Taught(true), options);
+  Thrown thrown;
+  motion::Pose2 pose;
+  std::size_t walked = 0;
+  bool was_thrown = false;
+  for (int i = 0; i < 2000 && thrown.last.state != ReplayState::kLost && !thrown.drove_on; ++i) {
+    const bool sees = std::abs(thrown.facing_rad) < kSees_rad;
+    const auto step = session.Observe({StampOf(i), sees ? Walk()[walked] : Noise(7), pose});
+    EXPECT_TRUE(step);
+    thrown.last = *step;
+    const motion::VelocityCommand& command = thrown.last.command;
+    thrown.drove_astray = thrown.drove_astray || (!sees && command.linear_mps != 0.0);
+    thrown.drove_on = was_thrown && sees && command.linear_mps > 0.0;
+    if (command.linear_mps > 0.0 && sees) {
+      pose = motion::Advance(pose, {kStep_m, 0.0});
+      ++walked;
+    } else {
+      pose = motion::Advance(pose, {0.0, command.angular_radps / kFrames_hz});
+      thrown.facing_rad += command.angular_radps / kFrames_hz;
+    }
+    if (walked == kThrownAt && !was_thrown) {
+      was_thrown = true;
+      thrown.facing_rad = thrown_rad;
+    }
+    if (was_thrown) {
+      thrown.furthest_rad = std::max(thrown.furthest_rad, std::abs(thrown.facing_rad - thrown_rad));
+    }
+  }
+  return thrown;
+}
+
+TEST(ReplaySessionLookingAround, FindsThePathAgainOnEitherSide) {
+  for (const double thrown_rad : {0.6, -0.6}) {
+    const Thrown thrown = ThrowBy(thrown_rad, 1.0);
+    EXPECT_TRUE(thrown.drove_on) << thrown_rad << ": " << thrown.last.reason;
+    EXPECT_FALSE(thrown.drove_astray) << thrown_rad;
+  }
+}
+
+TEST(ReplaySessionLookingAround, GivesUpWhereItSeesNothingAndFacesWhereItDid) {
+  const Thrown thrown = ThrowBy(2.5, 1.0);
+  EXPECT_FALSE(thrown.drove_on || thrown.drove_astray);
+  EXPECT_EQ(thrown.last.state, ReplayState::kLost);
+  EXPECT_THAT(thrown.last.reason, HasSubstr("nor is it found 57 degrees to either side"));
+  EXPECT_TRUE(Stands(thrown.last));
+  EXPECT_NEAR(thrown.furthest_rad, 1.0, 0.1);
+  EXPECT_NEAR(thrown.facing_rad, 2.5, 0.1);
+}
+
+TEST(ReplaySessionLookingAround, StandsIfItIsNotToTurn) {
+  const Thrown thrown = ThrowBy(0.6, 0.0);
+  EXPECT_FALSE(thrown.drove_on || thrown.drove_astray);
+  EXPECT_EQ(thrown.last.state, ReplayState::kLost);
+  EXPECT_EQ(thrown.furthest_rad, 0.0);
+}
+
 constexpr int kTurnsAt = 45;  // of the walk's frames
 constexpr int kTurnsAgainAt = 15;
 constexpr int kEndsAt = 55;

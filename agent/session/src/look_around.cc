@@ -1,0 +1,42 @@
+#include "agent/session/look_around.h"
+
+#include <cmath>
+
+namespace trailcast::agent {
+namespace {
+
+constexpr double kRate_radps = 0.5;  // slow enough for sharp pictures
+constexpr double kNear_rad = 1.05;   // the usual lens's own view
+constexpr double kThere_rad = 0.05;
+// Of what a turn should take: a base that does not turn is not waited for.
+constexpr double kPatience = 3.0;
+
+}  // namespace
+
+LookAround::LookAround(double furthest_rad) : furthest_rad_(furthest_rad) {
+  if (furthest_rad <= 0.0) return;
+  if (furthest_rad > kNear_rad) aims_rad_ = {kNear_rad, -kNear_rad};
+  aims_rad_.insert(aims_rad_.end(), {furthest_rad, -furthest_rad, 0.0});
+}
+
+bool LookAround::Turn(double turned_rad, double dt_s) {
+  if (leg_ == aims_rad_.size()) return false;
+  if (!begun_) {
+    begun_ = true;
+    return true;
+  }
+  heading_rad_ += turned_rad;
+  leg_s_ += dt_s;
+  const double longest_s = kPatience * 2.0 * furthest_rad_ / kRate_radps;
+  if (std::abs(Left_rad()) <= kThere_rad || leg_s_ > longest_s) {
+    ++leg_;
+    leg_s_ = 0.0;
+  }
+  return leg_ < aims_rad_.size();
+}
+
+double LookAround::turn_rate_radps() const {
+  return turns() ? std::copysign(kRate_radps, Left_rad()) : 0.0;
+}
+
+}  // namespace trailcast::agent
