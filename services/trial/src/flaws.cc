@@ -57,9 +57,7 @@ const std::vector<KnownFlaw>& KnownFlaws() {
          robot.told_roll_deg = 180.0;
        }},
       {{"crooked", "the camera is mounted with up to 5 degrees of roll"},
-       [](RobotFlaws& robot, Drawing& draw) {
-         Roll(robot, draw.random.Uniform(-5.0, 5.0));
-       }},
+       [](RobotFlaws& robot, Drawing& draw) { Roll(robot, draw.random.Uniform(-5.0, 5.0)); }},
       {{"ahead", "the camera sits 0.1 to 0.6 m ahead of the axle"}, MoveAhead},
       {{"ahead-told", "the same, and the agent is told how far"},
        [](RobotFlaws& robot, Drawing& draw) {
