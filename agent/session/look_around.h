@@ -12,13 +12,13 @@ constexpr double kUsualLookAround_deg = 120.0;
 // Turns a robot that has lost its path from view on the spot: to the left and to the right, first
 // nearer by, and back to where it faced. Once, until it has seen its path again. No clock: the
 // frames' own periods count.
-class LookAround {
+class LookingAround {
  public:
   // 0: it never does.
-  explicit LookAround(double furthest_rad);
+  explicit LookingAround(double furthest_rad);
 
   // The path is in view.
-  void Rest() { *this = LookAround(furthest_rad_); }
+  void Rest() { *this = LookingAround(furthest_rad_); }
   // It is not: the robot, that turned so far to the left since the last frame, is to turn on.
   // False: it has looked everywhere.
   [[nodiscard]] bool Turn(double turned_rad, double dt_s);

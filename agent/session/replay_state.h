@@ -7,6 +7,7 @@ namespace trailcast::agent {
 enum class ReplayState {
   kWaiting,    // at the end of what is known of the route: standing until more comes
   kYielding,   // behind another follower, as near as it may come: standing until that one goes on
+  kHeld,       // an operator has it stand: until one tells it to go on
   kFollowing,  // by vision (and odometry, where there is any)
   // Too few features: by odometry alone for a short way, slowly; standing, where the route's start
   // has not been found and where something covers the view.

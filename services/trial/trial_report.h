@@ -11,14 +11,15 @@
 
 namespace trailcast::trial {
 
-// One trial: who, under which conditions, and what truth says of it.
 // Of a follower with a scanner.
 struct ScanFigures {
-  double waited_s = 0.0;                                       // before what stood in its way
+  // Standing before what stood in its way, whichever of its senses had it stand.
+  double waited_s = 0.0;
   double nearest_m = std::numeric_limits<double>::infinity();  // what it scanned, from its side
   bool touched = false;                                        // something, by its bumper
 };
 
+// One trial: who, under which conditions, and what truth says of it.
 struct TrialRow {
   std::string scenario;
   std::string method;

@@ -86,7 +86,7 @@ class FeatureFollower {
   FeatureSearch search_;
   Confidence confidence_;
   replay::Passing passing_;
-  LookAround look_around_;
+  LookingAround look_around_;
   PlaceTrust place_trust_;                      // of the printed methods
   double look_again_at_s_ = 0.0;                // of being unsure
   std::optional<PlaceFinder> place_finder_;     // until it has found the place

@@ -13,13 +13,13 @@ constexpr double kPatience = 3.0;
 
 }  // namespace
 
-LookAround::LookAround(double furthest_rad) : furthest_rad_(furthest_rad) {
+LookingAround::LookingAround(double furthest_rad) : furthest_rad_(furthest_rad) {
   if (furthest_rad <= 0.0) return;
   if (furthest_rad > kNear_rad) aims_rad_ = {kNear_rad, -kNear_rad};
   aims_rad_.insert(aims_rad_.end(), {furthest_rad, -furthest_rad, 0.0});
 }
 
-bool LookAround::Turn(double turned_rad, double dt_s) {
+bool LookingAround::Turn(double turned_rad, double dt_s) {
   if (leg_ == aims_rad_.size()) return false;
   if (!begun_) {
     begun_ = true;
@@ -35,7 +35,7 @@ bool LookAround::Turn(double turned_rad, double dt_s) {
   return leg_ < aims_rad_.size();
 }
 
-double LookAround::turn_rate_radps() const {
+double LookingAround::turn_rate_radps() const {
   return turns() ? std::copysign(kRate_radps, Left_rad()) : 0.0;
 }
 

@@ -8,6 +8,8 @@ const char* ToString(ReplayState state) {
       return "WAITING";
     case ReplayState::kYielding:
       return "YIELDING";
+    case ReplayState::kHeld:
+      return "HELD";
     case ReplayState::kFollowing:
       return "FOLLOWING";
     case ReplayState::kBlind:

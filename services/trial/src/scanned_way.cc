@@ -1,5 +1,7 @@
 #include "services/trial/src/scanned_way.h"
 
+#include <cmath>
+
 #include "agent/simulated/scanner.h"
 
 namespace trailcast::trial {
@@ -8,6 +10,8 @@ namespace {
 constexpr std::chrono::milliseconds kScan{100};
 constexpr double kScanner_m = 0.2;  // above the ground
 constexpr double kWidth_m = 0.4;    // of sim::RobotBody
+constexpr double kBefore_m = 1.0;   // what a robot stands before is as near
+constexpr double kStands_m = 1e-4;  // in a frame
 
 }  // namespace
 
@@ -17,8 +21,17 @@ agent::ObstacleOptions SimulatedBody() {
   return body;
 }
 
+bool ScannedWay::IsAhead(const Eigen::Vector2d& point) {
+  return point.x() > 0.0 && point.x() < kBefore_m && std::abs(point.y()) < 0.5 * kWidth_m;
+}
+
 void ScannedWay::Look(SensorTime now, const sim::Judge& robot) {
-  if (waits() && last_ >= SensorTime(0)) figures_.waited_s += Seconds(now - last_);
+  const Eigen::Vector2d position_m = motion::Position(robot.true_pose());
+  const bool stands = (position_m - position_m_).norm() < kStands_m;
+  position_m_ = position_m;
+  if (last_ >= SensorTime(0) && (waits() || (stands && something_ahead_))) {
+    figures_.waited_s += Seconds(now - last_);
+  }
   figures_.touched = figures_.touched || robot.blocked();
   last_ = now;
   if (now < scan_at_) return;
@@ -29,6 +42,7 @@ void ScannedWay::Look(SensorTime now, const sim::Judge& robot) {
                  std::chrono::duration_cast<agent::ObstacleWatch::Time::duration>(now)),
              agent::LookAround(*world_, robot.stage(), scanner, {}));
   const auto points = watch_.scanned();
+  something_ahead_ = std::any_of(points->begin(), points->end(), IsAhead);
   for (const Eigen::Vector2d& at : *points) {
     figures_.nearest_m = std::min(figures_.nearest_m, at.norm() - 0.5 * kWidth_m);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -39,10 +40,14 @@ class ScannedWay {
   [[nodiscard]] const ScanFigures& figures() const { return figures_; }
 
  private:
+  [[nodiscard]] static bool IsAhead(const Eigen::Vector2d& point);
+
   std::shared_ptr<const sim::World> world_;
   agent::ObstacleWatch watch_;
   SensorTime last_{-1};
   SensorTime scan_at_{0};
+  Eigen::Vector2d position_m_ = Eigen::Vector2d::Zero();  // true, in the last frame
+  bool something_ahead_ = false;                          // by the last scan
   ScanFigures figures_;
 };
 
