@@ -96,6 +96,9 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   if (!follower.open_loop && !replay.device.is_simulated()) {
     follower.link.place_file = options.store_file + "." + options.common.name + ".place";
   }
+  if (!follower.open_loop) {
+    follower.link.stop_file = options.store_file + "." + options.common.name + ".stop";
+  }
   // A recording drives on, whatever it is told.
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);

@@ -9,6 +9,7 @@
 #include "agent/comfort.h"
 #include "agent/device/standstill.h"
 #include "agent/progress_watch.h"
+#include "agent/stand.h"
 #include "agent/yielding.h"
 
 namespace trailcast::agent {
@@ -52,6 +53,8 @@ class Loop {
   [[nodiscard]] Result<bool> Step(const Observation& observation);
   [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
   [[nodiscard]] bool NothingToFollow() const;
+  // False: an operator has ended the run.
+  [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
@@ -63,6 +66,8 @@ class Loop {
   Diagnosis diagnosis_;
   ProgressWatch watch_;
   Yielding yielding_;
+  Hold hold_;
+  Stand stand_;  // while an operator holds it
   TerrainCheck terrain_;
   Comfort comfort_;
   bool all_is_to_come_ = false;  // the route is complete, if not here
@@ -125,6 +130,11 @@ bool Loop::Refuses() {
   return refusal.has_value();
 }
 
+bool Loop::TakeHold() {
+  while (auto hold = link_.TryTakeHold()) hold_ = *std::move(hold);
+  return !hold_.cancelled || options_.open_loop || End("CANCELLED", "cancelled by an operator");
+}
+
 // False: the run is over.
 Result<bool> Loop::WaitForFeed() {
   auto began = steady_clock::now();
@@ -142,6 +152,7 @@ Result<bool> Loop::WaitForFeed() {
     }
     link_.WaitForNews(kWakeUp);
     if (auto taken = TakeFeed(); !taken) return tl::unexpected(taken.error());
+    if (!TakeHold()) return false;
   }
   return true;
 }
@@ -158,9 +169,12 @@ Result<void> Loop::Run() {
     auto ready = WaitForFeed();
     if (!ready) return tl::unexpected(ready.error());
     if (!*ready || Refuses()) return {};
-    if (last_ && last_->state == ReplayState::kYielding) link_.WaitForNews(kStandingFrame);
+    const bool stands =
+        last_ && (last_->state == ReplayState::kYielding || last_->state == ReplayState::kHeld);
+    if (stands) link_.WaitForNews(kStandingFrame);
     auto observation = device_.Next();
     if (!observation) return tl::unexpected(observation.error());
+    if (!TakeHold()) return {};
     if (!*observation && options_.link.stop()) continue;
     if (!*observation) {
       End(last_ ? ToString(last_->state) : "WAITING",
@@ -175,10 +189,19 @@ Result<void> Loop::Run() {
 
 Result<ReplayStep> Loop::Decide(const Observation& observation) {
   while (auto neighbours = link_.TryTakeNeighbours()) yielding_.Hear(std::move(*neighbours));
+  const bool held = hold_.kind != Hold::Kind::kNone && !options_.open_loop;
+  if (const ReplayStep* wish = held ? stand_.WithoutLooking(observation.stamp) : nullptr) {
+    return StandingStep(*wish, ReplayState::kHeld, hold_.text);
+  }
   const auto now = steady_clock::now();
   if (auto standing = yielding_.StandOn(observation.stamp, now)) return *standing;
   auto step = session_->Observe(observation);
   if (!step) return step;
+  if (held && step->state != ReplayState::kLost) {
+    stand_.Begin(*step, observation.stamp);
+    return StandingStep(*std::move(step), ReplayState::kHeld, hold_.text);
+  }
+  stand_.End();
   return yielding_.Apply(comfort_.Apply(*std::move(step)), observation.stamp, now);
 }
 
@@ -288,7 +311,8 @@ exchange::AgentMode LastMode(const ReplayOutcome& outcome, bool open_loop) {
   using exchange::AgentMode;
   if (outcome.error) return AgentMode::kFault;
   if (outcome.state == ToString(ReplayState::kArrived)) return AgentMode::kArrived;
-  if (outcome.state == "STOPPED" || (open_loop && outcome.success)) return AgentMode::kStopped;
+  if (outcome.state == "STOPPED" || outcome.state == "CANCELLED" || (open_loop && outcome.success))
+    return AgentMode::kStopped;
   return AgentMode::kFault;
 }
 

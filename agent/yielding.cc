@@ -4,18 +4,6 @@
 #include <utility>
 
 namespace trailcast::agent {
-namespace {
-
-constexpr std::chrono::seconds kComesToStand{1};
-
-ReplayStep Stand(ReplayStep step, const Spacing& spacing, KeepDistance::Time now) {
-  step.command = {};
-  step.state = ReplayState::kYielding;
-  step.reason = WaitText(spacing, now);
-  return step;
-}
-
-}  // namespace
 
 Spacing Yielding::SpacingFor(const ReplayStep& step, Time now) {
   const bool drives = step.command.linear_mps != 0.0;
@@ -24,27 +12,23 @@ Spacing Yielding::SpacingFor(const ReplayStep& step, Time now) {
 }
 
 std::optional<ReplayStep> Yielding::StandOn(SensorTime stamp, Time now) {
-  if (!since_ || stamp - *since_ < kComesToStand) return std::nullopt;
-  const Spacing spacing = SpacingFor(wish_, now);
+  const ReplayStep* wish = stand_.WithoutLooking(stamp);
+  if (wish == nullptr) return std::nullopt;
+  const Spacing spacing = SpacingFor(*wish, now);
   if (!spacing.waits_for) return std::nullopt;
-  return Stand(wish_, spacing, now);
+  return StandingStep(*wish, ReplayState::kYielding, WaitText(spacing, now));
 }
 
 ReplayStep Yielding::Apply(ReplayStep step, SensorTime stamp, Time now) {
   const Spacing spacing = SpacingFor(step, now);
   if (!spacing.waits_for) {
-    since_.reset();
+    stand_.End();
     step.command.linear_mps *= spacing.speed_factor;
     step.command.angular_radps *= spacing.speed_factor;
     return step;
   }
-  if (!since_) since_ = stamp;
-  wish_ = step;
-  // Of the frame that was looked at, and not of those that are not.
-  wish_.sight.searches.clear();
-  wish_.sight.lost = {};
-  wish_.decision.carried_left_m.reset();
-  return Stand(std::move(step), spacing, now);
+  stand_.Begin(step, stamp);
+  return StandingStep(std::move(step), ReplayState::kYielding, WaitText(spacing, now));
 }
 
 }  // namespace trailcast::agent

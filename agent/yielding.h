@@ -5,6 +5,7 @@
 
 #include "agent/keep_distance.h"
 #include "agent/session/replay_session.h"
+#include "agent/stand.h"
 #include "services/base/time.h"
 
 namespace trailcast::agent {
@@ -22,9 +23,8 @@ class Yielding {
   // Who is on the route from now on.
   void Hear(std::vector<Neighbour> neighbours) { neighbours_ = std::move(neighbours); }
 
-  // A robot that has come to a stand behind another need not look at its pictures: there is nothing
-  // to learn from them, and whoever passes before it would only confuse it. Its step, as long as it
-  // has to stand; nothing: look at the frame of this stamp, and Apply.
+  // The step of a robot that has come to a stand behind another, as long as it has to; nothing:
+  // look at the frame of this stamp, and Apply.
   [[nodiscard]] std::optional<ReplayStep> StandOn(SensorTime stamp, Time now);
   [[nodiscard]] ReplayStep Apply(ReplayStep step, SensorTime stamp, Time now);
 
@@ -34,8 +34,7 @@ class Yielding {
   bool enabled_;
   KeepDistance keep_distance_;
   std::vector<Neighbour> neighbours_;
-  std::optional<SensorTime> since_;  // it yields
-  ReplayStep wish_;                  // what the session asked for then
+  Stand stand_;
 };
 
 }  // namespace trailcast::agent

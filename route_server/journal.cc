@@ -1,5 +1,6 @@
 #include "route_server/journal.h"
 
+#include "services/base/text.h"
 #include "services/route/labels.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,8 @@ std::optional<std::string> Journal::Received(const exchange::Message& message) {
   }
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) return On(*status);
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) return On(*gone);
+  if (const auto* command = std::get_if<exchange::NowCommand>(&message)) return On(*command);
+  if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) return On(*answer);
   if (const auto* request = std::get_if<exchange::SegmentRequest>(&message)) {
     return fmt::format("'{}' asks for {} segments of {}, from {} on", request->requester.value(),
                        request->lacking.size(), NameOf(request->key),
@@ -74,6 +77,28 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
                              reply->page.routes.front().name);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> Journal::On(const exchange::NowCommand& command) {
+  std::uint64_t& told = commands_.Touch(command.client);
+  if (command.number <= told) return std::nullopt;
+  told = command.number;
+  const std::string whom = command.whom == exchange::NowWhom::kAll ? "all robots"
+                           : command.whom == exchange::NowWhom::kOnRoute
+                               ? "the robots on route '" + command.name + "'"
+                               : "'" + command.name + "'";
+  return fmt::format("'{}' tells {} to {}{}", command.client.value(), whom,
+                     exchange::ToString(command.order),
+                     command.reason.empty() ? "" : ": " + PlainText(command.reason, 200));
+}
+
+std::optional<std::string> Journal::On(const exchange::NowAnswer& answer) {
+  std::uint64_t& told = answers_.Touch({answer.agent, answer.client});
+  if (answer.number <= told) return std::nullopt;
+  told = answer.number;
+  return fmt::format("'{}' {} '{}': {}", answer.agent.value(),
+                     answer.refused ? "does not obey" : "obeys", answer.client.value(),
+                     PlainText(answer.detail, 200));
 }
 
 std::optional<std::string> Journal::On(const exchange::RouteAnnouncement& announcement) {

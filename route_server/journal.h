@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/base/newest_map.h"
@@ -33,6 +34,8 @@ class Journal {
   std::optional<std::string> On(const exchange::AgentStatus& status);
   std::optional<std::string> On(const exchange::AgentGone& gone);
   std::optional<std::string> On(const exchange::Receipt& receipt);
+  std::optional<std::string> On(const exchange::NowCommand& command);
+  std::optional<std::string> On(const exchange::NowAnswer& answer);
 
   // Forgets all rather than hold too many: then it tells of some again.
   [[nodiscard]] Known& KnownOf(const route::RouteKey& key);
@@ -40,6 +43,10 @@ class Journal {
   std::map<route::RouteKey, Known> routes_;
   // Present, with their instances.
   NewestMap<AgentId, std::uint64_t> agents_{kMostAgents};
+  // Told: the last command of each client, and the last that each agent answered. They are said
+  // again and again.
+  NewestMap<AgentId, std::uint64_t> commands_{kMostAgents};
+  NewestMap<std::pair<AgentId, AgentId>, std::uint64_t> answers_{kMostAgents};
 };
 
 }  // namespace trailcast::server

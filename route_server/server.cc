@@ -96,6 +96,7 @@ void Server::Receive(exchange::Message message) {
     ReceiveRequest(message);
     return;
   }
+  if (PassOn(message)) return;
   presence_.Handle(message);
   fleet_.Handle(message);
   followers_.Handle(message, steady_clock::now());
@@ -111,6 +112,25 @@ void Server::Receive(exchange::Message message) {
   } else if (auto allowed = WithinQuotas(message)) {
     keeper_->Handle(*std::move(allowed), steady_clock::now());
   }
+}
+
+// At once, whatever else there is to do. True: it was such a message.
+bool Server::PassOn(const exchange::Message& message) {
+  const auto pass = [this](auto copy) {
+    if (copy.relayed) return;  // by another server
+    if (const auto line = journal_.Received(copy)) spdlog::info("{}", *line);
+    copy.relayed = true;
+    // What cannot be handed over now is said again by whoever said it.
+    (void)exchange_->Publish(copy);
+  };
+  if (const auto* command = std::get_if<exchange::NowCommand>(&message)) {
+    pass(*command);
+  } else if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
+    pass(*answer);
+  } else {
+    return false;
+  }
+  return true;
 }
 
 // Another server may have put it into the store that both share.

@@ -48,6 +48,8 @@ class Server {
 
   void Receive(exchange::Message message);
   void ReceiveRequest(const exchange::Message& request);
+  // What operators tell robots, and these answer, who may not hear each other.
+  [[nodiscard]] bool PassOn(const exchange::Message& message);
   [[nodiscard]] Result<void> Enqueue(const exchange::Message& request);
   // Of a message what its sender's quotas allow; nothing if that is nothing.
   [[nodiscard]] std::optional<exchange::Message> WithinQuotas(const exchange::Message& message);

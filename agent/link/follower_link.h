@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "agent/link/neighbours.h"
+#include "agent/link/now_desk.h"
 #include "agent/link/place_note.h"
 #include "agent/session/replay_session.h"
 #include "services/base/mailbox.h"
@@ -32,6 +33,7 @@ struct FollowerLinkOptions {
   bool wait_for_route = false;       // a route that nobody knows yet may still be taught
   std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
   bool from_start = false;           // whatever was noted
+  std::filesystem::path stop_file;   // where an operator's stop is kept; empty: nowhere
   bool feeds_segments = true;  // false: nobody drives, the segments are stored and not read back
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
@@ -70,6 +72,9 @@ class FollowerLink {
   [[nodiscard]] std::optional<std::vector<Neighbour>> TryTakeNeighbours() {
     return told_neighbours_.TryGet();
   }
+  // How operators have the robot stand, whenever that has changed; before the route is fed, if an
+  // earlier run was stopped.
+  [[nodiscard]] std::optional<Hold> TryTakeHold() { return told_hold_.TryGet(); }
   // While the robot stands: waits until something was fed, others have moved, or `at_most`.
   void WaitForNews(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
 
@@ -109,6 +114,9 @@ class FollowerLink {
   void ShowStatus();
   void HearServer();
   void TellNeighbours(Time now);
+  void HearOperators(const exchange::Message& message);
+  void AnswerOperators();
+  [[nodiscard]] bool TellHold();  // false: not yet
   [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
 
   FollowerLinkOptions options_;
@@ -125,6 +133,8 @@ class FollowerLink {
   std::optional<Time> noted_;        // when
   Neighbours neighbours_;
   std::vector<Neighbour> told_;  // to the control loop
+  NowDesk now_desk_;
+  Hold hold_told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;
   std::uint32_t held_ = 0;         // segments in the own store without a gap
   std::set<SegmentIndex> beyond_;  // those after the first gap
@@ -138,6 +148,7 @@ class FollowerLink {
 
   Mailbox<Feed> feed_{16};
   Mailbox<std::vector<Neighbour>> told_neighbours_{4};
+  Mailbox<Hold> told_hold_{4};
   Mailbox<ReplayStep> reports_{64};
   ReplayStep latest_;
   Bell fed_;

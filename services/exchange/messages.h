@@ -206,6 +206,42 @@ struct RouteFollowers {
   bool operator==(const RouteFollowers&) const = default;
 };
 
+// What an operator tells robots to do at once.
+enum class NowOrder : std::uint8_t {
+  kPause = 0,    // stand where it is
+  kResume = 1,   // go on, after a pause
+  kCancel = 2,   // end what it does, and stand
+  kStop = 3,     // stand, also after a restart, until it is released
+  kRelease = 4,  // no longer stopped, but paused
+};
+
+[[nodiscard]] const char* ToString(NowOrder order);  // "pause"
+
+enum class NowWhom : std::uint8_t { kRobot = 0, kOnRoute = 1, kAll = 2 };
+
+// trailcast/now: said again until it is answered.
+struct NowCommand {
+  AgentId client{};          // who gives it
+  std::uint64_t number = 0;  // counts up from 1 in the client's process; obeyed once
+  NowOrder order = NowOrder::kStop;
+  NowWhom whom = NowWhom::kAll;
+  std::string name{};    // of the robot, or the route; empty for all
+  std::string reason{};  // one line for people; may be empty
+  bool relayed = false;  // by a server, for robots that do not hear its client
+  bool operator==(const NowCommand&) const = default;
+};
+
+// trailcast/now_answers: of each robot that is meant, each time that it hears the command.
+struct NowAnswer {
+  AgentId agent{};
+  AgentId client{};  // whose command it was, and which one
+  std::uint64_t number = 0;
+  bool refused = false;  // it was not obeyed
+  std::string detail{};  // one line for people: how the robot is now, or why not
+  bool relayed = false;  // by a server
+  bool operator==(const NowAnswer&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -213,8 +249,8 @@ struct AgentGone {
   bool operator==(const AgentGone&) const = default;
 };
 
-using Message =
-    std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
-                 CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, AgentGone>;
+using Message = std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt,
+                             CatalogRequest, CatalogReply, AgentStatus, RouteEditRequest, Fleet,
+                             RouteFollowers, NowCommand, NowAnswer, AgentGone>;
 
 }  // namespace trailcast::exchange

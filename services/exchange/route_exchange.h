@@ -22,6 +22,8 @@ enum class Topic : std::uint8_t {
   kRouteEdits,
   kFleet,
   kNeighbours,
+  kNow,
+  kNowAnswers,
 };
 
 struct TopicUse {
@@ -46,9 +48,10 @@ struct TopicUse {
 [[nodiscard]] TopicUse ScoutTopics();
 [[nodiscard]] TopicUse FollowerTopics();
 [[nodiscard]] TopicUse ServerTopics();
-[[nodiscard]] TopicUse OperatorTopics();  // reads routes, agents, catalog replies; asks the
-                                          // catalog, edits routes
-[[nodiscard]] TopicUse ObserverTopics();  // the same without edits
+[[nodiscard]] TopicUse OperatorTopics();    // reads routes, agents, catalog replies; asks the
+                                            // catalog, edits routes
+[[nodiscard]] TopicUse DispatcherTopics();  // of who tells robots what to do now
+[[nodiscard]] TopicUse ObserverTopics();    // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and
 // over DDS (dds/); one contract suite runs against both. Not thread-safe: one owner thread

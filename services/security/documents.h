@@ -39,6 +39,9 @@ inline constexpr const char* kRevocationsTopic = "trailcast/revocations";
 // True of permissions that name the revocations topic, as those from before there was one do not.
 [[nodiscard]] bool AllowsRevocations(const std::string& permissions_xml);
 
+// The same of what operators tell robots to do now.
+[[nodiscard]] bool AllowsNow(const std::string& permissions_xml);
+
 // The value of the only element of that name; nothing if there is none, or several.
 [[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);
 

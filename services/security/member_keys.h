@@ -20,6 +20,7 @@ struct MemberKeys {
   Time expires{};
   bool scoped = false;       // its permissions allow partitions below its own (PartitionOf)
   bool revocations = false;  // and the topic on which servers spread revocations
+  bool now = false;          // and those of what robots are told to do now
   std::string authority{};   // the fleet's: its certificate, PEM
   RevocationList revoked{};  // by the authority; that of the folder, or a newer one
 };

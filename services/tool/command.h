@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "services/program/command_line.h"
 
@@ -23,6 +24,9 @@ struct Command {
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
+// pause, resume, cancel, stop, release.
+[[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
+                                                  const program::CommonOptions& common);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);

@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include "services/tool/command.h"
@@ -15,6 +16,7 @@ constexpr const char* kExamples =
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
+    "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
     "  trailcast robot --sim indoor --ros2 /robot1   # a virtual robot for an agent\n"
@@ -30,19 +32,22 @@ int Run(int argc, char** argv) {
   trailcast::program::CommonOptions common;
   common.name = "operator";
   trailcast::program::AddCommonOptions(app, common);
-  const std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
-                                      trailcast::tool::AddTrialCommand(app),
-                                      trailcast::tool::AddAlignCommand(app),
-                                      trailcast::tool::AddJudgeCommand(app),
-                                      trailcast::tool::AddFiguresCommand(app),
-                                      trailcast::tool::AddExplainCommand(app),
-                                      trailcast::tool::AddRoutesCommand(app, common),
-                                      trailcast::tool::AddExportCommand(app, common),
-                                      trailcast::tool::AddImportCommand(app, common),
-                                      trailcast::tool::AddWhereCommand(app, common),
-                                      trailcast::tool::AddKeysCommand(app),
-                                      trailcast::tool::AddDoctorCommand(app, common),
-                                      trailcast::tool::AddRobotCommand(app, common)};
+  std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
+                                trailcast::tool::AddTrialCommand(app),
+                                trailcast::tool::AddAlignCommand(app),
+                                trailcast::tool::AddJudgeCommand(app),
+                                trailcast::tool::AddFiguresCommand(app),
+                                trailcast::tool::AddExplainCommand(app),
+                                trailcast::tool::AddRoutesCommand(app, common),
+                                trailcast::tool::AddExportCommand(app, common),
+                                trailcast::tool::AddImportCommand(app, common),
+                                trailcast::tool::AddWhereCommand(app, common),
+                                trailcast::tool::AddKeysCommand(app),
+                                trailcast::tool::AddDoctorCommand(app, common),
+                                trailcast::tool::AddRobotCommand(app, common)};
+  for (Command& command : trailcast::tool::AddNowCommands(app, common)) {
+    commands.push_back(std::move(command));
+  }
   if (const auto ended = trailcast::program::Parse(app, argc, argv)) return *ended;
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

@@ -62,6 +62,10 @@ Message ProbeFor(Topic topic) {
       return exchange::Fleet{.server = kProbe};
     case Topic::kNeighbours:
       return exchange::RouteFollowers{.server = kProbe, .key = key};
+    case Topic::kNow:
+      return exchange::NowCommand{.client = kProbe};
+    case Topic::kNowAnswers:
+      return exchange::NowAnswer{.agent = kProbe, .client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -84,6 +88,8 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::AgentStatus& m) { return m.agent; }
     AgentId operator()(const exchange::Fleet& m) { return m.server; }
     AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
+    AgentId operator()(const exchange::NowCommand& m) { return m.client; }
+    AgentId operator()(const exchange::NowAnswer& m) { return m.agent; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

@@ -158,6 +158,23 @@ class Samples {
     wire.followers._length = Count();
     wire.followers._buffer = Many<trailcast_wire_RouteFollower>(followers_, wire.followers._length);
   }
+  void Fill(trailcast_wire_NowCommand& wire) {
+    wire.client = Name();
+    wire.number = input_.ConsumeIntegral<std::uint64_t>();
+    wire.order = Octet();
+    wire.whom = Octet();
+    wire.name = Name();
+    wire.reason = Text();
+    wire.relayed = Octet();
+  }
+  void Fill(trailcast_wire_NowAnswer& wire) {
+    wire.agent = Name();
+    wire.client = Name();
+    wire.number = input_.ConsumeIntegral<std::uint64_t>();
+    wire.refused = Octet();
+    wire.detail = Text();
+    wire.relayed = Octet();
+  }
   void Fill(trailcast_wire_RouteFollower& wire) {
     wire.agent = Name();
     wire.along_m = Real();
@@ -307,7 +324,7 @@ void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   FuzzedDataProvider input(data, size);
-  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 9))) {
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 11))) {
     case Topic::kRoutes:
       FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
       break;
@@ -337,6 +354,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kNeighbours:
       FillAndTakeIn<trailcast_wire_RouteFollowers>(topic, input);
+      break;
+    case Topic::kNow:
+      FillAndTakeIn<trailcast_wire_NowCommand>(topic, input);
+      break;
+    case Topic::kNowAnswers:
+      FillAndTakeIn<trailcast_wire_NowAnswer>(topic, input);
       break;
   }
   return 0;

@@ -45,4 +45,10 @@ inline void MakeOfBeforeRevocations(const std::filesystem::path& authority,
                        std::string("<topic>") + security::kRevocationsTopic + "</topic>");
 }
 
+// The same of before operators told robots what to do now.
+inline void MakeOfBeforeNow(const std::filesystem::path& authority,
+                            const std::filesystem::path& keys) {
+  TakeOutOfPermissions(authority, keys, "<topic>trailcast/now</topic>");
+}
+
 }  // namespace trailcast::test

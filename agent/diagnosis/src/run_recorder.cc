@@ -9,7 +9,8 @@ namespace trailcast::agent {
 namespace {
 
 Phase PhaseOf(const ReplayStep& step) {
-  if (step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding) {
+  if (step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding ||
+      step.state == ReplayState::kHeld) {
     return Phase::kWaiting;
   }
   if (step.state == ReplayState::kArrived) return Phase::kArrived;

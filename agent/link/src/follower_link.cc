@@ -44,18 +44,26 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
           },
           [this](const route::RouteKey& key) { return store_->FindRoute(key); }),
       place_note_(options_.place_file),
-      neighbours_(options_.agent) {
+      neighbours_(options_.agent),
+      now_desk_(options_.agent, options_.stop_file) {
   if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
 }
 
 FollowerLink::~FollowerLink() { Finish(); }
 
 Result<void> FollowerLink::Start() {
+  now_desk_.Load();
+  if (!presence_ && now_desk_.hold().kind == Hold::Kind::kStopped) {
+    return Fail(ErrorCode::kConflict,
+                "{}; give --server, so that an operator can release it ('trailcast release {}')",
+                now_desk_.hold().text, options_.agent.value());
+  }
   if (presence_) {
     const auto handle = [this](const exchange::Message& message) {
       finder_.Handle(message);
       neighbours_.Handle(message, steady_clock::now());
       spare_.Handle(message, steady_clock::now());
+      HearOperators(message);
     };
     if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
   }
@@ -83,6 +91,7 @@ void FollowerLink::Run() {
 }
 
 Result<void> FollowerLink::Work() {
+  while (!over() && !TellHold()) reported_.Wait(kWait);
   if (auto told = TellHeld(); !told) return told;
   if (auto found = Find(); !found) return found;
   if (over()) return {};
@@ -142,6 +151,7 @@ void FollowerLink::Trade() {
   auto messages = exchange_->Take(next_feed_ < held_ ? kWaitFeeding : kWait);
   const auto now = steady_clock::now();
   for (exchange::Message& message : messages) {
+    HearOperators(message);
     presence_->Handle(message);
     neighbours_.Handle(message, now);
     spare_.Handle(message, now);
@@ -151,6 +161,8 @@ void FollowerLink::Trade() {
       finder_.Handle(message);
     }
   }
+  (void)TellHold();  // full: with the next messages
+  AnswerOperators();
   if (auto listening = Listen(now); !listening) spdlog::debug("{}", listening.error().message);
   Say(now);
   HearServer();

@@ -6,6 +6,7 @@
 
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
+#include "services/exchange/publish.h"
 
 namespace trailcast::agent {
 namespace {
@@ -14,6 +15,7 @@ exchange::AgentMode ModeOf(ReplayState state) {
   switch (state) {
     case ReplayState::kWaiting:
     case ReplayState::kYielding:
+    case ReplayState::kHeld:
       return exchange::AgentMode::kWaiting;
     case ReplayState::kFollowing:
     case ReplayState::kBlind:
@@ -64,6 +66,29 @@ void FollowerLink::ShowStatus() {
   status.held = held_revisions_;
   if (route_ && latest_.along_m) status.place = {route_->key, *latest_.along_m};
   presence_->Set(std::move(status));
+}
+
+// Whoever only fetches drives nothing that could be held.
+void FollowerLink::HearOperators(const exchange::Message& message) {
+  if (!options_.feeds_segments) return;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  now_desk_.Handle(message, route_ ? route_->name : options_.route,
+                   std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
+}
+
+void FollowerLink::AnswerOperators() {
+  // What cannot be handed over now is asked for again.
+  (void)exchange::PublishAll(*exchange_, now_desk_.TakeAnswers());
+}
+
+bool FollowerLink::TellHold() {
+  if (now_desk_.hold() == hold_told_) return true;
+  Hold hold = now_desk_.hold();
+  if (!told_hold_.TryPut(std::move(hold))) return false;
+  hold_told_ = now_desk_.hold();
+  fed_.Ring();
+  return true;
 }
 
 void FollowerLink::HearServer() {

@@ -34,6 +34,8 @@ constexpr std::array kTable = {
     Row{T::kRouteEdits,      {false,    16,        kForever}},
     Row{T::kFleet,           {true,     1,         kForever}},
     Row{T::kNeighbours,      {false,    1,         kForever, /*best_effort=*/true}},
+    Row{T::kNow,             {false,    16,        kForever}},
+    Row{T::kNowAnswers,      {false,    16,        kForever}},
 };
 // clang-format on
 

@@ -12,8 +12,10 @@ std::string ScopeOf(const route::RouteKey& route) {
 }
 
 bool MayUse(const DdsOptions& self, exchange::Topic topic) {
-  const bool new_topic = topic == exchange::Topic::kFleet || topic == exchange::Topic::kNeighbours;
-  return !self.keys || self.keys->scoped || !new_topic;
+  using exchange::Topic;
+  if (!self.keys) return true;
+  if (topic == Topic::kNow || topic == Topic::kNowAnswers) return self.keys->now;
+  return self.keys->scoped || (topic != Topic::kFleet && topic != Topic::kNeighbours);
 }
 
 std::string WritersPartition(const DdsOptions& self, const std::string& scope) {

@@ -228,6 +228,25 @@ Message From(const trailcast_wire_Fleet& wire) {
   return fleet;
 }
 
+Message From(const trailcast_wire_NowCommand& wire) {
+  return NowCommand{.client = AgentId(Text(wire.client)),
+                    .number = wire.number,
+                    .order = static_cast<NowOrder>(wire.order),
+                    .whom = static_cast<NowWhom>(wire.whom),
+                    .name = Text(wire.name),
+                    .reason = Text(wire.reason),
+                    .relayed = wire.relayed != 0};
+}
+
+Message From(const trailcast_wire_NowAnswer& wire) {
+  return NowAnswer{.agent = AgentId(Text(wire.agent)),
+                   .client = AgentId(Text(wire.client)),
+                   .number = wire.number,
+                   .refused = wire.refused != 0,
+                   .detail = Text(wire.detail),
+                   .relayed = wire.relayed != 0};
+}
+
 Message From(const trailcast_wire_RouteFollowers& wire) {
   RouteFollowers all{.server = AgentId(Text(wire.server)), .key = From(wire.key), .followers = {}};
   for (const trailcast_wire_RouteFollower& follower : Elements(wire.followers)) {
@@ -260,6 +279,10 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_Fleet*>(sample));
     case Topic::kNeighbours:
       return From(*static_cast<const trailcast_wire_RouteFollowers*>(sample));
+    case Topic::kNow:
+      return From(*static_cast<const trailcast_wire_NowCommand*>(sample));
+    case Topic::kNowAnswers:
+      return From(*static_cast<const trailcast_wire_NowAnswer*>(sample));
     case Topic::kAgents:
       break;
   }

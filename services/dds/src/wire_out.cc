@@ -283,6 +283,29 @@ Result<void> With(const RouteFollowers& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const NowCommand& message, const UseSample& use) {
+  const trailcast_wire_NowCommand sample{
+      .client = Lend(message.client.value()),
+      .number = message.number,
+      .order = static_cast<std::uint8_t>(message.order),
+      .whom = static_cast<std::uint8_t>(message.whom),
+      .name = Lend(message.name),
+      .reason = Lend(message.reason),
+      .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+  return use(&sample);
+}
+
+Result<void> With(const NowAnswer& message, const UseSample& use) {
+  const trailcast_wire_NowAnswer sample{
+      .agent = Lend(message.agent.value()),
+      .client = Lend(message.client.value()),
+      .number = message.number,
+      .refused = static_cast<std::uint8_t>(message.refused ? 1 : 0),
+      .detail = Lend(message.detail),
+      .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -300,7 +323,9 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_AgentStatus_desc,
                                                              &trailcast_wire_RouteEditRequest_desc,
                                                              &trailcast_wire_Fleet_desc,
-                                                             &trailcast_wire_RouteFollowers_desc};
+                                                             &trailcast_wire_RouteFollowers_desc,
+                                                             &trailcast_wire_NowCommand_desc,
+                                                             &trailcast_wire_NowAnswer_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -206,6 +206,32 @@ Result<void> Check(const RouteFollowers& message) {
   return {};
 }
 
+Result<void> Check(const NowCommand& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckCount("order", static_cast<std::uint8_t>(message.order),
+                           static_cast<std::uint8_t>(NowOrder::kRelease));
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckCount("whom", static_cast<std::uint8_t>(message.whom),
+                           static_cast<std::uint8_t>(NowWhom::kAll));
+      !ok) {
+    return ok;
+  }
+  if (message.whom != NowWhom::kAll) {
+    if (auto ok = CheckName("name of whom it is for", message.name); !ok) return ok;
+  } else if (!message.name.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "a command for all names '{}'", message.name);
+  }
+  return CheckText("reason", message.reason, kMaxLineBytes);
+}
+
+Result<void> Check(const NowAnswer& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace

@@ -29,24 +29,30 @@ TopicUse ScoutTopics() {
 
 TopicUse FollowerTopics() {
   return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
-          .read = {Topic::kRoutes, Topic::kCatalogReplies},
+          .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kNow},
           // What it may lend (SpareHolder) is asked for more than once.
           .overhear = {Topic::kSegmentRequests},
-          .write_rarely = {Topic::kSegments},
+          // Commands are said again until they are answered.
+          .write_rarely = {Topic::kSegments, Topic::kNowAnswers},
           .listen = {Topic::kSegments, Topic::kNeighbours}};
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
-                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
-                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits},
-          .write_rarely = {Topic::kSegments, Topic::kNeighbours}};
+  return {
+      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
+                Topic::kAgents, Topic::kFleet, Topic::kNow},
+      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests,
+               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers},
+      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers}};
 }
 
 TopicUse OperatorTopics() {
   return {.write = {Topic::kCatalogRequests, Topic::kRouteEdits},
           .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kAgents}};
+}
+
+TopicUse DispatcherTopics() {
+  return {.write = {Topic::kNow}, .read = {Topic::kNowAnswers, Topic::kAgents}};
 }
 
 TopicUse ObserverTopics() {
@@ -57,10 +63,18 @@ TopicUse ObserverTopics() {
 
 std::optional<Topic> TopicOf(const Message& message) {
   // In the order of the variant; AgentGone, the last, is not a topic.
-  static constexpr Topic kTopics[] = {
-      Topic::kRoutes,          Topic::kSegments,       Topic::kSegmentRequests, Topic::kReceipts,
-      Topic::kCatalogRequests, Topic::kCatalogReplies, Topic::kAgents,          Topic::kRouteEdits,
-      Topic::kFleet,           Topic::kNeighbours};
+  static constexpr Topic kTopics[] = {Topic::kRoutes,
+                                      Topic::kSegments,
+                                      Topic::kSegmentRequests,
+                                      Topic::kReceipts,
+                                      Topic::kCatalogRequests,
+                                      Topic::kCatalogReplies,
+                                      Topic::kAgents,
+                                      Topic::kRouteEdits,
+                                      Topic::kFleet,
+                                      Topic::kNeighbours,
+                                      Topic::kNow,
+                                      Topic::kNowAnswers};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
 }
@@ -95,6 +109,10 @@ const char* NameOf(Topic topic) {
       return "trailcast/fleet";
     case Topic::kNeighbours:
       return "trailcast/neighbours";
+    case Topic::kNow:
+      return "trailcast/now";
+    case Topic::kNowAnswers:
+      return "trailcast/now_answers";
   }
   return "unknown topic";
 }

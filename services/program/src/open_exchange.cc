@@ -50,6 +50,12 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
             : "copy revoked.pem there by hand after each 'trailcast keys revoke'",
         keys->name);
   }
+  if (!keys->now) {
+    spdlog::warn(
+        "the keys in {} are from before operators told robots to pause or to stop: this program "
+        "takes no part in that; 'trailcast keys renew {}' where the authority is",
+        options.security, keys->name);
+  }
   return keys;
 }
 

@@ -17,6 +17,8 @@ struct AuthorIn {
   AgentId operator()(const exchange::RouteEditRequest& m) { return m.client; }
   AgentId operator()(const exchange::Fleet& m) { return m.server; }
   AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
+  AgentId operator()(const exchange::NowCommand& m) { return m.client; }
+  AgentId operator()(const exchange::NowAnswer& m) { return m.agent; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 
@@ -47,10 +49,21 @@ Result<void> CheckTaught(const exchange::RouteAnnouncement& announcement) {
   return {};
 }
 
+// Servers pass on what operators tell robots, and what these answer.
+bool IsRelayed(const exchange::Message& message) {
+  const auto* command = std::get_if<exchange::NowCommand>(&message);
+  const auto* answer = std::get_if<exchange::NowAnswer>(&message);
+  return (command != nullptr && command->relayed) || (answer != nullptr && answer->relayed);
+}
+
 }  // namespace
 
 Result<void> CheckAuthor(const exchange::Message& message, const Member& sender,
                          const std::string& name_key) {
+  if (IsRelayed(message)) {
+    if (sender.role == Role::kServer) return {};
+    return Fail(ErrorCode::kInvalidArgument, "passes on commands, which only servers do");
+  }
   const std::string author = std::visit(AuthorIn(), message).value();
   if (MemberIdOf(name_key, WithoutProcess(author)) != sender.id) {
     return Fail(ErrorCode::kInvalidArgument, "speaks in the name of '{}'", author);

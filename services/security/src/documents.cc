@@ -108,6 +108,10 @@ bool AllowsRevocations(const std::string& permissions_xml) {
   return permissions_xml.find(Topic(kRevocationsTopic)) != std::string::npos;
 }
 
+bool AllowsNow(const std::string& permissions_xml) {
+  return permissions_xml.find(Topic(exchange::NameOf(exchange::Topic::kNow))) != std::string::npos;
+}
+
 std::optional<std::string> ElementOf(const std::string& xml, const std::string& name) {
   const std::string open = "<" + name + ">";
   const std::string close = "</" + name + ">";

@@ -143,6 +143,7 @@ Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
   }
   keys.scoped = AllowsScopes(*permissions, keys.member);
   keys.revocations = AllowsRevocations(*permissions);
+  keys.now = AllowsNow(*permissions);
   return {};
 }
 

@@ -79,6 +79,7 @@ TopicUse RightsOf(Role role) {
       return Together(SeesAgents(), exchange::ServerTopics());
     case Role::kOperator: {
       TopicUse use = Together(exchange::OperatorTopics(), exchange::FollowerTopics());
+      use = Together(std::move(use), exchange::DispatcherTopics());
       use = Together(std::move(use), exchange::ScoutTopics());
       std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
       return use;

@@ -35,6 +35,20 @@ TEST(JournalTest, TellsWhoTeachesWhatOnce) {
   EXPECT_EQ(journal.Received(Announcement()), std::nullopt);
 }
 
+TEST(JournalTest, TellsWhoToldRobotsWhatOnce) {
+  Journal journal;
+  const exchange::NowCommand stop{
+      .client = AgentId("desk-p7"), .number = 1, .order = exchange::NowOrder::kStop};
+  EXPECT_EQ(journal.Received(stop), "'desk-p7' tells all robots to stop");
+  EXPECT_EQ(journal.Received(stop), std::nullopt);
+  const exchange::NowAnswer answer{.agent = AgentId("robot1"),
+                                   .client = AgentId("desk-p7"),
+                                   .number = 1,
+                                   .detail = "stopped by desk"};
+  EXPECT_EQ(journal.Received(answer), "'robot1' obeys 'desk-p7': stopped by desk");
+  EXPECT_EQ(journal.Received(answer), std::nullopt);
+}
+
 TEST(JournalTest, TellsOfReceiptsWhenTheyHaveDoubledAndAtTheEnd) {
   Journal journal;
   ASSERT_TRUE(journal.Received(Announcement()));

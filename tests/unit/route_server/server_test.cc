@@ -92,6 +92,37 @@ class ServerTest : public testing::Test {
   std::thread running_;
 };
 
+TEST_F(ServerTest, PassesOnWhatOperatorsTellRobotsAndTheirAnswersOnce) {
+  Start();
+  const auto desk = bus_.Open(exchange::DispatcherTopics());
+  const auto robot = bus_.Open(program::WithAgents(exchange::FollowerTopics()));
+  const exchange::NowCommand stop{.client = AgentId("desk"), .number = 1};
+  ASSERT_TRUE(desk->Publish(stop));
+  EXPECT_TRUE(Hears(*robot, seconds(10), [](const exchange::Message& message) {
+    const auto* command = std::get_if<exchange::NowCommand>(&message);
+    return command != nullptr && command->relayed && command->client == AgentId("desk");
+  }));
+  const exchange::NowAnswer answer{
+      .agent = AgentId("robot"), .client = AgentId("desk"), .number = 1};
+  ASSERT_TRUE(robot->Publish(answer));
+  EXPECT_TRUE(Hears(*desk, seconds(10), [](const exchange::Message& message) {
+    const auto* passed = std::get_if<exchange::NowAnswer>(&message);
+    return passed != nullptr && passed->relayed && passed->agent == AgentId("robot");
+  }));
+  // What another server has passed on already is not passed on again.
+  exchange::NowCommand relayed = stop;
+  relayed.relayed = true;
+  relayed.number = 2;
+  ASSERT_TRUE(desk->Publish(relayed));
+  int heard = 0;
+  (void)Hears(*robot, milliseconds(500), [&](const exchange::Message& message) {
+    const auto* command = std::get_if<exchange::NowCommand>(&message);
+    heard += command != nullptr && command->number == 2 ? 1 : 0;
+    return false;
+  });
+  EXPECT_EQ(heard, 1);
+}
+
 TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   Start();
   constexpr int kClients = 500;

@@ -44,6 +44,20 @@ TEST_F(AuthorTest, AMembersCommandsHaveTheirProcessBehindItsName) {
   EXPECT_EQ(Fault(request, Is(Role::kFollower, "robot-1")), "");
 }
 
+TEST_F(AuthorTest, OnlyServersPassOnWhatOperatorsTellRobots) {
+  exchange::NowCommand command{.client = AgentId(ProcessName("desk", 4711))};
+  EXPECT_EQ(Fault(command, Is(Role::kOperator, "desk")), "");
+  EXPECT_NE(Fault(command, Is(Role::kServer, "server")), "") << "in the operator's name";
+  command.relayed = true;
+  EXPECT_EQ(Fault(command, Is(Role::kServer, "server")), "");
+  EXPECT_THAT(Fault(command, Is(Role::kOperator, "desk")), HasSubstr("which only servers do"));
+  exchange::NowAnswer answer{.agent = AgentId("robot1")};
+  EXPECT_EQ(Fault(answer, Is(Role::kFollower, "robot1")), "");
+  EXPECT_NE(Fault(answer, Is(Role::kFollower, "robot2")), "");
+  answer.relayed = true;
+  EXPECT_NE(Fault(answer, Is(Role::kFollower, "robot1")), "");
+}
+
 TEST_F(AuthorTest, AStatusTellsTheSendersRole) {
   const AgentStatus server{.agent = AgentId("x"), .role = AgentRole::kServer};
   EXPECT_EQ(Fault(server, Is(Role::kServer, "x")), "");

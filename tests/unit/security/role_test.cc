@@ -26,6 +26,7 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
       return std::find(writes.begin(), writes.end(), topic) != writes.end();
     };
     EXPECT_EQ(may(Topic::kRouteEdits), role == Role::kOperator) << NameOf(role);
+    EXPECT_EQ(may(Topic::kNow), role == Role::kOperator || role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
@@ -43,6 +44,9 @@ TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
   EXPECT_EQ(BeyondRights(Role::kFollower, exchange::FollowerTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kOperator, exchange::OperatorTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kObserver, exchange::ObserverTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kOperator, exchange::DispatcherTopics()), "");
+  EXPECT_THAT(BeyondRights(Role::kObserver, exchange::DispatcherTopics()),
+              testing::HasSubstr("write trailcast/now"));
   EXPECT_EQ(BeyondRights(Role::kFollower, exchange::ScoutTopics()),
             "write trailcast/routes, read trailcast/receipts");
   EXPECT_EQ(BeyondRights(Role::kObserver, exchange::OperatorTopics()),

@@ -1,0 +1,42 @@
+#include "agent/link/now_desk.h"
+
+#include <variant>
+
+#include "services/security/member.h"
+
+namespace trailcast::agent {
+
+bool NowDesk::IsMeant(const exchange::NowCommand& command, const std::string& route) const {
+  switch (command.whom) {
+    case exchange::NowWhom::kRobot:
+      return command.name == self_.value();
+    case exchange::NowWhom::kOnRoute:
+      return command.name == route;
+    case exchange::NowWhom::kAll:
+      return true;
+  }
+  return false;
+}
+
+void NowDesk::Handle(const exchange::Message& message, const std::string& route,
+                     std::int64_t unix_ms) {
+  const auto* command = std::get_if<exchange::NowCommand>(&message);
+  if (command == nullptr || !IsMeant(*command, route)) return;
+  exchange::NowAnswer& last = last_.Touch(command->client);
+  // An earlier one, late on its way, is over.
+  if (command->number < last.number) return;
+  if (command->number > last.number) {
+    const auto obeyed =
+        hold_.Obey(*command, security::WithoutProcess(command->client.value()), unix_ms);
+    last = {.agent = self_,
+            .client = command->client,
+            .number = command->number,
+            .refused = obeyed.refused,
+            .detail = obeyed.detail};
+    news_.push_back((obeyed.refused ? "does not obey " : "obeys ") + command->client.value() +
+                    ": " + obeyed.detail);
+  }
+  answers_.emplace_back(last);
+}
+
+}  // namespace trailcast::agent

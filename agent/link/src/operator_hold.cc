@@ -1,0 +1,137 @@
+#include "agent/link/operator_hold.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace trailcast::agent {
+namespace {
+
+namespace fs = std::filesystem;
+using exchange::NowOrder;
+
+constexpr const char* kFirstLine = "trailcast-stop 1";
+
+std::string TimeText(std::int64_t unix_ms) {
+  return fmt::format("{:%Y-%m-%d at %H:%M:%S} UTC",
+                     fmt::gmtime(static_cast<std::time_t>(unix_ms / 1000)));
+}
+
+std::optional<std::string> TextIn(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string first;
+  std::string text;
+  if (!std::getline(stream, first) || !std::getline(stream, text)) return std::nullopt;
+  return first == kFirstLine && !text.empty() ? std::optional(text) : std::nullopt;
+}
+
+// Closed on all ways out.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags)
+      : number_(open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] bool Write(const std::string& text) const {
+    return write(number_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  }
+  [[nodiscard]] bool Sync() const { return fsync(number_) == 0; }
+
+ private:
+  int number_;
+};
+
+// There after a loss of power, too.
+Result<void> WriteDurably(const fs::path& file, const std::string& text) {
+  fs::path fresh = file;
+  fresh += ".new";
+  bool written = false;
+  {
+    const Descriptor stream(fresh, O_WRONLY | O_CREAT | O_TRUNC);
+    written = stream.Write(text) && stream.Sync();
+  }
+  written = written && rename(fresh.c_str(), file.c_str()) == 0;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (written && Descriptor(folder, O_RDONLY | O_DIRECTORY).Sync()) return {};
+  return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", file.string(),
+              std::generic_category().message(errno));
+}
+
+}  // namespace
+
+void OperatorHold::Load() {
+  std::error_code ignored;
+  if (file_.empty() || !fs::exists(file_, ignored)) return;
+  hold_ = {.kind = Hold::Kind::kStopped,
+           .text = TextIn(file_).value_or(
+               fmt::format("stopped, nobody knows by whom: {} cannot be read", file_.string()))};
+}
+
+Result<void> OperatorHold::Keep() const {
+  if (file_.empty()) return {};
+  return WriteDurably(file_, fmt::format("{}\n{}\n", kFirstLine, hold_.text));
+}
+
+// The robot stands first; whether that outlasts a restart is said.
+OperatorHold::Obeyed OperatorHold::Stop(std::string text) {
+  if (hold_.kind == Hold::Kind::kStopped) return {false, hold_.text};
+  hold_ = {.kind = Hold::Kind::kStopped, .cancelled = hold_.cancelled, .text = std::move(text)};
+  const auto kept = Keep();
+  if (kept) return {false, hold_.text};
+  return {false, hold_.text + "; but not after a restart: " + kept.error().message};
+}
+
+OperatorHold::Obeyed OperatorHold::Release() {
+  if (hold_.kind != Hold::Kind::kStopped) {
+    return {false, hold_.text.empty() ? "was not stopped" : hold_.text};
+  }
+  std::error_code failed;
+  if (!file_.empty()) fs::remove(file_, failed);
+  if (failed) {
+    return {true,
+            fmt::format("still stopped: cannot remove {}: {}", file_.string(), failed.message())};
+  }
+  hold_ = {.kind = Hold::Kind::kPaused,
+           .cancelled = hold_.cancelled,
+           .text = "released, and stands until it is told to resume"};
+  return {false, hold_.text};
+}
+
+OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, const std::string& by,
+                                        std::int64_t unix_ms) {
+  const std::string why = command.reason.empty() ? "" : ": " + command.reason;
+  switch (command.order) {
+    case NowOrder::kPause:
+      if (hold_.kind == Hold::Kind::kNone) {
+        hold_ = {.kind = Hold::Kind::kPaused,
+                 .cancelled = hold_.cancelled,
+                 .text = "paused by " + by + why};
+      }
+      return {false, hold_.text};
+    case NowOrder::kResume:
+      if (hold_.kind == Hold::Kind::kStopped) return {true, hold_.text + "; release it first"};
+      hold_ = {.cancelled = hold_.cancelled};
+      return {false, "drives on"};
+    case NowOrder::kCancel:
+      hold_.cancelled = true;
+      return {false, "ends what it does, cancelled by " + by + why};
+    case NowOrder::kStop:
+      return Stop(fmt::format("stopped by {} on {}{}", by, TimeText(unix_ms), why));
+    case NowOrder::kRelease:
+      return Release();
+  }
+  return {true, "does not know this command"};
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,21 @@
+#include "services/exchange/messages.h"
+
+namespace trailcast::exchange {
+
+const char* ToString(NowOrder order) {
+  switch (order) {
+    case NowOrder::kPause:
+      return "pause";
+    case NowOrder::kResume:
+      return "resume";
+    case NowOrder::kCancel:
+      return "cancel";
+    case NowOrder::kStop:
+      return "stop";
+    case NowOrder::kRelease:
+      return "release";
+  }
+  return "unknown order";
+}
+
+}  // namespace trailcast::exchange

@@ -1,0 +1,144 @@
+#include "agent/link/now_desk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using exchange::NowAnswer;
+using exchange::NowCommand;
+using exchange::NowOrder;
+using exchange::NowWhom;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr std::int64_t kNow_ms = 1'700'000'000'000;
+
+// Robot robot1 on route hall, and an operator's process at desk.
+class NowDeskTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path File() const { return folder_ / "robot1.stop"; }
+  NowAnswer Say(NowCommand command) {
+    desk_.Handle(command, "hall", kNow_ms);
+    const auto answers = desk_.TakeAnswers();
+    if (answers.size() != 1) return {.refused = true, .detail = "no answer"};
+    return std::get<NowAnswer>(answers.front());
+  }
+  NowAnswer Tell(NowOrder order) {
+    return Say({.client = AgentId("desk-p77"), .number = ++number_, .order = order});
+  }
+  NowAnswer Obeyed(NowOrder order) {
+    const NowAnswer answer = Tell(order);
+    EXPECT_FALSE(answer.refused) << answer.detail;
+    return answer;
+  }
+  [[nodiscard]] Hold::Kind kind() const { return desk_.hold().kind; }
+
+  test::TempDir folder_;
+  std::uint64_t number_ = 0;
+  NowDesk desk_{AgentId("robot1"), folder_ / "robot1.stop"};
+};
+
+TEST_F(NowDeskTest, PausesAndResumes) {
+  const NowAnswer paused = Say({.client = AgentId("desk-p77"),
+                                .number = ++number_,
+                                .order = NowOrder::kPause,
+                                .reason = "somebody walks here"});
+  EXPECT_EQ(paused.agent, AgentId("robot1"));
+  EXPECT_EQ(paused.client, AgentId("desk-p77"));
+  EXPECT_EQ(paused.detail, "paused by desk: somebody walks here");
+  EXPECT_EQ(kind(), Hold::Kind::kPaused);
+  EXPECT_EQ(desk_.hold().text, paused.detail);
+  (void)Obeyed(NowOrder::kPause);
+  EXPECT_EQ(desk_.hold().text, paused.detail) << "as it was";
+  (void)Obeyed(NowOrder::kResume);
+  EXPECT_EQ(kind(), Hold::Kind::kNone);
+}
+
+TEST_F(NowDeskTest, AStopOutlastsTheAgentUntilItIsReleasedAndNothingMovesUnasked) {
+  const std::string stopped = Obeyed(NowOrder::kStop).detail;
+  EXPECT_THAT(stopped, HasSubstr("stopped by desk on 2023-11-14 at 22:13:20 UTC"));
+  EXPECT_EQ(kind(), Hold::Kind::kStopped);
+  EXPECT_TRUE(Tell(NowOrder::kResume).refused);
+  (void)Obeyed(NowOrder::kPause);
+  EXPECT_EQ(kind(), Hold::Kind::kStopped);
+
+  NowDesk next(AgentId("robot1"), File());
+  next.Load();
+  EXPECT_EQ(next.hold().kind, Hold::Kind::kStopped);
+  EXPECT_EQ(next.hold().text, stopped);
+
+  (void)Obeyed(NowOrder::kRelease);
+  EXPECT_EQ(kind(), Hold::Kind::kPaused);
+  EXPECT_FALSE(std::filesystem::exists(File()));
+  (void)Obeyed(NowOrder::kResume);
+  EXPECT_EQ(kind(), Hold::Kind::kNone);
+}
+
+TEST_F(NowDeskTest, AStopThatCannotBeReadIsOne) {
+  std::ofstream(File()) << "nonsense";
+  desk_.Load();
+  EXPECT_EQ(kind(), Hold::Kind::kStopped);
+  EXPECT_THAT(desk_.hold().text, HasSubstr("cannot be read"));
+  (void)Obeyed(NowOrder::kRelease);
+  EXPECT_EQ(kind(), Hold::Kind::kPaused);
+}
+
+TEST_F(NowDeskTest, WhereAStopCannotBeKeptTheRobotStandsAndSaysSo) {
+  NowDesk desk(AgentId("robot1"), folder_ / "nowhere" / "robot1.stop");
+  desk.Handle(NowCommand{.client = AgentId("desk"), .number = 1}, "hall", kNow_ms);
+  EXPECT_EQ(desk.hold().kind, Hold::Kind::kStopped);
+  const auto answers = desk.TakeAnswers();
+  ASSERT_THAT(answers, SizeIs(1));
+  EXPECT_FALSE(std::get<NowAnswer>(answers[0]).refused);
+  EXPECT_THAT(std::get<NowAnswer>(answers[0]).detail, HasSubstr("but not after a restart"));
+}
+
+TEST_F(NowDeskTest, CancellingEndsWhatItDoesAndReleasesNothing) {
+  (void)Obeyed(NowOrder::kStop);
+  (void)Obeyed(NowOrder::kCancel);
+  EXPECT_TRUE(desk_.hold().cancelled);
+  EXPECT_EQ(kind(), Hold::Kind::kStopped);
+  EXPECT_TRUE(std::filesystem::exists(File()));
+}
+
+TEST_F(NowDeskTest, ACommandIsObeyedOnceAndAnsweredEachTime) {
+  const NowCommand pause{.client = AgentId("desk-p77"), .number = 1, .order = NowOrder::kPause};
+  const NowAnswer first = Say(pause);
+  EXPECT_EQ(Say({.client = AgentId("desk-p77"), .number = 2, .order = NowOrder::kResume}).refused,
+            false);
+  desk_.Handle(pause, "hall", kNow_ms);  // late on its way
+  EXPECT_THAT(desk_.TakeAnswers(), IsEmpty());
+  EXPECT_EQ(kind(), Hold::Kind::kNone);
+  // Another process counts for itself.
+  const NowCommand other{.client = AgentId("desk-p78"), .number = 1, .order = NowOrder::kPause};
+  const NowAnswer paused = Say(other);
+  EXPECT_EQ(Say(other), paused);
+  EXPECT_EQ(desk_.TakeNews().size(), 3U);
+  EXPECT_EQ(first.detail, paused.detail);
+}
+
+TEST_F(NowDeskTest, ObeysWhatItIsMeantBy) {
+  const auto command = [&](NowWhom whom, const std::string& name) {
+    return NowCommand{.client = AgentId("desk-p77"),
+                      .number = ++number_,
+                      .order = NowOrder::kPause,
+                      .whom = whom,
+                      .name = name};
+  };
+  EXPECT_EQ(Say(command(NowWhom::kRobot, "robot2")).detail, "no answer");
+  EXPECT_EQ(Say(command(NowWhom::kOnRoute, "yard")).detail, "no answer");
+  EXPECT_EQ(kind(), Hold::Kind::kNone);
+  EXPECT_FALSE(Say(command(NowWhom::kRobot, "robot1")).refused);
+  EXPECT_FALSE(Say(command(NowWhom::kOnRoute, "hall")).refused);
+  EXPECT_FALSE(Say(command(NowWhom::kAll, "")).refused);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

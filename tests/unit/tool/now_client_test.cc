@@ -1,0 +1,108 @@
+#include "services/tool/fleet/now_client.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "services/exchange/in_process_exchange.h"
+#include "services/program/presence.h"
+
+namespace trailcast::tool {
+namespace {
+
+using exchange::AgentMode;
+using exchange::NowOrder;
+using exchange::NowWhom;
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+
+// Robots on a bus, of which some answer.
+class NowClientTest : public testing::Test {
+ protected:
+  void TearDown() override {
+    ending_ = true;
+    for (std::thread& robot : robots_) robot.join();
+  }
+  void Robot(const std::string& name, const std::string& route, bool answers,
+             bool refuses = false) {
+    robots_.emplace_back([this, name, route, answers, refuses,
+                          exchange = std::shared_ptr<exchange::RouteExchange>(
+                              bus_.Open(program::WithAgents(exchange::FollowerTopics())))] {
+      exchange::AgentStatus status;
+      status.agent = AgentId(name);
+      status.role = exchange::AgentRole::kFollower;
+      status.mode = AgentMode::kReplaying;
+      status.route = route;
+      (void)exchange->Publish(status);
+      while (!ending_) {
+        for (const exchange::Message& message : exchange->Take(milliseconds(10))) {
+          const auto* command = std::get_if<exchange::NowCommand>(&message);
+          if (command == nullptr || !answers) continue;
+          ++heard_;
+          (void)exchange->Publish(exchange::NowAnswer{.agent = AgentId(name),
+                                                      .client = command->client,
+                                                      .number = command->number,
+                                                      .refused = refuses,
+                                                      .detail = "says " + name});
+        }
+      }
+    });
+  }
+  Result<std::vector<RobotsWord>> Tell(const std::vector<NowTarget>& targets,
+                                       milliseconds timeout = milliseconds(20'000)) {
+    const auto desk = bus_.Open(exchange::DispatcherTopics());
+    return TellRobots(*desk, AgentId("desk"), NowOrder::kPause, targets, "why", timeout);
+  }
+
+  exchange::InProcessBus bus_;
+  std::atomic<bool> ending_{false};
+  std::atomic<int> heard_{0};
+  std::vector<std::thread> robots_;
+};
+
+TEST_F(NowClientTest, ReturnsAsSoonAsTheRobotThatIsNamedHasAnswered) {
+  Robot("robot1", "hall", true);
+  const auto began = std::chrono::steady_clock::now();
+  const auto words = Tell({{NowWhom::kRobot, "robot1"}});
+  ASSERT_TRUE(words) << words.error().message;
+  EXPECT_EQ(WordsText(*words), "robot1: says robot1\n");
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
+}
+
+TEST_F(NowClientTest, OfAllItNamesThoseWhoDoNotAnswer) {
+  Robot("robot1", "hall", true);
+  Robot("robot2", "yard", false);
+  Robot("robot3", "yard", true, true);
+  const auto words = Tell({{NowWhom::kAll, ""}}, milliseconds(2500));
+  ASSERT_TRUE(words) << words.error().message;
+  EXPECT_THAT(*words,
+              ElementsAre(Field(&RobotsWord::robot, "robot1"), Field(&RobotsWord::robot, "robot2"),
+                          Field(&RobotsWord::robot, "robot3")));
+  EXPECT_EQ(WordsText(*words),
+            "robot1: says robot1\nrobot2: did not answer\nrobot3: does not obey: says robot3\n");
+  EXPECT_THAT(WordsJson(*words),
+              HasSubstr(R"({"robot": "robot2", "answered": false, "obeys": false, "detail": ""})"));
+}
+
+TEST_F(NowClientTest, SaysItAgainUntilItIsAnswered) {
+  Robot("robot1", "hall", true);
+  const auto words =
+      Tell({{NowWhom::kRobot, "robot1"}, {NowWhom::kRobot, "nobody"}}, milliseconds(1000));
+  ASSERT_TRUE(words);
+  EXPECT_GE(heard_, 4);
+  EXPECT_THAT(WordsText(*words), HasSubstr("nobody: did not answer"));
+}
+
+TEST_F(NowClientTest, WhereNobodyIsHeardThatIsSaid) {
+  const auto words = Tell({{NowWhom::kOnRoute, "hall"}}, milliseconds(300));
+  ASSERT_FALSE(words);
+  EXPECT_EQ(words.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(words.error().message, HasSubstr("no robot that this is meant for was heard"));
+}
+
+}  // namespace
+}  // namespace trailcast::tool
