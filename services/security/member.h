@@ -36,10 +36,4 @@ inline constexpr const char* kPartitionsWithoutScope = "*/????????????????";
 // `name_key`: the fleet's, which every member has and nobody else.
 [[nodiscard]] std::string MemberIdOf(std::string_view name_key, std::string_view name);
 
-// Commands of a member run beside its agent, and each other, under a name with their process's
-// number behind: "desk-p4711". No member may be named so.
-[[nodiscard]] std::string ProcessName(const std::string& member, long process);
-// The member of such a name; any other name as it is.
-[[nodiscard]] std::string WithoutProcess(const std::string& name);
-
 }  // namespace trailcast::security

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "services/security/member.h"
+#include "services/base/process_name.h"
 
 namespace trailcast::agent {
 
@@ -26,8 +26,7 @@ void NowDesk::Handle(const exchange::Message& message, const std::string& route,
   // An earlier one, late on its way, is over.
   if (command->number < last.number) return;
   if (command->number > last.number) {
-    const auto obeyed =
-        hold_.Obey(*command, security::WithoutProcess(command->client.value()), unix_ms);
+    const auto obeyed = hold_.Obey(*command, WithoutProcess(command->client.value()), unix_ms);
     last = {.agent = self_,
             .client = command->client,
             .number = command->number,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/base/ids.h"
+#include "services/base/process_name.h"
 #include "services/dds/protocol_version.h"
 #include "services/dds/src/user_data.h"
 #include "services/security/member.h"
@@ -51,7 +52,7 @@ void VersionWatch::See(const std::string& participant, const Peers::SaidOfItself
   Participant* const seen = Find(participant);
   if (seen == nullptr) return;
   // A command has its process's number in its name, and shall not be told of at every call.
-  std::string who = keys_ ? said.about : fmt::format("'{}'", security::WithoutProcess(said.name));
+  std::string who = keys_ ? said.about : fmt::format("'{}'", WithoutProcess(said.name));
   seen->who = is_ours ? std::move(who) : std::string();
   seen->version = said.version.value_or(kFirstVersionSaid - 1);
 }

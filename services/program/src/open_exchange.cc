@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/base/process_name.h"
 #include "services/dds/dds_exchange.h"
 #include "services/program/heartbeat.h"
 #include "services/security/member_keys.h"
@@ -23,7 +24,7 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
                 "of a member whose role does ('trailcast keys add --help')",
                 options.security, security::NameOf(keys->member.role), beyond);
   }
-  if (security::WithoutProcess(options.name) != keys->name) {
+  if (WithoutProcess(options.name) != keys->name) {
     return Fail(ErrorCode::kInvalidArgument,
                 "the keys in {} are those of '{}', not of '{}': leave --name out, or give the keys "
                 "of that member",

@@ -1,5 +1,7 @@
 #include "services/security/author.h"
 
+#include "services/base/process_name.h"
+
 namespace trailcast::security {
 namespace {
 

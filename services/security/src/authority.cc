@@ -8,6 +8,7 @@
 #include <set>
 
 #include "services/base/ids.h"
+#include "services/base/process_name.h"
 #include "services/security/documents.h"
 #include "services/security/folder_layout.h"
 #include "services/security/revocation_list.h"

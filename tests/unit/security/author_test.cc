@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/base/process_name.h"
+
 namespace trailcast::security {
 namespace {
 

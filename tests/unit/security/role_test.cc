@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/base/process_name.h"
 #include "services/exchange/topics.h"
 #include "services/security/member.h"
 

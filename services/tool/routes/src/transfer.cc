@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "services/base/process_name.h"
 #include "services/base/time.h"
 #include "services/program/open_exchange.h"
 #include "services/security/member.h"
@@ -16,7 +17,7 @@ namespace trailcast::tool {
 Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
                                     const exchange::TopicUse& use) {
   program::CommonOptions network = common;
-  network.name = security::ProcessName(common.name, getpid());
+  network.name = ProcessName(common.name, getpid());
   auto exchange = program::OpenExchange(network, use);
   if (!exchange) return tl::unexpected(exchange.error());
   return OperatorPeer{AgentId(network.name), std::move(*exchange)};
