@@ -43,7 +43,7 @@ class RouteFinder {
   static constexpr std::size_t kMaxAnnounced = 64;
 
   RouteFinder(AgentId self, std::string name_or_id, RevisionChoice which = {})
-      : self_(std::move(self)), name_or_id_(std::move(name_or_id)), which_(which) {}
+      : self_(std::move(self)), name_or_id_(std::move(name_or_id)), which_(std::move(which)) {}
 
   void Handle(const exchange::Message& message);
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);

@@ -25,20 +25,20 @@ struct TrialRow {
   std::string method;
   std::string scout_camera;
   std::string follower_camera;
-  bool same_robot = false;  // the robot that taught followed
   double push_m = 0.0;      // to the left, half way
   std::string flaw;         // of the follower; empty: none
-  int trial = 0;            // from 1
   std::uint64_t seed = 0;   // `--trials 1 --seed <this>` repeats this trial alone
+  int trial = 0;            // from 1
+  bool same_robot = false;  // the robot that taught followed
   bool arrived = false;     // by itself, within 2 m, never more than 5 m off
   PathVerdict verdict;
   Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  // of the taught path
   double found_share = 0.0;
-  int segments = 0;
   double bytes_per_m = 0.0;
   double ms_per_frame = 0.0;  // CPU time of the replay session; the one figure that varies by run
   std::string state;          // arrived, lost, stuck, strayed, misplaced (arrived elsewhere)
   double taught_m = 0.0;
+  int segments = 0;
   int frames = 0;
   int hand_overs = 0;
   std::vector<double> lap_ends_m;   // how far from the taught end each lap ended

@@ -34,7 +34,7 @@ class NowDeskTest : public testing::Test {
     return Say({.client = AgentId("desk-p77"), .number = ++number_, .order = order});
   }
   NowAnswer Obeyed(NowOrder order) {
-    const NowAnswer answer = Tell(order);
+    NowAnswer answer = Tell(order);
     EXPECT_FALSE(answer.refused) << answer.detail;
     return answer;
   }
