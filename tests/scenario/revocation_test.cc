@@ -2,6 +2,7 @@
 // others.
 #include <optional>
 
+#include "services/base/durable_file.h"
 #include "services/dds/src/domain_config.h"
 #include "services/dds/src/revocation_topic.h"
 #include "services/security/revocation_list.h"
@@ -32,7 +33,7 @@ class RevocationTest : public SecuredFleetTest {
     return security::ReadSmallFile(folder / "revoked.pem").value();
   }
   static Result<void> Replace(const std::string& keys, const std::string& list) {
-    return security::WriteFile(fs::path(keys) / "revoked.pem", list, security::kForEverybody);
+    return ReplaceFile(fs::path(keys) / "revoked.pem", list);
   }
   std::unique_ptr<Process> ServerOfCopies(const std::string& log) {
     auto server = StartAs(server_, "trailcast-server", {"--store", Path("server.db")}, log);

@@ -1,5 +1,6 @@
 // Strangers at a fleet with DDS Security: each gets nothing, the fleet does not notice, and the
 // server's log tells once who was kept out and why.
+#include "services/base/durable_file.h"
 #include "services/security/src/files.h"
 #include "services/security/src/signing.h"
 #include "services/store/sqlite_store.h"
@@ -149,7 +150,7 @@ TEST_F(StrangersTest, AMemberInTheWrongRoleIsStoppedByTheOthersDds) {
   const auto key = security::ReadSmallFile(authority_.folder() / "authority.key").value();
   const auto certificate = security::ReadSmallFile(authority_.folder() / "authority.pem").value();
   const auto signed_lax = security::Sign(lax, {certificate, key}).value();
-  ASSERT_TRUE(security::WriteFile(fs::path(observer_keys_) / "governance.p7s", signed_lax, 0644));
+  ASSERT_TRUE(ReplaceFile(fs::path(observer_keys_) / "governance.p7s", signed_lax));
   const auto stranger = Join(observer_keys_, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
   EXPECT_EQ(Stranger::HeardBy(**stranger, std::chrono::seconds(5)), 0U);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "services/base/durable_file.h"
 #include "services/security/certificates.h"
 #include "services/security/folder_layout.h"
 #include "services/security/member.h"
@@ -22,7 +23,7 @@ inline void TakeOutOfPermissions(const std::filesystem::path& authority,
   if (text.find(what) == std::string::npos) throw std::runtime_error("no " + what + " in " + text);
   for (std::size_t at = 0; (at = text.find(what)) != std::string::npos;)
     text.erase(at, what.size());
-  if (!security::WriteFile(file, security::Sign(text, signer).value(), security::kForEverybody)) {
+  if (!ReplaceFile(file, security::Sign(text, signer).value())) {
     throw std::runtime_error("cannot write " + file.string());
   }
 }

@@ -1,16 +1,15 @@
 #include "agent/link/operator_hold.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <ctime>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
+
+#include "services/base/durable_file.h"
 
 namespace trailcast::agent {
 namespace {
@@ -33,41 +32,6 @@ std::optional<std::string> TextIn(const fs::path& file) {
   return first == kFirstLine && !text.empty() ? std::optional(text) : std::nullopt;
 }
 
-// Closed on all ways out.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : number_(open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] bool Write(const std::string& text) const {
-    return write(number_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  }
-  [[nodiscard]] bool Sync() const { return fsync(number_) == 0; }
-
- private:
-  int number_;
-};
-
-// There after a loss of power, too.
-Result<void> WriteDurably(const fs::path& file, const std::string& text) {
-  fs::path fresh = file;
-  fresh += ".new";
-  bool written = false;
-  {
-    const Descriptor stream(fresh, O_WRONLY | O_CREAT | O_TRUNC);
-    written = stream.Write(text) && stream.Sync();
-  }
-  written = written && rename(fresh.c_str(), file.c_str()) == 0;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (written && Descriptor(folder, O_RDONLY | O_DIRECTORY).Sync()) return {};
-  return Fail(ErrorCode::kUnavailable, "cannot write {}: {}", file.string(),
-              std::generic_category().message(errno));
-}
-
 }  // namespace
 
 void OperatorHold::Load() {
@@ -80,7 +44,7 @@ void OperatorHold::Load() {
 
 Result<void> OperatorHold::Keep() const {
   if (file_.empty()) return {};
-  return WriteDurably(file_, fmt::format("{}\n{}\n", kFirstLine, hold_.text));
+  return ReplaceFile(file_, fmt::format("{}\n{}\n", kFirstLine, hold_.text));
 }
 
 // The robot stands first; whether that outlasts a restart is said.

@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <random>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "services/archive/route_file.h"
 #include "services/archive/src/layout.h"
+#include "services/base/durable_file.h"
 #include "services/route/bounds.h"
 #include "services/route/info_codec.h"
 
@@ -51,16 +53,6 @@ Result<void> CheckPlace(const fs::path& path, RouteFileWriter::Existing existing
   }
   if (existing == RouteFileWriter::Existing::kKeep) return IsThere(path);
   return {};
-}
-
-// So that the name outlasts a power cut; where a folder cannot be synchronised (some network file
-// systems) the file itself still is.
-void SyncFolder(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
 }
 
 }  // namespace
@@ -185,7 +177,8 @@ Result<void> RouteFileWriter::TakeName() {
   if (status != 0 && errno == EEXIST) return IsThere(path_);
   if (status != 0) return CannotWrite(errno);
   part_.clear();
-  SyncFolder(path_);
+  // The name outlasts a loss of power, too; where folders cannot be synchronised the file does.
+  std::ignore = SyncToDisk(FolderOf(path_));
   return {};
 }
 

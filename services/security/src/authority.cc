@@ -7,6 +7,7 @@
 #include <array>
 #include <set>
 
+#include "services/base/durable_file.h"
 #include "services/base/ids.h"
 #include "services/base/process_name.h"
 #include "services/security/documents.h"
@@ -41,7 +42,7 @@ struct File {
 };
 Result<void> WriteFiles(const fs::path& folder, const std::vector<File>& files) {
   for (const File& file : files) {
-    if (auto written = WriteFile(folder / file.name, file.text, file.mode); !written) {
+    if (auto written = ReplaceFile(folder / file.name, file.text, file.mode); !written) {
       return written;
     }
   }
@@ -179,7 +180,7 @@ Result<fs::path> Authority::Give(const std::string& name, const Member& member, 
   // What was given is on record before anybody can have it: it could not be revoked otherwise.
   const std::string record = fmt::format("{}.{}.pem", name, member.generation);
   if (auto written =
-          WriteFile(folder_ / kIssuedFolder / record, identity->certificate, kForEverybody);
+          ReplaceFile(folder_ / kIssuedFolder / record, identity->certificate, kForEverybody);
       !written) {
     return tl::unexpected(written.error());
   }
@@ -248,13 +249,13 @@ Result<void> Authority::RevokeSerials(const std::vector<Issued>& issued, Time no
   const auto list =
       MakeRevocationList(identity_, serials, before->number + 1, {now - kClockMargin, until_});
   if (!list) return tl::unexpected(list.error());
-  if (auto written = WriteFile(RevocationFile(), *list, kForEverybody); !written) return written;
+  if (auto written = ReplaceFile(RevocationFile(), *list, kForEverybody); !written) return written;
   const auto names = Names();
   if (!names) return tl::unexpected(names.error());
   for (const std::string& name : *names) {
     const fs::path folder = folder_ / kMembersFolder / name;
     if (!fs::exists(folder)) continue;  // moved to where it is used
-    if (auto written = WriteFile(folder / kRevokedFile, *list, kForEverybody); !written) {
+    if (auto written = ReplaceFile(folder / kRevokedFile, *list, kForEverybody); !written) {
       return written;
     }
   }

@@ -14,9 +14,6 @@ inline constexpr mode_t kForEverybody = 0644;  // certificates, signed documents
 
 // Errors name the file: kNotFound, kUnavailable.
 [[nodiscard]] Result<std::string> ReadSmallFile(const std::filesystem::path& file);
-// Replaces the file at once, whole: who reads it meanwhile gets the old one.
-[[nodiscard]] Result<void> WriteFile(const std::filesystem::path& file, const std::string& text,
-                                     mode_t mode);
 // With parents; only its owner may enter it.
 [[nodiscard]] Result<void> MakePrivateFolder(const std::filesystem::path& folder);
 

@@ -188,7 +188,7 @@ Result<MemberKeys> LoadMemberKeys(const fs::path& folder, Time now) {
 std::string KeysVersion(const fs::path& folder) {
   std::string version;
   for (const char* file : kFiles) {
-    // A file that is written anew (files.cc) is another one; times alone stand still for some ms.
+    // A file that ReplaceFile wrote is another one; times alone stand still for some ms.
     struct stat about {};
     const bool is_there = stat((folder / file).c_str(), &about) == 0;
     version += is_there ? fmt::format("{}.{}.{}.{}/", about.st_ino, about.st_size,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "services/base/durable_file.h"
 #include "services/security/folder_layout.h"
 #include "services/security/src/asn1.h"
 #include "services/security/src/files.h"
@@ -165,7 +166,7 @@ Result<void> KeepRevocationList(const std::filesystem::path& folder, const Revoc
   // Several programs may run with one folder.
   const auto there = RevocationListIn(folder);
   if (there && !IsNewer(list, *there)) return {};
-  return WriteFile(folder / kRevokedFile, list.text, kForEverybody);
+  return ReplaceFile(folder / kRevokedFile, list.text, kForEverybody);
 }
 
 }  // namespace trailcast::security

@@ -1,25 +1,13 @@
 #include "services/store/src/replacement.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <system_error>
+
+#include "services/base/durable_file.h"
 
 namespace trailcast::store {
 namespace {
 
 namespace fs = std::filesystem;
-
-// On the disk when it returns: a file, or what names a folder has.
-std::error_code Sync(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return {errno, std::generic_category()};
-  const bool synced = fsync(descriptor) == 0;
-  const std::error_code error(synced ? 0 : errno, std::generic_category());
-  close(descriptor);
-  return error;
-}
 
 // Under another name as well; a copy where the file system knows no such thing.
 std::error_code Link(const fs::path& file, const fs::path& name) {
@@ -28,7 +16,7 @@ std::error_code Link(const fs::path& file, const fs::path& name) {
   fs::create_hard_link(file, name, error);
   if (!error) return {};
   fs::copy_file(file, name, error);
-  return error ? error : Sync(name);
+  return error ? error : SyncToDisk(name);
 }
 
 // The first that nobody has, or that a replacement which was cut off gave to this very file.
@@ -74,7 +62,7 @@ Result<void> Replacement::Keep() const {
 }
 
 Result<void> Replacement::Begin() const {
-  std::error_code error = Sync(made_);
+  std::error_code error = SyncToDisk(made_);
   if (!error) fs::rename(made_, begun_, error);
   return Ended(error);
 }
@@ -94,8 +82,7 @@ Result<void> Replacement::Put() const {
 }
 
 Result<void> Replacement::Ended(const std::error_code& error) const {
-  const fs::path folder = store_.has_parent_path() ? store_.parent_path() : fs::path(".");
-  const std::error_code result = error ? error : Sync(folder);
+  const std::error_code result = error ? error : SyncToDisk(FolderOf(store_));
   if (!result) return {};
   return Fail(ErrorCode::kUnavailable, "cannot put the repaired store in the place of {}: {}",
               store_.string(), result.message());

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "services/base/durable_file.h"
 #include "services/security/authority.h"
 #include "services/security/src/files.h"
 #include "tests/support/temp_dir.h"
@@ -37,7 +38,7 @@ class KeysWatchTest : public testing::Test {
   bool Take(const std::string& text) { return watch_->TakeList(text, "server/1", held_); }
   std::uint64_t NumberInFolder() const { return security::RevocationListIn(keys_folder_)->number; }
   void PutIntoFolder(const std::string& list) {
-    ASSERT_TRUE(security::WriteFile(keys_folder_ / "revoked.pem", list, security::kForEverybody));
+    ASSERT_TRUE(ReplaceFile(keys_folder_ / "revoked.pem", list));
   }
   // Nobody, root neither, writes a file where a folder with things in it is.
   void LetNothingBeWritten() {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/base/durable_file.h"
 #include "services/security/authority.h"
-#include "services/security/src/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::security {
@@ -109,7 +109,7 @@ TEST_F(RevocationListTest, OneThatNobodyCouldReadIsNotMade) {
 }
 
 TEST_F(RevocationListTest, IsKeptWholeUnlessOneAsNewIsThere) {
-  ASSERT_TRUE(WriteFile(folder_ / "authority.pem", authority_.certificate, kForEverybody));
+  ASSERT_TRUE(ReplaceFile(folder_ / "authority.pem", authority_.certificate));
   const auto number = [&] { return RevocationListIn(folder_.path())->number; };
   ASSERT_TRUE(KeepRevocationList(folder_.path(), List(2)));
   EXPECT_EQ(number(), 2U);
@@ -123,7 +123,7 @@ TEST_F(RevocationListTest, IsKeptWholeUnlessOneAsNewIsThere) {
 }
 
 TEST_F(RevocationListTest, ThatCannotBeKeptLeavesTheFolderAsItWas) {
-  ASSERT_TRUE(WriteFile(folder_ / "authority.pem", authority_.certificate, kForEverybody));
+  ASSERT_TRUE(ReplaceFile(folder_ / "authority.pem", authority_.certificate));
   // Nobody, root neither, replaces a folder with things in it by a file.
   fs::create_directories(folder_ / "revoked.pem" / "inside");
   const auto kept = KeepRevocationList(folder_.path(), List(2));
