@@ -16,5 +16,7 @@ namespace trailcast {
 // "2026-11-24 05:30 UTC", or "at an unknown time": any number may have been sent, and years have
 // four digits here.
 [[nodiscard]] std::string DateText(std::int64_t unix_ms);
+// The same to the second: "on 2026-11-24 at 05:30:12 UTC".
+[[nodiscard]] std::string MomentText(std::int64_t unix_ms);
 
 }  // namespace trailcast

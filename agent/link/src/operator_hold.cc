@@ -1,15 +1,14 @@
 #include "agent/link/operator_hold.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <ctime>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "services/base/durable_file.h"
+#include "services/base/unix_time.h"
 
 namespace trailcast::agent {
 namespace {
@@ -18,11 +17,6 @@ namespace fs = std::filesystem;
 using exchange::NowOrder;
 
 constexpr const char* kFirstLine = "trailcast-stop 1";
-
-std::string TimeText(std::int64_t unix_ms) {
-  return fmt::format("{:%Y-%m-%d at %H:%M:%S} UTC",
-                     fmt::gmtime(static_cast<std::time_t>(unix_ms / 1000)));
-}
 
 std::optional<std::string> TextIn(const fs::path& file) {
   std::ifstream stream(file);
@@ -91,7 +85,7 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
       hold_.cancelled = true;
       return {false, "ends what it does, cancelled by " + by + why};
     case NowOrder::kStop:
-      return Stop(fmt::format("stopped by {} on {}{}", by, TimeText(unix_ms), why));
+      return Stop(fmt::format("stopped by {} {}{}", by, MomentText(unix_ms), why));
     case NowOrder::kRelease:
       return Release();
   }

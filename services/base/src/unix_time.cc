@@ -3,16 +3,32 @@
 #include <fmt/chrono.h>
 
 #include <ctime>
+#include <optional>
 
 namespace trailcast {
+namespace {
 
-std::string DateText(std::int64_t unix_ms) {
+constexpr const char* kUnknown = "at an unknown time";
+
+std::optional<std::tm> PartsOf(std::int64_t unix_ms) {
   constexpr std::int64_t kYear10000 = 253'402'300'800'000;
   std::tm parts{};
   const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
   const bool is_date = unix_ms > 0 && unix_ms < kYear10000;
-  if (!is_date || gmtime_r(&seconds, &parts) == nullptr) return "at an unknown time";
-  return fmt::format("{:%Y-%m-%d %H:%M} UTC", parts);
+  if (!is_date || gmtime_r(&seconds, &parts) == nullptr) return std::nullopt;
+  return parts;
+}
+
+}  // namespace
+
+std::string DateText(std::int64_t unix_ms) {
+  const auto parts = PartsOf(unix_ms);
+  return parts ? fmt::format("{:%Y-%m-%d %H:%M} UTC", *parts) : kUnknown;
+}
+
+std::string MomentText(std::int64_t unix_ms) {
+  const auto parts = PartsOf(unix_ms);
+  return parts ? fmt::format("on {:%Y-%m-%d at %H:%M:%S} UTC", *parts) : kUnknown;
 }
 
 }  // namespace trailcast

@@ -18,5 +18,11 @@ TEST(DateText, OfWhatIsNoDateIsUnknown) {
   EXPECT_EQ(DateText(std::numeric_limits<std::int64_t>::max()), "at an unknown time");
 }
 
+TEST(MomentText, IsOfTheSecondInUtc) {
+  EXPECT_EQ(MomentText(86'400'999), "on 1970-01-02 at 00:00:00 UTC");
+  EXPECT_EQ(MomentText(1'795'498'259'999), "on 2026-11-24 at 05:30:59 UTC");
+  EXPECT_EQ(MomentText(-1), "at an unknown time");
+}
+
 }  // namespace
 }  // namespace trailcast
