@@ -18,9 +18,7 @@ class ProgressWatch {
   [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step, bool held) {
     const double place = step.segment.value() + step.fraction;
     const bool further = place > furthest_ + 1e-3;
-    const bool waits = held || step.state == ReplayState::kWaiting ||
-                       step.state == ReplayState::kYielding || step.state == ReplayState::kHeld;
-    if (further || waits || !since_) {
+    if (further || held || Waits(step.state) || !since_) {
       furthest_ = std::max(furthest_, place);
       since_ = stamp;
     }

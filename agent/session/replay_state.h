@@ -18,6 +18,9 @@ enum class ReplayState {
 
 [[nodiscard]] const char* ToString(ReplayState state);
 
+// The robot stands on purpose, until others have done something.
+[[nodiscard]] bool Waits(ReplayState state);
+
 // What a verdict is to those who watch the robot.
 [[nodiscard]] ReplayState StateOf(Trust trust);
 

@@ -9,10 +9,7 @@ namespace trailcast::agent {
 namespace {
 
 Phase PhaseOf(const ReplayStep& step) {
-  if (step.state == ReplayState::kWaiting || step.state == ReplayState::kYielding ||
-      step.state == ReplayState::kHeld) {
-    return Phase::kWaiting;
-  }
+  if (Waits(step.state)) return Phase::kWaiting;
   if (step.state == ReplayState::kArrived) return Phase::kArrived;
   switch (step.trust) {
     case Trust::kSure:

@@ -22,6 +22,11 @@ const char* ToString(ReplayState state) {
   return "UNKNOWN";
 }
 
+bool Waits(ReplayState state) {
+  return state == ReplayState::kWaiting || state == ReplayState::kYielding ||
+         state == ReplayState::kHeld;
+}
+
 ReplayState StateOf(Trust trust) {
   switch (trust) {
     case Trust::kSure:
