@@ -18,7 +18,7 @@ class LookingAround {
   explicit LookingAround(double furthest_rad);
 
   // The path is in view.
-  void Rest() { *this = LookingAround(furthest_rad_); }
+  void Rest();
   // It is not: the robot, that turned so far to the left since the last frame, is to turn on.
   // False: it has looked everywhere.
   [[nodiscard]] bool Turn(double turned_rad, double dt_s);

@@ -19,6 +19,13 @@ LookingAround::LookingAround(double furthest_rad) : furthest_rad_(furthest_rad) 
   aims_rad_.insert(aims_rad_.end(), {furthest_rad, -furthest_rad, 0.0});
 }
 
+void LookingAround::Rest() {
+  begun_ = false;
+  heading_rad_ = 0.0;
+  leg_ = 0;
+  leg_s_ = 0.0;
+}
+
 bool LookingAround::Turn(double turned_rad, double dt_s) {
   if (leg_ == aims_rad_.size()) return false;
   if (!begun_) {
