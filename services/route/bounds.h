@@ -29,6 +29,11 @@ inline constexpr double kMaxLength_m = 1e7;
 [[nodiscard]] Result<void> CheckText(const char* field, const std::string& text,
                                      std::size_t max_bytes);
 [[nodiscard]] Result<void> CheckCount(const char* field, std::uint64_t count, std::uint64_t max);
+// Of an enumeration whose values count from 0.
+template <typename Enum>
+[[nodiscard]] Result<void> CheckEnum(const char* field, Enum value, Enum last) {
+  return CheckCount(field, static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(last));
+}
 // Not below 0, a number.
 [[nodiscard]] Result<void> CheckAmount(const char* field, double value, double max);
 [[nodiscard]] Result<void> CheckKey(const RouteKey& key);

@@ -7,6 +7,7 @@ namespace {
 
 using route::CheckAmount;
 using route::CheckCount;
+using route::CheckEnum;
 using route::CheckName;
 using route::CheckText;
 using route::kMaxLength_m;
@@ -71,11 +72,7 @@ Result<void> Check(const Receipt& message) {
   if (auto ok = CheckCount("durable prefix", message.durable_prefix, kMaxSegmentsPerRoute); !ok) {
     return ok;
   }
-  if (auto ok = CheckCount("refusal", static_cast<std::uint8_t>(message.refusal),
-                           static_cast<std::uint8_t>(Refusal::kDeleted));
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckEnum("refusal", message.refusal, Refusal::kDeleted); !ok) return ok;
   if (auto ok = CheckText("reason", message.reason, kMaxLineBytes); !ok) return ok;
   if (auto ok =
           CheckCount("durable segments", message.durable_beyond.size(), kMaxSegmentsPerReceipt);
@@ -154,16 +151,8 @@ Result<void> Check(const AgentStatus& message) {
   if (!message.route.empty()) {
     if (auto ok = CheckName("route name", message.route); !ok) return ok;
   }
-  if (auto ok = CheckCount("agent role", static_cast<std::uint8_t>(message.role),
-                           static_cast<std::uint8_t>(AgentRole::kOperator));
-      !ok) {
-    return ok;
-  }
-  if (auto ok = CheckCount("agent mode", static_cast<std::uint8_t>(message.mode),
-                           static_cast<std::uint8_t>(AgentMode::kFault));
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckEnum("agent role", message.role, AgentRole::kOperator); !ok) return ok;
+  if (auto ok = CheckEnum("agent mode", message.mode, AgentMode::kFault); !ok) return ok;
   if (auto ok = CheckAmount("progress", message.progress, 1.0); !ok) return ok;
   if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
   if (auto ok = CheckSpeed(message.speed_mps); !ok) return ok;
@@ -208,16 +197,8 @@ Result<void> Check(const RouteFollowers& message) {
 
 Result<void> Check(const NowCommand& message) {
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckCount("order", static_cast<std::uint8_t>(message.order),
-                           static_cast<std::uint8_t>(NowOrder::kRelease));
-      !ok) {
-    return ok;
-  }
-  if (auto ok = CheckCount("whom", static_cast<std::uint8_t>(message.whom),
-                           static_cast<std::uint8_t>(NowWhom::kAll));
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckEnum("order", message.order, NowOrder::kRelease); !ok) return ok;
+  if (auto ok = CheckEnum("whom", message.whom, NowWhom::kAll); !ok) return ok;
   if (message.whom != NowWhom::kAll) {
     if (auto ok = CheckName("name of whom it is for", message.name); !ok) return ok;
   } else if (!message.name.empty()) {

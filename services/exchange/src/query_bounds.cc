@@ -9,6 +9,7 @@ namespace {
 
 using route::CheckAmount;
 using route::CheckCount;
+using route::CheckEnum;
 using route::CheckName;
 using route::CheckTags;
 using route::CheckText;
@@ -87,11 +88,7 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
                   query.near->radius_m, kMaxMetres);
     }
   }
-  if (auto ok = CheckCount("order", static_cast<std::uint8_t>(query.order),
-                           static_cast<std::uint8_t>(route::RouteOrder::kShortest));
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckEnum("order", query.order, route::RouteOrder::kShortest); !ok) return ok;
   if (auto ok = CheckText("cursor", query.cursor, kMaxCursorBytes); !ok) return ok;
   if (query.view.empty()) return {};
   if (auto ok = CheckView(query.view); !ok) return ok;
@@ -100,11 +97,7 @@ Result<void> CheckQuery(const route::RouteQuery& query) {
 
 Result<void> CheckEdit(const route::RouteEdit& edit) {
   using route::EditAction;
-  if (auto ok = CheckCount("action", static_cast<std::uint8_t>(edit.action),
-                           static_cast<std::uint8_t>(EditAction::kDelete));
-      !ok) {
-    return ok;
-  }
+  if (auto ok = CheckEnum("action", edit.action, EditAction::kDelete); !ok) return ok;
   if (auto ok = CheckName("route", edit.route); !ok) return ok;
   if (auto ok = CheckTags(edit.tags); !ok) return ok;
   if (edit.action == EditAction::kRename) return CheckName("new name", edit.text);

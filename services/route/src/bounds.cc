@@ -41,13 +41,11 @@ Result<void> CheckAmount(const char* field, double value, double max) {
 }
 
 Result<void> CheckState(RouteState state) {
-  return CheckCount("route state", static_cast<std::uint8_t>(state),
-                    static_cast<std::uint8_t>(RouteState::kComplete));
+  return CheckEnum("route state", state, RouteState::kComplete);
 }
 
 Result<void> CheckStanding(Standing standing) {
-  return CheckCount("standing", static_cast<std::uint8_t>(standing),
-                    static_cast<std::uint8_t>(Standing::kDeleted));
+  return CheckEnum("standing", standing, Standing::kDeleted);
 }
 
 Result<void> CheckKey(const RouteKey& key) {
