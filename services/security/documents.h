@@ -36,11 +36,8 @@ inline constexpr const char* kRevocationsTopic = "trailcast/revocations";
 // were any do not.
 [[nodiscard]] bool AllowsScopes(const std::string& permissions_xml, const Member& member);
 
-// True of permissions that name the revocations topic, as those from before there was one do not.
-[[nodiscard]] bool AllowsRevocations(const std::string& permissions_xml);
-
-// The same of what operators tell robots to do now.
-[[nodiscard]] bool AllowsNow(const std::string& permissions_xml);
+// True of permissions that name the topic, as those from before there was such a one do not.
+[[nodiscard]] bool AllowsTopic(const std::string& permissions_xml, const std::string& topic);
 
 // The value of the only element of that name; nothing if there is none, or several.
 [[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);

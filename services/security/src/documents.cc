@@ -104,12 +104,8 @@ bool AllowsScopes(const std::string& permissions_xml, const Member& member) {
   return permissions_xml.find(Below(member)) != std::string::npos;
 }
 
-bool AllowsRevocations(const std::string& permissions_xml) {
-  return permissions_xml.find(Topic(kRevocationsTopic)) != std::string::npos;
-}
-
-bool AllowsNow(const std::string& permissions_xml) {
-  return permissions_xml.find(Topic(exchange::NameOf(exchange::Topic::kNow))) != std::string::npos;
+bool AllowsTopic(const std::string& permissions_xml, const std::string& topic) {
+  return permissions_xml.find(Topic(topic)) != std::string::npos;
 }
 
 std::optional<std::string> ElementOf(const std::string& xml, const std::string& name) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <system_error>
 
+#include "services/exchange/topics.h"
 #include "services/security/certificates.h"
 #include "services/security/folder_layout.h"
 #include "services/security/src/files.h"
@@ -142,8 +143,8 @@ Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
                                    SubjectOf(keys.member)));
   }
   keys.scoped = AllowsScopes(*permissions, keys.member);
-  keys.revocations = AllowsRevocations(*permissions);
-  keys.now = AllowsNow(*permissions);
+  keys.revocations = AllowsTopic(*permissions, kRevocationsTopic);
+  keys.now = AllowsTopic(*permissions, exchange::NameOf(exchange::Topic::kNow));
   return {};
 }
 

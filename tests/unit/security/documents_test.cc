@@ -45,7 +45,8 @@ TEST(Documents, ServersSpreadRevocationsAndAllHearThem) {
     const std::string xml = PermissionsXml({role, "4f2a9c0d11223344", 1}, {});
     EXPECT_EQ(ElementOf(xml, "publish")->find(topic) != std::string::npos, role == Role::kServer);
     EXPECT_THAT(ElementOf(xml, "subscribe").value(), HasSubstr(topic)) << NameOf(role);
-    EXPECT_TRUE(AllowsRevocations(xml));
+    EXPECT_TRUE(AllowsTopic(xml, kRevocationsTopic));
+    EXPECT_FALSE(AllowsTopic(xml, "trailcast/unknown"));
   }
 }
 
