@@ -13,16 +13,16 @@ constexpr double kWidth_m = 0.4;    // of sim::RobotBody
 constexpr double kBefore_m = 1.0;   // what a robot stands before is as near
 constexpr double kStands_m = 1e-4;  // in a frame
 
+bool IsAhead(const Eigen::Vector2d& point) {
+  return point.x() > 0.0 && point.x() < kBefore_m && std::abs(point.y()) < 0.5 * kWidth_m;
+}
+
 }  // namespace
 
 agent::ObstacleOptions SimulatedBody() {
   agent::ObstacleOptions body;
   body.robot_width_m = kWidth_m;
   return body;
-}
-
-bool ScannedWay::IsAhead(const Eigen::Vector2d& point) {
-  return point.x() > 0.0 && point.x() < kBefore_m && std::abs(point.y()) < 0.5 * kWidth_m;
 }
 
 void ScannedWay::Look(SensorTime now, const sim::Judge& robot) {

@@ -40,8 +40,6 @@ class ScannedWay {
   [[nodiscard]] const ScanFigures& figures() const { return figures_; }
 
  private:
-  [[nodiscard]] static bool IsAhead(const Eigen::Vector2d& point);
-
   std::shared_ptr<const sim::World> world_;
   agent::ObstacleWatch watch_;
   SensorTime last_{-1};
