@@ -92,13 +92,14 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.diagnosis.patient = follower.open_loop;
   follower.session.anywhere = replay.start == "anywhere";
   follower.link.from_start = replay.from_start || replay.start != "left";
+  const auto beside_store = [&](const char* what) {
+    return fmt::format("{}.{}.{}", options.store_file, options.common.name, what);
+  };
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {
-    follower.link.place_file = options.store_file + "." + options.common.name + ".place";
+    follower.link.place_file = beside_store("place");
   }
-  if (!follower.open_loop) {
-    follower.link.stop_file = options.store_file + "." + options.common.name + ".stop";
-  }
+  if (!follower.open_loop) follower.link.stop_file = beside_store("stop");
   // A recording drives on, whatever it is told.
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);
