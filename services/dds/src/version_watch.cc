@@ -8,7 +8,6 @@
 #include "services/base/process_name.h"
 #include "services/dds/protocol_version.h"
 #include "services/dds/src/user_data.h"
-#include "services/security/member.h"
 
 namespace trailcast::dds {
 namespace {

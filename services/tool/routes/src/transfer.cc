@@ -10,7 +10,6 @@
 #include "services/base/process_name.h"
 #include "services/base/time.h"
 #include "services/program/open_exchange.h"
-#include "services/security/member.h"
 
 namespace trailcast::tool {
 
