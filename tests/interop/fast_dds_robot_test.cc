@@ -2,6 +2,7 @@
 #include <fstream>
 #include <optional>
 
+#include "tests/interop/fast_dds_programs.h"
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
 
@@ -10,11 +11,6 @@ namespace {
 
 using testing::HasSubstr;
 
-#ifdef TRAILCAST_FAST_DDS_ROBOT
-constexpr const char* kRobot = TRAILCAST_FAST_DDS_ROBOT;
-#else
-constexpr const char* kRobot = nullptr;
-#endif
 constexpr const char* kDomain = "7";  // of a computer of its own
 constexpr int kHost = 1;
 constexpr int kWidth = 160;
@@ -25,10 +21,7 @@ constexpr int kPictures = 120;
 class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
-    if (kRobot == nullptr) {
-      GTEST_SKIP() << "built without fastddsgen, java or libfastrtps-dev (config/setup/install.sh "
-                      "check installs them)";
-    }
+    if (std::string(kFastDdsRobot).empty()) GTEST_SKIP() << kNoFastDds;
     if (const std::string obstacle = NetworkLab::Obstacle(); !obstacle.empty()) {
       GTEST_SKIP() << obstacle;
     }
@@ -43,7 +36,7 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
   }
   std::unique_ptr<Process> Robot(const std::string& does) {
     return std::make_unique<Process>(
-        lab_->At(kHost, {kRobot, kDomain, GetParam(), Path("film"), std::to_string(kWidth),
+        lab_->At(kHost, {kFastDdsRobot, kDomain, GetParam(), Path("film"), std::to_string(kWidth),
                          std::to_string(kHeight), does}),
         Path("robot-" + does + ".log"));
   }

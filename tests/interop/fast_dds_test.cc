@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "services/store/route_store.h"
+#include "tests/interop/fast_dds_programs.h"
 #include "tests/scenario/programs.h"
 
 namespace trailcast::test {
@@ -15,12 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::SizeIs;
-
-#ifdef TRAILCAST_FAST_DDS_PEER
-constexpr const char* kPeer = TRAILCAST_FAST_DDS_PEER;
-#else
-constexpr const char* kPeer = nullptr;
-#endif
 
 // Nobody else listens to the discovery port of this domain. Fast DDS knows no tags, so that this
 // alone keeps tests apart. Ports of domains above 100 may be anybody's.
@@ -53,10 +48,7 @@ std::vector<std::string> Lines(const std::string& text) {
 class FastDds : public ProgramsTest {
  protected:
   void SetUp() override {
-    if (kPeer == nullptr) {
-      GTEST_SKIP() << "built without fastddsgen, java or libfastrtps-dev (config/setup/install.sh "
-                      "check installs them)";
-    }
+    if (std::string(kFastDdsPeer).empty()) GTEST_SKIP() << kNoFastDds;
     tag_ = "";
     common_ = {"--domain", std::to_string(FreeDomain())};
     server_ = Start("trailcast-server", With(common_, {"--store", Path("server.db")}), "server");
@@ -71,7 +63,7 @@ class FastDds : public ProgramsTest {
     return End(*Start(program, With(common_, words), program));
   }
   Ended RunPeer(const Words& words) {
-    Process peer(With({kPeer, common_.back()}, words), Path("peer.log"));
+    Process peer(With({kFastDdsPeer, common_.back()}, words), Path("peer.log"));
     return End(peer);
   }
   // What our operator's tool lists, in the peer's words.

@@ -4,17 +4,14 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <memory>
 
+#include "program.h"
+
 namespace peer {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-
-template <typename Pointer>
-Pointer Made(Pointer entity, const std::string& what) {
-  if (entity == nullptr) throw std::runtime_error("Fast DDS made no " + what);
-  return entity;
-}
+using fast_dds::Made;
 
 // What writers and readers have in common. Samples may be of any size: as much memory as each
 // needs.

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "digest.h"
+#include "program.h"
 
 namespace {
 
@@ -49,11 +50,4 @@ int Run(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return Run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return fast_dds::StatusOf(Run, argc, argv); }

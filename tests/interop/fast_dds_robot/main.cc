@@ -1,7 +1,6 @@
 // A robot whose ROS 2 nodes run over Fast DDS, ROS 2's own default: a camera, wheels, a base. What
 // it sees is a film: so many pictures a metre of the way ahead.
 #include <chrono>
-#include <cstdio>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fstream>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "node.h"
+#include "program.h"
 #include "ros2PubSubTypes.h"
 
 namespace {
@@ -156,11 +156,4 @@ int Run(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return Run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return fast_dds::StatusOf(Run, argc, argv); }

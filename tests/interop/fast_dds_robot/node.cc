@@ -8,21 +8,18 @@
 #include <memory>
 #include <stdexcept>
 
+#include "program.h"
+
 namespace robot {
 namespace {
 
 namespace rtps = eprosima::fastdds::rtps;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
+using fast_dds::Made;
 
 constexpr std::uint32_t kMostRobots = 32;  // that are looked for on this computer
 constexpr int kDepth = 5;
-
-template <typename Pointer>
-Pointer Made(Pointer entity, const std::string& what) {
-  if (entity == nullptr) throw std::runtime_error("Fast DDS made no " + what);
-  return entity;
-}
 
 dds::DomainParticipantQos QosOf(Setting setting) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;

@@ -19,3 +19,13 @@ function(fast_dds_types name idl stem)
   target_include_directories(${name} SYSTEM PUBLIC "${generated}")
   target_link_libraries(${name} PUBLIC fastrtps fastcdr)
 endfunction()
+
+# fast_dds_program(NAME TYPES SOURCE...): a program over such types. It has no include path of ours:
+# what it knows of Trailcast it knows from the IDL.
+function(fast_dds_program name types)
+  add_executable(${name} ${ARGN})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow)
+  target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/fast_dds_shared")
+  target_link_libraries(${name} PRIVATE ${types})
+endfunction()
