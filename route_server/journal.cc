@@ -80,9 +80,7 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
 }
 
 std::optional<std::string> Journal::On(const exchange::NowCommand& command) {
-  std::uint64_t& told = commands_.Touch(command.client);
-  if (command.number <= told) return std::nullopt;
-  told = command.number;
+  if (std::exchange(commands_.Touch({command.client, command.number}), true)) return std::nullopt;
   const std::string whom = command.whom == exchange::NowWhom::kAll ? "all robots"
                            : command.whom == exchange::NowWhom::kOnRoute
                                ? "the robots on route '" + command.name + "'"
@@ -93,9 +91,8 @@ std::optional<std::string> Journal::On(const exchange::NowCommand& command) {
 }
 
 std::optional<std::string> Journal::On(const exchange::NowAnswer& answer) {
-  std::uint64_t& told = answers_.Touch({answer.agent, answer.client});
-  if (answer.number <= told) return std::nullopt;
-  told = answer.number;
+  const NowKey command{answer.client, answer.number};
+  if (std::exchange(answers_.Touch({answer.agent, command}), true)) return std::nullopt;
   return fmt::format("'{}' {} '{}': {}", answer.agent.value(),
                      answer.refused ? "does not obey" : "obeys", answer.client.value(),
                      PlainText(answer.detail, 200));

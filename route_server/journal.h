@@ -43,10 +43,10 @@ class Journal {
   std::map<route::RouteKey, Known> routes_;
   // Present, with their instances.
   NewestMap<AgentId, std::uint64_t> agents_{kMostAgents};
-  // Told: the last command of each client, and the last that each agent answered. They are said
-  // again and again.
-  NewestMap<AgentId, std::uint64_t> commands_{kMostAgents};
-  NewestMap<std::pair<AgentId, AgentId>, std::uint64_t> answers_{kMostAgents};
+  // Told: commands, by client and number, and who answered them. They are said again and again.
+  using NowKey = std::pair<AgentId, std::uint64_t>;
+  NewestMap<NowKey, bool> commands_{kMostAgents};
+  NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
 };
 
 }  // namespace trailcast::server

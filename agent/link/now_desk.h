@@ -17,8 +17,8 @@ namespace trailcast::agent {
 // and answers it each time. No clock of its own.
 class NowDesk {
  public:
-  // Strangers can make up names: more clients are not remembered.
-  static constexpr std::size_t kMostClients = 256;
+  // Strangers can make commands up: more are not remembered.
+  static constexpr std::size_t kMostCommands = 1024;
 
   NowDesk(AgentId self, std::filesystem::path stop_file)
       : self_(std::move(self)), hold_(std::move(stop_file)) {}
@@ -40,7 +40,8 @@ class NowDesk {
 
   AgentId self_;
   OperatorHold hold_;
-  NewestMap<AgentId, exchange::NowAnswer> last_{kMostClients};  // to each client
+  // To each command, by its client and number.
+  NewestMap<std::pair<AgentId, std::uint64_t>, exchange::NowAnswer> given_{kMostCommands};
   std::vector<exchange::Message> answers_;
   std::vector<std::string> news_;
 };

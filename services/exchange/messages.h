@@ -222,7 +222,7 @@ enum class NowWhom : std::uint8_t { kRobot = 0, kOnRoute = 1, kAll = 2 };
 // trailcast/now: said again until it is answered.
 struct NowCommand {
   AgentId client{};          // who gives it
-  std::uint64_t number = 0;  // counts up from 1 in the client's process; obeyed once
+  std::uint64_t number = 0;  // drawn at random, 1 or more; obeyed once
   NowOrder order = NowOrder::kStop;
   NowWhom whom = NowWhom::kAll;
   std::string name{};    // of the robot, or the route; empty for all

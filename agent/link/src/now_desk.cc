@@ -3,6 +3,8 @@
 #include <variant>
 
 #include "services/base/process_name.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
 
 namespace trailcast::agent {
 
@@ -22,20 +24,18 @@ void NowDesk::Handle(const exchange::Message& message, const std::string& route,
                      std::int64_t unix_ms) {
   const auto* command = std::get_if<exchange::NowCommand>(&message);
   if (command == nullptr || !IsMeant(*command, route)) return;
-  exchange::NowAnswer& last = last_.Touch(command->client);
-  // An earlier one, late on its way, is over.
-  if (command->number < last.number) return;
-  if (command->number > last.number) {
+  exchange::NowAnswer& answer = given_.Touch({command->client, command->number});
+  if (answer.number == 0) {
     const auto obeyed = hold_.Obey(*command, WithoutProcess(command->client.value()), unix_ms);
-    last = {.agent = self_,
-            .client = command->client,
-            .number = command->number,
-            .refused = obeyed.refused,
-            .detail = obeyed.detail};
+    answer = {.agent = self_,
+              .client = command->client,
+              .number = command->number,
+              .refused = obeyed.refused,
+              .detail = PlainText(obeyed.detail, exchange::kMaxLineBytes)};
     news_.push_back((obeyed.refused ? "does not obey " : "obeys ") + command->client.value() +
                     ": " + obeyed.detail);
   }
-  answers_.emplace_back(last);
+  answers_.emplace_back(answer);
 }
 
 }  // namespace trailcast::agent

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "services/exchange/bounds.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::agent {
@@ -113,15 +114,29 @@ TEST_F(NowDeskTest, ACommandIsObeyedOnceAndAnsweredEachTime) {
   const NowAnswer first = Say(pause);
   EXPECT_EQ(Say({.client = AgentId("desk-p77"), .number = 2, .order = NowOrder::kResume}).refused,
             false);
-  desk_.Handle(pause, "hall", kNow_ms);  // late on its way
-  EXPECT_THAT(desk_.TakeAnswers(), IsEmpty());
+  EXPECT_EQ(Say(pause), first) << "late on its way";
   EXPECT_EQ(kind(), Hold::Kind::kNone);
-  // Another process counts for itself.
   const NowCommand other{.client = AgentId("desk-p78"), .number = 1, .order = NowOrder::kPause};
   const NowAnswer paused = Say(other);
   EXPECT_EQ(Say(other), paused);
   EXPECT_EQ(desk_.TakeNews().size(), 3U);
   EXPECT_EQ(first.detail, paused.detail);
+}
+
+// Their containers give each process the number 1.
+TEST_F(NowDeskTest, ObeysEachProcessOfAnOperatorWhateverItsNumbers) {
+  const AgentId desk("desk-p1");
+  (void)Say({.client = desk, .number = 9'000'000, .order = NowOrder::kPause});
+  EXPECT_FALSE(Say({.client = desk, .number = 7, .order = NowOrder::kResume}).refused);
+  EXPECT_EQ(kind(), Hold::Kind::kNone);
+}
+
+TEST_F(NowDeskTest, AnswersAreNoLongerThanALine) {
+  const NowAnswer answer = Say({.client = AgentId("desk-p77"),
+                                .number = 1,
+                                .order = NowOrder::kStop,
+                                .reason = std::string(exchange::kMaxLineBytes, 'x')});
+  EXPECT_LE(answer.detail.size(), exchange::kMaxLineBytes);
 }
 
 TEST_F(NowDeskTest, ObeysWhatItIsMeantBy) {

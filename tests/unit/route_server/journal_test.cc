@@ -47,6 +47,11 @@ TEST(JournalTest, TellsWhoToldRobotsWhatOnce) {
                                    .detail = "stopped by desk"};
   EXPECT_EQ(journal.Received(answer), "'robot1' obeys 'desk-p7': stopped by desk");
   EXPECT_EQ(journal.Received(answer), std::nullopt);
+  // Another process of the same name, in another container.
+  const exchange::NowCommand release{
+      .client = AgentId("desk-p7"), .number = 1 << 20, .order = exchange::NowOrder::kRelease};
+  EXPECT_EQ(journal.Received(release), "'desk-p7' tells all robots to release");
+  EXPECT_EQ(journal.Received(stop), std::nullopt);
 }
 
 TEST(JournalTest, TellsOfReceiptsWhenTheyHaveDoubledAndAtTheEnd) {

@@ -97,6 +97,22 @@ TEST_F(NowClientTest, SaysItAgainUntilItIsAnswered) {
   EXPECT_THAT(WordsText(*words), HasSubstr("nobody: did not answer"));
 }
 
+TEST_F(NowClientTest, TakesNoAnswerToWhatAnotherProcessOfItsNameSaid) {
+  const auto robot = bus_.Open(exchange::FollowerTopics());
+  std::thread other([&] {
+    while (!ending_) {
+      (void)robot->Publish(exchange::NowAnswer{
+          .agent = AgentId("robot1"), .client = AgentId("desk"), .number = 1, .detail = "old"});
+      std::this_thread::yield();
+    }
+  });
+  const auto words = Tell({{NowWhom::kRobot, "robot1"}}, milliseconds(500));
+  ending_ = true;
+  other.join();
+  ASSERT_TRUE(words);
+  EXPECT_EQ(WordsText(*words), "robot1: did not answer\n");
+}
+
 TEST_F(NowClientTest, WhereNobodyIsHeardThatIsSaid) {
   const auto words = Tell({{NowWhom::kOnRoute, "hall"}}, milliseconds(300));
   ASSERT_FALSE(words);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <utility>
 
 #include "services/base/time.h"
@@ -21,28 +22,33 @@ constexpr milliseconds kWait{20};
 // Whoever joins has heard of all who are there by then, usually.
 constexpr milliseconds kAllAreHeard{1500};
 
+// Processes in containers have the same number, and thus the same name.
+std::uint64_t DrawnNumber() {
+  std::random_device random;
+  return std::uniform_int_distribution<std::uint64_t>(1)(random);
+}
+
 class Telling {
  public:
   Telling(const AgentId& self, exchange::NowOrder order, const std::vector<NowTarget>& targets,
           const std::string& reason)
       : targets_(targets) {
-    for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (const NowTarget& target : targets) {
       commands_.emplace_back(exchange::NowCommand{.client = self,
-                                                  .number = i + 1,
+                                                  .number = DrawnNumber(),
                                                   .order = order,
-                                                  .whom = targets[i].whom,
-                                                  .name = targets[i].name,
+                                                  .whom = target.whom,
+                                                  .name = target.name,
                                                   .reason = reason});
-      if (targets[i].whom == NowWhom::kRobot) words_[targets[i].name].robot = targets[i].name;
+      if (target.whom == NowWhom::kRobot) words_[target.name].robot = target.name;
     }
-    self_ = self;
   }
 
   [[nodiscard]] const std::vector<exchange::NowCommand>& commands() const { return commands_; }
 
   void Hear(const exchange::Message& message) {
     if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
-      if (answer->client != self_) return;
+      if (!Answers(*answer)) return;
       words_[answer->agent.value()] = {answer->agent.value(), true, answer->refused,
                                        answer->detail};
     } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
@@ -73,6 +79,12 @@ class Telling {
   }
 
  private:
+  // Another process may be called the same.
+  [[nodiscard]] bool Answers(const exchange::NowAnswer& answer) const {
+    return std::any_of(commands_.begin(), commands_.end(), [&](const auto& command) {
+      return answer.client == command.client && answer.number == command.number;
+    });
+  }
   [[nodiscard]] bool IsNamed(const std::string& robot) const {
     return std::any_of(targets_.begin(), targets_.end(), [&](const NowTarget& each) {
       return each.whom == NowWhom::kRobot && each.name == robot;
@@ -85,7 +97,6 @@ class Telling {
     });
   }
 
-  AgentId self_;
   const std::vector<NowTarget>& targets_;
   std::vector<exchange::NowCommand> commands_;
   std::map<std::string, RobotsWord> words_;
