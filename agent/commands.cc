@@ -111,7 +111,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
 }  // namespace
 
 Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
-  if (auto can = CanAllBeWritten({options.report, teach.device.truth}); !can) {
+  if (auto can = CanAllBeWritten({options.report, teach.device.simulated.truth}); !can) {
     return tl::unexpected(can.error());
   }
   auto opened = OpenDevice(teach.device, options.common);
@@ -124,7 +124,7 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
       teach.route,  LinkOptions(options, teach),    teach.tags,         teach.place,
       teach.review, UnfinishedOf(teach.unfinished), teach.device.intake};
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
-  if (auto truth = opened->WriteTruth(teach.device); !truth) return tl::unexpected(truth.error());
+  if (auto truth = opened->TruthWritten(); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);
 }
 
@@ -176,7 +176,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   const auto ref = program::WithRevision(replay.route, replay.revision);
   if (!ref) return tl::unexpected(ref.error());
   if (auto can =
-          CanAllBeWritten({options.report, replay.csv, replay.diagnosis.log, replay.device.truth});
+          CanAllBeWritten({options.report, replay.csv, replay.diagnosis.log, replay.device.simulated.truth});
       !can) {
     return tl::unexpected(can.error());
   }
@@ -191,7 +191,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!outcome) return tl::unexpected(outcome.error());
   auto written = Tell(outcome->summary, options);
   if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);
-  if (written) written = opened->WriteTruth(replay.device);
+  if (written) written = opened->TruthWritten();
   if (written) written = outcome->diagnosed;
   if (outcome->error) return tl::unexpected(*outcome->error);
   if (!written) return tl::unexpected(written.error());

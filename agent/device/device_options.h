@@ -28,7 +28,6 @@ struct DeviceOptions {
   vision::IntakeOptions intake;          // how its camera is mounted
   std::optional<double> camera_ahead_m;  // the same, as ReplayMethodOptions has it
   double pass_obstacles_m = 0.0;         // as PassingOptions::most_m
-  std::filesystem::path truth;           // where a simulated robot's true poses go; empty: nowhere
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
   [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }
@@ -80,8 +79,8 @@ struct OpenedDevice {
   std::unique_ptr<RobotDevice> device;
   const SimulatedRobot* simulated = nullptr;  // the same, where it is one
 
-  // Writes what `options` asks for after the run.
-  [[nodiscard]] Result<void> WriteTruth(const DeviceOptions& options) const;
+  // After the run: whether a simulated robot's true poses are where they were asked for.
+  [[nodiscard]] Result<void> TruthWritten() const;
 };
 
 [[nodiscard]] Result<OpenedDevice> OpenDevice(const DeviceOptions& options,

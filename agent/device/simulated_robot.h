@@ -22,14 +22,17 @@ struct SimulatedRun {
   bool stays_at_end = false;      // the scout goes on looking where its drive ended
   double rate_hz = 30.0;          // of its steps, each with odometry and a picture
   double turn_radius_m = 0.0;     // it steers like a car, no tighter; 0: by two driven wheels
+  // For whoever judges: the true poses of the frames, as they are made, CSV
+  // `t_s,x_m,y_m,heading_rad` in the world's frame. Empty: nowhere.
+  std::filesystem::path truth{};
   std::vector<sim::RoughPatch> rough{};  // what its wheels feel besides the place's ground
 };
 
 class SimulatedRobot : public RobotDevice {
  public:
-  // For whoever judges: the true poses of the frames so far, CSV `t_s,x_m,y_m,heading_rad` in the
-  // world's frame. Agents know this class as a RobotDevice only.
-  [[nodiscard]] virtual Result<void> WriteTruth(const std::filesystem::path& file) const = 0;
+  // Whether all of what SimulatedRun::truth asks for is there. Agents know this class as a
+  // RobotDevice only.
+  [[nodiscard]] virtual Result<void> TruthWritten() const = 0;
 };
 
 // From the library of simulated robots, which brings a ray tracer and readers of world files with

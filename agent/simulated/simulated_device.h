@@ -33,7 +33,7 @@ class SimulatedDevice final : public SimulatedRobot {
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override;
 
-  [[nodiscard]] Result<void> WriteTruth(const std::filesystem::path& file) const override;
+  [[nodiscard]] Result<void> TruthWritten() const override;
 
  private:
   struct State;

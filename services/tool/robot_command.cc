@@ -69,8 +69,7 @@ Result<void> Run(const program::CommonOptions& common, const RobotOptions& optio
   const auto summary = agent::RunVirtualRobot(**device, robot);
   if (!summary) return tl::unexpected(summary.error());
   std::fputs(summary->Text().c_str(), stdout);
-  if (options.device.truth.empty()) return {};
-  return (*device)->WriteTruth(options.device.truth);
+  return (*device)->TruthWritten();
 }
 
 }  // namespace

@@ -28,25 +28,15 @@ class NowTest : public RobotsTest {
   Ended Tell(const std::string& order, const Words& words = {"robot1"}) {
     return End(*Start("trailcast", With({order}, words), order));
   }
-  // Where the robot is: the last place of its truth that is written whole.
-  double Along_m() {
-    std::ifstream in(Path("truth.csv"));
-    double x_m = 0.0;
-    for (std::string line; std::getline(in, line) && !in.eof();) {
-      const auto first = line.find(',');
-      if (first != std::string::npos && line[0] != 't') x_m = std::stod(line.substr(first + 1));
-    }
-    return x_m;
-  }
   // It stays where it is for a second; false if it does not within ten.
   bool Stands() {
     const auto deadline = steady_clock::now() + std::chrono::seconds(10);
-    double at_m = Along_m();
+    double at_m = Along_m("truth.csv");
     auto since = steady_clock::now();
     while (steady_clock::now() < deadline) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      if (std::abs(Along_m() - at_m) > 0.01) {
-        at_m = Along_m();
+      if (std::abs(Along_m("truth.csv") - at_m) > 0.01) {
+        at_m = Along_m("truth.csv");
         since = steady_clock::now();
       }
       if (steady_clock::now() - since > std::chrono::seconds(1)) return true;
@@ -66,7 +56,7 @@ TEST_F(NowTest, APausedRobotStandsAndGoesOnWhenItIsToldTo) {
   EXPECT_THAT(paused.output, HasSubstr("robot1: paused by operator: somebody walks here"));
   EXPECT_TRUE(follower_->WaitForOutput("HELD")) << follower_->output();
   EXPECT_TRUE(Stands());
-  const double at_m = Along_m();
+  const double at_m = Along_m("truth.csv");
   EXPECT_LT(at_m, 4.3) << "of 4.5 m";
   const Ended resumed = Tell("resume", {"--all"});
   EXPECT_EQ(resumed.status, 0) << resumed.output;
@@ -82,7 +72,7 @@ TEST_F(NowTest, AStoppedRobotStandsAfterARestartTooUntilItIsReleasedAndResumed) 
   const Ended stopped = Tell("stop", {"--route", "hall"});
   EXPECT_EQ(stopped.status, 0) << stopped.output;
   EXPECT_TRUE(Stands());
-  const double at_m = Along_m();
+  const double at_m = Along_m("truth.csv");
   follower_->Signal(SIGKILL);
   (void)End(*follower_);
 
@@ -93,7 +83,7 @@ TEST_F(NowTest, AStoppedRobotStandsAfterARestartTooUntilItIsReleasedAndResumed) 
   EXPECT_THAT(refused.output, HasSubstr("robot1: does not obey: stopped by operator on "));
   EXPECT_EQ(Tell("release").status, 0);
   EXPECT_TRUE(Stands());
-  EXPECT_NEAR(Along_m(), at_m, 0.05) << "it has not moved";
+  EXPECT_NEAR(Along_m("truth.csv"), at_m, 0.05) << "it has not moved";
   EXPECT_EQ(Tell("resume").status, 0);
   const Ended followed = End(*follower_);
   EXPECT_EQ(followed.status, 0) << followed.output;

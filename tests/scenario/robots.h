@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tests/scenario/programs.h"
@@ -27,6 +28,17 @@ class RobotsTest : public ProgramsTest {
   }
   [[nodiscard]] Words Drives(const std::string& robot) const {
     return {"--ros2", "/" + robot, "--ros-domain", "3", "--ros-dds-tag", tag_};
+  }
+  // How far east a robot is that drives now: the last place of its truth that is written whole.
+  double Along_m(const std::string& truth) {
+    std::ifstream in(Path(truth));
+    std::optional<double> x_m;
+    for (std::string line; std::getline(in, line) && !in.eof();) {
+      const auto first = line.find(',');
+      if (first != std::string::npos && line[0] != 't') x_m = std::stod(line.substr(first + 1));
+    }
+    EXPECT_TRUE(x_m) << truth << " has no place";
+    return x_m.value_or(-1.0);
   }
   // Route 'hall', into this store.
   void Teach(const std::string& store = "routes.db", const std::string& path = kPath) {

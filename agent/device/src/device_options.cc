@@ -243,7 +243,7 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
         ->check(CLI::Range(0.05, 2.0));
   }
   AddRoughPatches(command, simulated.rough)->needs(world)->group(simulation);
-  add("--sim-truth", options.truth, "Writes the true poses here, for a judge");
+  add("--sim-truth", options.simulated.truth, "Writes the true poses here as it goes, for a judge");
   return world;
 }
 
@@ -399,9 +399,8 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   ShareTopics(command, options, ros2);
 }
 
-Result<void> OpenedDevice::WriteTruth(const DeviceOptions& options) const {
-  if (simulated == nullptr || options.truth.empty()) return {};
-  return simulated->WriteTruth(options.truth);
+Result<void> OpenedDevice::TruthWritten() const {
+  return simulated == nullptr ? Result<void>() : simulated->TruthWritten();
 }
 
 Result<OpenedDevice> OpenDevice(const DeviceOptions& options,

@@ -1,14 +1,15 @@
 #include "agent/simulated/simulated_device.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <fstream>
 #include <utility>
 #include <vector>
 
 #include "agent/simulated/body_imu.h"
 #include "agent/simulated/camera_file.h"
-#include "services/base/text_file.h"
 #include "services/sim/core/judge.h"
 #include "services/sim/core/path.h"
 #include "services/sim/core/path_follow_driver.h"
@@ -20,11 +21,6 @@ namespace {
 
 // A small robot's scanner, above the ground.
 constexpr double kScanner_m = 0.2;
-
-struct TruePose {
-  SensorTime stamp{};
-  motion::Pose2 pose;
-};
 
 }  // namespace
 
@@ -38,7 +34,9 @@ struct SimulatedDevice::State {
   bool stays_at_end = false;
   motion::VelocityCommand command;
   BodyImu imu;
-  std::vector<TruePose> truth;
+  bool begun = false;  // there was a frame
+  std::filesystem::path truth_file;
+  std::ofstream truth;  // of that, if there is one
 
   [[nodiscard]] Observation Note(sim::Observation seen);
   [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
@@ -71,18 +69,25 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   state->world = place->world;
   state->robot = std::move(*robot);
   state->path = std::move(place->path.points);
+  if (!run.truth.empty()) {
+    state->truth_file = run.truth;
+    state->truth.open(run.truth);
+    state->truth << "t_s,x_m,y_m,heading_rad\n" << std::flush;
+  }
   if (run.drives_itself) {
     sim::DriverOptions driver;
     driver.shunts_from = place->path.shunts_from;
     driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
     state->operator_.emplace(state->path, driver);
   }
-  return std::unique_ptr<SimulatedDevice>(new SimulatedDevice(std::move(state)));
+  std::unique_ptr<SimulatedDevice> device(new SimulatedDevice(std::move(state)));
+  if (auto can = device->TruthWritten(); !can) return tl::unexpected(can.error());
+  return device;
 }
 
 Result<std::optional<Observation>> SimulatedDevice::Next() {
   State& s = *state_;
-  if (s.operator_ && !s.truth.empty()) {
+  if (s.operator_ && s.begun) {
     s.command = s.operator_->Command(s.Pose());
     if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
   }
@@ -91,15 +96,21 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
 
 Observation SimulatedDevice::NextBlind() {
   State& s = *state_;
-  if (s.operator_ && !s.truth.empty()) s.command = s.operator_->Command(s.Pose());
+  if (s.operator_ && s.begun) s.command = s.operator_->Command(s.Pose());
   return s.Note(s.robot->StepBlind(s.command));
 }
 
 Observation SimulatedDevice::State::Note(sim::Observation seen) {
-  truth.push_back({seen.stamp, Pose()});
+  begun = true;
+  const motion::Pose2 pose = Pose();
+  // Whoever looks meanwhile reads whole lines.
+  if (truth.is_open()) {
+    truth << fmt::format("{:.4f},{:.4f},{:.4f},{:.5f}\n", Seconds(seen.stamp), pose.x_m, pose.y_m,
+                         pose.heading_rad)
+          << std::flush;
+  }
   // Looked for near where it was: a loop passes some places twice.
-  along_m =
-      sim::Nearest(path, motion::Position(truth.back().pose), along_m - 1.0, along_m + 2.0).along_m;
+  along_m = sim::Nearest(path, motion::Position(pose), along_m - 1.0, along_m + 2.0).along_m;
   const motion::ImuSample felt = imu.Feel(seen.stamp, sim::Judge(*robot).WorldFromBody());
   return {seen.stamp, std::move(seen.image), seen.odometry, {}, {felt}};
 }
@@ -134,13 +145,12 @@ std::optional<double> SimulatedDevice::drive_progress() const {
   return state_->along_m / sim::Length(state_->path);
 }
 
-Result<void> SimulatedDevice::WriteTruth(const std::filesystem::path& file) const {
-  std::string text = "t_s,x_m,y_m,heading_rad\n";
-  for (const TruePose& row : state_->truth) {
-    text += fmt::format("{:.4f},{:.4f},{:.4f},{:.5f}\n", Seconds(row.stamp), row.pose.x_m,
-                        row.pose.y_m, row.pose.heading_rad);
-  }
-  return WriteTextFile(file, text);
+Result<void> SimulatedDevice::TruthWritten() const {
+  const State& s = *state_;
+  if (s.truth_file.empty() || s.truth.good()) return {};
+  return Fail(ErrorCode::kUnavailable,
+              "cannot write {}: is its folder there, and the disk not full?",
+              s.truth_file.string());
 }
 
 }  // namespace trailcast::agent
