@@ -99,8 +99,9 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   if (!follower.open_loop && !replay.device.is_simulated()) {
     follower.link.place_file = beside_store("place");
   }
-  if (!follower.open_loop) follower.link.stop_file = beside_store("stop");
   // A recording drives on, whatever it is told.
+  follower.link.hears_operators = !follower.open_loop;
+  if (!follower.open_loop) follower.link.stop_file = beside_store("stop");
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);
   follower.terrain.roughness = route::FindRoughness(replay.max_roughness);

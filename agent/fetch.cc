@@ -78,6 +78,7 @@ Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store:
                       std::unique_ptr<exchange::RouteExchange> exchange) {
   FollowerLinkOptions stored_alone = options;
   stored_alone.feeds_segments = false;
+  stored_alone.hears_operators = false;
   FollowerLink link(std::move(stored_alone), std::move(store), std::move(exchange));
   if (auto started = link.Start(); !started) return tl::unexpected(started.error());
   Fetching fetching(options);

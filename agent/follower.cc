@@ -132,7 +132,7 @@ bool Loop::Refuses() {
 
 bool Loop::TakeHold() {
   while (auto hold = link_.TryTakeHold()) hold_ = *std::move(hold);
-  return !hold_.cancelled || options_.open_loop || End("CANCELLED", "cancelled by an operator");
+  return !hold_.cancelled || End("CANCELLED", "cancelled by an operator");
 }
 
 // False: the run is over.
@@ -189,7 +189,7 @@ Result<void> Loop::Run() {
 
 Result<ReplayStep> Loop::Decide(const Observation& observation) {
   while (auto neighbours = link_.TryTakeNeighbours()) yielding_.Hear(std::move(*neighbours));
-  const bool held = hold_.kind != Hold::Kind::kNone && !options_.open_loop;
+  const bool held = hold_.kind != Hold::Kind::kNone;
   if (const ReplayStep* wish = held ? stand_.WithoutLooking(observation.stamp) : nullptr) {
     return StandingStep(*wish, ReplayState::kHeld, hold_.text);
   }

@@ -35,6 +35,7 @@ struct FollowerLinkOptions {
   bool from_start = false;           // whatever was noted
   std::filesystem::path stop_file;   // where an operator's stop is kept; empty: nowhere
   bool feeds_segments = true;  // false: nobody drives, the segments are stored and not read back
+  bool hears_operators = true;  // false: there is nothing that could be held
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
   std::function<bool()> stop = [] { return false; };  // any thread

@@ -1,5 +1,6 @@
 // What operators tell robots at work: pause, resume, cancel, stop, release.
 #include <chrono>
+#include <filesystem>
 
 #include "tests/scenario/robots.h"
 
@@ -102,6 +103,17 @@ TEST_F(NowTest, AStoppedRobotWithoutANetworkDoesNotBegin) {
   EXPECT_EQ(refused.status, 1) << refused.output;
   EXPECT_THAT(refused.output,
               AllOf(HasSubstr("stopped by operator on "), HasSubstr("trailcast release robot1")));
+}
+
+TEST_F(NowTest, ARecordingDrivesNothingAndDoesNotAnswer) {
+  const auto recording =
+      Agent({"replay", "--frames", Walk("walk", 3), "--route", "yard", "--store", Path("copy.db"),
+             "--server", "--wait-for-route", "--wait", "600", "--name", "recording"});
+  ASSERT_TRUE(recording->WaitForOutput("asking for route 'yard'")) << recording->output();
+  const Ended stopped = Tell("stop", {"recording", "--timeout", "2"});
+  EXPECT_EQ(stopped.status, 1) << stopped.output;
+  EXPECT_THAT(stopped.output, HasSubstr("recording: did not answer"));
+  EXPECT_FALSE(std::filesystem::exists(Path("copy.db.recording.stop")));
 }
 
 TEST_F(NowTest, WhoIsNotThereDoesNotAnswer) {

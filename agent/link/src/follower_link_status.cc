@@ -6,6 +6,7 @@
 
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
 #include "services/exchange/publish.h"
 
 namespace trailcast::agent {
@@ -68,12 +69,9 @@ void FollowerLink::ShowStatus() {
   presence_->Set(std::move(status));
 }
 
-// Whoever only fetches drives nothing that could be held.
 void FollowerLink::HearOperators(const exchange::Message& message) {
-  if (!options_.feeds_segments) return;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  now_desk_.Handle(message, route_ ? route_->name : options_.route,
-                   std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  if (!options_.hears_operators) return;
+  now_desk_.Handle(message, route_ ? route_->name : options_.route, NowUnixMs());
   for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
 }
 
