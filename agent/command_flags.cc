@@ -65,6 +65,31 @@ void AddTerrainOptions(CLI::App& command, ReplayCommand& replay) {
       ->group(group);
 }
 
+// How a route is followed, whichever it is.
+void AddFollowing(CLI::App& command, ReplayCommand& replay) {
+  command
+      .add_option("--method", replay.method,
+                  "The project's best, the 2009 method as printed, or its first version of 2006")
+      ->check(CLI::IsMember(ReplayMethodNames()));
+  command
+      .add_option("--wait", replay.wait_s,
+                  "Seconds to wait for a server, the route or the next segment while none comes")
+      ->check(CLI::Range(0.0, kLongest_s));
+  command
+      .add_option(
+          "--keep-distance", replay.keep_distance_m,
+          "With --server: metres along the path to keep from followers ahead; 0: keeps none")
+      ->check(CLI::Range(0.0, 1000.0));
+  command
+      .add_option("--look-around", replay.look_around_deg,
+                  "Degrees to either side by which a robot that has lost its path from view, and "
+                  "would give up, turns on the spot to find it again, by odometry and the default "
+                  "method; cars and recordings do not. 0: it stands")
+      ->check(CLI::Range(0.0, 180.0));
+  AddDeviceOptions(command, replay.device, false);
+  AddTerrainOptions(command, replay);
+}
+
 }  // namespace
 
 void AddSharedOptions(CLI::App& app, CommandOptions& options) {
@@ -122,14 +147,6 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
       .add_option("--view-every", replay.diagnosis.view_every, "Only every so many frames of them")
       ->check(CLI::Range(1, 1'000'000))
       ->needs(view);
-  command
-      .add_option("--method", replay.method,
-                  "The project's best, the 2009 method as printed, or its first version of 2006")
-      ->check(CLI::IsMember(ReplayMethodNames()));
-  command
-      .add_option("--wait", replay.wait_s,
-                  "Seconds to wait for a server, the route or the next segment while none comes")
-      ->check(CLI::Range(0.0, kLongest_s));
   command.add_flag("--wait-for-route", replay.wait_for_route,
                    "With --server: also wait for a route that no server knows yet");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
@@ -142,19 +159,16 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
       ->check(CLI::IsMember({"left", "beginning", "anywhere"}))
       ->capture_default_str();
   command.add_flag("--from-start", replay.from_start, "The same as --start beginning");
+  AddFollowing(command, replay);
+}
+
+void AddServeOptions(CLI::App& command, ServeCommand& serve) {
   command
-      .add_option(
-          "--keep-distance", replay.keep_distance_m,
-          "With --server: metres along the path to keep from followers ahead; 0: keeps none")
-      ->check(CLI::Range(0.0, 1000.0));
-  command
-      .add_option("--look-around", replay.look_around_deg,
-                  "Degrees to either side by which a robot that has lost its path from view, and "
-                  "would give up, turns on the spot to find it again, by odometry and the default "
-                  "method; cars and recordings do not. 0: it stands")
-      ->check(CLI::Range(0.0, 180.0));
-  AddDeviceOptions(command, replay.device, false);
-  AddTerrainOptions(command, replay);
+      .add_option("--logs", serve.logs,
+                  "Folder for a log of each route that it follows, for 'trailcast explain': "
+                  "MISSION-TASK-LAP.log")
+      ->check(CLI::ExistingDirectory);
+  AddFollowing(command, serve.replay);
 }
 
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agent/fetch.h"
+#include "agent/on_duty.h"
 #include "agent/teachings.h"
 #include "services/base/angles.h"
 #include "services/base/time.h"
@@ -31,8 +32,8 @@ Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& opti
 }
 
 // With keys only scouts may say what routes there are.
-exchange::TopicUse FollowersTopics(const CommandOptions& options) {
-  exchange::TopicUse use = exchange::FollowerTopics();
+exchange::TopicUse FollowersTopics(const CommandOptions& options,
+                                   exchange::TopicUse use = exchange::FollowerTopics()) {
   if (options.common.security.empty()) use.write_rarely.push_back(exchange::Topic::kRoutes);
   return use;
 }
@@ -67,6 +68,10 @@ Result<int> Ended(const Result<Summary>& summary, const CommandOptions& options)
   return program::kExitOk;
 }
 
+std::string BesideStore(const CommandOptions& options, const char* what) {
+  return fmt::format("{}.{}.{}", options.store_file, options.common.name, what);
+}
+
 FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayCommand& replay,
                                     const route::RouteRef& ref) {
   FollowerOptions follower;
@@ -92,16 +97,13 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.diagnosis.patient = follower.open_loop;
   follower.session.anywhere = replay.start == "anywhere";
   follower.link.from_start = replay.from_start || replay.start != "left";
-  const auto beside_store = [&](const char* what) {
-    return fmt::format("{}.{}.{}", options.store_file, options.common.name, what);
-  };
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {
-    follower.link.place_file = beside_store("place");
+    follower.link.place_file = BesideStore(options, "place");
   }
   // A recording drives on, whatever it is told.
   follower.link.hears_operators = !follower.open_loop;
-  if (!follower.open_loop) follower.link.stop_file = beside_store("stop");
+  if (!follower.open_loop) follower.link.stop_file = BesideStore(options, "stop");
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
   if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);
   follower.terrain.roughness = route::FindRoughness(replay.max_roughness);
@@ -109,7 +111,40 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   return follower;
 }
 
+OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeCommand& serve) {
+  OnDutyOptions duty;
+  duty.agent = AgentId(options.common.name);
+  duty.missions_file = BesideStore(options, "missions");
+  duty.stop_file = BesideStore(options, "stop");
+  duty.logs = serve.logs;
+  duty.follower = [&](const mission::Task& task) {
+    ReplayCommand replay = serve.replay;
+    replay.speed_factor = task.speed_factor;
+    return MakeFollowerOptions(options, replay, task.route);
+  };
+  duty.open_store = [&] { return store::OpenSqliteStore(options.store_file, kOfCopies); };
+  duty.stop = [] { return program::StopSignal::requested(); };
+  return duty;
+}
+
 }  // namespace
+
+Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
+  if (serve.replay.device.is_recorded()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "a recording cannot be sent anywhere: on duty are robots, --ros2 or --sim");
+  }
+  auto opened = OpenDevice(serve.replay.device, options.common);
+  if (!opened) return tl::unexpected(opened.error());
+  auto exchange = program::OpenExchange(
+      options.common, program::WithAgents(FollowersTopics(options, exchange::OnDutyTopics())));
+  if (!exchange) return tl::unexpected(exchange.error());
+  const OnDutyOptions duty = MakeOnDutyOptions(options, serve);
+  if (auto served = ServeOnDuty(*opened->device, duty, std::move(*exchange)); !served) {
+    return tl::unexpected(served.error());
+  }
+  return program::kExitOk;
+}
 
 Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (auto can = CanAllBeWritten({options.report, teach.device.simulated.truth}); !can) {
@@ -176,8 +211,8 @@ Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch) {
 Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay) {
   const auto ref = program::WithRevision(replay.route, replay.revision);
   if (!ref) return tl::unexpected(ref.error());
-  if (auto can =
-          CanAllBeWritten({options.report, replay.csv, replay.diagnosis.log, replay.device.simulated.truth});
+  if (auto can = CanAllBeWritten(
+          {options.report, replay.csv, replay.diagnosis.log, replay.device.simulated.truth});
       !can) {
     return tl::unexpected(can.error());
   }

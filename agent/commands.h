@@ -58,16 +58,23 @@ struct ReplayCommand {
   bool comfort = false;
 };
 
+struct ServeCommand {
+  ReplayCommand replay;  // how it follows what it is sent along
+  std::filesystem::path logs;
+};
+
 // Flags of the program and of its commands, which fill the structs.
 void AddSharedOptions(CLI::App& app, CommandOptions& options);
 void AddTeachOptions(CLI::App& command, TeachCommand& teach);
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay);
+void AddServeOptions(CLI::App& command, ServeCommand& serve);
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch);
 void AddDeliverOptions(CLI::App& command, TeachCommand& deliver);
 
 // Each runs one command to its end and returns the process's exit status; an error is one too.
 [[nodiscard]] Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach);
 [[nodiscard]] Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay);
+[[nodiscard]] Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve);
 [[nodiscard]] Result<int> RunFetch(const CommandOptions& options, const FetchCommand& fetch);
 [[nodiscard]] Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver);
 [[nodiscard]] Result<int> RunTeachings(const CommandOptions& options);

@@ -56,6 +56,7 @@ class Loop {
   // False: an operator has ended the run.
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
+  [[nodiscard]] bool PassedEnd() const;  // where it was to end before the route does
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
   bool End(std::string state, std::string reason);
@@ -223,6 +224,11 @@ Result<bool> Loop::Step(const Observation& observation) {
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;
+  if (PassedEnd()) {
+    if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
+    return End(ToString(ReplayState::kArrived),
+               fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
+  }
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
   }
@@ -231,6 +237,11 @@ Result<bool> Loop::Step(const Observation& observation) {
   return End("STUCK",
              fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
+}
+
+bool Loop::PassedEnd() const {
+  return options_.end_m > 0.0 && last_->state == ReplayState::kFollowing && last_->along_m &&
+         *last_->along_m >= options_.end_m;
 }
 
 void Loop::Tell(const ReplayStep& step) {

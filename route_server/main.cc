@@ -39,6 +39,7 @@ struct HttpOptions {
 
 struct StoreOptions {
   std::string location;
+  std::string missions;  // empty: beside the location, if that is a file
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // of each scout
   std::uint32_t keep_revisions = 0;
@@ -57,6 +58,11 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
          "How large the file may grow, in megabytes; scouts are told when it is full and keep "
          "what they taught; 0: as large as the disk; not with PostgreSQL")
       ->envname("TRAILCAST_STORE_LIMIT_MB");
+  app.add_option("--missions", options.missions,
+                 "SQLite file that holds what robots were sent to do, created if missing; default: "
+                 "the store's name with '.missions' behind it; with PostgreSQL, each server's own: "
+                 "without one, it keeps no missions")
+      ->envname("TRAILCAST_MISSIONS");
   app.add_option("--keep-revisions", options.keep_revisions,
                  "How many complete revisions of a route to keep, the newest, besides the active "
                  "one; older ones are deleted; 0: all")
@@ -105,6 +111,17 @@ trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
   return std::move(damaged->whole);
 }
 
+// Routes are served without, too.
+void OpenMissions(trailcast::server::Server& server, const StoreOptions& options) {
+  const bool beside =
+      options.missions.empty() && !trailcast::store::IsPostgresUrl(options.location);
+  const std::string file = beside ? options.location + ".missions" : options.missions;
+  if (file.empty()) return;
+  const auto kept = trailcast::store::MissionStore::Open(file).and_then(
+      [&](auto store) { return server.KeepMissions(std::move(store)); });
+  if (!kept) spdlog::error("keeping no missions: {}", kept.error().message);
+}
+
 // What Cyclone receives lands in blocks of 1 MB. The C library would take the first from the system
 // and, once that is freed, all others from its heap, which they leave in pieces: it then grows with
 // each client that comes and goes, by some 9 kB, for the first thousand. A threshold that was set
@@ -127,6 +144,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
   if (!server) return program::Complain(app, server.error());
+  OpenMissions(**server, options);
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};

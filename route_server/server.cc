@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/base/text.h"
+#include "services/base/unix_time.h"
 #include "services/catalog/editing.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/publish.h"
@@ -90,13 +91,30 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   return {};
 }
 
+Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
+  auto board = MissionBoard::Open(presence_.status().agent, std::move(store));
+  if (!board) return tl::unexpected(board.error());
+  missions_ = std::move(*board);
+  return {};
+}
+
 void Server::Receive(exchange::Message message) {
   if (std::holds_alternative<exchange::CatalogRequest>(message) ||
       std::holds_alternative<exchange::RouteEditRequest>(message)) {
     ReceiveRequest(message);
     return;
   }
-  if (PassOn(message)) return;
+  const bool passed_on = PassOn(message);
+  if (missions_) {
+    missions_->Handle(message, steady_clock::now(), NowUnixMs());
+  } else if (const auto* request = std::get_if<exchange::MissionRequest>(&message)) {
+    (void)exchange_->Publish(exchange::MissionReply{
+        .server = presence_.status().agent,
+        .client = request->client,
+        .request = request->request,
+        .error = "keeps no missions: its log says why, or it was given no --missions"});
+  }
+  if (passed_on) return;
   presence_.Handle(message);
   fleet_.Handle(message);
   followers_.Handle(message, steady_clock::now());
@@ -149,6 +167,7 @@ void Server::Serve() {
   FillViews(outgoing);
   upkeep_->Tick(now);
   TellAgents();
+  TellMissions();
   ShowWhatItDoes();
   presence_.Tick(now);
   if (retention_ && now >= retention_due_) {
@@ -206,6 +225,15 @@ void Server::TellAgents() {
   // What cannot be handed over is told anew soon.
   (void)exchange::PublishAll(*exchange_, told);
   for (const std::string& note : fleet_.TakeNotes()) spdlog::warn("{}", note);
+}
+
+void Server::TellMissions() {
+  if (!missions_) return;
+  // What cannot be handed over is asked for, or said, again.
+  (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
+  for (const MissionBoard::Note& note : missions_->TakeNotes()) {
+    spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
+  }
 }
 
 // What was appended is on the disk, and what was announced as deleted is not.

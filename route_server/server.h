@@ -10,6 +10,7 @@
 #include "route_server/http_page.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
+#include "route_server/mission_board.h"
 #include "route_server/quotas.h"
 #include "route_server/request_queue.h"
 #include "route_server/route_followers.h"
@@ -35,6 +36,8 @@ class Server {
   void Retain(const catalog::RetentionPolicy& policy) { retention_.emplace(*store_, policy); }
   // Nobody may use more than this, from now on.
   void Limit(const QuotaOptions& options);
+  // Keeps what robots are sent to do, from now on; without, that is not this server's.
+  [[nodiscard]] Result<void> KeepMissions(std::unique_ptr<store::MissionStore> store);
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -65,6 +68,7 @@ class Server {
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
                                                      const exchange::CatalogRequest& request);
   void TellAgents();
+  void TellMissions();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
   void DeleteOutdated();
@@ -85,6 +89,7 @@ class Server {
   std::vector<exchange::Message> refusals_;  // of requests, to be sent
   FleetNews fleet_;
   RouteFollowersBoard followers_;
+  std::unique_ptr<MissionBoard> missions_;  // none: it keeps none
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -34,7 +34,12 @@ struct FollowerLinkOptions {
   std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
   bool from_start = false;           // whatever was noted
   std::filesystem::path stop_file;   // where an operator's stop is kept; empty: nowhere
-  bool feeds_segments = true;  // false: nobody drives, the segments are stored and not read back
+  double begin_m = 0.0;  // how far along the route the robot is set down; whatever was noted
+  // Of an agent that follows many routes: its process in the fleet, which has claimed the name, and
+  // what operators have told it, which outlives the link. 0 and null: this link is all there is.
+  std::uint64_t instance = 0;
+  NowDesk* now_desk = nullptr;
+  bool feeds_segments = true;   // false: nobody drives, the segments are stored and not read back
   bool hears_operators = true;  // false: there is nothing that could be held
   // How long the agent waits for a server, the route, or the next segment, while none comes.
   std::chrono::milliseconds wait{30'000};
@@ -133,8 +138,9 @@ class FollowerLink {
   std::optional<NotedPlace> place_;  // the last that the robot was sure of
   std::optional<Time> noted_;        // when
   Neighbours neighbours_;
-  std::vector<Neighbour> told_;  // to the control loop
-  NowDesk now_desk_;
+  std::vector<Neighbour> told_;      // to the control loop
+  std::optional<NowDesk> own_desk_;  // unless it was lent one
+  NowDesk& now_desk_;
   Hold hold_told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;
   std::uint32_t held_ = 0;         // segments in the own store without a gap

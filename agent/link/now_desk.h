@@ -25,6 +25,9 @@ class NowDesk {
 
   // A stop that an earlier run has left.
   void Load() { hold_.Load(); }
+  // As OperatorHold has them.
+  void Pause(std::string text) { hold_.Pause(std::move(text)); }
+  void ForgetCancelled() { hold_.ForgetCancelled(); }
 
   // `route`: the name of the one that the robot is on. `unix_ms`: now, by the robot's clock.
   void Handle(const exchange::Message& message, const std::string& route, std::int64_t unix_ms);

@@ -38,6 +38,11 @@ class OperatorHold {
   [[nodiscard]] Obeyed Obey(const exchange::NowCommand& command, const std::string& by,
                             std::int64_t unix_ms);
 
+  // The robot stands until it is told to resume, and why; one that stands already goes on standing.
+  void Pause(std::string text);
+  // What was cancelled is over: what comes next is not.
+  void ForgetCancelled() { hold_.cancelled = false; }
+
   [[nodiscard]] const Hold& hold() const { return hold_; }
 
  private:

@@ -11,6 +11,8 @@ install(TARGETS trailcast_codecs trailcast_simulated_module LIBRARY DESTINATION 
                                                             COMPONENT tools)
 install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/system
         COMPONENT server)
+install(FILES config/systemd/trailcast-agent.service DESTINATION lib/systemd/system
+        COMPONENT agent)
 install(FILES config/route_server/server.toml DESTINATION share/trailcast COMPONENT server)
 install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.toml
               config/agent/differential.toml config/agent/tracked.toml DESTINATION share/trailcast
@@ -18,7 +20,7 @@ install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.
 
 # The rooms that are offered: to teach and follow, to store, share and look for routes.
 set(rooms services/base services/motion services/image services/route services/view
-          services/vision services/teach services/replay services/belief services/store
+          services/vision services/teach services/replay services/belief services/mission services/store
           services/exchange services/archive services/catalog services/security services/dds
           agent/session)
 set(targets trailcast_route_format trailcast_wire_types trailcast_ros2_types)

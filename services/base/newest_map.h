@@ -51,6 +51,9 @@ class NewestMap {
     where_.erase(found);
   }
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  // Keys and values, the one that was touched last at the end.
+  [[nodiscard]] auto begin() const { return entries_.begin(); }
+  [[nodiscard]] auto end() const { return entries_.end(); }
 
  private:
   using Entries = std::list<std::pair<Key, Value>>;

@@ -19,4 +19,7 @@ namespace trailcast {
 // The same to the second: "on 2026-11-24 at 05:30:12 UTC".
 [[nodiscard]] std::string MomentText(std::int64_t unix_ms);
 
+// "12 s", "5 min", "3 h", "2 d"; what lies in the future is as old as now.
+[[nodiscard]] std::string Age(std::int64_t milliseconds);
+
 }  // namespace trailcast

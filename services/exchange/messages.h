@@ -8,11 +8,20 @@
 #include <vector>
 
 #include "services/base/ids.h"
+#include "services/mission/mission.h"
+#include "services/mission/now.h"
 #include "services/route/route.h"
 #include "services/route/route_edit.h"
 #include "services/route/route_query.h"
 
 namespace trailcast::exchange {
+
+// trailcast/now and trailcast/now_answers.
+using mission::NowAnswer;
+using mission::NowCommand;
+using mission::NowOrder;
+using mission::NowWhom;
+using mission::ToString;
 
 // Every member has an initialiser, so that designated initialisers may leave some out.
 // One value type for each topic of the wire (idl/trailcast.idl); the prose is in idl/README.md.
@@ -206,40 +215,24 @@ struct RouteFollowers {
   bool operator==(const RouteFollowers&) const = default;
 };
 
-// What an operator tells robots to do at once.
-enum class NowOrder : std::uint8_t {
-  kPause = 0,    // stand where it is
-  kResume = 1,   // go on, after a pause
-  kCancel = 2,   // end what it does, and stand
-  kStop = 3,     // stand, also after a restart, until it is released
-  kRelease = 4,  // no longer stopped, but paused
+// trailcast/mission_requests and trailcast/mission_replies.
+struct MissionRequest {
+  AgentId client{};
+  std::uint64_t request = 0;  // echoed in the reply
+  bool commands = false;      // those that robots were given now, and not missions
+  mission::Query query{};
+  bool operator==(const MissionRequest&) const = default;
 };
 
-[[nodiscard]] const char* ToString(NowOrder order);  // "pause"
-
-enum class NowWhom : std::uint8_t { kRobot = 0, kOnRoute = 1, kAll = 2 };
-
-// trailcast/now: said again until it is answered.
-struct NowCommand {
-  AgentId client{};          // who gives it
-  std::uint64_t number = 0;  // drawn at random, 1 or more; obeyed once
-  NowOrder order = NowOrder::kStop;
-  NowWhom whom = NowWhom::kAll;
-  std::string name{};    // of the robot, or the route; empty for all
-  std::string reason{};  // one line for people; may be empty
-  bool relayed = false;  // by a server, for robots that do not hear its client
-  bool operator==(const NowCommand&) const = default;
-};
-
-// trailcast/now_answers: of each robot that is meant, each time that it hears the command.
-struct NowAnswer {
-  AgentId agent{};
-  AgentId client{};  // whose command it was, and which one
-  std::uint64_t number = 0;
-  bool refused = false;  // it was not obeyed
-  std::string detail{};  // one line for people: how the robot is now, or why not
-  bool relayed = false;  // by a server
-  bool operator==(const NowAnswer&) const = default;
+struct MissionReply {
+  AgentId server{};
+  AgentId client{};
+  std::uint64_t request = 0;
+  std::vector<mission::Record> missions{};        // the newest first
+  std::vector<mission::GivenCommand> commands{};  // likewise
+  std::uint64_t next = 0;                         // 0: this is the last page
+  std::string error{};                            // not empty: the request could not be answered
+  bool operator==(const MissionReply&) const = default;
 };
 
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
@@ -251,6 +244,7 @@ struct AgentGone {
 
 using Message = std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt,
                              CatalogRequest, CatalogReply, AgentStatus, RouteEditRequest, Fleet,
-                             RouteFollowers, NowCommand, NowAnswer, AgentGone>;
+                             RouteFollowers, NowCommand, NowAnswer, mission::Mission,
+                             mission::Report, MissionRequest, MissionReply, AgentGone>;
 
 }  // namespace trailcast::exchange

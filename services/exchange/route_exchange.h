@@ -24,6 +24,10 @@ enum class Topic : std::uint8_t {
   kNeighbours,
   kNow,
   kNowAnswers,
+  kMissions,
+  kMissionStates,
+  kMissionRequests,
+  kMissionReplies,
 };
 
 struct TopicUse {
@@ -51,6 +55,9 @@ struct TopicUse {
 [[nodiscard]] TopicUse OperatorTopics();    // reads routes, agents, catalog replies; asks the
                                             // catalog, edits routes
 [[nodiscard]] TopicUse DispatcherTopics();  // of who tells robots what to do now
+[[nodiscard]] TopicUse OnDutyTopics();      // a follower's that is sent on missions
+[[nodiscard]] TopicUse SenderTopics();      // of who sends missions
+[[nodiscard]] TopicUse HistoryTopics();     // of who asks what became of them
 [[nodiscard]] TopicUse ObserverTopics();    // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and

@@ -25,7 +25,8 @@ class Presence {
   // Strangers can make up names: more are not kept.
   static constexpr std::size_t kMostAgents = 4096;
 
-  // `exchange` outlives this. `status` names agent and role; instance and mode are set here. The
+  // `exchange` outlives this. `status` names agent and role, and the instance of a
+  // process that has one already; its mode is set here. The
   // status is published every `interval` (less often in a swarm, so that each of its agents has
   // kForEachAgent), and when the mode changes.
   Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,

@@ -21,6 +21,7 @@ struct MemberKeys {
   bool scoped = false;       // its permissions allow partitions below its own (PartitionOf)
   bool revocations = false;  // and the topic on which servers spread revocations
   bool now = false;          // and those of what robots are told to do now
+  bool missions = false;     // and those of what they are sent to do
   std::string authority{};   // the fleet's: its certificate, PEM
   RevocationList revoked{};  // by the authority; that of the folder, or a newer one
 };

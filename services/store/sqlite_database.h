@@ -18,6 +18,6 @@ namespace trailcast::store {
 
 // What SQLite threw while `doing` something with `file`, as one of our errors with what to do.
 [[nodiscard]] Error ToError(const SQLite::Exception& exception, const std::filesystem::path& file,
-                            const std::string& doing);
+                            const std::string& doing, const char* what = "route store");
 
 }  // namespace trailcast::store

@@ -24,6 +24,9 @@ struct Command {
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
+// send, missions.
+[[nodiscard]] std::vector<Command> AddMissionCommands(CLI::App& parent,
+                                                      const program::CommonOptions& common);
 // pause, resume, cancel, stop, release.
 [[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
                                                   const program::CommonOptions& common);

@@ -7,6 +7,7 @@
 #include "services/base/time.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/operator_peer.h"
 #include "services/program/stop_signal.h"
 #include "services/route/labels.h"
 #include "services/route/route_ref.h"
@@ -70,7 +71,7 @@ Result<Exported> FromStore(const ExportOptions& options) {
 }
 
 Result<Exported> FromServer(const program::CommonOptions& common, const ExportOptions& options) {
-  auto peer = JoinAsOperator(common, exchange::FollowerTopics());
+  auto peer = fleet::JoinAsOperator(common, exchange::FollowerTopics());
   if (!peer) return tl::unexpected(peer.error());
   TransferWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/time.h"
+#include "services/fleet/operator_peer.h"
 #include "services/tool/command.h"
 #include "services/tool/routes/catalog_client.h"
 #include "services/tool/routes/route_import.h"
@@ -87,7 +88,7 @@ Result<bool> IntoStore(const CLI::App& app, const ImportOptions& options) {
 
 Result<bool> ToServer(const CLI::App& app, const program::CommonOptions& common,
                       const ImportOptions& options) {
-  auto peer = JoinAsOperator(common, ImporterTopics());
+  auto peer = fleet::JoinAsOperator(common, ImporterTopics());
   if (!peer) return tl::unexpected(peer.error());
   TransferWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);

@@ -16,6 +16,8 @@ constexpr const char* kExamples =
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
+    "  trailcast send robot2 follow hall      # a robot on duty; 'missions' tells what became of "
+    "it\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
@@ -45,6 +47,9 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),
                                 trailcast::tool::AddRobotCommand(app, common)};
+  for (Command& command : trailcast::tool::AddMissionCommands(app, common)) {
+    commands.push_back(std::move(command));
+  }
   for (Command& command : trailcast::tool::AddNowCommands(app, common)) {
     commands.push_back(std::move(command));
   }

@@ -4,8 +4,9 @@
 #include <memory>
 
 #include "services/base/time.h"
+#include "services/fleet/now_client.h"
+#include "services/fleet/operator_peer.h"
 #include "services/tool/command.h"
-#include "services/tool/fleet/now_client.h"
 #include "services/tool/routes/transfer.h"
 
 namespace trailcast::tool {
@@ -33,8 +34,8 @@ constexpr const char* kExamples =
     "This is no emergency stop, and no safety-rated one: a robot that is out of reach drives on.\n"
     "Exit status: 0 all obey; 1 somebody does not, or did not answer; 2 wrong usage.";
 
-std::vector<NowTarget> TargetsOf(const NowOptions& options) {
-  std::vector<NowTarget> targets;
+std::vector<fleet::NowTarget> TargetsOf(const NowOptions& options) {
+  std::vector<fleet::NowTarget> targets;
   for (const std::string& robot : options.robots) targets.push_back({NowWhom::kRobot, robot});
   if (!options.route.empty()) targets.push_back({NowWhom::kOnRoute, options.route});
   if (options.all) targets.push_back({NowWhom::kAll, ""});
@@ -43,15 +44,15 @@ std::vector<NowTarget> TargetsOf(const NowOptions& options) {
 
 int Run(const CLI::App& app, const program::CommonOptions& common, NowOrder order,
         const NowOptions& options) {
-  const auto peer = JoinAsOperator(common, exchange::DispatcherTopics());
+  const auto peer = fleet::JoinAsOperator(common, exchange::DispatcherTopics());
   if (!peer) return program::Complain(app, peer.error());
-  const auto words = TellRobots(*peer->exchange, peer->self, order, TargetsOf(options),
-                                options.reason, ToMilliseconds(options.timeout_s));
+  const auto words = fleet::TellRobots(*peer->exchange, peer->self, order, TargetsOf(options),
+                                       options.reason, ToMilliseconds(options.timeout_s));
   if (!words) return program::Complain(app, words.error());
-  std::fputs((options.json ? WordsJson(*words) : WordsText(*words)).c_str(), stdout);
-  const bool all_obey = std::all_of(words->begin(), words->end(), [](const RobotsWord& word) {
-    return word.answered && !word.refused;
-  });
+  std::fputs((options.json ? fleet::WordsJson(*words) : fleet::WordsText(*words)).c_str(), stdout);
+  const bool all_obey =
+      std::all_of(words->begin(), words->end(),
+                  [](const fleet::RobotsWord& word) { return word.answered && !word.refused; });
   return all_obey ? program::kExitOk : program::kExitFailure;
 }
 

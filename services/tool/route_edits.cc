@@ -1,4 +1,5 @@
 #include "services/tool/route_edits.h"
+#include "services/fleet/operator_peer.h"
 
 #include <fmt/ranges.h>
 
@@ -49,7 +50,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, RouteEdit edi
   auto possible = TakeApart(edit);
   if (possible) possible = exchange::CheckEdit(edit);
   if (!possible) return program::Complain(app, possible.error());
-  const auto peer = JoinAsOperator(common, exchange::OperatorTopics());
+  const auto peer = fleet::JoinAsOperator(common, exchange::OperatorTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(timeout_s);
   const auto reply = AskToEdit(*peer->exchange, peer->self, edit, timeout);

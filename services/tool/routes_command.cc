@@ -7,6 +7,7 @@
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/operator_peer.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/command.h"
@@ -95,7 +96,7 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
 }
 
 // Of the routes that are complete.
-Result<RouteStudies> Study(OperatorPeer& peer, const std::vector<route::RouteInfo>& routes,
+Result<RouteStudies> Study(fleet::OperatorPeer& peer, const std::vector<route::RouteInfo>& routes,
                            std::chrono::milliseconds timeout) {
   const program::StopSignal stop;
   RouteStudies studies;
@@ -131,7 +132,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesO
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return program::Complain(app, possible.error());
   }
-  auto peer = JoinAsOperator(
+  auto peer = fleet::JoinAsOperator(
       common, options.looked_into ? exchange::FollowerTopics() : exchange::ObserverTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "services/base/time.h"
+#include "services/fleet/operator_peer.h"
 #include "services/image/files.h"
 #include "services/tool/command.h"
 #include "services/tool/routes/catalog_client.h"
@@ -39,7 +40,7 @@ Result<route::RouteQuery> QueryOf(const WhereOptions& options) {
 int Run(const CLI::App& app, const program::CommonOptions& common, const WhereOptions& options) {
   const auto query = QueryOf(options);
   if (!query) return program::Complain(app, query.error());
-  const auto peer = JoinAsOperator(common, exchange::ObserverTopics());
+  const auto peer = fleet::JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply = AskCatalog(*peer->exchange, peer->self, *query, timeout);

@@ -66,6 +66,14 @@ Message ProbeFor(Topic topic) {
       return exchange::NowCommand{.client = kProbe};
     case Topic::kNowAnswers:
       return exchange::NowAnswer{.agent = kProbe, .client = kProbe};
+    case Topic::kMissions:
+      return mission::Mission{.agent = kProbe, .id = "probe", .client = kProbe};
+    case Topic::kMissionStates:
+      return mission::Report{.agent = kProbe, .mission = "probe"};
+    case Topic::kMissionRequests:
+      return exchange::MissionRequest{.client = kProbe};
+    case Topic::kMissionReplies:
+      return exchange::MissionReply{.server = kProbe, .client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -90,6 +98,10 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
     AgentId operator()(const exchange::NowCommand& m) { return m.client; }
     AgentId operator()(const exchange::NowAnswer& m) { return m.agent; }
+    AgentId operator()(const mission::Mission& m) { return m.client; }
+    AgentId operator()(const mission::Report& m) { return m.agent; }
+    AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
+    AgentId operator()(const exchange::MissionReply& m) { return m.server; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

@@ -167,6 +167,60 @@ class Samples {
     wire.reason = Text();
     wire.relayed = Octet();
   }
+  void Fill(trailcast_wire_Mission& wire) {
+    wire.agent = Name();
+    wire.id = Name();
+    wire.client = Name();
+    wire.orders = Text();
+    wire.valid_for_s = Number();
+    wire.goes_on = Octet();
+    wire.relayed = Octet();
+  }
+  void Fill(trailcast_wire_MissionReport& wire) {
+    wire.agent = Name();
+    wire.mission = Name();
+    wire.change = Number();
+    wire.state = Octet();
+    wire.task = Number();
+    wire.detail = Text();
+    wire.relayed = Octet();
+  }
+  void Fill(trailcast_wire_MissionRequest& wire) {
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.commands = Octet();
+    for (char** text : {&wire.query.agent, &wire.query.route, &wire.query.id, &wire.query.client}) {
+      *text = Name();
+    }
+    wire.query.states = Number();
+    wire.query.from_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    wire.query.until_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    wire.query.page_size = Number();
+    wire.query.before = input_.ConsumeIntegral<std::uint64_t>();
+  }
+  void Fill(trailcast_wire_MissionRecord& wire) {
+    Fill(wire.sent);
+    Fill(wire.last);
+    wire.sent_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+    wire.changed_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+  }
+  void Fill(trailcast_wire_GivenCommand& wire) {
+    Fill(wire.given);
+    wire.answers._length = Count();
+    wire.answers._buffer = Many<trailcast_wire_NowAnswer>(answers_, wire.answers._length);
+    wire.given_unix_ms = input_.ConsumeIntegral<std::int64_t>();
+  }
+  void Fill(trailcast_wire_MissionReply& wire) {
+    wire.server = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.missions._length = Count();
+    wire.missions._buffer = Many<trailcast_wire_MissionRecord>(missions_, wire.missions._length);
+    wire.commands._length = Count();
+    wire.commands._buffer = Many<trailcast_wire_GivenCommand>(commands_, wire.commands._length);
+    wire.next = input_.ConsumeIntegral<std::uint64_t>();
+    wire.error = Text();
+  }
   void Fill(trailcast_wire_NowAnswer& wire) {
     wire.agent = Name();
     wire.client = Name();
@@ -284,6 +338,9 @@ class Samples {
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
   std::deque<std::vector<trailcast_wire_ClaimedName>> claimed_;
   std::deque<std::vector<trailcast_wire_RouteFollower>> followers_;
+  std::deque<std::vector<trailcast_wire_MissionRecord>> missions_;
+  std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
+  std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
 };
 
 // A query is judged when it is answered; one with no number in it equals nothing, itself included.
@@ -324,7 +381,7 @@ void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   FuzzedDataProvider input(data, size);
-  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 11))) {
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 15))) {
     case Topic::kRoutes:
       FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
       break;
@@ -360,6 +417,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kNowAnswers:
       FillAndTakeIn<trailcast_wire_NowAnswer>(topic, input);
+      break;
+    case Topic::kMissions:
+      FillAndTakeIn<trailcast_wire_Mission>(topic, input);
+      break;
+    case Topic::kMissionStates:
+      FillAndTakeIn<trailcast_wire_MissionReport>(topic, input);
+      break;
+    case Topic::kMissionRequests:
+      FillAndTakeIn<trailcast_wire_MissionRequest>(topic, input);
+      break;
+    case Topic::kMissionReplies:
+      FillAndTakeIn<trailcast_wire_MissionReply>(topic, input);
       break;
   }
   return 0;

@@ -52,4 +52,10 @@ inline void MakeOfBeforeNow(const std::filesystem::path& authority,
   TakeOutOfPermissions(authority, keys, "<topic>trailcast/now</topic>");
 }
 
+// The same of before they sent robots on missions.
+inline void MakeOfBeforeMissions(const std::filesystem::path& authority,
+                                 const std::filesystem::path& keys) {
+  TakeOutOfPermissions(authority, keys, "<topic>trailcast/missions</topic>");
+}
+
 }  // namespace trailcast::test

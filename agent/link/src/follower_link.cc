@@ -21,12 +21,18 @@ using std::chrono::steady_clock;
 constexpr milliseconds kWait{20};
 constexpr milliseconds kWaitFeeding{5};
 
-exchange::AgentStatus FollowerStatus(const AgentId& agent, const std::string& route) {
+exchange::AgentStatus FollowerStatus(const FollowerLinkOptions& options) {
   exchange::AgentStatus status;
-  status.agent = agent;
+  status.agent = options.agent;
+  status.instance = options.instance;
   status.role = exchange::AgentRole::kFollower;
-  status.route = route;
+  status.route = options.route;
   return status;
+}
+
+NowDesk& DeskOf(const FollowerLinkOptions& options, std::optional<NowDesk>& own) {
+  return options.now_desk != nullptr ? *options.now_desk
+                                     : own.emplace(options.agent, options.stop_file);
 }
 
 }  // namespace
@@ -45,20 +51,20 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
           [this](const route::RouteKey& key) { return store_->FindRoute(key); }),
       place_note_(options_.place_file),
       neighbours_(options_.agent),
-      now_desk_(options_.agent, options_.stop_file) {
-  if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_.agent, options_.route));
+      now_desk_(DeskOf(options_, own_desk_)) {
+  if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_));
 }
 
 FollowerLink::~FollowerLink() { Finish(); }
 
 Result<void> FollowerLink::Start() {
-  now_desk_.Load();
+  if (own_desk_) own_desk_->Load();
   if (!presence_ && now_desk_.hold().kind == Hold::Kind::kStopped) {
     return Fail(ErrorCode::kConflict,
                 "{}; give --server, so that an operator can release it ('trailcast release {}')",
                 now_desk_.hold().text, options_.agent.value());
   }
-  if (presence_) {
+  if (presence_ && options_.instance == 0) {
     const auto handle = [this](const exchange::Message& message) {
       finder_.Handle(message);
       neighbours_.Handle(message, steady_clock::now());

@@ -24,6 +24,7 @@ void Complain(const Result<void>& noted) {
 }  // namespace
 
 std::optional<LeftAt> FollowerLink::ReadPlace() const {
+  if (options_.begin_m > 0.0) return LeftAt{.along_m = options_.begin_m};
   if (options_.place_file.empty() || options_.from_start) return std::nullopt;
   const auto noted = place_note_.Read();
   if (!noted) {

@@ -66,16 +66,17 @@ OperatorHold::Obeyed OperatorHold::Release() {
   return {false, hold_.text};
 }
 
+void OperatorHold::Pause(std::string text) {
+  if (hold_.kind != Hold::Kind::kNone) return;
+  hold_ = {.kind = Hold::Kind::kPaused, .cancelled = hold_.cancelled, .text = std::move(text)};
+}
+
 OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, const std::string& by,
                                         std::int64_t unix_ms) {
   const std::string why = command.reason.empty() ? "" : ": " + command.reason;
   switch (command.order) {
     case NowOrder::kPause:
-      if (hold_.kind == Hold::Kind::kNone) {
-        hold_ = {.kind = Hold::Kind::kPaused,
-                 .cancelled = hold_.cancelled,
-                 .text = "paused by " + by + why};
-      }
+      Pause("paused by " + by + why);
       return {false, hold_.text};
     case NowOrder::kResume:
       if (hold_.kind == Hold::Kind::kStopped) return {true, hold_.text + "; release it first"};

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <ctime>
 #include <optional>
 
@@ -29,6 +30,17 @@ std::string DateText(std::int64_t unix_ms) {
 std::string MomentText(std::int64_t unix_ms) {
   const auto parts = PartsOf(unix_ms);
   return parts ? fmt::format("on {:%Y-%m-%d at %H:%M:%S} UTC", *parts) : kUnknown;
+}
+
+std::string Age(std::int64_t milliseconds) {
+  constexpr std::int64_t kMinute_s = 60;
+  constexpr std::int64_t kHour_s = 3600;
+  constexpr std::int64_t kDay_s = 86400;
+  const std::int64_t seconds = std::max<std::int64_t>(0, milliseconds / 1000);
+  if (seconds < 2 * kMinute_s) return fmt::format("{} s", seconds);
+  if (seconds < 2 * kHour_s) return fmt::format("{} min", seconds / kMinute_s);
+  if (seconds < 2 * kDay_s) return fmt::format("{} h", seconds / kHour_s);
+  return fmt::format("{} d", seconds / kDay_s);
 }
 
 }  // namespace trailcast

@@ -36,6 +36,10 @@ constexpr std::array kTable = {
     Row{T::kNeighbours,      {false,    1,         kForever, /*best_effort=*/true}},
     Row{T::kNow,             {false,    16,        kForever}},
     Row{T::kNowAnswers,      {false,    16,        kForever}},
+    Row{T::kMissions,        {false,    16,        kForever}},
+    Row{T::kMissionStates,   {false,    16,        kForever}},
+    Row{T::kMissionRequests, {false,    16,        kForever}},
+    Row{T::kMissionReplies,  {false,    16,        kForever}},
 };
 // clang-format on
 

@@ -15,6 +15,7 @@ bool MayUse(const DdsOptions& self, exchange::Topic topic) {
   using exchange::Topic;
   if (!self.keys) return true;
   if (topic == Topic::kNow || topic == Topic::kNowAnswers) return self.keys->now;
+  if (topic >= Topic::kMissions && topic <= Topic::kMissionReplies) return self.keys->missions;
   return self.keys->scoped || (topic != Topic::kFleet && topic != Topic::kNeighbours);
 }
 

@@ -228,23 +228,84 @@ Message From(const trailcast_wire_Fleet& wire) {
   return fleet;
 }
 
-Message From(const trailcast_wire_NowCommand& wire) {
-  return NowCommand{.client = AgentId(Text(wire.client)),
-                    .number = wire.number,
-                    .order = static_cast<NowOrder>(wire.order),
-                    .whom = static_cast<NowWhom>(wire.whom),
-                    .name = Text(wire.name),
-                    .reason = Text(wire.reason),
-                    .relayed = wire.relayed != 0};
+NowCommand From(const trailcast_wire_NowCommand& wire) {
+  return {.client = AgentId(Text(wire.client)),
+          .number = wire.number,
+          .order = static_cast<NowOrder>(wire.order),
+          .whom = static_cast<NowWhom>(wire.whom),
+          .name = Text(wire.name),
+          .reason = Text(wire.reason),
+          .relayed = wire.relayed != 0};
 }
 
-Message From(const trailcast_wire_NowAnswer& wire) {
-  return NowAnswer{.agent = AgentId(Text(wire.agent)),
-                   .client = AgentId(Text(wire.client)),
-                   .number = wire.number,
-                   .refused = wire.refused != 0,
-                   .detail = Text(wire.detail),
-                   .relayed = wire.relayed != 0};
+NowAnswer From(const trailcast_wire_NowAnswer& wire) {
+  return {.agent = AgentId(Text(wire.agent)),
+          .client = AgentId(Text(wire.client)),
+          .number = wire.number,
+          .refused = wire.refused != 0,
+          .detail = Text(wire.detail),
+          .relayed = wire.relayed != 0};
+}
+
+mission::Mission From(const trailcast_wire_Mission& wire) {
+  return {.agent = AgentId(Text(wire.agent)),
+          .id = Text(wire.id),
+          .client = AgentId(Text(wire.client)),
+          .orders = Text(wire.orders),
+          .valid_for_s = wire.valid_for_s,
+          .goes_on = wire.goes_on != 0,
+          .relayed = wire.relayed != 0};
+}
+
+mission::Report From(const trailcast_wire_MissionReport& wire) {
+  return {.agent = AgentId(Text(wire.agent)),
+          .mission = Text(wire.mission),
+          .change = wire.change,
+          .state = static_cast<mission::State>(wire.state),
+          .task = wire.task,
+          .detail = Text(wire.detail),
+          .relayed = wire.relayed != 0};
+}
+
+Message From(const trailcast_wire_MissionRequest& wire) {
+  const trailcast_wire_MissionQuery& query = wire.query;
+  return MissionRequest{.client = AgentId(Text(wire.client)),
+                        .request = wire.request,
+                        .commands = wire.commands != 0,
+                        .query = {.agent = Text(query.agent),
+                                  .route = Text(query.route),
+                                  .id = Text(query.id),
+                                  .client = Text(query.client),
+                                  .states = query.states,
+                                  .from_unix_ms = query.from_unix_ms,
+                                  .until_unix_ms = query.until_unix_ms,
+                                  .page_size = query.page_size,
+                                  .before = query.before}};
+}
+
+Message From(const trailcast_wire_MissionReply& wire) {
+  MissionReply reply{.server = AgentId(Text(wire.server)),
+                     .client = AgentId(Text(wire.client)),
+                     .request = wire.request,
+                     .missions = {},
+                     .commands = {},
+                     .next = wire.next,
+                     .error = Text(wire.error)};
+  for (const trailcast_wire_MissionRecord& record : Elements(wire.missions)) {
+    reply.missions.push_back({.mission = From(record.sent),
+                              .last = From(record.last),
+                              .sent_unix_ms = record.sent_unix_ms,
+                              .changed_unix_ms = record.changed_unix_ms});
+  }
+  for (const trailcast_wire_GivenCommand& wire_given : Elements(wire.commands)) {
+    mission::GivenCommand& given = reply.commands.emplace_back();
+    given.command = From(wire_given.given);
+    for (const trailcast_wire_NowAnswer& answer : Elements(wire_given.answers)) {
+      given.answers.push_back(From(answer));
+    }
+    given.given_unix_ms = wire_given.given_unix_ms;
+  }
+  return reply;
 }
 
 Message From(const trailcast_wire_RouteFollowers& wire) {
@@ -283,6 +344,14 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_NowCommand*>(sample));
     case Topic::kNowAnswers:
       return From(*static_cast<const trailcast_wire_NowAnswer*>(sample));
+    case Topic::kMissions:
+      return From(*static_cast<const trailcast_wire_Mission*>(sample));
+    case Topic::kMissionStates:
+      return From(*static_cast<const trailcast_wire_MissionReport*>(sample));
+    case Topic::kMissionRequests:
+      return From(*static_cast<const trailcast_wire_MissionRequest*>(sample));
+    case Topic::kMissionReplies:
+      return From(*static_cast<const trailcast_wire_MissionReply*>(sample));
     case Topic::kAgents:
       break;
   }

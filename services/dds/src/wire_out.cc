@@ -283,26 +283,109 @@ Result<void> With(const RouteFollowers& message, const UseSample& use) {
   return use(&sample);
 }
 
+trailcast_wire_NowCommand ToWire(const NowCommand& message) {
+  return {.client = Lend(message.client.value()),
+          .number = message.number,
+          .order = static_cast<std::uint8_t>(message.order),
+          .whom = static_cast<std::uint8_t>(message.whom),
+          .name = Lend(message.name),
+          .reason = Lend(message.reason),
+          .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+}
+
+trailcast_wire_NowAnswer ToWire(const NowAnswer& message) {
+  return {.agent = Lend(message.agent.value()),
+          .client = Lend(message.client.value()),
+          .number = message.number,
+          .refused = static_cast<std::uint8_t>(message.refused ? 1 : 0),
+          .detail = Lend(message.detail),
+          .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+}
+
 Result<void> With(const NowCommand& message, const UseSample& use) {
-  const trailcast_wire_NowCommand sample{
-      .client = Lend(message.client.value()),
-      .number = message.number,
-      .order = static_cast<std::uint8_t>(message.order),
-      .whom = static_cast<std::uint8_t>(message.whom),
-      .name = Lend(message.name),
-      .reason = Lend(message.reason),
-      .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+  const trailcast_wire_NowCommand sample = ToWire(message);
   return use(&sample);
 }
 
 Result<void> With(const NowAnswer& message, const UseSample& use) {
-  const trailcast_wire_NowAnswer sample{
-      .agent = Lend(message.agent.value()),
+  const trailcast_wire_NowAnswer sample = ToWire(message);
+  return use(&sample);
+}
+
+trailcast_wire_Mission ToWire(const mission::Mission& message) {
+  return {.agent = Lend(message.agent.value()),
+          .id = Lend(message.id),
+          .client = Lend(message.client.value()),
+          .orders = Lend(message.orders),
+          .valid_for_s = message.valid_for_s,
+          .goes_on = static_cast<std::uint8_t>(message.goes_on ? 1 : 0),
+          .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+}
+
+trailcast_wire_MissionReport ToWire(const mission::Report& message) {
+  return {.agent = Lend(message.agent.value()),
+          .mission = Lend(message.mission),
+          .change = message.change,
+          .state = static_cast<std::uint8_t>(message.state),
+          .task = message.task,
+          .detail = Lend(message.detail),
+          .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+}
+
+Result<void> With(const mission::Mission& message, const UseSample& use) {
+  const trailcast_wire_Mission sample = ToWire(message);
+  return use(&sample);
+}
+
+Result<void> With(const mission::Report& message, const UseSample& use) {
+  const trailcast_wire_MissionReport sample = ToWire(message);
+  return use(&sample);
+}
+
+Result<void> With(const MissionRequest& message, const UseSample& use) {
+  const mission::Query& query = message.query;
+  const trailcast_wire_MissionRequest sample{
       .client = Lend(message.client.value()),
-      .number = message.number,
-      .refused = static_cast<std::uint8_t>(message.refused ? 1 : 0),
-      .detail = Lend(message.detail),
-      .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
+      .request = message.request,
+      .commands = static_cast<std::uint8_t>(message.commands ? 1 : 0),
+      .query = {.agent = Lend(query.agent),
+                .route = Lend(query.route),
+                .id = Lend(query.id),
+                .client = Lend(query.client),
+                .states = query.states,
+                .from_unix_ms = query.from_unix_ms,
+                .until_unix_ms = query.until_unix_ms,
+                .page_size = query.page_size,
+                .before = query.before}};
+  return use(&sample);
+}
+
+Result<void> With(const MissionReply& message, const UseSample& use) {
+  std::vector<trailcast_wire_MissionRecord> missions;
+  for (const mission::Record& record : message.missions) {
+    missions.push_back({.sent = ToWire(record.mission),
+                        .last = ToWire(record.last),
+                        .sent_unix_ms = record.sent_unix_ms,
+                        .changed_unix_ms = record.changed_unix_ms});
+  }
+  std::vector<std::vector<trailcast_wire_NowAnswer>> answers;
+  std::vector<trailcast_wire_GivenCommand> commands;
+  for (const mission::GivenCommand& given : message.commands) {
+    std::vector<trailcast_wire_NowAnswer>& of_this = answers.emplace_back();
+    for (const NowAnswer& answer : given.answers) of_this.push_back(ToWire(answer));
+    trailcast_wire_GivenCommand& wire = commands.emplace_back();
+    wire.given = ToWire(given.command);
+    Lend(of_this, wire.answers);
+    wire.given_unix_ms = given.given_unix_ms;
+  }
+  trailcast_wire_MissionReply sample{};
+  sample.server = Lend(message.server.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  Lend(missions, sample.missions);
+  Lend(commands, sample.commands);
+  sample.next = message.next;
+  sample.error = Lend(message.error);
   return use(&sample);
 }
 
@@ -325,7 +408,11 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_Fleet_desc,
                                                              &trailcast_wire_RouteFollowers_desc,
                                                              &trailcast_wire_NowCommand_desc,
-                                                             &trailcast_wire_NowAnswer_desc};
+                                                             &trailcast_wire_NowAnswer_desc,
+                                                             &trailcast_wire_Mission_desc,
+                                                             &trailcast_wire_MissionReport_desc,
+                                                             &trailcast_wire_MissionRequest_desc,
+                                                             &trailcast_wire_MissionReply_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -213,6 +213,55 @@ Result<void> Check(const NowAnswer& message) {
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
 
+Result<void> Check(const mission::Mission& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("mission", message.id); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  return CheckText("orders", message.orders, kMaxLineBytes);
+}
+
+Result<void> Check(const mission::Report& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("mission", message.mission); !ok) return ok;
+  if (auto ok = CheckEnum("mission state", message.state, mission::State::kExpired); !ok) return ok;
+  return CheckText("detail", message.detail, kMaxLineBytes);
+}
+
+Result<void> Check(const MissionRequest& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  const mission::Query& query = message.query;
+  for (const std::string* name : {&query.agent, &query.route, &query.id, &query.client}) {
+    if (name->empty()) continue;
+    if (auto ok = CheckName("mission query", *name); !ok) return ok;
+  }
+  return CheckCount("missions on a page", query.page_size, kMaxMissionsPerReply);
+}
+
+Result<void> Check(const MissionReply& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckCount("missions", message.missions.size(), kMaxMissionsPerReply); !ok) {
+    return ok;
+  }
+  for (const mission::Record& record : message.missions) {
+    if (auto ok = Check(record.mission); !ok) return ok;
+    if (auto ok = Check(record.last); !ok) return ok;
+  }
+  if (auto ok = CheckCount("commands", message.commands.size(), kMaxMissionsPerReply); !ok) {
+    return ok;
+  }
+  for (const mission::GivenCommand& given : message.commands) {
+    if (auto ok = Check(given.command); !ok) return ok;
+    if (auto ok = CheckCount("answers to a command", given.answers.size(), kMaxAnswersTold); !ok) {
+      return ok;
+    }
+    for (const NowAnswer& answer : given.answers) {
+      if (auto ok = Check(answer); !ok) return ok;
+    }
+  }
+  return CheckText("error", message.error, kMaxLineBytes);
+}
+
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace

@@ -40,10 +40,13 @@ TopicUse FollowerTopics() {
 TopicUse ServerTopics() {
   return {
       .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
-                Topic::kAgents, Topic::kFleet, Topic::kNow},
+                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions,
+                Topic::kMissionStates},
       .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests,
-               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers},
-      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers}};
+               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers,
+               Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests},
+      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                       Topic::kMissionReplies}};
 }
 
 TopicUse OperatorTopics() {
@@ -53,6 +56,22 @@ TopicUse OperatorTopics() {
 
 TopicUse DispatcherTopics() {
   return {.write = {Topic::kNow}, .read = {Topic::kNowAnswers, Topic::kAgents}};
+}
+
+TopicUse OnDutyTopics() {
+  TopicUse use = FollowerTopics();
+  use.read.push_back(Topic::kMissions);
+  use.read.push_back(Topic::kMissionStates);  // what servers have
+  use.write.push_back(Topic::kMissionStates);
+  return use;
+}
+
+TopicUse SenderTopics() {
+  return {.write = {Topic::kMissions}, .read = {Topic::kMissionStates, Topic::kAgents}};
+}
+
+TopicUse HistoryTopics() {
+  return {.write = {Topic::kMissionRequests}, .read = {Topic::kMissionReplies}};
 }
 
 TopicUse ObserverTopics() {
@@ -74,7 +93,11 @@ std::optional<Topic> TopicOf(const Message& message) {
                                       Topic::kFleet,
                                       Topic::kNeighbours,
                                       Topic::kNow,
-                                      Topic::kNowAnswers};
+                                      Topic::kNowAnswers,
+                                      Topic::kMissions,
+                                      Topic::kMissionStates,
+                                      Topic::kMissionRequests,
+                                      Topic::kMissionReplies};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
 }
@@ -113,6 +136,14 @@ const char* NameOf(Topic topic) {
       return "trailcast/now";
     case Topic::kNowAnswers:
       return "trailcast/now_answers";
+    case Topic::kMissions:
+      return "trailcast/missions";
+    case Topic::kMissionStates:
+      return "trailcast/mission_states";
+    case Topic::kMissionRequests:
+      return "trailcast/mission_requests";
+    case Topic::kMissionReplies:
+      return "trailcast/mission_replies";
   }
   return "unknown topic";
 }

@@ -57,6 +57,12 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
         "takes no part in that; 'trailcast keys renew {}' where the authority is",
         options.security, keys->name);
   }
+  if (!keys->missions) {
+    spdlog::warn(
+        "the keys in {} are from before robots were sent on missions: this program takes no part "
+        "in that; 'trailcast keys renew {}' where the authority is",
+        options.security, keys->name);
+  }
   return keys;
 }
 

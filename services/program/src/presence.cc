@@ -13,7 +13,7 @@ namespace trailcast::program {
 namespace {
 
 exchange::AgentStatus Starting(exchange::AgentStatus status) {
-  status.instance = MakeInstance();
+  if (status.instance == 0) status.instance = MakeInstance();
   status.mode = exchange::AgentMode::kStarting;
   return status;
 }

@@ -21,6 +21,10 @@ struct AuthorIn {
   AgentId operator()(const exchange::RouteFollowers& m) { return m.server; }
   AgentId operator()(const exchange::NowCommand& m) { return m.client; }
   AgentId operator()(const exchange::NowAnswer& m) { return m.agent; }
+  AgentId operator()(const mission::Mission& m) { return m.client; }
+  AgentId operator()(const mission::Report& m) { return m.agent; }
+  AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
+  AgentId operator()(const exchange::MissionReply& m) { return m.server; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 
@@ -53,9 +57,12 @@ Result<void> CheckTaught(const exchange::RouteAnnouncement& announcement) {
 
 // Servers pass on what operators tell robots, and what these answer.
 bool IsRelayed(const exchange::Message& message) {
-  const auto* command = std::get_if<exchange::NowCommand>(&message);
-  const auto* answer = std::get_if<exchange::NowAnswer>(&message);
-  return (command != nullptr && command->relayed) || (answer != nullptr && answer->relayed);
+  return std::visit(
+      [](const auto& m) {
+        if constexpr (requires { m.relayed; }) return m.relayed;
+        return false;
+      },
+      message);
 }
 
 }  // namespace

@@ -145,6 +145,11 @@ Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
   keys.scoped = AllowsScopes(*permissions, keys.member);
   keys.revocations = AllowsTopic(*permissions, kRevocationsTopic);
   keys.now = AllowsTopic(*permissions, exchange::NameOf(exchange::Topic::kNow));
+  // Observers only ask what became of them.
+  const auto asked =
+      exchange::NameOf(keys.member.role == Role::kObserver ? exchange::Topic::kMissionReplies
+                                                           : exchange::Topic::kMissions);
+  keys.missions = AllowsTopic(*permissions, asked);
   return {};
 }
 

@@ -72,20 +72,22 @@ std::optional<Role> FindRole(std::string_view name) {
 TopicUse RightsOf(Role role) {
   switch (role) {
     case Role::kScout:
-      return Together(Together(SeesAgents(), exchange::ScoutTopics()), exchange::FollowerTopics());
+      return Together(Together(SeesAgents(), exchange::ScoutTopics()), exchange::OnDutyTopics());
     case Role::kFollower:
-      return Together(SeesAgents(), exchange::FollowerTopics());
+      return Together(SeesAgents(), exchange::OnDutyTopics());
     case Role::kServer:
       return Together(SeesAgents(), exchange::ServerTopics());
     case Role::kOperator: {
       TopicUse use = Together(exchange::OperatorTopics(), exchange::FollowerTopics());
       use = Together(std::move(use), exchange::DispatcherTopics());
+      use = Together(std::move(use), exchange::SenderTopics());
+      use = Together(std::move(use), exchange::HistoryTopics());
       use = Together(std::move(use), exchange::ScoutTopics());
       std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
       return use;
     }
     case Role::kObserver:
-      return exchange::ObserverTopics();
+      return Together(exchange::ObserverTopics(), exchange::HistoryTopics());
   }
   return {};
 }

@@ -63,10 +63,10 @@ void CheckTables(SQLite::Database& db) {
 }  // namespace
 
 Error ToError(const SQLite::Exception& exception, const std::filesystem::path& file,
-              const std::string& doing) {
+              const std::string& doing, const char* what) {
   const auto error = [&](ErrorCode code, std::string_view advice) {
-    return Error{code, fmt::format("route store {}: {}: {}{}", file.string(), doing,
-                                   exception.what(), advice)};
+    return Error{
+        code, fmt::format("{} {}: {}: {}{}", what, file.string(), doing, exception.what(), advice)};
   };
   switch (exception.getErrorCode() & 0xFF) {
     case SQLITE_CORRUPT:

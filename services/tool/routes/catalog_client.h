@@ -43,7 +43,4 @@ namespace trailcast::tool {
 [[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply,
                                      const RouteStudies& studies = {});
 
-// "12 s", "5 min", "3 h", "2 d".
-[[nodiscard]] std::string Age(std::int64_t milliseconds);
-
 }  // namespace trailcast::tool

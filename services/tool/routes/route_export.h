@@ -8,6 +8,7 @@
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/route_finder.h"
+#include "services/fleet/operator_peer.h"
 #include "services/store/route_store.h"
 #include "services/tool/routes/transfer.h"
 
@@ -30,10 +31,10 @@ namespace trailcast::tool {
 // topics. kUnavailable when nothing new has come for the watch's timeout, or it was stopped;
 // kCorrupt when what servers hold is not what was announced.
 [[nodiscard]] Result<void> FetchInOrder(
-    OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
+    fleet::OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
     const std::function<Result<void>(const route::SegmentPiece&)>& take);
 // The same into a file.
-[[nodiscard]] Result<std::uint64_t> ExportFromServer(OperatorPeer& peer,
+[[nodiscard]] Result<std::uint64_t> ExportFromServer(fleet::OperatorPeer& peer,
                                                      const route::RouteInfo& info,
                                                      archive::RouteFileWriter writer,
                                                      const TransferWatch& watch);

@@ -6,20 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "services/exchange/route_exchange.h"
-#include "services/program/command_line.h"
 #include "services/program/live_lines.h"
 
 namespace trailcast::tool {
-
-// A member of the network for one command.
-struct OperatorPeer {
-  AgentId self;
-  std::unique_ptr<exchange::RouteExchange> exchange;
-};
-// Under a name of its own: two operators may be at work at the same time.
-[[nodiscard]] Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
-                                                  const exchange::TopicUse& use);
 
 // How a route's way to or from a server is watched.
 struct TransferWatch {

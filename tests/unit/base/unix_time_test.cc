@@ -24,5 +24,12 @@ TEST(MomentText, IsOfTheSecondInUtc) {
   EXPECT_EQ(MomentText(-1), "at an unknown time");
 }
 
+TEST(Age, IsGivenInAUnitThatFits) {
+  EXPECT_EQ(Age(-5), "0 s");
+  EXPECT_EQ(Age(119'000), "119 s");
+  EXPECT_EQ(Age(3LL * 3'600'000), "3 h");
+  EXPECT_EQ(Age(50LL * 3'600'000), "2 d");
+}
+
 }  // namespace
 }  // namespace trailcast

@@ -64,6 +64,14 @@ TEST_F(MemberKeysTest, FromBeforeRobotsWereToldWhatToDoNowHoldAndSaySo) {
   EXPECT_FALSE(keys->now);
 }
 
+TEST_F(MemberKeysTest, FromBeforeRobotsWereSentOnMissionsHoldAndSaySo) {
+  EXPECT_TRUE(LoadMemberKeys(scout_, now_)->missions);
+  test::MakeOfBeforeMissions(authority_.folder(), scout_);
+  const auto keys = LoadMemberKeys(scout_, now_);
+  ASSERT_TRUE(keys) << keys.error().message;
+  EXPECT_FALSE(keys->missions);
+}
+
 TEST_F(MemberKeysTest, TellWhatIsMissing) {
   EXPECT_THAT(Fault(folder_ / "nothing"), HasSubstr("there is no folder"));
   EXPECT_THAT(Fault(authority_.folder()), HasSubstr("is the authority's own folder"));

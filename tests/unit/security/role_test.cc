@@ -28,6 +28,9 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
     };
     EXPECT_EQ(may(Topic::kRouteEdits), role == Role::kOperator) << NameOf(role);
     EXPECT_EQ(may(Topic::kNow), role == Role::kOperator || role == Role::kServer) << NameOf(role);
+    EXPECT_EQ(may(Topic::kMissions), role == Role::kOperator || role == Role::kServer)
+        << NameOf(role);
+    EXPECT_EQ(may(Topic::kMissionReplies), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
@@ -35,7 +38,8 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
 
 TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(RightsOf(Role::kFollower).write, Not(Contains(Topic::kRoutes)));
-  EXPECT_THAT(RightsOf(Role::kObserver).write, ElementsAre(Topic::kCatalogRequests));
+  EXPECT_THAT(RightsOf(Role::kObserver).write,
+              ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
@@ -46,6 +50,13 @@ TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
   EXPECT_EQ(BeyondRights(Role::kOperator, exchange::OperatorTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kObserver, exchange::ObserverTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kOperator, exchange::DispatcherTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kFollower, exchange::OnDutyTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kScout, exchange::OnDutyTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kOperator, exchange::SenderTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kOperator, exchange::HistoryTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kObserver, exchange::HistoryTopics()), "");
+  EXPECT_THAT(BeyondRights(Role::kObserver, exchange::SenderTopics()),
+              testing::HasSubstr("write trailcast/missions"));
   EXPECT_THAT(BeyondRights(Role::kObserver, exchange::DispatcherTopics()),
               testing::HasSubstr("write trailcast/now"));
   EXPECT_EQ(BeyondRights(Role::kFollower, exchange::ScoutTopics()),

@@ -177,12 +177,5 @@ TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {
   EXPECT_THAT(json, HasSubstr("\"bytes_per_m\": 4000.0"));
 }
 
-TEST(Age, IsGivenInAUnitThatFits) {
-  EXPECT_EQ(Age(-5), "0 s");
-  EXPECT_EQ(Age(119'000), "119 s");
-  EXPECT_EQ(Age(3LL * 3'600'000), "3 h");
-  EXPECT_EQ(Age(50LL * 3'600'000), "2 d");
-}
-
 }  // namespace
 }  // namespace trailcast::tool

@@ -86,13 +86,13 @@ class RouteTransferTest : public testing::Test {
   }
 
   Result<Imported> Import(const RouteFile& file, milliseconds timeout = milliseconds(20'000)) {
-    OperatorPeer peer{AgentId("operator-1"), bus_.Open(ImporterTopics())};
+    fleet::OperatorPeer peer{AgentId("operator-1"), bus_.Open(ImporterTopics())};
     TransferWatch watch;
     watch.timeout = timeout;
     return ImportToServer(file, peer, watch);
   }
   Result<std::uint64_t> Export(const route::RouteInfo& info, const TransferWatch& watch) {
-    OperatorPeer peer{AgentId("operator-2"), bus_.Open(exchange::FollowerTopics())};
+    fleet::OperatorPeer peer{AgentId("operator-2"), bus_.Open(exchange::FollowerTopics())};
     return ExportFromServer(peer, info, Writer("fetched.trailcast", info), watch);
   }
 
@@ -127,7 +127,7 @@ TEST_F(RouteTransferTest, ARouteIsLookedIntoWhereItIs) {
   const TaughtRoute taught = TeachSamples(5, 2);
   Hold(taught);
   Serve();
-  OperatorPeer peer{AgentId("operator-3"), bus_.Open(exchange::FollowerTopics())};
+  fleet::OperatorPeer peer{AgentId("operator-3"), bus_.Open(exchange::FollowerTopics())};
   const auto study = StudyRoute(peer, taught.info, {});
   ASSERT_TRUE(study) << study.error().message;
   // Samples are of noise: none is like the next.

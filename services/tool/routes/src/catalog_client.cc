@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <random>
-#include <variant>
 
+#include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/ask.h"
 #include "services/program/json.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
@@ -14,9 +15,6 @@
 
 namespace trailcast::tool {
 namespace {
-
-constexpr auto kAskAgain = std::chrono::milliseconds(500);
-constexpr auto kTakeWait = std::chrono::milliseconds(100);
 
 double BytesPerMeter(const route::RouteInfo& info) {
   return info.length_m > 0.0 ? static_cast<double>(info.bytes) / info.length_m : 0.0;
@@ -66,52 +64,20 @@ std::string JsonPlace(const std::optional<route::Place>& place) {
 
 }  // namespace
 
-// `request` and `client` are those in the question.
-Result<exchange::CatalogReply> Ask(exchange::RouteExchange& exchange, const AgentId& client,
-                                   std::uint64_t request, const exchange::Message& question,
-                                   std::chrono::milliseconds timeout) {
-  using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + timeout;
-  auto ask_at = Clock::now();
-  while (Clock::now() < deadline) {
-    if (Clock::now() >= ask_at) {
-      // A question that could not be handed over is asked again like one that was not answered.
-      const Result<void> asked = exchange.Publish(question);
-      if (!asked && asked.error().code != ErrorCode::kUnavailable) {
-        return tl::unexpected(asked.error());
-      }
-      ask_at = Clock::now() + kAskAgain;
-    }
-    for (exchange::Message& message : exchange.Take(kTakeWait)) {
-      auto* reply = std::get_if<exchange::CatalogReply>(&message);
-      if (reply == nullptr || reply->client != client || reply->request != request) {
-        continue;
-      }
-      if (!reply->error.empty()) {
-        return Fail(ErrorCode::kUnavailable, "server {}: {}", reply->server.value(), reply->error);
-      }
-      return std::move(*reply);
-    }
-  }
-  return Fail(
-      ErrorCode::kUnavailable,
-      "no route server answered within {:.1f} s: is trailcast-server running, with the same "
-      "domain, tag and network interface? With --security: are your keys valid, and not revoked?",
-      std::chrono::duration<double>(timeout).count());
-}
-
 Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
                                           const route::RouteQuery& query,
                                           std::chrono::milliseconds timeout) {
   const std::uint64_t request = std::random_device()();
-  return Ask(exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
+  return fleet::Ask<exchange::CatalogReply>(
+      exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
 }
 
 Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange, const AgentId& client,
                                          const route::RouteEdit& edit,
                                          std::chrono::milliseconds timeout) {
   const std::uint64_t request = std::random_device()();
-  return Ask(exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
+  return fleet::Ask<exchange::CatalogReply>(
+      exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
 }
 
 Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
@@ -203,17 +169,6 @@ std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& 
     text += "}";
   }
   return text + "\n]\n";
-}
-
-std::string Age(std::int64_t milliseconds) {
-  constexpr std::int64_t kMinute_s = 60;
-  constexpr std::int64_t kHour_s = 3600;
-  constexpr std::int64_t kDay_s = 86400;
-  const std::int64_t seconds = std::max<std::int64_t>(0, milliseconds / 1000);
-  if (seconds < 2 * kMinute_s) return fmt::format("{} s", seconds);
-  if (seconds < 2 * kHour_s) return fmt::format("{} min", seconds / kMinute_s);
-  if (seconds < 2 * kDay_s) return fmt::format("{} h", seconds / kHour_s);
-  return fmt::format("{} d", seconds / kDay_s);
 }
 
 }  // namespace trailcast::tool

@@ -102,7 +102,7 @@ Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::Rou
   return writer.Finish();
 }
 
-Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
+Result<void> FetchInOrder(fleet::OperatorPeer& peer, const route::RouteInfo& info,
                           const TransferWatch& watch, const Take& take) {
   const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
   exchange::RouteFetcher fetcher(peer.self, info.key, {}, integrity, Clock::now());
@@ -142,7 +142,7 @@ Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
   return {};
 }
 
-Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInfo& info,
+Result<std::uint64_t> ExportFromServer(fleet::OperatorPeer& peer, const route::RouteInfo& info,
                                        archive::RouteFileWriter writer,
                                        const TransferWatch& watch) {
   const auto fetched = FetchInOrder(

@@ -67,7 +67,7 @@ Result<void> AppendAll(const archive::RouteFile& file, store::RouteStore& store)
 // route announces it when asked who has it, and then has these bytes, as its receipts say.
 class Delivery {
  public:
-  Delivery(const archive::RouteFile& file, OperatorPeer& peer, AgentId server)
+  Delivery(const archive::RouteFile& file, fleet::OperatorPeer& peer, AgentId server)
       : info_(file.info()),
         peer_(peer),
         servers_{std::move(server)},
@@ -127,7 +127,7 @@ class Delivery {
   }
 
   const route::RouteInfo& info_;
-  OperatorPeer& peer_;
+  fleet::OperatorPeer& peer_;
   std::set<AgentId> servers_;
   exchange::RouteSender sender_;
   Clock::time_point inquire_at_{};
@@ -181,7 +181,7 @@ Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteSto
   return Imported{false, name};
 }
 
-Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,
+Result<Imported> ImportToServer(const archive::RouteFile& file, fleet::OperatorPeer& peer,
                                 const TransferWatch& watch) {
   const route::RouteInfo& info = file.info();
   const auto reply = AskCatalog(*peer.exchange, peer.self, {.name = info.name}, watch.timeout);

@@ -42,7 +42,7 @@ const char* UnitOf(const route::RouteInfo& info) { return info.length_m > 0.0 ? 
 
 }  // namespace
 
-Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
+Result<RouteStudy> StudyRoute(fleet::OperatorPeer& peer, const route::RouteInfo& info,
                               const TransferWatch& watch) {
   view::WeakPlaceFinder finder(info.image_width_px);
   route::TerrainProfile terrain;

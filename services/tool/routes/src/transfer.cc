@@ -1,26 +1,14 @@
 #include "services/tool/routes/transfer.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
-#include "services/base/process_name.h"
 #include "services/base/time.h"
-#include "services/program/open_exchange.h"
 
 namespace trailcast::tool {
-
-Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
-                                    const exchange::TopicUse& use) {
-  program::CommonOptions network = common;
-  network.name = ProcessName(common.name, getpid());
-  auto exchange = program::OpenExchange(network, use);
-  if (!exchange) return tl::unexpected(exchange.error());
-  return OperatorPeer{AgentId(network.name), std::move(*exchange)};
-}
 
 std::string ProgressText(const std::string& doing, std::uint64_t done, std::uint64_t total,
                          std::chrono::nanoseconds elapsed) {

@@ -1,4 +1,4 @@
-#include "services/tool/fleet/now_client.h"
+#include "services/fleet/now_client.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/program/presence.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using exchange::AgentMode;
@@ -121,4 +121,4 @@ TEST_F(NowClientTest, WhereNobodyIsHeardThatIsSaid) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

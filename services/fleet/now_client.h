@@ -8,7 +8,7 @@
 #include "services/exchange/messages.h"
 #include "services/exchange/route_exchange.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // Whom an operator means.
 struct NowTarget {
@@ -38,4 +38,4 @@ struct RobotsWord {
 // For programs: an array of objects.
 [[nodiscard]] std::string WordsJson(const std::vector<RobotsWord>& words);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

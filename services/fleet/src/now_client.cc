@@ -1,4 +1,4 @@
-#include "services/tool/fleet/now_client.h"
+#include "services/fleet/now_client.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "services/base/time.h"
 #include "services/program/json.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using exchange::NowWhom;
@@ -158,4 +158,4 @@ std::string WordsJson(const std::vector<RobotsWord>& words) {
   return text + (words.empty() ? "]\n" : "\n]\n");
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

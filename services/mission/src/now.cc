@@ -1,6 +1,6 @@
-#include "services/exchange/messages.h"
+#include "services/mission/now.h"
 
-namespace trailcast::exchange {
+namespace trailcast::mission {
 
 const char* ToString(NowOrder order) {
   switch (order) {
@@ -18,4 +18,4 @@ const char* ToString(NowOrder order) {
   return "unknown order";
 }
 
-}  // namespace trailcast::exchange
+}  // namespace trailcast::mission

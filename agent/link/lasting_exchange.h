@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/base/newest_map.h"
+#include "services/exchange/route_exchange.h"
+
+namespace trailcast::agent {
+
+// One membership of the network for an agent that follows many routes, one after the other: each
+// following is a visit, which hears at first what a late joiner would.
+class LastingExchange {
+ public:
+  // Strangers can make up routes and names: more samples are not remembered.
+  static constexpr std::size_t kMostRemembered = 20'000;
+
+  explicit LastingExchange(std::unique_ptr<exchange::RouteExchange> exchange)
+      : exchange_(std::move(exchange)) {}
+
+  // The agent itself, which goes on through all visits. Called by whoever takes messages, in that
+  // thread: each message that comes in, then that it is time to say something, and the statuses
+  // that a visit publishes.
+  struct Tending {
+    std::function<void(const exchange::Message&)> hear;
+    std::function<void(exchange::RouteExchange&)> say;
+    std::function<void(const exchange::AgentStatus&)> saw_status;
+  };
+  void Tend(Tending tending) { tending_ = std::move(tending); }
+
+  // Everything heard, while there is no visit.
+  [[nodiscard]] std::vector<exchange::Message> Take(std::chrono::milliseconds max_wait);
+  [[nodiscard]] exchange::RouteExchange& exchange() { return *exchange_; }
+
+  // One at a time; this outlives it.
+  [[nodiscard]] std::unique_ptr<exchange::RouteExchange> Visit();
+
+ private:
+  class Visitor;
+  [[nodiscard]] std::vector<exchange::Message> Remembered() const;
+  void Remember(const exchange::Message& message);
+
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  Tending tending_;
+  // Of each instance the last (exchange::InstanceOf).
+  NewestMap<std::string, exchange::Message> remembered_{kMostRemembered};
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,213 @@
+#include "agent/link/mission_desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <variant>
+
+#include "services/base/durable_file.h"
+#include "services/base/process_name.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::agent {
+namespace {
+
+namespace fs = std::filesystem;
+using mission::State;
+
+constexpr const char* kFirstLine = "trailcast-missions 1";
+constexpr std::chrono::milliseconds kAgain{1000};
+constexpr std::size_t kFields = 10;
+
+// Texts have no control characters (exchange::CheckBounds), and thus no tabs.
+std::vector<std::string> FieldsIn(const std::string& line) {
+  std::vector<std::string> fields;
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t tab = line.find('\t', at);
+    fields.push_back(line.substr(at, tab - at));
+    if (tab == std::string::npos) return fields;
+    at = tab + 1;
+  }
+}
+
+std::optional<std::uint32_t> NumberIn(const std::string& text) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+Result<void> MissionDesk::Load() {
+  std::error_code ignored;
+  if (file_.empty() || !fs::exists(file_, ignored)) return {};
+  const auto wrong = [&] {
+    return Fail(ErrorCode::kCorrupt,
+                "{} does not hold this robot's missions, or is damaged: move it away, and send "
+                "what is still to be done once more",
+                file_.string());
+  };
+  std::ifstream stream(file_);
+  std::string line;
+  if (!std::getline(stream, line) || line != kFirstLine) return wrong();
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> fields = FieldsIn(line);
+    if (fields.size() != kFields) return wrong();
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = 2; i < 8; ++i) {
+      const auto number = NumberIn(fields[i]);
+      if (!number) return wrong();
+      numbers.push_back(*number);
+    }
+    if (numbers[2] >= mission::kStates) return wrong();
+    kept_.push_back({.mission = {.agent = self_,
+                                 .id = fields[0],
+                                 .client = AgentId(fields[1]),
+                                 .orders = fields[8],
+                                 .goes_on = numbers[0] != 0},
+                     .last = {.agent = self_,
+                              .mission = fields[0],
+                              .change = numbers[1],
+                              .state = static_cast<State>(numbers[2]),
+                              .task = numbers[3],
+                              .detail = fields[9]},
+                     .lap = numbers[4],
+                     .confirmed = numbers[5] != 0});
+  }
+  for (const Kept& kept : kept_) {
+    if (mission::HasEnded(kept.last.state)) continue;
+    auto tasks = mission::ParseOrders(kept.mission.orders);
+    if (!tasks || kept.last.task >= tasks->size()) return wrong();
+    Begin(kept, *std::move(tasks));
+    current_->begun = true;
+  }
+  return {};
+}
+
+void MissionDesk::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
+  current_ = Current{
+      .mission = kept.mission, .tasks = std::move(tasks), .task = kept.last.task, .lap = kept.lap};
+}
+
+Result<void> MissionDesk::Keep() const {
+  if (file_.empty()) return {};
+  std::string text = std::string(kFirstLine) + "\n";
+  for (const Kept& kept : kept_) {
+    const mission::Report& last = kept.last;
+    text += fmt::format("{}\t{}\t{:d}\t{}\t{:d}\t{}\t{}\t{:d}\t{}\t{}\n", kept.mission.id,
+                        kept.mission.client.value(), kept.mission.goes_on, last.change,
+                        static_cast<int>(last.state), last.task, kept.lap, kept.confirmed,
+                        kept.mission.orders, last.detail);
+  }
+  return ReplaceFile(file_, text);
+}
+
+void MissionDesk::KeepOrSay() {
+  if (auto kept = Keep(); !kept) {
+    news_.push_back("not remembered after a restart: " + kept.error().message);
+  }
+}
+
+MissionDesk::Kept* MissionDesk::Find(const std::string& id) {
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [&](const Kept& kept) { return kept.mission.id == id; });
+  return found == kept_.end() ? nullptr : &*found;
+}
+
+MissionDesk::Kept& MissionDesk::CurrentKept() { return *Find(current_->mission.id); }
+
+void MissionDesk::Handle(const exchange::Message& message) {
+  if (const auto* mission = std::get_if<mission::Mission>(&message)) {
+    if (mission->agent == self_) Take(*mission);
+  } else if (const auto* report = std::get_if<mission::Report>(&message)) {
+    if (report->agent == self_ && report->relayed) Confirm(*report);
+  }
+}
+
+void MissionDesk::Answer(Kept& kept, State state, const std::string& detail) {
+  ++kept.last.change;
+  kept.last.state = state;
+  kept.last.detail = PlainText(detail, exchange::kMaxLineBytes);
+  kept.confirmed = false;
+  kept.due = true;
+  news_.push_back(fmt::format("mission {} of {}, {}: {}{}{}", kept.mission.id,
+                              WithoutProcess(kept.mission.client.value()), kept.mission.orders,
+                              mission::ToString(state), kept.last.detail.empty() ? "" : ": ",
+                              kept.last.detail));
+}
+
+void MissionDesk::Take(const mission::Mission& mission) {
+  if (Kept* known = Find(mission.id)) {
+    known->due = true;  // whoever sends it has not heard the answer
+    return;
+  }
+  // Those that ended first go first; the current one stays.
+  if (kept_.size() >= kMostKept) {
+    kept_.erase(std::find_if(kept_.begin(), kept_.end(),
+                             [](const Kept& kept) { return mission::HasEnded(kept.last.state); }));
+  }
+  kept_.push_back({.mission = mission, .last = {.agent = self_, .mission = mission.id}});
+  Kept& kept = kept_.back();
+  auto tasks = mission::ParseOrders(mission.orders);
+  if (!tasks) {
+    Answer(kept, State::kRefused, tasks.error().message);
+  } else if (current_) {
+    Answer(kept, State::kRefused,
+           fmt::format("busy with mission {}: {}", current_->mission.id,
+                       mission::ToText(current_->tasks[current_->task])));
+  } else {
+    Answer(kept, State::kAccepted, "");
+  }
+  // What is not remembered could be done twice.
+  if (auto remembered = Keep(); !remembered && kept.last.state == State::kAccepted) {
+    Answer(kept, State::kRefused, remembered.error().message);
+  }
+  if (kept.last.state == State::kAccepted) Begin(kept, *std::move(tasks));
+}
+
+void MissionDesk::Confirm(const mission::Report& report) {
+  Kept* kept = Find(report.mission);
+  if (kept == nullptr || kept->confirmed || kept->last.change != report.change) return;
+  kept->confirmed = true;  // saying it once more after a restart does no harm: not on the disk
+}
+
+void MissionDesk::Tell(State state, const std::string& detail) {
+  if (!current_) return;
+  Kept& kept = CurrentKept();
+  kept.last.task = current_->task;
+  Answer(kept, state, detail);
+  if (mission::HasEnded(state)) current_.reset();
+  KeepOrSay();
+}
+
+void MissionDesk::NoteDone() {
+  if (!current_) return;
+  current_->begun = false;
+  ++current_->lap;
+  if (current_->lap >= current_->tasks[current_->task].laps) {
+    current_->lap = 0;
+    ++current_->task;
+  }
+  Kept& kept = CurrentKept();
+  kept.lap = current_->lap;
+  if (current_->task < current_->tasks.size()) kept.last.task = current_->task;
+  KeepOrSay();
+}
+
+std::vector<exchange::Message> MissionDesk::Due(Time now, bool server_there) {
+  const bool again = server_there && now >= again_at_;
+  if (again) again_at_ = now + kAgain;
+  std::vector<exchange::Message> due;
+  for (Kept& kept : kept_) {
+    if (!std::exchange(kept.due, false) && !(again && !kept.confirmed)) continue;
+    due.emplace_back(kept.last);
+  }
+  return due;
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,274 @@
+#include "agent/on_duty.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "agent/device/standstill.h"
+#include "agent/link/lasting_exchange.h"
+#include "agent/link/mission_desk.h"
+#include "agent/link/now_desk.h"
+#include "services/base/time.h"
+#include "services/base/unix_time.h"
+#include "services/exchange/publish.h"
+#include "services/program/presence.h"
+
+namespace trailcast::agent {
+namespace {
+
+using mission::State;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{50};
+// A robot whose mission has ended on its way stands there yet, and others wait for it, as they do
+// for one whose agent has ended.
+constexpr std::chrono::seconds kStandsThere{60};
+
+exchange::AgentStatus FreeStatus(const AgentId& agent) {
+  exchange::AgentStatus status;
+  status.agent = agent;
+  status.role = exchange::AgentRole::kFollower;
+  return status;
+}
+
+// While a route is followed, what comes in is heard in the thread of the follower's link, and the
+// one that runs this waits for it: neither needs a lock.
+class OnDuty {
+ public:
+  OnDuty(RobotDevice& device, const OnDutyOptions& options,
+         std::unique_ptr<exchange::RouteExchange> exchange)
+      : device_(device),
+        options_(options),
+        exchange_(std::move(exchange)),
+        now_desk_(options.agent, options.stop_file),
+        desk_(options.agent, options.missions_file),
+        own_visit_(exchange_.Visit()),
+        presence_(*own_visit_, FreeStatus(options.agent)) {
+    exchange_.Tend({[this](const exchange::Message& message) { Hear(message); },
+                    [this](exchange::RouteExchange& to) { Say(to); },
+                    [this](const exchange::AgentStatus& status) { SawStatus(status); }});
+  }
+
+  [[nodiscard]] Result<void> Run();
+
+ private:
+  void Hear(const exchange::Message& message);
+  void Say(exchange::RouteExchange& to);
+  void SawStatus(const exchange::AgentStatus& status);
+  void ShowFree();
+  void TellNews();
+  [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
+
+  void Work();
+  void WaitOn(const mission::Task& task);
+  void Follow(const mission::Task& task);
+  void Judge(const Result<ReplayOutcome>& outcome);
+  void Done();
+  void End(State state, const std::string& why);
+  void TellState(State state, const std::string& why);
+
+  RobotDevice& device_;
+  const OnDutyOptions& options_;
+  LastingExchange exchange_;
+  NowDesk now_desk_;
+  MissionDesk desk_;
+  std::unique_ptr<exchange::RouteExchange> own_visit_;
+  program::Presence presence_;
+  bool claimed_ = false;
+  bool following_ = false;
+  std::optional<State> told_;  // of the mission under way
+  std::string told_why_;
+  bool was_under_way_ = false;  // in this following
+  std::optional<steady_clock::time_point> wait_until_;
+  std::string on_route_;  // where the last following ended
+  std::optional<exchange::PlaceOnRoute> place_;
+  steady_clock::time_point stands_until_{};
+  std::string last_ = "free";
+};
+
+void OnDuty::Hear(const exchange::Message& message) {
+  desk_.Handle(message);
+  if (claimed_) presence_.Handle(message);
+  if (!following_) now_desk_.Handle(message, "", NowUnixMs());
+}
+
+void OnDuty::Say(exchange::RouteExchange& to) {
+  if (!claimed_) return;
+  const auto now = steady_clock::now();
+  // What cannot be handed over is said, or asked for, again.
+  (void)exchange::PublishAll(to, desk_.Due(now, presence_.server().has_value()));
+  TellNews();
+  if (following_) return;
+  (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
+  ShowFree();
+  presence_.Tick(now);
+}
+
+void OnDuty::TellNews() {
+  for (const std::string& line : desk_.TakeNews()) spdlog::info("{}", line);
+  if (following_) return;
+  for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
+}
+
+void OnDuty::ShowFree() {
+  exchange::AgentStatus status;
+  status.mode = exchange::AgentMode::kWaiting;
+  status.detail = Held() ? now_desk_.hold().text : last_;
+  if (steady_clock::now() < stands_until_) {
+    status.route = on_route_;
+    status.place = place_;
+  }
+  presence_.Set(std::move(status));
+}
+
+void OnDuty::TellState(State state, const std::string& why) {
+  // Why it stands may change, as from paused to stopped; how far a route is fetched is no news.
+  const bool same_reason = state != State::kPaused || why == told_why_;
+  if (told_ == state && same_reason) return;
+  told_ = state;
+  told_why_ = why;
+  desk_.Tell(state, why);
+}
+
+// What the follower tells of itself is what becomes of the mission.
+void OnDuty::SawStatus(const exchange::AgentStatus& status) {
+  if (!following_ || !desk_.current()) return;
+  on_route_ = status.route;
+  place_ = status.place;
+  if (Held()) {
+    TellState(State::kPaused, now_desk_.hold().text);
+  } else if (status.mode == exchange::AgentMode::kReplaying) {
+    was_under_way_ = true;
+    TellState(State::kUnderWay, "");
+  } else if (!was_under_way_ && status.mode == exchange::AgentMode::kWaiting) {
+    TellState(State::kFetching, status.detail);
+  } else if (told_ == State::kPaused && status.mode == exchange::AgentMode::kWaiting) {
+    TellState(State::kUnderWay, status.detail);
+  }
+}
+
+Result<void> OnDuty::Run() {
+  now_desk_.Load();
+  if (auto loaded = desk_.Load(); !loaded) return loaded;
+  // What comes meanwhile is heard by way of the exchange.
+  if (auto claimed = presence_.Claim([](const exchange::Message&) {}, options_.stop); !claimed) {
+    return claimed;
+  }
+  claimed_ = true;
+  if (const auto& current = desk_.current();
+      current && current->begun && !current->mission.goes_on) {
+    now_desk_.Pause(fmt::format("its agent has started again in the middle of mission {}",
+                                current->mission.id));
+  }
+  spdlog::info("on duty as '{}'", options_.agent.value());
+  while (!options_.stop()) {
+    (void)exchange_.Take(kWait);
+    if (desk_.current()) Work();
+  }
+  exchange::AgentStatus last;
+  last.mode = exchange::AgentMode::kStopped;
+  last.detail = "stopped by a signal";
+  presence_.Set(std::move(last));
+  presence_.Publish();
+  return {};
+}
+
+void OnDuty::Work() {
+  const mission::Task task = desk_.current()->tasks[desk_.current()->task];
+  if (now_desk_.hold().cancelled) {
+    End(State::kCancelled, "cancelled by an operator");
+  } else if (Held()) {
+    TellState(State::kPaused, now_desk_.hold().text);
+  } else if (task.kind == mission::Task::Kind::kWait) {
+    WaitOn(task);
+  } else {
+    Follow(task);
+  }
+}
+
+void OnDuty::WaitOn(const mission::Task& task) {
+  const auto now = steady_clock::now();
+  TellState(State::kUnderWay, mission::ToText(task));
+  if (!wait_until_) {
+    wait_until_ = now + std::chrono::duration_cast<steady_clock::duration>(
+                            std::chrono::duration<double>(task.wait_s));
+  }
+  if (now >= *wait_until_) Done();
+}
+
+void OnDuty::Follow(const mission::Task& task) {
+  const MissionDesk::Current& current = *desk_.current();
+  FollowerOptions follower = options_.follower(task);
+  follower.link.instance = presence_.status().instance;
+  follower.link.now_desk = &now_desk_;
+  follower.link.from_start = !current.begun;
+  follower.link.begin_m = current.begun ? 0.0 : task.from_m;
+  follower.end_m = task.to_m;
+  if (!options_.logs.empty()) {
+    follower.diagnosis.log = options_.logs / fmt::format("{}-{}-{}.log", current.mission.id,
+                                                         current.task + 1, current.lap + 1);
+  }
+  auto store = options_.open_store();
+  if (!store) {
+    End(State::kFailed, store.error().message);
+    return;
+  }
+  was_under_way_ = false;
+  following_ = true;
+  const auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
+  following_ = false;
+  const bool arrived = outcome && outcome->success;
+  stands_until_ = arrived ? steady_clock::time_point() : steady_clock::now() + kStandsThere;
+  Judge(outcome);
+}
+
+void OnDuty::Judge(const Result<ReplayOutcome>& outcome) {
+  if (!outcome) {
+    End(State::kFailed, outcome.error().message);
+  } else if (outcome->success) {
+    spdlog::info("arrived: {}", outcome->reason);
+    Done();
+  } else if (outcome->state == "STOPPED") {
+    spdlog::warn("stopped in the middle of a mission: the next run takes it up");
+  } else if (outcome->state == "CANCELLED") {
+    End(State::kCancelled, outcome->reason);
+  } else if (outcome->state == "REFUSED" ||
+             (outcome->error && outcome->error->code == ErrorCode::kNotFound)) {
+    End(State::kRefused, outcome->reason);
+  } else {
+    End(State::kFailed, fmt::format("{}: {}", outcome->state, outcome->reason));
+  }
+}
+
+void OnDuty::Done() {
+  wait_until_.reset();
+  told_.reset();
+  desk_.NoteDone();
+  if (const auto& current = desk_.current(); current->task >= current->tasks.size()) {
+    End(State::kArrived, "");
+  }
+}
+
+void OnDuty::End(State state, const std::string& why) {
+  last_ = fmt::format("free; mission {}: {}{}{}", desk_.current()->mission.id,
+                      mission::ToString(state), why.empty() ? "" : ": ", why);
+  desk_.Tell(state, why);
+  told_.reset();
+  wait_until_.reset();
+  now_desk_.ForgetCancelled();
+}
+
+}  // namespace
+
+Result<void> ServeOnDuty(RobotDevice& device, const OnDutyOptions& options,
+                         std::unique_ptr<exchange::RouteExchange> exchange) {
+  const Standstill standstill(device);
+  OnDuty duty(device, options, std::move(exchange));
+  return duty.Run();
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "agent/device/device.h"
+#include "agent/follower.h"
+#include "services/exchange/route_exchange.h"
+#include "services/mission/orders.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::agent {
+
+struct OnDutyOptions {
+  AgentId agent;
+  std::filesystem::path missions_file;  // what it is sent to do is kept here,
+  std::filesystem::path stop_file;      // and here that an operator has stopped it; empty: nowhere
+  std::filesystem::path logs;           // folder for the log of each following; empty: none
+  // How it follows the route of a task; name, place, part and pace of the task are set here.
+  std::function<FollowerOptions(const mission::Task&)> follower;
+  // Of the agent's routes, for each following.
+  std::function<Result<std::unique_ptr<store::RouteStore>>()> open_store;
+  std::function<bool()> stop = [] { return false; };  // any thread
+};
+
+// Takes missions and does them with `device`, one at a time, until `options.stop` says so. After a
+// restart in the middle of one the robot stands until it is told to resume, unless the mission says
+// that it goes on. The errors: another agent has the name; the missions of an earlier run cannot be
+// read.
+[[nodiscard]] Result<void> ServeOnDuty(RobotDevice& device, const OnDutyOptions& options,
+                                       std::unique_ptr<exchange::RouteExchange> exchange);
+
+}  // namespace trailcast::agent

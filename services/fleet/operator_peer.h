@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "services/exchange/route_exchange.h"
+#include "services/program/command_line.h"
+
+namespace trailcast::fleet {
+
+// A member of the network for one command.
+struct OperatorPeer {
+  AgentId self;
+  std::unique_ptr<exchange::RouteExchange> exchange;
+};
+// Under a name of its own: two operators may be at work at the same time.
+[[nodiscard]] Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
+                                                  const exchange::TopicUse& use);
+
+}  // namespace trailcast::fleet

@@ -1,0 +1,251 @@
+#include "services/fleet/mission_client.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <random>
+#include <utility>
+#include <variant>
+
+#include "services/base/process_name.h"
+#include "services/base/time.h"
+#include "services/base/unix_time.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/ask.h"
+#include "services/program/json.h"
+
+namespace trailcast::fleet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kAgain{200};
+// While it is watched: what was lost, and a server or agent that has started again, say it anew.
+constexpr milliseconds kAgainWatched{2000};
+constexpr milliseconds kWait{50};
+// A robot that is there has answered by then.
+constexpr milliseconds kRobotAnswers{3000};
+
+// What is known of one mission.
+class Sending {
+ public:
+  Sending(const mission::Mission& mission, const SendWatch& watch)
+      : mission_(mission), watch_(watch) {}
+
+  void Hear(const exchange::Message& message) {
+    const auto* report = std::get_if<mission::Report>(&message);
+    if (report == nullptr || report->agent != mission_.agent || report->mission != mission_.id) {
+      return;
+    }
+    if (last_ && report->change <= last_->change && !IsLastWord(*report)) return;
+    const bool is_news = !last_ || last_->state != report->state || last_->detail != report->detail;
+    last_ = *report;
+    if (is_news) watch_.news(*last_);
+  }
+
+  [[nodiscard]] bool Over(milliseconds since) const {
+    if (!last_) return since > watch_.timeout;
+    // A server may not have what the robot heard itself.
+    const bool robots_word = last_->change > 0 || since > kRobotAnswers;
+    if (mission::HasEnded(last_->state) && robots_word) return true;
+    if (watch_.to_its_end) return false;
+    if (last_->state != mission::State::kSent) return true;
+    return since > std::min(kRobotAnswers, watch_.timeout);
+  }
+  [[nodiscard]] const std::optional<mission::Report>& last() const { return last_; }
+
+ private:
+  // Of a server, on what no robot has answered.
+  [[nodiscard]] bool IsLastWord(const mission::Report& report) const {
+    return last_->change == 0 && report.change == 0 && mission::HasEnded(report.state);
+  }
+
+  const mission::Mission& mission_;
+  const SendWatch& watch_;
+  std::optional<mission::Report> last_;
+};
+
+// Page after page, until there are `limit` or no more.
+template <typename Record>
+Result<std::vector<Record>> AskForAll(exchange::RouteExchange& exchange,
+                                      exchange::MissionRequest question,
+                                      std::vector<Record> exchange::MissionReply::*records,
+                                      std::size_t limit, milliseconds timeout) {
+  std::vector<Record> all;
+  while (true) {
+    question.query.page_size =
+        static_cast<std::uint32_t>(std::min(limit - all.size(), exchange::kMaxMissionsPerReply));
+    question.request = std::random_device()();
+    auto reply =
+        Ask<exchange::MissionReply>(exchange, question.client, question.request, question, timeout);
+    if (!reply) return tl::unexpected(reply.error());
+    std::vector<Record>& page = (*reply).*records;
+    std::move(page.begin(), page.end(), std::back_inserter(all));
+    question.query.before = reply->next;
+    if (reply->next == 0 || all.size() >= limit) return all;
+  }
+}
+
+std::string WhomText(const mission::NowCommand& command) {
+  if (command.whom == mission::NowWhom::kAll) return "all robots";
+  return command.whom == mission::NowWhom::kOnRoute ? "route " + command.name : command.name;
+}
+
+std::string RecordJson(const mission::Record& record) {
+  using program::JsonText;
+  const mission::Mission& mission = record.mission;
+  return fmt::format(
+      "{{\"mission\": {}, \"robot\": {}, \"orders\": {}, \"sent_by\": {}, \"state\": {}, "
+      "\"task\": {}, \"detail\": {}, \"sent_unix_ms\": {}, \"changed_unix_ms\": {}}}",
+      JsonText(mission.id), JsonText(mission.agent.value()), JsonText(mission.orders),
+      JsonText(WithoutProcess(mission.client.value())),
+      JsonText(mission::ToString(record.last.state)), record.last.task,
+      JsonText(record.last.detail), record.sent_unix_ms, record.changed_unix_ms);
+}
+
+}  // namespace
+
+std::string DrawMissionId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
+                                    const mission::Mission& mission, const SendWatch& watch) {
+  Sending sending(mission, watch);
+  const auto began = steady_clock::now();
+  auto say_at = began;
+  while (!watch.stop()) {
+    const auto now = steady_clock::now();
+    if (sending.Over(std::chrono::duration_cast<milliseconds>(now - began))) break;
+    if (now >= say_at) {
+      say_at = now + (sending.last() ? kAgainWatched : kAgain);
+      const auto said = exchange.Publish(mission);
+      if (!said && said.error().code != ErrorCode::kUnavailable) {
+        return tl::unexpected(said.error());
+      }
+    }
+    for (const exchange::Message& message : exchange.Take(kWait)) sending.Hear(message);
+  }
+  if (sending.last()) return *sending.last();
+  return Fail(ErrorCode::kUnavailable,
+              "neither {} nor a route server answered within {:.1f} s: have they the same --domain "
+              "and --dds-tag? (Robots take missions while 'trailcast-agent serve' runs.)",
+              mission.agent.value(), Seconds(watch.timeout));
+}
+
+Result<std::vector<mission::Record>> AskForMissions(exchange::RouteExchange& exchange,
+                                                    const AgentId& client, mission::Query query,
+                                                    std::size_t limit, milliseconds timeout) {
+  return AskForAll(exchange, {.client = client, .query = std::move(query)},
+                   &exchange::MissionReply::missions, limit, timeout);
+}
+
+Result<std::vector<mission::GivenCommand>> AskForCommands(exchange::RouteExchange& exchange,
+                                                          const AgentId& client,
+                                                          mission::Query query, std::size_t limit,
+                                                          milliseconds timeout) {
+  return AskForAll(exchange, {.client = client, .commands = true, .query = std::move(query)},
+                   &exchange::MissionReply::commands, limit, timeout);
+}
+
+std::string ReportText(const mission::Report& report) {
+  if (report.state == mission::State::kSent) {
+    return fmt::format("{}: sent: a server keeps it, and hands it over once the robot is heard",
+                       report.agent.value());
+  }
+  return fmt::format("{}: {}{}{}", report.agent.value(), mission::ToString(report.state),
+                     report.detail.empty() ? "" : ": ", report.detail);
+}
+
+std::string ReportJson(const mission::Report& report) {
+  using program::JsonText;
+  return fmt::format(
+      "{{\"mission\": {}, \"robot\": {}, \"state\": {}, \"task\": {}, \"detail\": {}}}",
+      JsonText(report.mission), JsonText(report.agent.value()),
+      JsonText(mission::ToString(report.state)), report.task, JsonText(report.detail));
+}
+
+std::string MissionsTable(const std::vector<mission::Record>& missions, std::int64_t now_unix_ms) {
+  if (missions.empty()) return "no missions\n";
+  std::size_t id = 7;
+  std::size_t robot = 5;
+  std::size_t orders = 6;
+  std::size_t by = 7;
+  for (const mission::Record& record : missions) {
+    id = std::max(id, record.mission.id.size());
+    robot = std::max(robot, record.mission.agent.value().size());
+    orders = std::max(orders, record.mission.orders.size());
+    by = std::max(by, WithoutProcess(record.mission.client.value()).size());
+  }
+  const auto line = [&](const auto&... each) {
+    return fmt::format("{:<{}}  {:<{}}  {:>6}  {:<9}  {:<{}}  {:<{}}  {}\n", each...);
+  };
+  std::string text =
+      line("mission", id, "robot", robot, "age", "state", "orders", orders, "sent by", by, "why");
+  for (const mission::Record& record : missions) {
+    text += line(record.mission.id, id, record.mission.agent.value(), robot,
+                 Age(now_unix_ms - record.sent_unix_ms), mission::ToString(record.last.state),
+                 record.mission.orders, orders, WithoutProcess(record.mission.client.value()), by,
+                 record.last.detail);
+  }
+  return text;
+}
+
+std::string MissionsJson(const std::vector<mission::Record>& missions) {
+  std::string text = "[";
+  for (const mission::Record& record : missions) {
+    text += (text.size() == 1 ? "\n  " : ",\n  ") + RecordJson(record);
+  }
+  return text + (missions.empty() ? "]\n" : "\n]\n");
+}
+
+std::string CommandsTable(const std::vector<mission::GivenCommand>& commands,
+                          std::int64_t now_unix_ms) {
+  if (commands.empty()) return "no commands\n";
+  std::size_t by = 8;
+  std::size_t whom = 5;
+  for (const mission::GivenCommand& given : commands) {
+    by = std::max(by, WithoutProcess(given.command.client.value()).size());
+    whom = std::max(whom, WhomText(given.command).size());
+  }
+  const auto line = [&](const auto&... each) {
+    return fmt::format("{:>6}  {:<{}}  {:<7}  {:<{}}  {}\n", each...);
+  };
+  std::string text = line("age", "given by", by, "command", "whom", whom, "why; answers");
+  for (const mission::GivenCommand& given : commands) {
+    const mission::NowCommand& command = given.command;
+    std::string words = command.reason;
+    for (const mission::NowAnswer& answer : given.answers) {
+      words += fmt::format("{}{}{}: {}", words.empty() ? "" : "; ", answer.agent.value(),
+                           answer.refused ? " does not obey" : "", answer.detail);
+    }
+    text += line(Age(now_unix_ms - given.given_unix_ms), WithoutProcess(command.client.value()), by,
+                 mission::ToString(command.order), WhomText(command), whom, words);
+  }
+  return text;
+}
+
+std::string CommandsJson(const std::vector<mission::GivenCommand>& commands) {
+  using program::JsonText;
+  std::string text = "[";
+  for (const mission::GivenCommand& given : commands) {
+    std::string answers;
+    for (const mission::NowAnswer& answer : given.answers) {
+      answers += fmt::format("{}{{\"robot\": {}, \"obeys\": {}, \"detail\": {}}}",
+                             answers.empty() ? "" : ", ", JsonText(answer.agent.value()),
+                             !answer.refused, JsonText(answer.detail));
+    }
+    text += fmt::format(
+        "{}{{\"given_by\": {}, \"command\": \"{}\", \"whom\": {}, \"reason\": {}, "
+        "\"given_unix_ms\": {}, \"answers\": [{}]}}",
+        text.size() == 1 ? "\n  " : ",\n  ", JsonText(WithoutProcess(given.command.client.value())),
+        mission::ToString(given.command.order), JsonText(WhomText(given.command)),
+        JsonText(given.command.reason), given.given_unix_ms, answers);
+  }
+  return text + (commands.empty() ? "]\n" : "\n]\n");
+}
+
+}  // namespace trailcast::fleet

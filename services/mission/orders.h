@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/route/route_ref.h"
+
+namespace trailcast::mission {
+
+// What a mission consists of, one after the other:
+//   follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]   metres along the route, either may be
+//                                                           missing; F times the taught speed
+//   wait SECONDS
+// as in "follow hall 3..10 speed 0.5 wait 20 follow yard laps 2".
+struct Task {
+  enum class Kind : std::uint8_t { kFollow, kWait };
+  Kind kind = Kind::kFollow;
+  route::RouteRef route{};
+  double from_m = 0.0;  // where the robot stands at first; 0: at the route's beginning
+  double to_m = 0.0;    // where it ends; 0: at the route's end
+  std::uint32_t laps = 1;
+  double speed_factor = 1.0;
+  double wait_s = 0.0;
+};
+
+// kInvalidArgument, with the word that was not understood and what was expected.
+[[nodiscard]] Result<std::vector<Task>> ParseOrders(std::string_view orders);
+
+// "follow hall 3..10": as ParseOrders takes it, without what is as usual.
+[[nodiscard]] std::string ToText(const Task& task);
+
+}  // namespace trailcast::mission

@@ -1,0 +1,195 @@
+#include "services/mission/orders.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "services/mission/mission.h"
+#include "services/route/bounds.h"
+
+namespace trailcast::mission {
+namespace {
+
+constexpr const char* kGrammar =
+    "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]' or 'wait SECONDS', one after the "
+    "other";
+constexpr std::uint32_t kMostLaps = 10'000;
+constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
+constexpr double kLeastSpeed = 0.1;
+constexpr double kMostSpeed = 3.0;
+
+std::vector<std::string> Words(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+template <typename Number>
+std::optional<Number> NumberIn(std::string_view word) {
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<double> AmountIn(std::string_view word, double least, double most) {
+  const auto number = NumberIn<double>(word);
+  return number && *number >= least && *number <= most ? number : std::nullopt;
+}
+
+class Parser {
+ public:
+  explicit Parser(std::string_view orders) : words_(Words(orders)) {}
+
+  [[nodiscard]] Result<std::vector<Task>> All() {
+    std::vector<Task> tasks;
+    while (!rest().empty()) {
+      auto task = Next() == "wait" ? Wait() : Follow();
+      if (!task) return tl::unexpected(task.error());
+      tasks.push_back(*std::move(task));
+    }
+    if (tasks.empty()) return Fail(ErrorCode::kInvalidArgument, "no orders: say {}", kGrammar);
+    return tasks;
+  }
+
+ private:
+  [[nodiscard]] std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
+  [[nodiscard]] std::string Next() const { return rest().empty() ? "" : rest().front(); }
+  std::string Take() { return rest().empty() ? "" : words_[at_++]; }
+
+  [[nodiscard]] Result<Task> Wait() {
+    (void)Take();
+    const std::string word = Take();
+    const auto seconds = AmountIn(word, 0.0, kLongestWait_s);
+    if (!seconds) return Wrong(word, "seconds, a week at most");
+    return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
+  }
+
+  [[nodiscard]] Result<Task> Follow() {
+    if (const std::string word = Take(); word != "follow") return Wrong(word, kGrammar);
+    auto route = route::ParseRouteRef(Take());
+    if (!route) return Wrap(route.error(), "orders");
+    Task task{.route = *std::move(route)};
+    while (true) {
+      const std::string word = Next();
+      Result<void> taken;
+      if (word == "laps") {
+        taken = Laps(task);
+      } else if (word == "speed") {
+        taken = Speed(task);
+      } else if (word.find("..") != std::string::npos) {
+        taken = Part(task);
+      } else {
+        return task;
+      }
+      if (!taken) return tl::unexpected(taken.error());
+    }
+  }
+
+  [[nodiscard]] Result<void> Laps(Task& task) {
+    (void)Take();
+    const std::string word = Take();
+    const auto laps = NumberIn<std::uint32_t>(word);
+    if (!laps || *laps == 0 || *laps > kMostLaps) return Wrong(word, "laps, 1 to 10000");
+    task.laps = *laps;
+    return {};
+  }
+
+  [[nodiscard]] Result<void> Speed(Task& task) {
+    (void)Take();
+    const std::string word = Take();
+    const auto factor = AmountIn(word, kLeastSpeed, kMostSpeed);
+    if (!factor) return Wrong(word, "times the taught speed, 0.1 to 3");
+    task.speed_factor = *factor;
+    return {};
+  }
+
+  [[nodiscard]] Result<void> Part(Task& task) {
+    const std::string word = Take();
+    const std::size_t dots = word.find("..");
+    const std::string from = word.substr(0, dots);
+    const std::string to = word.substr(dots + 2);
+    const auto from_m = from.empty() ? 0.0 : AmountIn(from, 0.0, route::kMaxLength_m);
+    const auto to_m = to.empty() ? 0.0 : AmountIn(to, 0.0, route::kMaxLength_m);
+    if (!from_m || !to_m || (*to_m > 0.0 && *to_m <= *from_m)) {
+      return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
+    }
+    task.from_m = *from_m;
+    task.to_m = *to_m;
+    return {};
+  }
+
+  [[nodiscard]] static tl::unexpected<Error> Wrong(const std::string& word, const char* expected) {
+    return Fail(ErrorCode::kInvalidArgument, "orders: '{}' was not understood: expected {}", word,
+                expected);
+  }
+
+  std::vector<std::string> words_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<Task>> ParseOrders(std::string_view orders) { return Parser(orders).All(); }
+
+std::string ToText(const Task& task) {
+  if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
+  std::string text = "follow " + task.route.route;
+  if (task.route.revision > 0) text += fmt::format("@{}", task.route.revision);
+  if (task.from_m > 0.0 || task.to_m > 0.0) {
+    text += task.to_m > 0.0 ? fmt::format(" {:g}..{:g}", task.from_m, task.to_m)
+                            : fmt::format(" {:g}..", task.from_m);
+  }
+  if (task.laps > 1) text += fmt::format(" laps {}", task.laps);
+  if (task.speed_factor != 1.0) text += fmt::format(" speed {:g}", task.speed_factor);
+  return text;
+}
+
+const char* ToString(State state) {
+  switch (state) {
+    case State::kSent:
+      return "sent";
+    case State::kAccepted:
+      return "accepted";
+    case State::kRefused:
+      return "refused";
+    case State::kFetching:
+      return "fetching";
+    case State::kUnderWay:
+      return "under way";
+    case State::kPaused:
+      return "paused";
+    case State::kArrived:
+      return "arrived";
+    case State::kFailed:
+      return "failed";
+    case State::kCancelled:
+      return "cancelled";
+    case State::kExpired:
+      return "expired";
+  }
+  return "unknown";
+}
+
+bool HasEnded(State state) {
+  switch (state) {
+    case State::kRefused:
+    case State::kArrived:
+    case State::kFailed:
+    case State::kCancelled:
+    case State::kExpired:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace trailcast::mission

@@ -1,0 +1,405 @@
+#include "services/store/mission_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "services/mission/orders.h"
+#include "services/store/compiled_statements.h"
+#include "services/store/sqlite_database.h"
+
+namespace trailcast::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In SQLite's header, as that of a route store has its own: "TRCM".
+constexpr int kMissionsId = 0x5452434D;
+constexpr int kVersion = 1;
+constexpr const char* kWhat = "mission store";
+
+// `number` counts up in the order of arrival. A mission is found by each route that its orders
+// name.
+constexpr const char* kTables = R"(
+CREATE TABLE mission (
+  number INTEGER PRIMARY KEY,
+  agent TEXT NOT NULL,
+  id TEXT NOT NULL,
+  client TEXT NOT NULL,
+  orders TEXT NOT NULL,
+  valid_for_s INTEGER NOT NULL,
+  goes_on INTEGER NOT NULL,
+  sent_unix_ms INTEGER NOT NULL,
+  change INTEGER NOT NULL,
+  state INTEGER NOT NULL,
+  task INTEGER NOT NULL,
+  detail TEXT NOT NULL,
+  changed_unix_ms INTEGER NOT NULL,
+  UNIQUE (agent, id)
+) STRICT;
+CREATE INDEX mission_unanswered ON mission (number) WHERE state = 0;
+CREATE TABLE mission_route (
+  number INTEGER NOT NULL,
+  route TEXT NOT NULL,
+  PRIMARY KEY (route, number)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE command (
+  number INTEGER PRIMARY KEY,
+  client TEXT NOT NULL,
+  drawn INTEGER NOT NULL,
+  order_given INTEGER NOT NULL,
+  whom INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  reason TEXT NOT NULL,
+  given_unix_ms INTEGER NOT NULL,
+  UNIQUE (client, drawn)
+) STRICT;
+CREATE TABLE answer (
+  client TEXT NOT NULL,
+  drawn INTEGER NOT NULL,
+  agent TEXT NOT NULL,
+  refused INTEGER NOT NULL,
+  detail TEXT NOT NULL,
+  PRIMARY KEY (client, drawn, agent)
+) STRICT, WITHOUT ROWID;
+)";
+
+constexpr const char* kColumns =
+    "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, detail, "
+    "changed_unix_ms, number";
+constexpr int kNumberColumn = 12;
+
+mission::Record RecordIn(SQLite::Statement& row) {
+  const auto small = [&](int column) {
+    return static_cast<std::uint32_t>(row.getColumn(column).getInt64());
+  };
+  mission::Record record;
+  record.mission = {.agent = AgentId(row.getColumn(0).getString()),
+                    .id = row.getColumn(1).getString(),
+                    .client = AgentId(row.getColumn(2).getString()),
+                    .orders = row.getColumn(3).getString(),
+                    .valid_for_s = small(4),
+                    .goes_on = small(5) != 0};
+  record.sent_unix_ms = row.getColumn(6).getInt64();
+  record.last = {
+      .agent = record.mission.agent,
+      .mission = record.mission.id,
+      .change = small(7),
+      .state = static_cast<mission::State>(std::min<std::uint32_t>(small(8), mission::kStates - 1)),
+      .task = small(9),
+      .detail = row.getColumn(10).getString()};
+  record.changed_unix_ms = row.getColumn(11).getInt64();
+  return record;
+}
+
+// The number that all on the page are below.
+std::int64_t Before(const mission::Query& query) {
+  const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(query.before == 0 ? most : std::min(query.before, most));
+}
+
+mission::GivenCommand CommandIn(SQLite::Statement& row) {
+  return {.command = {.client = AgentId(row.getColumn(0).getString()),
+                      .number = static_cast<std::uint64_t>(row.getColumn(1).getInt64()),
+                      .order = static_cast<mission::NowOrder>(row.getColumn(2).getInt()),
+                      .whom = static_cast<mission::NowWhom>(row.getColumn(3).getInt()),
+                      .name = row.getColumn(4).getString(),
+                      .reason = row.getColumn(5).getString()},
+          .answers = {},
+          .given_unix_ms = row.getColumn(6).getInt64()};
+}
+
+std::set<std::string> RoutesIn(const std::string& orders) {
+  std::set<std::string> routes;
+  const auto tasks = mission::ParseOrders(orders);
+  if (!tasks) return routes;
+  for (const mission::Task& task : *tasks) {
+    if (task.kind == mission::Task::Kind::kFollow) routes.insert(task.route.route);
+  }
+  return routes;
+}
+
+// Who has it locked is another server, not somebody who is done in a moment.
+void Prepare(SQLite::Database& db) {
+  db.exec("PRAGMA locking_mode = EXCLUSIVE");
+  const int id = db.execAndGet("PRAGMA application_id").getInt();
+  const int version = db.execAndGet("PRAGMA user_version").getInt();
+  const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
+  if (!empty && (id != kMissionsId || version != kVersion)) {
+    throw SQLite::Exception("it holds no missions, or those of another version", SQLITE_NOTADB);
+  }
+  db.exec("PRAGMA journal_mode = WAL");
+  db.exec("PRAGMA synchronous = FULL");
+  db.exec("PRAGMA journal_size_limit = 4194304");
+  db.exec("PRAGMA trusted_schema = OFF");
+  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
+  if (empty) {
+    db.exec("PRAGMA application_id = " + std::to_string(kMissionsId));
+    db.exec("PRAGMA user_version = " + std::to_string(kVersion));
+    db.exec(kTables);
+  }
+  transaction.commit();
+}
+
+}  // namespace
+
+struct MissionStore::Database {
+  Database(const fs::path& path, std::int64_t most)
+      : most_kept(most),
+        file(path),
+        db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE),
+        compiled(db) {}
+
+  // Runs `work`, which may throw SQLite's exceptions.
+  template <typename Work>
+  auto Guarded(const std::string& doing, const Work& work) -> Result<decltype(work())> {
+    try {
+      return work();
+    } catch (const SQLite::Exception& exception) {
+      return tl::unexpected(ToError(exception, file, doing, kWhat));
+    }
+  }
+
+  std::optional<mission::Record> Get(const AgentId& agent, const std::string& id) {
+    auto select = compiled.Take(std::string("SELECT ") + kColumns +
+                                " FROM mission WHERE agent = ?1 AND id = ?2");
+    select->bind(1, agent.value());
+    select->bind(2, id);
+    if (!select->executeStep()) return std::nullopt;
+    return RecordIn(*select);
+  }
+
+  void Insert(const mission::Mission& mission, std::int64_t now_unix_ms) {
+    auto insert = compiled.Take(
+        "INSERT INTO mission (agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, "
+        "change, state, task, detail, changed_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, 0, 0, "
+        "0, '', ?7)");
+    insert->bind(1, mission.agent.value());
+    insert->bind(2, mission.id);
+    insert->bind(3, mission.client.value());
+    insert->bind(4, mission.orders);
+    insert->bind(5, static_cast<std::int64_t>(mission.valid_for_s));
+    insert->bind(6, mission.goes_on ? 1 : 0);
+    insert->bind(7, now_unix_ms);
+    insert->exec();
+    const std::int64_t number = db.getLastInsertRowid();
+    for (const std::string& route : RoutesIn(mission.orders)) {
+      auto name =
+          compiled.Take("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)");
+      name->bind(1, number);
+      name->bind(2, route);
+      name->exec();
+    }
+  }
+
+  std::vector<mission::NowAnswer> AnswersTo(const mission::NowCommand& command) {
+    auto select = compiled.Take(
+        "SELECT agent, refused, detail FROM answer WHERE client = ?1 AND drawn = ?2 ORDER BY agent "
+        "LIMIT 64");
+    select->bind(1, command.client.value());
+    select->bind(2, static_cast<std::int64_t>(command.number));
+    std::vector<mission::NowAnswer> answers;
+    while (select->executeStep()) {
+      answers.push_back({.agent = AgentId(select->getColumn(0).getString()),
+                         .client = command.client,
+                         .number = command.number,
+                         .refused = select->getColumn(1).getInt() != 0,
+                         .detail = select->getColumn(2).getString()});
+    }
+    return answers;
+  }
+
+  std::int64_t Count(const char* sql) {
+    auto select = compiled.Take(sql);
+    return select->executeStep() ? select->getColumn(0).getInt64() : 0;
+  }
+
+  // Now and then, since looking for the oldest is not free.
+  void Thin() {
+    if (++since_thinned_ <= most_kept / 100) return;
+    since_thinned_ = 0;
+    const std::string kept = std::to_string(most_kept);
+    db.exec(
+        "DELETE FROM mission WHERE state IN (2, 6, 7, 8, 9) AND number <= (SELECT max(number) "
+        "FROM mission) - " +
+        kept);
+    db.exec("DELETE FROM mission_route WHERE number NOT IN (SELECT number FROM mission)");
+    db.exec("DELETE FROM command WHERE number <= (SELECT max(number) FROM command) - " + kept);
+    db.exec(
+        "DELETE FROM answer WHERE NOT EXISTS (SELECT 1 FROM command WHERE command.client = "
+        "answer.client AND command.drawn = answer.drawn)");
+  }
+
+  std::int64_t since_thinned_ = 0;
+  std::int64_t most_kept;
+  fs::path file;
+  SQLite::Database db;
+  CompiledStatements compiled;
+};
+
+MissionStore::MissionStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+MissionStore::~MissionStore() = default;
+
+Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
+                                                         std::int64_t most_kept) {
+  try {
+    auto database = std::make_unique<Database>(file, most_kept);
+    Prepare(database->db);
+    return std::unique_ptr<MissionStore>(new MissionStore(std::move(database)));
+  } catch (const SQLite::Exception& exception) {
+    return tl::unexpected(ToError(exception, file, "opening it", kWhat));
+  }
+}
+
+Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
+                                          std::int64_t now_unix_ms) {
+  auto added =
+      database_->Guarded("storing mission " + mission.id, [&]() -> Result<mission::Record> {
+        SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+        if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
+        if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
+          return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already",
+                      kMostUnanswered);
+        }
+        database_->Insert(mission, now_unix_ms);
+        database_->Thin();
+        transaction.commit();
+        return database_->Get(mission.agent, mission.id).value();
+      });
+  return added ? *std::move(added) : tl::unexpected(added.error());
+}
+
+Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t now_unix_ms) {
+  return database_->Guarded("storing what became of mission " + report.mission, [&] {
+    // A server's own word (0) counts until the robot's does.
+    auto update = database_->compiled.Take(
+        "UPDATE mission SET change = ?3, state = ?4, task = ?5, detail = ?6, changed_unix_ms = ?7 "
+        "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND change = 0 AND state = 0))");
+    update->bind(1, report.agent.value());
+    update->bind(2, report.mission);
+    update->bind(3, static_cast<std::int64_t>(report.change));
+    update->bind(4, static_cast<int>(report.state));
+    update->bind(5, static_cast<std::int64_t>(report.task));
+    update->bind(6, report.detail);
+    update->bind(7, now_unix_ms);
+    return update->exec() > 0;
+  });
+}
+
+Result<std::vector<mission::Record>> MissionStore::Unanswered() {
+  return database_->Guarded("reading missions", [&] {
+    std::vector<mission::Record> missions;
+    auto select = database_->compiled.Take(std::string("SELECT ") + kColumns +
+                                           " FROM mission WHERE state = 0 ORDER BY number");
+    while (select->executeStep()) missions.push_back(RecordIn(*select));
+    return missions;
+  });
+}
+
+Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
+  return database_->Guarded("looking missions up", [&] {
+    auto select = database_->compiled.Take(
+        std::string("SELECT ") + kColumns +
+        " FROM mission WHERE number < ?1 AND (?2 = '' OR agent = ?2) AND (?3 = '' OR id = ?3) AND "
+        "(?4 = '' OR client = ?4 OR client GLOB ?4 || '-p*') AND (?5 = 0 OR (1 << state) & ?5) AND "
+        "sent_unix_ms >= ?6 AND (?7 = 0 OR sent_unix_ms < ?7) AND (?8 = '' OR EXISTS (SELECT 1 "
+        "FROM mission_route WHERE route = ?8 AND mission_route.number = mission.number)) ORDER BY "
+        "number DESC LIMIT ?9");
+    select->bind(1, Before(query));
+    select->bind(2, query.agent);
+    select->bind(3, query.id);
+    select->bind(4, query.client);
+    select->bind(5, static_cast<std::int64_t>(query.states));
+    select->bind(6, query.from_unix_ms);
+    select->bind(7, query.until_unix_ms);
+    select->bind(8, query.route);
+    select->bind(9, static_cast<std::int64_t>(query.page_size) + 1);
+    Page page;
+    std::uint64_t last_number = 0;
+    while (select->executeStep()) {
+      if (page.missions.size() == query.page_size) {
+        page.next = last_number;
+        break;
+      }
+      page.missions.push_back(RecordIn(*select));
+      last_number = static_cast<std::uint64_t>(select->getColumn(kNumberColumn).getInt64());
+    }
+    return page;
+  });
+}
+
+Result<void> MissionStore::Add(const mission::NowCommand& command, std::int64_t now_unix_ms) {
+  const auto added = database_->Guarded("storing a command", [&] {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto insert = database_->compiled.Take(
+        "INSERT OR IGNORE INTO command (client, drawn, order_given, whom, name, reason, "
+        "given_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
+    insert->bind(1, command.client.value());
+    insert->bind(2, static_cast<std::int64_t>(command.number));
+    insert->bind(3, static_cast<int>(command.order));
+    insert->bind(4, static_cast<int>(command.whom));
+    insert->bind(5, command.name);
+    insert->bind(6, command.reason);
+    insert->bind(7, now_unix_ms);
+    insert->exec();
+    database_->Thin();
+    transaction.commit();
+    return true;
+  });
+  return added ? Result<void>() : tl::unexpected(added.error());
+}
+
+Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
+  const auto added = database_->Guarded("storing an answer", [&] {
+    auto insert = database_->compiled.Take(
+        "INSERT OR IGNORE INTO answer (client, drawn, agent, refused, detail) SELECT ?1, ?2, ?3, "
+        "?4, ?5 WHERE EXISTS (SELECT 1 FROM command WHERE client = ?1 AND drawn = ?2)");
+    insert->bind(1, answer.client.value());
+    insert->bind(2, static_cast<std::int64_t>(answer.number));
+    insert->bind(3, answer.agent.value());
+    insert->bind(4, answer.refused ? 1 : 0);
+    insert->bind(5, answer.detail);
+    insert->exec();
+    return true;
+  });
+  return added ? Result<void>() : tl::unexpected(added.error());
+}
+
+Result<MissionStore::CommandPage> MissionStore::FindCommands(const mission::Query& query) {
+  return database_->Guarded("looking commands up", [&] {
+    auto select = database_->compiled.Take(
+        "SELECT client, drawn, order_given, whom, name, reason, given_unix_ms, number FROM command "
+        "WHERE number < ?1 AND (?2 = '' OR (whom = 0 AND name = ?2) OR EXISTS (SELECT 1 FROM "
+        "answer WHERE answer.client = command.client AND answer.drawn = command.drawn AND agent = "
+        "?2)) AND (?3 = '' OR (whom = 1 AND name = ?3)) AND (?4 = '' OR client = ?4 OR client GLOB "
+        "?4 || '-p*') AND given_unix_ms >= ?5 AND (?6 = 0 OR given_unix_ms < ?6) ORDER BY number "
+        "DESC LIMIT ?7");
+    select->bind(1, Before(query));
+    select->bind(2, query.agent);
+    select->bind(3, query.route);
+    select->bind(4, query.client);
+    select->bind(5, query.from_unix_ms);
+    select->bind(6, query.until_unix_ms);
+    select->bind(7, static_cast<std::int64_t>(query.page_size) + 1);
+    CommandPage page;
+    std::uint64_t last_number = 0;
+    while (select->executeStep()) {
+      if (page.commands.size() == query.page_size) {
+        page.next = last_number;
+        break;
+      }
+      page.commands.push_back(CommandIn(*select));
+      last_number = static_cast<std::uint64_t>(select->getColumn(7).getInt64());
+    }
+    for (mission::GivenCommand& given : page.commands) {
+      given.answers = database_->AnswersTo(given.command);
+    }
+    return page;
+  });
+}
+
+}  // namespace trailcast::store

@@ -1,0 +1,180 @@
+#include "agent/link/mission_desk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using mission::Mission;
+using mission::Report;
+using mission::State;
+using std::chrono::seconds;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class MissionDeskTest : public testing::Test {
+ protected:
+  void SetUp() override { Restart(); }
+  void Restart() {
+    desk_.emplace(AgentId("robot1"), folder_ / "missions");
+    ASSERT_TRUE(desk_->Load());
+  }
+  static Mission For(const std::string& id, const std::string& orders = "follow hall") {
+    return {.agent = AgentId("robot1"), .id = id, .client = AgentId("desk-p7"), .orders = orders};
+  }
+  std::vector<Report> Due(bool server_there = false) {
+    std::vector<Report> reports;
+    for (const exchange::Message& message : desk_->Due(now_, server_there)) {
+      reports.push_back(std::get<Report>(message));
+    }
+    return reports;
+  }
+  Report Answer(const Mission& mission) {
+    desk_->Handle(mission);
+    const auto reports = Due();
+    EXPECT_THAT(reports, SizeIs(1));
+    return reports.empty() ? Report{} : reports.back();
+  }
+  void ServerSays(Report report) {
+    report.relayed = true;
+    desk_->Handle(report);
+  }
+
+  test::TempDir folder_;
+  std::chrono::steady_clock::time_point now_{seconds(100)};
+  std::optional<MissionDesk> desk_;
+};
+
+TEST_F(MissionDeskTest, TakesAMissionAndTellsWhatBecomesOfIt) {
+  const Report accepted = Answer(For("m1"));
+  EXPECT_EQ(accepted.state, State::kAccepted);
+  EXPECT_EQ(accepted.change, 1U);
+  ASSERT_TRUE(desk_->current());
+  EXPECT_EQ(desk_->current()->mission.id, "m1");
+  desk_->Tell(State::kUnderWay);
+  EXPECT_EQ(Due().at(0).change, 2U);
+  desk_->NoteDone();
+  desk_->Tell(State::kArrived);
+  EXPECT_EQ(Due().at(0).state, State::kArrived);
+  EXPECT_FALSE(desk_->current());
+}
+
+TEST_F(MissionDeskTest, TheSameOneIsDoneOnceAlsoAfterARestart) {
+  (void)Answer(For("m1"));
+  desk_->NoteDone();
+  desk_->Tell(State::kArrived);
+  (void)Due();
+  EXPECT_EQ(Answer(For("m1")).state, State::kArrived);
+  EXPECT_FALSE(desk_->current());
+  Restart();
+  (void)Due();
+  EXPECT_EQ(Answer(For("m1")).state, State::kArrived);
+  EXPECT_FALSE(desk_->current());
+}
+
+TEST_F(MissionDeskTest, RefusesASecondOneAndWhatItDoesNotUnderstand) {
+  EXPECT_EQ(Answer(For("m0", "dance")).state, State::kRefused);
+  (void)Answer(For("m1"));
+  const Report refused = Answer(For("m2", "follow yard"));
+  EXPECT_EQ(refused.state, State::kRefused);
+  EXPECT_THAT(refused.detail, HasSubstr("busy with mission m1: follow hall"));
+  EXPECT_EQ(desk_->current()->mission.id, "m1");
+}
+
+TEST_F(MissionDeskTest, DoesItsTasksAndTheirLapsOneAfterTheOther) {
+  (void)Answer(For("m1", "follow hall laps 2 wait 5"));
+  EXPECT_EQ(desk_->current()->task, 0U);
+  desk_->NoteDone();
+  EXPECT_EQ(desk_->current()->task, 0U);
+  EXPECT_EQ(desk_->current()->lap, 1U);
+  Restart();
+  ASSERT_TRUE(desk_->current());
+  EXPECT_TRUE(desk_->current()->begun);
+  EXPECT_EQ(desk_->current()->lap, 1U) << "remembered";
+  desk_->NoteDone();
+  EXPECT_EQ(desk_->current()->task, 1U);
+  EXPECT_FALSE(desk_->current()->begun);
+  desk_->NoteDone();
+  EXPECT_EQ(desk_->current()->task, desk_->current()->tasks.size());
+}
+
+TEST_F(MissionDeskTest, RemembersWhatIsUnderWay) {
+  Mission mission = For("m1");
+  mission.goes_on = true;
+  (void)Answer(mission);
+  desk_->Tell(State::kUnderWay);
+  Restart();
+  ASSERT_TRUE(desk_->current());
+  EXPECT_EQ(desk_->current()->mission, mission);
+  desk_->Tell(State::kPaused, "its agent has started again");
+  EXPECT_EQ(Due().back().change, 3U) << "it counts on";
+}
+
+TEST_F(MissionDeskTest, SaysItUntilAServerHasIt) {
+  const Report accepted = Answer(For("m1"));
+  EXPECT_THAT(Due(false), IsEmpty()) << "nobody would keep it";
+  EXPECT_THAT(Due(true), SizeIs(1));
+  EXPECT_THAT(Due(true), IsEmpty()) << "not at once again";
+  now_ += seconds(1);
+  EXPECT_THAT(Due(true), SizeIs(1));
+  desk_->Tell(State::kUnderWay);
+  (void)Due(true);
+  ServerSays(accepted);
+  now_ += seconds(1);
+  EXPECT_THAT(Due(true), SizeIs(1)) << "the server has what was before";
+  Report last = accepted;
+  last.change = 2;
+  desk_->Handle(last);
+  now_ += seconds(1);
+  EXPECT_THAT(Due(true), SizeIs(1)) << "said by no server";
+  ServerSays(last);
+  now_ += seconds(1);
+  EXPECT_THAT(Due(true), IsEmpty());
+}
+
+TEST_F(MissionDeskTest, AnswersOthersNot) {
+  Mission mission = For("m1");
+  mission.agent = AgentId("robot2");
+  desk_->Handle(mission);
+  EXPECT_THAT(Due(), IsEmpty());
+  EXPECT_FALSE(desk_->current());
+}
+
+TEST_F(MissionDeskTest, WhatItCannotRememberItDoesNot) {
+  desk_.emplace(AgentId("robot1"), folder_ / "nowhere" / "missions");
+  const Report refused = Answer(For("m1"));
+  EXPECT_EQ(refused.state, State::kRefused);
+  EXPECT_THAT(refused.detail, HasSubstr("nowhere"));
+  EXPECT_FALSE(desk_->current());
+}
+
+TEST_F(MissionDeskTest, ForgetsTheOldestThatHaveEnded) {
+  (void)Answer(For("current"));
+  for (std::size_t i = 0; i < 2 * MissionDesk::kMostKept; ++i) {
+    EXPECT_EQ(Answer(For("m" + std::to_string(i))).state, State::kRefused);
+  }
+  Restart();
+  ASSERT_TRUE(desk_->current());
+  EXPECT_EQ(desk_->current()->mission.id, "current");
+}
+
+TEST_F(MissionDeskTest, AFileThatIsSomebodyElsesIsNotTaken) {
+  for (const char* text : {"nonsense\n", "trailcast-missions 1\nm1\tdesk\n",
+                           "trailcast-missions 1\nm1\tdesk\t0\t1\t99\t0\t0\t0\tfollow hall\t\n",
+                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t7\t0\t0\tfollow hall\t\n"}) {
+    std::ofstream(folder_ / "missions") << text;
+    MissionDesk desk(AgentId("robot1"), folder_ / "missions");
+    const auto loaded = desk.Load();
+    ASSERT_FALSE(loaded) << text;
+    EXPECT_EQ(loaded.error().code, ErrorCode::kCorrupt);
+  }
+}
+
+}  // namespace
+}  // namespace trailcast::agent

@@ -1,0 +1,85 @@
+#include "services/mission/orders.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/mission/mission.h"
+
+namespace trailcast::mission {
+namespace {
+
+using testing::HasSubstr;
+using testing::SizeIs;
+
+TEST(Orders, AreFollowedAndWaitedForInTheirOrder) {
+  const auto tasks = ParseOrders(
+      "follow hall@2 3..10 laps 4 speed 0.5  wait 20 follow yard ..7.5 follow dock 2..");
+  ASSERT_TRUE(tasks) << tasks.error().message;
+  ASSERT_THAT(*tasks, SizeIs(4));
+  const Task& hall = (*tasks)[0];
+  EXPECT_EQ(hall.kind, Task::Kind::kFollow);
+  EXPECT_EQ(hall.route.route, "hall");
+  EXPECT_EQ(hall.route.revision, 2U);
+  EXPECT_DOUBLE_EQ(hall.from_m, 3.0);
+  EXPECT_DOUBLE_EQ(hall.to_m, 10.0);
+  EXPECT_EQ(hall.laps, 4U);
+  EXPECT_DOUBLE_EQ(hall.speed_factor, 0.5);
+  EXPECT_EQ((*tasks)[1].kind, Task::Kind::kWait);
+  EXPECT_DOUBLE_EQ((*tasks)[1].wait_s, 20.0);
+  EXPECT_DOUBLE_EQ((*tasks)[2].from_m, 0.0);
+  EXPECT_DOUBLE_EQ((*tasks)[2].to_m, 7.5);
+  EXPECT_DOUBLE_EQ((*tasks)[3].from_m, 2.0);
+  EXPECT_DOUBLE_EQ((*tasks)[3].to_m, 0.0);
+}
+
+TEST(Orders, AsTextAreTheSameOrders) {
+  for (const char* text : {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5",
+                           "follow a3f9c21 2..", "follow hall 0..7.5"}) {
+    const auto tasks = ParseOrders(text);
+    ASSERT_TRUE(tasks) << tasks.error().message;
+    EXPECT_EQ(ToText(tasks->front()), text);
+  }
+}
+
+// Routes may be called as the words of orders are.
+TEST(Orders, OfARouteCalledLikeAWord) {
+  const auto tasks = ParseOrders("follow follow follow wait wait 1");
+  ASSERT_TRUE(tasks) << tasks.error().message;
+  ASSERT_THAT(*tasks, SizeIs(3));
+  EXPECT_EQ((*tasks)[0].route.route, "follow");
+  EXPECT_EQ((*tasks)[1].route.route, "wait");
+}
+
+TEST(Orders, ThatAreNotUnderstoodAreNamed) {
+  const auto why = [](const char* text) {
+    const auto tasks = ParseOrders(text);
+    if (tasks) return std::string("understood");
+    EXPECT_EQ(tasks.error().code, ErrorCode::kInvalidArgument);
+    return tasks.error().message;
+  };
+  EXPECT_THAT(why(""), HasSubstr("no orders: say 'follow ROUTE"));
+  EXPECT_THAT(why("go hall"), HasSubstr("'go' was not understood"));
+  EXPECT_THAT(why("follow hall sideways"), HasSubstr("'sideways'"));
+  EXPECT_THAT(why("follow"), HasSubstr("route"));
+  EXPECT_THAT(why("follow hall laps 0"), HasSubstr("'0'"));
+  EXPECT_THAT(why("follow hall laps"), HasSubstr("laps, 1 to 10000"));
+  EXPECT_THAT(why("follow hall laps 1e9"), HasSubstr("'1e9'"));
+  EXPECT_THAT(why("follow hall speed 7"), HasSubstr("'7'"));
+  EXPECT_THAT(why("follow hall speed nan"), HasSubstr("'nan'"));
+  EXPECT_THAT(why("follow hall 10..3"), HasSubstr("FROM..TO"));
+  EXPECT_THAT(why("follow hall -1..3"), HasSubstr("FROM..TO"));
+  EXPECT_THAT(why("wait"), HasSubstr("seconds"));
+  EXPECT_THAT(why("wait -1"), HasSubstr("seconds"));
+  EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));
+}
+
+TEST(State, HasANameEach) {
+  for (std::uint8_t i = 0; i < kStates; ++i) {
+    EXPECT_STRNE(ToString(static_cast<State>(i)), "unknown");
+  }
+  EXPECT_TRUE(HasEnded(State::kExpired));
+  EXPECT_FALSE(HasEnded(State::kPaused));
+}
+
+}  // namespace
+}  // namespace trailcast::mission
