@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # A virtual robot and, beside it as on the robot's own computer, the agent that drives it.
-#   robot.sh teach|replay [options of trailcast-agent]
+#   robot.sh teach|replay|serve [options of trailcast-agent]
 # The container's hostname is the robot's name, and with it camera, errors and topics are drawn, so
 # that every replica is another robot. What decides otherwise:
 #   ROBOT_WORLD   a built-in world (indoor)     ROBOT_PATH   CSV x_m,y_m (the world's own)
 #   ROBOT_CAMERA  a built-in camera             ROBOT_FAULT  as 'trailcast robot --fail'; in real
-#   ROBOT_TRUTH   file for its true poses                    time then, otherwise in lockstep
+#   ROBOT_TRUTH   file for its true poses                    time then, and with serve, otherwise
+#                                                            in lockstep
 #   ROBOT_PATIENCE_S  seconds that its agent waits for a robot that fell silent (60)
 set -euo pipefail
 
 command=${1:-}
 case $command in
-  teach | replay) shift ;;
+  teach | replay | serve) shift ;;
   *)
-    printf "robot.sh: '%s' is not understood; give teach or replay, and the agent's options\n" \
+    printf "robot.sh: '%s' is not understood; give teach, replay or serve, and the agent's options\n" \
       "$command" >&2
     exit 2
     ;;
@@ -35,7 +36,7 @@ agent=(--ros2 "$topics" --ros-interface lo
 [[ -z ${ROBOT_TRUTH:-} ]] || robot+=(--sim-truth "$ROBOT_TRUTH")
 if [[ -n ${ROBOT_FAULT:-} ]]; then
   robot+=(--fail "$ROBOT_FAULT")
-else
+elif [[ $command != serve ]]; then # on duty, nobody answers a robot in lockstep for most of the time
   robot+=(--lockstep)
   agent+=(--lockstep)
 fi

@@ -1,5 +1,23 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh and the scenarios
-# What may happen to the network of a container, staged from outside.
+# What may happen to programs, and to the network of a container, staged from outside.
+
+kill_server() {
+  local before
+  before=$(grep -c ' ready' "${log_of[server]}")
+  podman kill --signal KILL server >/dev/null
+  await 10 'the death of the server' ended server
+  podman start server >/dev/null
+  await 30 'the server to come back' has_said server ' ready' $((before + 1))
+  note 'server killed, and back'
+}
+has_said() { (($(grep -c -- "$2" "${log_of[$1]}") >= $3)); }
+
+# The agent in the container NAME; its robot, and the container, live on.
+kill_agent() {
+  signal_to KILL "$1" trailcast-agent
+  await 30 "$1 to start again" says "$1" 'the agent was killed'
+  note "$1's agent killed, and started again"
+}
 
 in_network_of() {
   local name=$1

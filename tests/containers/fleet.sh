@@ -80,19 +80,19 @@ start_server_with_route() {
   start_server
 }
 
-# start_robot NAME CAMERA teach|replay [OPTION...]: on the route, over the path; robot_options are
-# more of Podman's. Its agent bears with a robot that a scenario holds still.
+# start_robot NAME CAMERA teach|replay|serve [OPTION...]: over the path; robot_options are more of
+# Podman's. Its agent bears with a robot that a scenario holds still.
 robot_options=()
 start_robot() {
   local name=$1 camera=$2 command=$3
   shift 3
   contain "$name" robot --env ROBOT_CAMERA="$camera" --env ROBOT_PATH=/path.csv \
     --env ROBOT_TRUTH=/data/truth.csv --env ROBOT_PATIENCE_S=600 --volume "$path:/path.csv:ro" "${robot_options[@]}" -- \
-    "$command" --route hall "$@"
+    "$command" "$@"
 }
-start_scout() { start_robot scout webcam teach --delivery-timeout 120; }
+start_scout() { start_robot scout webcam teach --route hall --delivery-timeout 120; }
 # Its world is its own: nobody is in its way.
-start_follower() { start_robot "$1" "$2" replay --wait-for-route --wait 300 --keep-distance 0; }
+start_follower() { start_robot "$1" "$2" replay --route hall --wait-for-route --wait 300 --keep-distance 0; }
 
 # progress_of NAME: percent of the route, by its heartbeat; is_beyond NAME PERCENT.
 progress_of() { sed -n 's/.*: \([0-9]*\) % of .*/\1/p' "$(files_of "$1")/heartbeat" 2>/dev/null; }

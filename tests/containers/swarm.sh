@@ -2,10 +2,10 @@
 # The swarm in containers: a server, a scout and followers with other cameras, each robot in a
 # container with an address of its own, and what may happen to them. Needs root, Podman (the packages
 # of group "containers") and ./run build.
-#   tests/containers/swarm.sh                  the quick ones: follow killed broken
+#   tests/containers/swarm.sh                  the quick ones: follow killed broken missions
 #   tests/containers/swarm.sh --all            all of them
-#   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken queue
-#                                              strangers crowd compose
+#   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken missions
+#                                              queue strangers crowd compose
 # With --from-source in front, the images are built from the repository alone, as a user would.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
@@ -20,8 +20,8 @@ source "$here/expect.sh"
 # shellcheck source=tests/containers/faults.sh
 source "$here/faults.sh"
 
-all=(follow late lossy cut killed broken queue strangers crowd compose)
-quick=(follow killed broken)
+all=(follow late lossy cut killed broken missions queue strangers crowd compose)
+quick=(follow killed broken missions)
 
 die() {
   printf 'swarm.sh: %s\n' "$*" >&2

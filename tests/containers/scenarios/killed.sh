@@ -20,24 +20,6 @@ scenario_killed() {
   expect_sound_store
 }
 
-kill_server() {
-  local before
-  before=$(grep -c ' ready' "${log_of[server]}")
-  podman kill --signal KILL server >/dev/null
-  await 10 'the death of the server' ended server
-  podman start server >/dev/null
-  await 30 'the server to come back' has_said server ' ready' $((before + 1))
-  note 'server killed, and back'
-}
-has_said() { (($(grep -c -- "$2" "${log_of[$1]}") >= $3)); }
-
-# The agent in the container NAME; its robot, and the container, live on.
-kill_agent() {
-  signal_to KILL "$1" trailcast-agent
-  await 30 "$1 to start again" says "$1" 'the agent was killed'
-  note "$1's agent killed, and started again"
-}
-
 expect_went_on_or_said_why() {
   local status reason
   status=$(status_of "$1")

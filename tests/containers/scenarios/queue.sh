@@ -4,10 +4,10 @@
 scenario_queue() {
   local apart
   start_server_with_route
-  start_robot follower-1 webcam replay
+  start_robot follower-1 webcam replay --route hall
   await 120 'the first follower on its way' is_beyond follower-1 50
   signal_to STOP follower-1 trailcast
-  start_robot follower-2 wide replay
+  start_robot follower-2 wide replay --route hall
   await 120 'the second to wait' says follower-2 'waits for follower-1'
   apart=$(sed -n 's/.*waits for follower-1, \([0-9.]*\) m ahead.*/\1/p' "${log_of[follower-2]}" | tail -n 1)
   note "follower-2 waits $apart m behind follower-1"
