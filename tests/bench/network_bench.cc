@@ -85,6 +85,10 @@ int Run(int argc, char** argv) {
   write->add_option("--samples", samples);
   CLI::App* read = app.add_subcommand("read-transient-local", "Plain Cyclone, the late reader");
   read->add_option("--samples", samples);
+  std::string robot;
+  CLI::App* stop = app.add_subcommand("stop", "A robot is told to pause, again and again");
+  stop->add_option("robot", robot)->required();
+  stop->add_option("--samples", samples);
   std::string picture;
   CLI::App* plot = app.add_subcommand("plot-fleet", "Draws what network.sh sizes has measured");
   plot->add_option("csv", file)->required();
@@ -100,6 +104,7 @@ int Run(int argc, char** argv) {
   if (commits->parsed()) done = bench::MeasureCommits(file, group);
   if (write->parsed()) done = bench::WriteTransientLocal(samples);
   if (read->parsed()) done = bench::ReadTransientLocal(samples);
+  if (stop->parsed()) done = bench::MeasureStops(robot, samples);
   if (plot->parsed()) done = bench::PlotFleet(file, picture);
   if (done) return 0;
   fmt::print(stderr, "{}\n", done.error().message);

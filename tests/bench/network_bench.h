@@ -53,6 +53,10 @@ struct LightAgentOptions {
 [[nodiscard]] Result<void> PlotFleet(const std::filesystem::path& csv,
                                      const std::filesystem::path& picture);
 
+// Has a robot that follows a route pause, and go on, so many times: prints when it was told to (ms
+// since 1970) and after how many ms its answer was there.
+[[nodiscard]] Result<void> MeasureStops(const std::string& robot, int samples);
+
 // Group commits of pieces by SQLite's own interface, nothing of ours around it.
 [[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);
 
