@@ -167,7 +167,11 @@ Result<void> OnDuty::Run() {
   spdlog::info("on duty as '{}'", options_.agent.value());
   while (!options_.stop()) {
     (void)exchange_.Take(kWait);
-    if (desk_.current()) Work();
+    if (desk_.current()) {
+      Work();
+    } else {
+      now_desk_.ForgetCancelled();  // there was nothing to cancel
+    }
   }
   exchange::AgentStatus last;
   last.mode = exchange::AgentMode::kStopped;

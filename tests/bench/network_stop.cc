@@ -17,10 +17,10 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kPatience{10'000};
 
-Result<void> Obeyed(exchange::RouteExchange& exchange, const AgentId& self, exchange::NowOrder order,
-                    const std::string& robot) {
-  const auto words = fleet::TellRobots(exchange, self, order,
-                                       {{exchange::NowWhom::kRobot, robot}}, "", kPatience);
+Result<void> Obeyed(exchange::RouteExchange& exchange, const AgentId& self,
+                    exchange::NowOrder order, const std::string& robot) {
+  const auto words =
+      fleet::TellRobots(exchange, self, order, {{exchange::NowWhom::kRobot, robot}}, "", kPatience);
   if (!words) return tl::unexpected(words.error());
   if (words->front().answered && !words->front().refused) return {};
   return Fail(ErrorCode::kUnavailable, "{}", fleet::WordsText(*words));
@@ -38,7 +38,8 @@ Result<void> MeasureStops(const std::string& robot, int samples) {
   // At any moment between two pictures, and of the server's loop; driving again by then.
   std::uniform_int_distribution<int> pause_ms(700, 1300);
   for (int i = 0; i < samples; ++i) {
-    if (auto drives = Obeyed(**exchange, options.self, exchange::NowOrder::kResume, robot); !drives) {
+    if (auto drives = Obeyed(**exchange, options.self, exchange::NowOrder::kResume, robot);
+        !drives) {
       return drives;
     }
     std::this_thread::sleep_for(milliseconds(pause_ms(random)));

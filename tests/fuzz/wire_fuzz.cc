@@ -178,7 +178,7 @@ class Samples {
   }
   void Fill(trailcast_wire_MissionReport& wire) {
     wire.agent = Name();
-    wire.mission = Name();
+    wire.id = Name();
     wire.change = Number();
     wire.state = Octet();
     wire.task = Number();

@@ -48,6 +48,7 @@ TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
   const Ended again = Send({"follow", "hall", "..2", "wait", "0.5", "--id", "first"});
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("robot1: arrived")) << "it is done once";
+  EXPECT_EQ(Tool({"cancel", "robot1"}).status, 0) << "of nothing: what comes next is done";
   const Ended rest = Send({"follow", "hall", "2..", "--wait"});
   EXPECT_EQ(rest.status, 0) << rest.output << agent_->output();
   EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);

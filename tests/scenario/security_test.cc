@@ -65,9 +65,24 @@ TEST_F(SecurityTest, EachRoleIsToldWhatItsKeysDoNotAllow) {
   EXPECT_THAT(scout.output, HasSubstr("write trailcast/route_edits"));
   const Ended observer = RunAs(observer_keys_, "trailcast", {"routes", "retire", "hall"});
   EXPECT_THAT(observer.output, HasSubstr("are of the role 'observer'"));
+  for (const std::string& keys : {observer_keys_, follower_keys_, scout_keys_}) {
+    const Ended sends = RunAs(keys, "trailcast", {"send", "robot1", "follow", "hall"});
+    EXPECT_EQ(sends.status, 1);
+    EXPECT_THAT(sends.output, HasSubstr("write trailcast/missions")) << keys;
+  }
   const Ended other_name = RunAs(scout_keys_, "trailcast-agent",
                                  {"--name", "robot7", "deliver", "--store", Path("scout.db")});
   EXPECT_THAT(other_name.output, HasSubstr("are those of 'robot1', not of 'robot7'"));
+}
+
+TEST_F(SecurityTest, AnOperatorSendsAndAnObserverSeesWhatBecomesOfIt) {
+  const auto server = SecuredServer();
+  const Ended sent = RunAs(operator_keys_, "trailcast",
+                           {"send", "robot7", "follow", "hall", "--id", "trip", "--timeout", "20"});
+  EXPECT_EQ(sent.status, 0) << sent.output;
+  EXPECT_THAT(sent.output, HasSubstr("a server keeps it"));
+  const Ended seen = RunAs(observer_keys_, "trailcast", {"missions", "--timeout", "20"});
+  EXPECT_THAT(seen.output, AllOf(HasSubstr("trip"), HasSubstr("sent"))) << seen.output;
 }
 
 TEST_F(SecurityTest, ARevokedMemberIsKeptOutOfARunningFleetAndARenewedOneIsBack) {

@@ -64,7 +64,7 @@ Result<void> MissionDesk::Load() {
       if (!number) return wrong();
       numbers.push_back(*number);
     }
-    if (numbers[2] >= mission::kStates) return wrong();
+    if (numbers[2] >= mission::kStates || Find(fields[0]) != nullptr) return wrong();
     kept_.push_back({.mission = {.agent = self_,
                                  .id = fields[0],
                                  .client = AgentId(fields[1]),
@@ -78,9 +78,13 @@ Result<void> MissionDesk::Load() {
                               .detail = fields[9]},
                      .lap = numbers[4],
                      .confirmed = numbers[5] != 0});
+    const bool in_bounds =
+        exchange::CheckBounds(kept_.back().mission) && exchange::CheckBounds(kept_.back().last);
+    if (!in_bounds || kept_.size() > kMostKept) return wrong();
   }
   for (const Kept& kept : kept_) {
     if (mission::HasEnded(kept.last.state)) continue;
+    if (current_) return wrong();
     auto tasks = mission::ParseOrders(kept.mission.orders);
     if (!tasks || kept.last.task >= tasks->size()) return wrong();
     Begin(kept, *std::move(tasks));

@@ -259,7 +259,7 @@ mission::Mission From(const trailcast_wire_Mission& wire) {
 
 mission::Report From(const trailcast_wire_MissionReport& wire) {
   return {.agent = AgentId(Text(wire.agent)),
-          .mission = Text(wire.mission),
+          .mission = Text(wire.id),
           .change = wire.change,
           .state = static_cast<mission::State>(wire.state),
           .task = wire.task,

@@ -324,7 +324,7 @@ trailcast_wire_Mission ToWire(const mission::Mission& message) {
 
 trailcast_wire_MissionReport ToWire(const mission::Report& message) {
   return {.agent = Lend(message.agent.value()),
-          .mission = Lend(message.mission),
+          .id = Lend(message.mission),
           .change = message.change,
           .state = static_cast<std::uint8_t>(message.state),
           .task = message.task,

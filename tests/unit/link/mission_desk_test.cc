@@ -167,7 +167,10 @@ TEST_F(MissionDeskTest, ForgetsTheOldestThatHaveEnded) {
 TEST_F(MissionDeskTest, AFileThatIsSomebodyElsesIsNotTaken) {
   for (const char* text : {"nonsense\n", "trailcast-missions 1\nm1\tdesk\n",
                            "trailcast-missions 1\nm1\tdesk\t0\t1\t99\t0\t0\t0\tfollow hall\t\n",
-                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t7\t0\t0\tfollow hall\t\n"}) {
+                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t7\t0\t0\tfollow hall\t\n",
+                           "trailcast-missions 1\nm 1\tdesk\t0\t1\t6\t0\t0\t0\tfollow hall\t\n",
+                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t0\t0\t0\twait 1\t\n"
+                           "m2\tdesk\t0\t1\t4\t0\t0\t0\twait 1\t\n"}) {
     std::ofstream(folder_ / "missions") << text;
     MissionDesk desk(AgentId("robot1"), folder_ / "missions");
     const auto loaded = desk.Load();

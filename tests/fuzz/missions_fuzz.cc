@@ -1,0 +1,58 @@
+// What operators send robots to do, and what a robot keeps of it in a file.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "agent/link/mission_desk.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using trailcast::fuzz::Require;
+
+std::string TextOf(const std::vector<trailcast::mission::Task>& tasks) {
+  std::string text;
+  for (const auto& task : tasks) text += (text.empty() ? "" : " ") + ToText(task);
+  return text;
+}
+
+void ReadOrders(const std::string& orders) {
+  const auto tasks = trailcast::mission::ParseOrders(orders);
+  if (!tasks) return;
+  Require(!tasks->empty(), "there is something to do");
+  const std::string text = TextOf(*tasks);
+  const auto again = trailcast::mission::ParseOrders(text);
+  Require(again && TextOf(*again) == text, "orders are what their text says");
+}
+
+void ReadKept(const std::string& text) {
+  const fs::path file =
+      fs::temp_directory_path() / ("trailcast-fuzz-missions-" + std::to_string(getpid()));
+  std::ofstream(file, std::ios::binary) << text;
+  trailcast::agent::MissionDesk desk(trailcast::AgentId("robot1"), file);
+  if (desk.Load()) {
+    if (const auto& current = desk.current()) {
+      Require(current->task < current->tasks.size(), "there is something to be done");
+      desk.Tell(trailcast::mission::State::kArrived);
+    }
+    for (const auto& message : desk.Due({}, true)) {
+      Require(trailcast::exchange::CheckBounds(message).has_value(), "what it says is in bounds");
+    }
+  }
+  fs::remove(file);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  ReadOrders(text);
+  ReadKept(text);
+  ReadKept("trailcast-missions 1\n" + text);
+  return 0;
+}
