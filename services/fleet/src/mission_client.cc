@@ -6,13 +6,13 @@
 #include <iterator>
 #include <random>
 #include <utility>
-#include <variant>
 
 #include "services/base/process_name.h"
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
+#include "services/fleet/sending.h"
 #include "services/program/json.h"
 
 namespace trailcast::fleet {
@@ -25,47 +25,6 @@ constexpr milliseconds kAgain{200};
 // While it is watched: what was lost, and a server or agent that has started again, say it anew.
 constexpr milliseconds kAgainWatched{2000};
 constexpr milliseconds kWait{50};
-// A robot that is there has answered by then.
-constexpr milliseconds kRobotAnswers{3000};
-
-// What is known of one mission.
-class Sending {
- public:
-  Sending(const mission::Mission& mission, const SendWatch& watch)
-      : mission_(mission), watch_(watch) {}
-
-  void Hear(const exchange::Message& message) {
-    const auto* report = std::get_if<mission::Report>(&message);
-    if (report == nullptr || report->agent != mission_.agent || report->mission != mission_.id) {
-      return;
-    }
-    if (last_ && report->change <= last_->change && !IsLastWord(*report)) return;
-    const bool is_news = !last_ || last_->state != report->state || last_->detail != report->detail;
-    last_ = *report;
-    if (is_news) watch_.news(*last_);
-  }
-
-  [[nodiscard]] bool Over(milliseconds since) const {
-    if (!last_) return since > watch_.timeout;
-    // A server may not have what the robot heard itself.
-    const bool robots_word = last_->change > 0 || since > kRobotAnswers;
-    if (mission::HasEnded(last_->state) && robots_word) return true;
-    if (watch_.to_its_end) return false;
-    if (last_->state != mission::State::kSent) return true;
-    return since > std::min(kRobotAnswers, watch_.timeout);
-  }
-  [[nodiscard]] const std::optional<mission::Report>& last() const { return last_; }
-
- private:
-  // Of a server, on what no robot has answered.
-  [[nodiscard]] bool IsLastWord(const mission::Report& report) const {
-    return last_->change == 0 && report.change == 0 && mission::HasEnded(report.state);
-  }
-
-  const mission::Mission& mission_;
-  const SendWatch& watch_;
-  std::optional<mission::Report> last_;
-};
 
 // Page after page, until there are `limit` or no more.
 template <typename Record>
@@ -114,12 +73,16 @@ std::string DrawMissionId() {
 
 Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
                                     const mission::Mission& mission, const SendWatch& watch) {
-  Sending sending(mission, watch);
+  Sending sending(mission);
+  const auto over = [&](milliseconds since) {
+    return watch.to_its_end && sending.last() ? sending.Ended(since)
+                                              : sending.Answered(since, watch.timeout);
+  };
   const auto began = steady_clock::now();
   auto say_at = began;
   while (!watch.stop()) {
     const auto now = steady_clock::now();
-    if (sending.Over(std::chrono::duration_cast<milliseconds>(now - began))) break;
+    if (over(std::chrono::duration_cast<milliseconds>(now - began))) break;
     if (now >= say_at) {
       say_at = now + (sending.last() ? kAgainWatched : kAgain);
       const auto said = exchange.Publish(mission);
@@ -127,7 +90,9 @@ Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
         return tl::unexpected(said.error());
       }
     }
-    for (const exchange::Message& message : exchange.Take(kWait)) sending.Hear(message);
+    for (const exchange::Message& message : exchange.Take(kWait)) {
+      if (sending.Hear(message)) watch.news(*sending.last());
+    }
   }
   if (sending.last()) return *sending.last();
   return Fail(ErrorCode::kUnavailable,

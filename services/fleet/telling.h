@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/exchange/messages.h"
+#include "services/fleet/now_client.h"
+
+namespace trailcast::fleet {
+
+// What an operator tells robots to do now, and what they answer. No I/O, no clock: commands() are
+// to be published, again and again, while everything that is heard goes to Hear.
+class Telling {
+ public:
+  Telling(const AgentId& self, exchange::NowOrder order, std::vector<NowTarget> targets,
+          const std::string& reason);
+
+  [[nodiscard]] const std::vector<exchange::NowCommand>& commands() const { return commands_; }
+  void Hear(const exchange::Message& message);
+  // Of a route or of all it takes a while to hear who is there.
+  [[nodiscard]] bool AllAnswered(std::chrono::milliseconds since) const;
+  // By name. Empty where nobody was heard that is meant.
+  [[nodiscard]] std::vector<RobotsWord> Words() const;
+
+ private:
+  [[nodiscard]] bool Answers(const exchange::NowAnswer& answer) const;
+  [[nodiscard]] bool IsNamed(const std::string& robot) const;
+  [[nodiscard]] bool IsMeant(const exchange::AgentStatus& status) const;
+
+  std::vector<NowTarget> targets_;
+  std::vector<exchange::NowCommand> commands_;
+  std::map<std::string, RobotsWord> words_;
+};
+
+}  // namespace trailcast::fleet
