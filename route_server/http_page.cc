@@ -1,10 +1,9 @@
 #include "route_server/http_page.h"
 
 #include <mutex>
-#include <thread>
 #include <utility>
 
-#include "route_server/http_stream.h"
+#include "services/http/server.h"
 
 namespace trailcast::server {
 
@@ -15,9 +14,8 @@ struct HttpPage::State {
   std::mutex mutex;  // guards the next two
   Shown shown;
   Clock::time_point shown_at = Clock::now();
-  int port = 0;
-  HttpServer server;
-  std::jthread thread;
+  // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
+  http::Server server{{.threads = 2}};
 
   void Answer() {
     server.Get("/metrics", [this](const httplib::Request&, httplib::Response& response) {
@@ -41,35 +39,16 @@ Result<std::unique_ptr<HttpPage>> HttpPage::Open(const std::string& host, int po
                                                  std::chrono::milliseconds stale_after) {
   auto state = std::make_unique<State>();
   state->stale_after = stale_after;
-  // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
-  state->server.new_task_queue = [] { return new httplib::ThreadPool(2); };
-  state->server.set_payload_max_length(0);
   state->Answer();
-  // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
-  state->server.set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  });
-  if (port == 0) {
-    state->port = state->server.bind_to_any_port(host);
-  } else if (state->server.bind_to_port(host, port)) {
-    state->port = port;
+  if (auto listens = state->server.Listen(host, port); !listens) {
+    return tl::unexpected(listens.error());
   }
-  if (state->port <= 0) {
-    return Fail(ErrorCode::kUnavailable,
-                "cannot listen for HTTP on {}:{}; is the port taken, or the address another "
-                "machine's?",
-                host, port);
-  }
-  state->thread = std::jthread([server = &state->server] { server->listen_after_bind(); });
-  // Stopped before it runs, it would run for ever.
-  while (!state->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return std::unique_ptr<HttpPage>(new HttpPage(std::move(state)));
 }
 
 HttpPage::HttpPage(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
-HttpPage::~HttpPage() { state_->server.stop(); }
+HttpPage::~HttpPage() = default;
 
 void HttpPage::Show(Shown shown) {
   const std::scoped_lock lock(state_->mutex);
@@ -77,6 +56,6 @@ void HttpPage::Show(Shown shown) {
   state_->shown_at = Clock::now();
 }
 
-int HttpPage::port() const { return state_->port; }
+int HttpPage::port() const { return state_->server.port(); }
 
 }  // namespace trailcast::server

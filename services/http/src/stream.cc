@@ -1,21 +1,35 @@
-#include "route_server/http_stream.h"
+#include "services/http/src/stream.h"
 
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 
-namespace trailcast::server {
+namespace trailcast::http {
+namespace {
 
-bool HttpStream::WaitFor(short event) const {
-  using std::chrono::milliseconds;
-  const auto left =
-      std::chrono::duration_cast<milliseconds>(until_ - std::chrono::steady_clock::now());
-  pollfd waited{.fd = socket_, .events = event, .revents = 0};
-  return left > milliseconds{0} && poll(&waited, 1, static_cast<int>(left.count())) > 0;
+using std::chrono::milliseconds;
+
+// What of these has come about within `most`.
+short WaitFor(socket_t socket, short events, std::chrono::steady_clock::duration most) {
+  const auto left = std::chrono::duration_cast<milliseconds>(most);
+  pollfd waited{.fd = socket, .events = events, .revents = 0};
+  const bool any = left > milliseconds{0} && poll(&waited, 1, static_cast<int>(left.count())) > 0;
+  return any ? waited.revents : short{0};
 }
 
-ssize_t HttpStream::read(char* to, std::size_t size) {
+}  // namespace
+
+bool Stream::is_readable() const {
+  return WaitFor(socket_, POLLIN, read_until_ - Clock::now()) != 0;
+}
+
+bool Stream::is_writable() const {
+  constexpr short kHungUp = POLLRDHUP | POLLHUP | POLLERR;
+  const short seen = WaitFor(socket_, POLLOUT | POLLRDHUP, write_wait_left_);
+  return (seen & POLLOUT) != 0 && (seen & kHungUp) == 0;
+}
+
+ssize_t Stream::read(char* to, std::size_t size) {
   if (next_ == end_) {
     const std::size_t most = std::min(buffer_.size(), kMostBytes - came_);
     if (most == 0 || !is_readable()) return -1;
@@ -31,17 +45,12 @@ ssize_t HttpStream::read(char* to, std::size_t size) {
   return static_cast<ssize_t>(given);
 }
 
-ssize_t HttpStream::write(const char* from, std::size_t size) {
-  return is_writable() ? send(socket_, from, size, MSG_NOSIGNAL) : -1;
+ssize_t Stream::write(const char* from, std::size_t size) {
+  const auto began = Clock::now();
+  const bool takes = (WaitFor(socket_, POLLOUT, write_wait_left_) & POLLOUT) != 0;
+  write_wait_left_ -= Clock::now() - began;
+  // As much as there is room for, so that no send waits longer.
+  return takes ? send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
 }
 
-bool HttpServer::process_and_close_socket(socket_t socket) {
-  HttpStream stream(socket);
-  bool closed = false;
-  const bool answered = process_request(stream, /*close_connection=*/true, closed, nullptr);
-  (void)shutdown(socket, SHUT_RDWR);
-  (void)close(socket);
-  return answered;
-}
-
-}  // namespace trailcast::server
+}  // namespace trailcast::http

@@ -7,19 +7,23 @@
 #include <chrono>
 #include <string>
 
-namespace trailcast::server {
+namespace trailcast::http {
 
 // One request of a client that may be anybody: no more of it is read than kMostBytes, for no longer
-// than kPatience, whatever it says of its length. The socket is the caller's to close.
-class HttpStream final : public httplib::Stream {
+// than kPatience, whatever it says of its length; and no longer than kWritePatience in all is
+// waited for a client to take its answer. The socket is the caller's to close.
+class Stream final : public httplib::Stream {
  public:
-  static constexpr std::size_t kMostBytes = 64U << 10U;
-  static constexpr std::chrono::milliseconds kPatience{5000};
+  // Of a request: its body and as much again.
+  static constexpr std::size_t kMostBytes = 128U << 10U;
+  static constexpr std::chrono::milliseconds kPatience{5'000};
+  static constexpr std::chrono::milliseconds kWritePatience{20'000};
 
-  explicit HttpStream(socket_t socket) : socket_(socket) {}
+  explicit Stream(socket_t socket) : socket_(socket) {}
 
-  [[nodiscard]] bool is_readable() const override { return WaitFor(POLLIN); }
-  [[nodiscard]] bool is_writable() const override { return WaitFor(POLLOUT); }
+  [[nodiscard]] bool is_readable() const override;
+  // Nor once the client has hung up.
+  [[nodiscard]] bool is_writable() const override;
   ssize_t read(char* to, std::size_t size) override;
   ssize_t write(const char* from, std::size_t size) override;
   void get_remote_ip_and_port(std::string&, int&) const override {}
@@ -27,20 +31,15 @@ class HttpStream final : public httplib::Stream {
   [[nodiscard]] socket_t socket() const override { return socket_; }
 
  private:
-  [[nodiscard]] bool WaitFor(short event) const;
+  using Clock = std::chrono::steady_clock;
 
   socket_t socket_;
-  const std::chrono::steady_clock::time_point until_ = std::chrono::steady_clock::now() + kPatience;
+  const Clock::time_point read_until_ = Clock::now() + kPatience;
+  Clock::duration write_wait_left_ = kWritePatience;
   std::array<char, 4096> buffer_{};  // what came and was not read yet: [next_, end_)
   std::size_t next_ = 0;
   std::size_t end_ = 0;
   std::size_t came_ = 0;
 };
 
-// Answers one request a connection.
-class HttpServer final : public httplib::Server {
- private:
-  bool process_and_close_socket(socket_t socket) override;
-};
-
-}  // namespace trailcast::server
+}  // namespace trailcast::http

@@ -1,14 +1,14 @@
 #include "route_server/http_page.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <array>
 #include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/support/hostile_client.h"
 
 namespace trailcast::server {
 namespace {
@@ -67,38 +67,6 @@ TEST(HttpPage, APortThatIsTakenIsRefused) {
   EXPECT_THAT(second.error().message, testing::HasSubstr("is the port taken"));
 }
 
-// Sends until the other side has had enough; what it answered, and how much it took.
-struct Endless {
-  std::size_t taken = 0;
-  std::string answer;
-};
-Endless SendForEver(int port, const std::string& beginning, const std::string& more) {
-  const int client = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(connect(client, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-  constexpr timeval kBound{.tv_sec = 20, .tv_usec = 0};
-  setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &kBound, sizeof(kBound));
-  setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &kBound, sizeof(kBound));
-  Endless endless;
-  std::string text = beginning;
-  constexpr std::size_t kTooMuch = 64U << 20U;
-  while (endless.taken < kTooMuch) {
-    const ssize_t sent = send(client, text.data(), text.size(), MSG_NOSIGNAL);
-    if (sent <= 0) break;
-    endless.taken += static_cast<std::size_t>(sent);
-    text = more;
-  }
-  std::array<char, 100> bytes{};
-  if (const ssize_t got = recv(client, bytes.data(), bytes.size(), 0); got > 0) {
-    endless.answer.assign(bytes.data(), static_cast<std::size_t>(got));
-  }
-  close(client);
-  return endless;
-}
-
 TEST(HttpPage, RequestsWithoutEndAreCutOff) {
   const auto page = HttpPage::Open("127.0.0.1", 0).value();
   page->Show({""});
@@ -110,7 +78,8 @@ TEST(HttpPage, RequestsWithoutEndAreCutOff) {
            {"GET /health HTTP/1.1\r\n", "X-More: " + std::string(1000, 'x') + "\r\n"},
            {post + "Transfer-Encoding: chunked\r\n\r\n", chunk},
            {post + "Content-Length: 1000000000000\r\n\r\n", std::string(10'000, 'x')}}) {
-    EXPECT_LT(SendForEver(page->port(), beginning, more).taken, kWithSocketBuffers) << beginning;
+    EXPECT_LT(test::RawConnection(page->port()).SendForEver(beginning, more), kWithSocketBuffers)
+        << beginning;
     httplib::Client client("127.0.0.1", page->port());
     const auto got = client.Get("/health");
     ASSERT_TRUE(got) << beginning;

@@ -1,0 +1,62 @@
+#include "services/http/door.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace trailcast::http {
+namespace {
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// "name:port" without its port.
+std::string NameOf(const std::string& host) {
+  const std::size_t colon = host.rfind(':');
+  const bool in_brackets = !host.empty() && host.back() == ']';
+  return colon == std::string::npos || in_brackets ? host : host.substr(0, colon);
+}
+
+bool IsOurs(const std::string& host, const Door& door) {
+  for (const char* name : {"localhost", "127.0.0.1", "[::1]"}) {
+    if (host == fmt::format("{}:{}", name, door.port)) return true;
+    if (door.port == 80 && host == name) return true;
+  }
+  return door.names.contains(NameOf(host));
+}
+
+bool IsJson(const std::string& content_type) {
+  std::string type = content_type.substr(0, content_type.find(';'));
+  while (!type.empty() && type.back() == ' ') type.pop_back();
+  return Lower(type) == "application/json";
+}
+
+}  // namespace
+
+std::optional<Refusal> Judge(const httplib::Request& request, const Door& door) {
+  const std::string host = Lower(request.get_header_value("Host"));
+  if (request.get_header_value_count("Host") != 1 || !IsOurs(host, door)) {
+    return Refusal{421,
+                   "this is not the host that was asked for: use localhost with the port, or "
+                   "start the program with --allowed-host NAME"};
+  }
+  const std::string origin = Lower(request.get_header_value("Origin"));
+  const bool own_origin =
+      origin.empty() || origin == "http://" + host || origin == "https://" + host;
+  const std::string site = request.get_header_value("Sec-Fetch-Site");
+  const bool own_site = site.empty() || site == "same-origin" || site == "none";
+  const bool is_guarded = request.path.starts_with(door.guarded) || request.method != "GET";
+  if (is_guarded && !(own_origin && own_site)) {
+    return Refusal{403, "this comes from another page than this program's own"};
+  }
+  if (request.method == "POST" && !IsJson(request.get_header_value("Content-Type"))) {
+    return Refusal{415, "a POST needs 'Content-Type: application/json'"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace trailcast::http

@@ -1,0 +1,82 @@
+#include "services/http/server.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+
+#include "services/http/src/stream.h"
+#include "services/http/src/workers.h"
+
+namespace trailcast::http {
+namespace {
+
+// cpp-httplib reads such a body without a bound.
+std::optional<Refusal> RefuseUnknownLength(const httplib::Request& request) {
+  if (!request.has_header("Transfer-Encoding")) return std::nullopt;
+  return Refusal{411, "a body has to come with its length, and without Transfer-Encoding"};
+}
+
+void RefuseInText(const Refusal& refusal, httplib::Response& response) {
+  response.status = refusal.status;
+  response.set_content(refusal.why + "\n", "text/plain");
+}
+
+}  // namespace
+
+Server::Server(const Limits& limits) : refuse_(RefuseInText) {
+  new_task_queue = [limits] { return new Workers(limits.threads, limits.waiting); };
+  set_payload_max_length(limits.body_bytes);
+  // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
+  set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    auto refusal = RefuseUnknownLength(request);
+    if (!refusal && judge_) refusal = judge_(request);
+    if (!refusal) return HandlerResponse::Unhandled;
+    refuse_(*refusal, response);
+    return HandlerResponse::Handled;
+  });
+}
+
+Server::~Server() {
+  stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Server::JudgeBy(Judge judge, Refuse refuse) {
+  judge_ = std::move(judge);
+  refuse_ = std::move(refuse);
+}
+
+Result<void> Server::Listen(const std::string& host, int port) {
+  if (port == 0) {
+    port_ = bind_to_any_port(host);
+  } else if (bind_to_port(host, port)) {
+    port_ = port;
+  }
+  if (port_ <= 0) {
+    return Fail(ErrorCode::kUnavailable,
+                "cannot listen for HTTP on {}:{}; is the port taken, or the address another "
+                "machine's?",
+                host, port);
+  }
+  thread_ = std::thread([this] { listen_after_bind(); });
+  // Stopped before it runs, it would run for ever.
+  while (!is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return {};
+}
+
+bool Server::process_and_close_socket(socket_t socket) {
+  Stream stream(socket);
+  bool closed = false;
+  const bool answered = process_request(stream, /*close_connection=*/true, closed, nullptr);
+  (void)shutdown(socket, SHUT_RDWR);
+  (void)close(socket);
+  return answered;
+}
+
+}  // namespace trailcast::http

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <string>
+
+namespace trailcast::test {
+
+// A connection to a port of this machine, as nobody's HTTP library would have it.
+class RawConnection {
+ public:
+  explicit RawConnection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    constexpr timeval kBound{.tv_sec = 20, .tv_usec = 0};
+    setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &kBound, sizeof(kBound));
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kBound, sizeof(kBound));
+    EXPECT_EQ(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  }
+  ~RawConnection() { close(socket_); }
+  RawConnection(const RawConnection&) = delete;
+  RawConnection& operator=(const RawConnection&) = delete;
+
+  // How much of it was taken.
+  std::size_t Send(const std::string& text) const {
+    const ssize_t sent = send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
+    return sent > 0 ? static_cast<std::size_t>(sent) : 0;
+  }
+  // Sends `beginning`, and `more` again and again until the other side has had enough; how much it
+  // took.
+  std::size_t SendForEver(const std::string& beginning, const std::string& more) const {
+    constexpr std::size_t kTooMuch = 200U << 20U;
+    std::size_t taken = Send(beginning);
+    while (taken < kTooMuch) {
+      const std::size_t sent = Send(more);
+      if (sent == 0) break;
+      taken += sent;
+    }
+    return taken;
+  }
+  [[nodiscard]] std::string Receive() const {
+    std::array<char, 4096> bytes{};
+    const ssize_t got = recv(socket_, bytes.data(), bytes.size(), 0);
+    return got > 0 ? std::string(bytes.data(), static_cast<std::size_t>(got)) : "";
+  }
+
+ private:
+  int socket_;
+};
+
+// Of this process.
+inline std::size_t ResidentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t pages = 0;
+  statm >> pages >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace trailcast::test

@@ -1,0 +1,111 @@
+#include "services/http/server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/hostile_client.h"
+
+namespace trailcast::http {
+namespace {
+
+using test::RawConnection;
+using testing::HasSubstr;
+
+class HttpServerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    server_.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content("hello", "text/plain");
+    });
+    server_.Post("/length", [](const httplib::Request& request, httplib::Response& response) {
+      response.set_content(std::to_string(request.body.size()), "text/plain");
+    });
+    ASSERT_TRUE(server_.Listen("127.0.0.1", 0));
+  }
+  [[nodiscard]] int Hello() {
+    httplib::Client client("127.0.0.1", server_.port());
+    client.set_read_timeout(20);
+    const auto got = client.Get("/hello");
+    return got ? got->status : 0;
+  }
+
+  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U}};
+};
+
+TEST_F(HttpServerTest, TakesBodiesUpToItsBound) {
+  httplib::Client client("127.0.0.1", server_.port());
+  const auto all = client.Post("/length", std::string(64U << 10U, 'x'), "text/plain");
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->body, "65536");
+  const auto more = client.Post("/length", std::string((64U << 10U) + 1, 'x'), "text/plain");
+  if (more) {
+    EXPECT_EQ(more->status, 413);
+  }
+}
+
+TEST_F(HttpServerTest, WhatIsJudgedIsRefusedBeforeItsBodyIsRead) {
+  Server judged({.body_bytes = 1000});
+  judged.Post("/length", [](const httplib::Request&, httplib::Response&) { FAIL(); });
+  judged.JudgeBy(
+      [](const httplib::Request&) {
+        return Refusal{403, "not you"};
+      },
+      [](const Refusal& refusal, httplib::Response& response) {
+        response.status = refusal.status;
+        response.set_content(refusal.why, "text/plain");
+      });
+  ASSERT_TRUE(judged.Listen("127.0.0.1", 0));
+  const RawConnection client(judged.port());
+  client.Send("POST /length HTTP/1.1\r\nHost: x\r\nContent-Length: 900\r\n\r\n");
+  const std::string answer = client.Receive();
+  EXPECT_THAT(answer, HasSubstr("403"));
+}
+
+// A chunked body of 200 MB, an endless request line and the like cost next to nothing.
+TEST_F(HttpServerTest, RequestsWithoutEndTakeNoMemory) {
+  ASSERT_EQ(Hello(), 200);
+  const std::size_t before = test::ResidentBytes();
+  const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
+  const std::string post = "POST /length HTTP/1.1\r\nHost: x\r\n";
+  constexpr std::size_t kWithSocketBuffers = 16U << 20U;
+  for (const auto& [beginning, more] : std::vector<std::pair<std::string, std::string>>{
+           {"GET /", std::string(100'000, 'x')},
+           {"GET /hello HTTP/1.1\r\n", "X-More: " + std::string(1000, 'x') + "\r\n"},
+           {post + "Transfer-Encoding: chunked\r\n\r\n", chunk},
+           {"GET /hello HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n", chunk},
+           {post + "Transfer-Encoding: gzip\r\nContent-Length: 70000\r\n\r\n", chunk},
+           {post + "Content-Length: 1000000000000\r\n\r\n", std::string(100'000, 'x')}}) {
+    EXPECT_LT(RawConnection(server_.port()).SendForEver(beginning, more), kWithSocketBuffers)
+        << beginning;
+    EXPECT_EQ(Hello(), 200) << beginning;
+  }
+  EXPECT_LT(test::ResidentBytes(), before + (16U << 20U));
+}
+
+TEST_F(HttpServerTest, ABodyOfUnknownLengthIsRefused) {
+  const RawConnection client(server_.port());
+  client.Send("POST /length HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n");
+  EXPECT_THAT(client.Receive(), HasSubstr(" 411 "));
+}
+
+// Who connects and says nothing has its thread for five seconds, and the rest waits its turn.
+TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
+  std::vector<std::unique_ptr<RawConnection>> silent;
+  for (int i = 0; i < 6; ++i) silent.push_back(std::make_unique<RawConnection>(server_.port()));
+  EXPECT_EQ(Hello(), 200);
+  for (const auto& client : silent) EXPECT_EQ(client->Receive(), "") << "it was hung up on";
+}
+
+TEST_F(HttpServerTest, APortThatIsTakenIsRefused) {
+  Server second{Limits{}};
+  const auto listens = second.Listen("127.0.0.1", server_.port());
+  ASSERT_FALSE(listens);
+  EXPECT_EQ(listens.error().code, ErrorCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace trailcast::http
