@@ -6,7 +6,7 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 set(modules "${CMAKE_INSTALL_LIBDIR}/trailcast")
 install(TARGETS trailcast-agent COMPONENT agent)
 install(TARGETS trailcast-server COMPONENT server)
-install(TARGETS trailcast COMPONENT tools)
+install(TARGETS trailcast trailcast-console COMPONENT tools)
 install(TARGETS trailcast_codecs trailcast_simulated_module LIBRARY DESTINATION "${modules}"
                                                             COMPONENT tools)
 install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/system

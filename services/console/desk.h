@@ -1,0 +1,107 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/console/fleet_state.h"
+#include "services/exchange/route_exchange.h"
+#include "services/fleet/now_client.h"
+
+namespace trailcast::console {
+
+class Errand;
+
+// What the console reads and writes.
+[[nodiscard]] exchange::TopicUse ConsoleTopics();
+
+// The console's place in the fleet: a thread that owns the exchange, keeps the state, and does what
+// others ask of it. Its methods may be called from any thread; they wait for what they return.
+class Desk {
+ public:
+  struct Options {
+    std::chrono::milliseconds answer_within{3000};  // robots
+    std::chrono::milliseconds reply_within{5000};  // robots and servers, to a mission or a question
+    std::chrono::milliseconds ask_every{3000};     // servers, while somebody looks
+  };
+  // Asked at once beyond what stops robots: more are refused.
+  static constexpr std::size_t kMostErrands = 16;
+  static constexpr std::size_t kMostStops = 64;
+  // The state is told at most so often.
+  static constexpr std::chrono::milliseconds kNewsEvery{200};
+
+  Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options);
+  Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange)
+      : Desk(std::move(self), std::move(exchange), Options{}) {}
+  ~Desk();
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+
+  // What each robot answered, as fleet::TellRobots has it. kUnavailable: nobody was heard that is
+  // meant, or too much is asked at once; a stop has room of its own and goes before all else.
+  [[nodiscard]] Result<std::vector<fleet::RobotsWord>> Tell(exchange::NowOrder order,
+                                                            const fleet::NowTarget& target,
+                                                            const std::string& reason);
+  // Its client is filled in. As fleet::SendMission: what is known of it first.
+  [[nodiscard]] Result<mission::Report> Send(mission::Mission mission);
+  // A page of what servers keep, the newest first.
+  [[nodiscard]] Result<std::vector<mission::Record>> Missions(const mission::Query& query);
+
+  struct News {
+    std::uint64_t number = 0;  // counts up from 1
+    std::string state{};       // FleetState::Json
+  };
+  // The latest, once that is newer than `number`; null when nothing has changed within `most`, or
+  // the desk is closed. Who asks looks: what servers keep is asked for.
+  [[nodiscard]] std::shared_ptr<const News> See(std::uint64_t number,
+                                                std::chrono::milliseconds most);
+
+  // Nothing is taken on any more, and whoever waits is let go.
+  void Close();
+  [[nodiscard]] bool closed();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void Run();
+  // False: it is one too many.
+  [[nodiscard]] bool Take(std::shared_ptr<Errand> errand, bool is_stop);
+  void Begin();
+  void Say(Clock::time_point now);
+  void Hear(const exchange::Message& message, Clock::time_point now);
+  void AskServers(Clock::time_point now);
+  void ShowNews(Clock::time_point now);
+
+  const AgentId self_;
+  const Options options_;
+
+  // The thread's own.
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+  FleetState state_;
+  std::vector<std::shared_ptr<Errand>> errands_;
+  Clock::time_point asked_at_{};
+  Clock::time_point ask_at_{};
+  Clock::time_point show_at_{};
+
+  std::mutex mutex_;  // guards what follows
+  bool closed_ = false;
+  std::deque<std::shared_ptr<Errand>> stops_;
+  std::deque<std::shared_ptr<Errand>> others_;
+  std::size_t under_way_ = 0;  // of the others, those that wait included
+  std::shared_ptr<const News> news_;
+  Clock::time_point looked_at_{};
+  std::condition_variable changed_;
+
+  std::thread thread_;
+};
+
+}  // namespace trailcast::console

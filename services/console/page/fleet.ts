@@ -1,0 +1,64 @@
+import { useEffect, useState } from 'react';
+import type { Fleet } from './api';
+
+// The console speaks every five seconds at least.
+const kLost_ms = 12000;
+
+export type View = {
+  fleet: Fleet | null;
+  lost: boolean;   // this page hears nothing of the console
+  now_ms: number;  // by the console's clock
+  heard_ms: number;
+};
+
+export function useFleet(): View {
+  const [fleet, setFleet] = useState<Fleet | null>(null);
+  const [offset_ms, setOffset] = useState(0);
+  const [heard_ms, setHeard] = useState(Date.now());
+  const [open, setOpen] = useState(true);
+  const [now_ms, setNow] = useState(Date.now());
+
+  useEffect(() => {
+    let source: EventSource | null = null;
+    let again: number | undefined;
+    const heard = (console_ms: number) => {
+      setOpen(true);
+      setHeard(Date.now());
+      setOffset(console_ms - Date.now());
+    };
+    const connect = () => {
+      source = new EventSource('/api/events');
+      source.addEventListener('state', (event) => {
+        const state = JSON.parse((event as MessageEvent).data) as Fleet;
+        setFleet(state);
+        heard(state.now_unix_ms);
+      });
+      source.addEventListener('alive', (event) => {
+        heard(JSON.parse((event as MessageEvent).data).now_unix_ms);
+      });
+      source.onerror = () => {
+        setOpen(false);
+        // After a refusal, as of too many pages, a browser does not try again by itself.
+        if (source?.readyState === EventSource.CLOSED) again = window.setTimeout(connect, 2000);
+      };
+    };
+    connect();
+    const clock = window.setInterval(() => setNow(Date.now()), 1000);
+    return () => {
+      source?.close();
+      window.clearTimeout(again);
+      window.clearInterval(clock);
+    };
+  }, []);
+
+  const lost = !open || now_ms - heard_ms > kLost_ms;
+  return { fleet, lost, now_ms: now_ms + offset_ms, heard_ms: heard_ms + offset_ms };
+}
+
+export function age(ms: number): string {
+  const s = Math.max(0, Math.round(ms / 1000));
+  if (s < 100) return `${s} s`;
+  if (s < 6000) return `${Math.round(s / 60)} min`;
+  if (s < 172800) return `${Math.round(s / 3600)} h`;
+  return `${Math.round(s / 86400)} d`;
+}

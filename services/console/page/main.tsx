@@ -1,0 +1,89 @@
+import { useState } from 'react';
+import { createRoot } from 'react-dom/client';
+import { stopAll, type Answer, type Robot } from './api';
+import { age, useFleet } from './fleet';
+import { Missions } from './missions';
+import { Badge, RobotCard } from './robot';
+
+function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
+  const needing = robots.filter((robot) => robot.needs_person);
+  if (needing.length === 0) return null;
+  return (
+    <section className="attention" aria-label="Needs a person">
+      <h2>Needs a person</h2>
+      <ul>
+        {needing.map((robot) => (
+          <li key={robot.name}>
+            <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
+            {robot.last_heard_unix_ms !== null ? `last heard ${age(now_ms - robot.last_heard_unix_ms)} ago, in the middle of a mission` : robot.detail}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function Page() {
+  const { fleet, lost, now_ms, heard_ms } = useFleet();
+  const [answer, setAnswer] = useState<Answer | null>(null);
+  const robots = fleet?.robots ?? [];
+  const servers = fleet?.servers ?? [];
+  const stop = async () => {
+    setAnswer({ ok: true, text: 'Stop: told to all …' });
+    setAnswer(await stopAll());
+  };
+  return (
+    <>
+      <header className="top">
+        <h1>Trailcast</h1>
+        <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>
+      </header>
+      <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
+        {answer && (answer.ok ? '' : '⚠ ') + answer.text}
+      </p>
+      {lost && (
+        <p className="banner" role="alert">
+          ⚠ This page has lost its console. What it shows is from {age(now_ms - heard_ms)} ago, and
+          Stop does not reach the robots.
+        </p>
+      )}
+      {fleet && !lost && !servers.some((server) => server.heard) && (
+        <p className="banner" role="alert">
+          ⚠ No route server is heard: no routes to choose from, nothing is kept, and only robots in
+          direct reach hear this console.
+        </p>
+      )}
+      <main>
+        <Attention robots={robots} now_ms={now_ms} />
+        <section aria-label="Robots" className="robots">
+          {fleet && robots.length === 0 && (
+            <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
+          )}
+          {robots.map((robot) => (
+            <RobotCard key={robot.name} robot={robot} routes={fleet!.routes} now_ms={now_ms} />
+          ))}
+        </section>
+        <section aria-label="Missions">
+          <h2>Missions</h2>
+          <Missions missions={fleet?.missions ?? []} now_ms={now_ms} />
+        </section>
+      </main>
+      <footer>
+        <p id="stop-help">
+          Stop has a robot stand, also after a restart, until it is released. <strong>It is no
+          emergency stop:</strong> a robot that is out of reach drives on. Use the red button on the robot.
+        </p>
+        <p>
+          {servers.map((server) => (
+            <span key={server.name}>
+              Route server <strong>{server.name}</strong>: {server.last_heard_unix_ms === null ? 'heard' : `silent for ${age(now_ms - server.last_heard_unix_ms)}`}.{' '}
+            </span>
+          ))}
+          <a href="/api/openapi.yaml">For programs</a>
+        </p>
+      </footer>
+    </>
+  );
+}
+
+createRoot(document.getElementById('page')!).render(<Page />);

@@ -1,0 +1,27 @@
+import type { Mission } from './api';
+import { age } from './fleet';
+
+export function Missions({ missions, now_ms }: { missions: Mission[]; now_ms: number }) {
+  if (missions.length === 0) return <p className="note">No robot was sent anywhere yet.</p>;
+  return (
+    <table>
+      <thead>
+        <tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Why</th><th>By</th></tr>
+      </thead>
+      <tbody>
+        {missions.map((each) => (
+          <tr key={`${each.robot} ${each.mission}`} className={each.state.replace(' ', '-')}>
+            <td data-label="Sent" title={new Date(each.sent_unix_ms).toLocaleString()}>
+              {age(now_ms - each.sent_unix_ms)} ago
+            </td>
+            <td data-label="Robot">{each.robot}</td>
+            <td data-label="Orders">{each.orders || '(not told)'}</td>
+            <td data-label="State"><strong>{each.state}</strong></td>
+            <td data-label="Why">{each.detail}</td>
+            <td data-label="By">{each.sent_by}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}

@@ -1,0 +1,111 @@
+import { useState } from 'react';
+import { tell, type Answer, type Order, type Robot, type RobotState, type Route } from './api';
+import { age } from './fleet';
+import { Send } from './send';
+
+const words: Record<RobotState, string> = {
+  silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
+  waiting: 'Waiting', teaching: 'Teaching', driving: 'Driving', arrived: 'Arrived', ended: 'Ended',
+  fault: 'Fault',
+};
+
+// A shape each, so that colour is not needed to tell them apart.
+const shapes: Record<RobotState, string> = {
+  silent: 'M3 3 13 13M13 3 3 13', stopped: 'M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z',
+  paused: 'M4 3h3v10H4zM9 3h3v10H9z', starting: 'M8 3v5l3 3', free: 'M3 8h10',
+  waiting: 'M4 2h8L8 8l4 6H4l4-6z', teaching: 'M3 13 4 9l7-7 3 3-7 7z', driving: 'M4 2l9 6-9 6z',
+  arrived: 'M2 8l4 4 8-8', ended: 'M4 4h8v8H4z', fault: 'M8 2l7 12H1z',
+};
+
+export function Badge({ state }: { state: RobotState }) {
+  const filled = ['stopped', 'paused', 'driving', 'fault'].includes(state);
+  return (
+    <span className={`badge ${state}`}>
+      <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
+      {words[state]}
+    </span>
+  );
+}
+
+function Strip({ robot }: { robot: Robot }) {
+  const metres = robot.along_m !== null && robot.length_m ? robot.along_m / robot.length_m : null;
+  const share = Math.min(1, Math.max(0, metres ?? robot.progress));
+  const done = `${(2 + 96 * share).toFixed(1)}%`;
+  const text = metres !== null
+    ? `${robot.along_m!.toFixed(1)} of ${robot.length_m!.toFixed(1)} m`
+    : robot.along_m !== null ? `${robot.along_m.toFixed(1)} m` : `${Math.round(100 * share)} %`;
+  return (
+    <div className="strip">
+      <svg role="img" aria-label={`${text} along ${robot.route}`} height="20" width="100%">
+        <line className="way" x1="2%" x2="98%" y1="10" y2="10" />
+        <line className="done" x1="2%" x2={done} y1="10" y2="10" />
+        <rect className="end" x="97%" y="3" width="4" height="14" />
+        <circle cx={done} cy="10" r="7" />
+      </svg>
+      <span>{robot.route}: {text}{robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}</span>
+    </div>
+  );
+}
+
+const labels: Record<Order, string> = {
+  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release',
+};
+
+export function RobotCard({ robot, routes, now_ms }: {
+  robot: Robot;
+  routes: Route[];
+  now_ms: number;
+}) {
+  const [answer, setAnswer] = useState<Answer | null>(null);
+  const [sending, setSending] = useState(false);
+  const order = async (given: Order) => {
+    setAnswer({ ok: true, text: `${labels[given]}: told …` });
+    setAnswer(await tell(robot.name, given));
+  };
+  const sent = (to: Answer | null) => {
+    setAnswer(to ?? { ok: true, text: 'Sent …' });
+    if (to?.ok) setSending(false);
+  };
+  const obeys = robot.role === 'follower';
+  const others = robot.orders.filter((each) => each !== 'stop');
+  const mission = robot.mission;
+  const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);
+  return (
+    <article id={`robot-${robot.name}`} className={robot.heard ? '' : 'unheard'} aria-label={robot.name}>
+      <header>
+        <h2>{robot.name}</h2>
+        <Badge state={robot.state} />
+        {obeys && (
+          <button className="stop" onClick={() => order('stop')} aria-describedby="stop-help"
+            title="Stands until it is released. No emergency stop.">
+            <svg viewBox="0 0 16 16" aria-hidden="true"><path d={shapes.stopped} /></svg>Stop
+            <span className="hidden"> {robot.name}</span>
+          </button>
+        )}
+      </header>
+      {robot.last_heard_unix_ms !== null && (
+        <p className="last-heard">Last heard {age(now_ms - robot.last_heard_unix_ms)} ago; what follows is from then.</p>
+      )}
+      {robot.detail && robot.detail !== 'free' && <p className="detail">{robot.detail}</p>}
+      {robot.route && <Strip robot={robot} />}
+      {mission && (
+        <p className="mission">
+          Mission <code>{mission.mission}</code> of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'}
+          {' '}– <strong>{mission.state}</strong>
+        </p>
+      )}
+      {obeys && (
+        <div className="orders">
+          {others.map((each) => (
+            <button key={each} onClick={() => order(each)}>{labels[each]}</button>
+          ))}
+          {maySend && <button aria-expanded={sending} onClick={() => setSending(!sending)}>Send …</button>}
+        </div>
+      )}
+      {obeys && sending && maySend && <Send robot={robot.name} routes={routes} onAnswer={sent} />}
+      <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
+        {answer && (answer.ok ? '' : '⚠ ') + answer.text}
+      </p>
+    </article>
+  );
+}

@@ -1,0 +1,302 @@
+#include "services/console/desk.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "services/base/unix_time.h"
+#include "services/console/src/errand.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/sending.h"
+#include "services/fleet/telling.h"
+
+namespace trailcast::console {
+namespace {
+
+using exchange::Topic;
+using std::chrono::milliseconds;
+
+// A word that waits for the thread waits for this at most.
+constexpr milliseconds kTakeWait{10};
+constexpr milliseconds kSayAgain{200};
+// Servers, of what was heard of just now.
+constexpr milliseconds kAskAgain{1000};
+// Somebody who looked so lately looks on.
+constexpr milliseconds kLooksOn{10'000};
+// Beyond an errand's own time: the thread itself does not run.
+constexpr milliseconds kGrace{3000};
+
+class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
+ public:
+  TellErrand(const AgentId& self, exchange::NowOrder order, const fleet::NowTarget& target,
+             const std::string& reason, milliseconds timeout)
+      : telling_(self, order, {target}, reason), timeout_(timeout) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override {
+    return {telling_.commands().begin(), telling_.commands().end()};
+  }
+  void Hear(const exchange::Message& message) override { telling_.Hear(message); }
+  [[nodiscard]] bool IsOver(milliseconds since) const override {
+    return since > timeout_ || telling_.AllAnswered(since);
+  }
+
+ private:
+  [[nodiscard]] Result<std::vector<fleet::RobotsWord>> Outcome() const override {
+    auto words = telling_.Words();
+    if (words.empty()) return Fail(ErrorCode::kUnavailable, "no robot is heard");
+    return words;
+  }
+
+  fleet::Telling telling_;
+  milliseconds timeout_;
+};
+
+class SendErrand final : public ErrandFor<mission::Report> {
+ public:
+  SendErrand(mission::Mission mission, milliseconds timeout)
+      : sending_(std::move(mission)), timeout_(timeout) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override {
+    return {sending_.mission()};
+  }
+  void Hear(const exchange::Message& message) override { (void)sending_.Hear(message); }
+  [[nodiscard]] bool IsOver(milliseconds since) const override {
+    return sending_.Answered(since, timeout_);
+  }
+
+ private:
+  [[nodiscard]] Result<mission::Report> Outcome() const override {
+    if (sending_.last()) return *sending_.last();
+    return Fail(ErrorCode::kUnavailable,
+                "neither {} nor a route server answered: robots take missions while "
+                "'trailcast-agent serve' runs",
+                sending_.mission().agent.value());
+  }
+
+  fleet::Sending sending_;
+  milliseconds timeout_;
+};
+
+class MissionsErrand final : public ErrandFor<std::vector<mission::Record>> {
+ public:
+  MissionsErrand(exchange::MissionRequest request, milliseconds timeout)
+      : request_(std::move(request)), timeout_(timeout) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {request_}; }
+  void Hear(const exchange::Message& message) override {
+    const auto* reply = std::get_if<exchange::MissionReply>(&message);
+    if (reply == nullptr || reply->client != request_.client) return;
+    if (reply->request == request_.request) reply_ = *reply;
+  }
+  [[nodiscard]] bool IsOver(milliseconds since) const override {
+    return reply_.has_value() || since > timeout_;
+  }
+
+ private:
+  [[nodiscard]] Result<std::vector<mission::Record>> Outcome() const override {
+    if (!reply_) return Fail(ErrorCode::kUnavailable, "no route server answers");
+    if (!reply_->error.empty()) {
+      return Fail(ErrorCode::kUnavailable, "server {}: {}", reply_->server.value(), reply_->error);
+    }
+    return reply_->missions;
+  }
+
+  exchange::MissionRequest request_;
+  milliseconds timeout_;
+  std::optional<exchange::MissionReply> reply_;
+};
+
+std::uint64_t DrawnNumber() {
+  std::random_device random;
+  return std::uniform_int_distribution<std::uint64_t>(1)(random);
+}
+
+template <typename Reply>
+Result<Reply> Await(std::future<Result<Reply>> future, milliseconds timeout) {
+  if (future.wait_for(timeout + kGrace) == std::future_status::ready) return future.get();
+  return Fail(ErrorCode::kUnavailable, "the console's link to the fleet hangs");
+}
+
+tl::unexpected<Error> TooMuch() {
+  return Fail(ErrorCode::kUnavailable, "the console has too much to do: try again in a moment");
+}
+
+}  // namespace
+
+exchange::TopicUse ConsoleTopics() {
+  return {
+      .write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests},
+      .read = {Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates, Topic::kMissionReplies,
+               Topic::kCatalogReplies}};
+}
+
+Desk::Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
+    : self_(std::move(self)),
+      options_(options),
+      exchange_(std::move(exchange)),
+      state_(self_),
+      thread_([this] { Run(); }) {}
+
+Desk::~Desk() {
+  Close();
+  thread_.join();
+}
+
+void Desk::Close() {
+  {
+    const std::scoped_lock lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+Result<std::vector<fleet::RobotsWord>> Desk::Tell(exchange::NowOrder order,
+                                                  const fleet::NowTarget& target,
+                                                  const std::string& reason) {
+  auto errand = std::make_shared<TellErrand>(self_, order, target, reason, options_.answer_within);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), order == exchange::NowOrder::kStop)) return TooMuch();
+  return Await(std::move(future), options_.answer_within);
+}
+
+Result<mission::Report> Desk::Send(mission::Mission mission) {
+  mission.client = self_;
+  auto errand = std::make_shared<SendErrand>(std::move(mission), options_.reply_within);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), false)) return TooMuch();
+  return Await(std::move(future), options_.reply_within);
+}
+
+Result<std::vector<mission::Record>> Desk::Missions(const mission::Query& query) {
+  auto errand = std::make_shared<MissionsErrand>(
+      exchange::MissionRequest{.client = self_, .request = DrawnNumber(), .query = query},
+      options_.reply_within);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), false)) return TooMuch();
+  return Await(std::move(future), options_.reply_within);
+}
+
+bool Desk::Take(std::shared_ptr<Errand> errand, bool is_stop) {
+  const std::scoped_lock lock(mutex_);
+  if (closed_) return false;
+  errand->is_stop = is_stop;
+  if (is_stop) {
+    if (stops_.size() >= kMostStops) return false;
+    stops_.push_back(std::move(errand));
+    return true;
+  }
+  if (under_way_ >= kMostErrands) return false;
+  ++under_way_;
+  others_.push_back(std::move(errand));
+  return true;
+}
+
+std::shared_ptr<const Desk::News> Desk::See(std::uint64_t number, milliseconds most) {
+  std::unique_lock lock(mutex_);
+  looked_at_ = Clock::now();
+  changed_.wait_for(lock, most, [&] { return closed_ || (news_ && news_->number > number); });
+  return news_ && news_->number > number && !closed_ ? news_ : nullptr;
+}
+
+bool Desk::closed() {
+  const std::scoped_lock lock(mutex_);
+  return closed_;
+}
+
+void Desk::Run() {
+  while (!closed()) {
+    Begin();
+    Say(Clock::now());
+    AskServers(Clock::now());
+    const std::vector<exchange::Message> heard = exchange_->Take(kTakeWait);
+    const auto now = Clock::now();
+    for (const exchange::Message& message : heard) Hear(message, now);
+    ShowNews(now);
+  }
+  Begin();
+  for (const auto& errand : errands_) {
+    errand->GiveUp({ErrorCode::kUnavailable, "the console ends"});
+  }
+}
+
+// A stop is said before anything else.
+void Desk::Begin() {
+  std::deque<std::shared_ptr<Errand>> stops;
+  std::deque<std::shared_ptr<Errand>> others;
+  {
+    const std::scoped_lock lock(mutex_);
+    stops.swap(stops_);
+    others.swap(others_);
+  }
+  const auto now = Clock::now();
+  for (const auto& errand : stops) errand->began = now;
+  for (const auto& errand : others) errand->began = now;
+  errands_.insert(errands_.begin(), stops.begin(), stops.end());
+  errands_.insert(errands_.end(), others.begin(), others.end());
+}
+
+void Desk::Say(Clock::time_point now) {
+  for (const auto& errand : errands_) {
+    if (now < errand->say_at) continue;
+    errand->say_at = now + kSayAgain;
+    for (const exchange::Message& word : errand->Words()) {
+      // What could not be handed over is said again.
+      (void)exchange_->Publish(word);
+      if (const auto* mission = std::get_if<mission::Mission>(&word)) {
+        state_.Sent(*mission, NowUnixMs());
+      }
+    }
+  }
+  std::size_t others_over = 0;
+  std::erase_if(errands_, [&](const std::shared_ptr<Errand>& errand) {
+    if (!errand->IsOver(std::chrono::duration_cast<milliseconds>(now - errand->began)))
+      return false;
+    errand->Finish();
+    if (!errand->is_stop) ++others_over;
+    return true;
+  });
+  const std::scoped_lock lock(mutex_);
+  under_way_ -= others_over;
+}
+
+void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
+  state_.Handle(message, now, NowUnixMs());
+  for (const auto& errand : errands_) errand->Hear(message);
+}
+
+void Desk::AskServers(Clock::time_point now) {
+  bool looked = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    looked = looked_at_ != Clock::time_point{} && now < looked_at_ + kLooksOn;
+  }
+  if (!looked || now < ask_at_) return;
+  asked_at_ = now;
+  ask_at_ = now + options_.ask_every;
+  mission::Query latest;
+  latest.page_size = static_cast<std::uint32_t>(FleetState::kMissionsShown);
+  route::RouteQuery routes;
+  routes.standing = route::Standing::kActive;
+  routes.order = route::RouteOrder::kName;
+  routes.page_size = static_cast<std::uint32_t>(exchange::kMaxRoutesPerReply);
+  // What is lost is asked for the next time.
+  (void)exchange_->Publish(
+      exchange::MissionRequest{.client = self_, .request = DrawnNumber(), .query = latest});
+  (void)exchange_->Publish(exchange::CatalogRequest{self_, DrawnNumber(), routes});
+}
+
+void Desk::ShowNews(Clock::time_point now) {
+  if (now < show_at_) return;
+  show_at_ = now + kNewsEvery;
+  state_.Tick(now);
+  if (state_.lacks_orders()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
+  std::string state = state_.Json();
+  {
+    const std::scoped_lock lock(mutex_);
+    if (news_ && news_->state == state) return;
+    news_ = std::make_shared<const News>(News{news_ ? news_->number + 1 : 1, std::move(state)});
+  }
+  changed_.notify_all();
+}
+
+}  // namespace trailcast::console

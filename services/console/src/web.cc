@@ -1,0 +1,226 @@
+#include "services/console/web.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "services/base/unix_time.h"
+#include "services/console/json.h"
+#include "services/console/src/files.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/mission_client.h"
+
+namespace trailcast::console {
+namespace {
+
+using exchange::NowOrder;
+using exchange::NowWhom;
+using httplib::Request;
+using httplib::Response;
+
+constexpr const char* kJson = "application/json; charset=utf-8";
+// How soon a stream notices that its page is gone.
+constexpr std::chrono::milliseconds kLook{1000};
+constexpr std::size_t kMostBody = 64U << 10U;
+
+constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume, NowOrder::kCancel,
+                             NowOrder::kStop, NowOrder::kRelease};
+
+void Answer(Response& response, int status, const std::string& json) {
+  response.status = status;
+  response.set_header("Cache-Control", "no-store");
+  response.set_content(json, kJson);
+}
+
+void Refuse(Response& response, int status, const std::string& why) {
+  Answer(response, status, ErrorBody(why));
+}
+
+int StatusOf(const fleet::RobotsWord& word) {
+  if (!word.answered) return 504;
+  return word.refused ? 409 : 200;
+}
+
+std::string WithTime(const std::string& state) {
+  return fmt::format("{{\"now_unix_ms\":{},{}", NowUnixMs(), state.substr(1));
+}
+
+std::optional<std::uint32_t> NumberIn(const std::string& text) {
+  std::uint32_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && at == end ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+Web::Web(Desk& desk)
+    : desk_(desk),
+      // A thread for each stream, and for each errand that waits for its answer; stops have enough
+      // left.
+      server_({.threads = kMostStreams + Desk::kMostErrands + 16, .body_bytes = kMostBody}) {
+  server_.set_default_headers({{"Content-Security-Policy",
+                                "default-src 'self'; base-uri 'none'; form-action 'none'; "
+                                "frame-ancestors 'none'"},
+                               {"X-Content-Type-Options", "nosniff"},
+                               {"X-Frame-Options", "DENY"},
+                               {"Referrer-Policy", "no-referrer"},
+                               {"Cross-Origin-Resource-Policy", "same-origin"}});
+  server_.set_error_handler([](const Request&, Response& response) {
+    if (response.body.empty())
+      Refuse(response, response.status, "there is nothing of this kind here");
+  });
+  server_.JudgeBy([this](const Request& request) { return http::Judge(request, door_); },
+                  [](const http::Refusal& refusal, Response& response) {
+                    Refuse(response, refusal.status, refusal.why);
+                  });
+  ServeFiles();
+  ServeState();
+  ServeOrders();
+  ServeMissions();
+}
+
+Result<std::unique_ptr<Web>> Web::Open(Desk& desk, const std::string& host, int port,
+                                       std::set<std::string> names) {
+  std::unique_ptr<Web> web(new Web(desk));
+  web->door_.names = std::move(names);
+  web->door_.port = port;
+  // Nobody knows a port yet that the system chooses.
+  if (auto listens = web->server_.Listen(host, port); !listens) {
+    return tl::unexpected(listens.error());
+  }
+  web->door_.port = web->port();
+  return web;
+}
+
+void Web::ServeFiles() {
+  for (const File& file : Files()) {
+    server_.Get(file.path, [&file](const Request& request, Response& response) {
+      response.set_header("ETag", file.tag);
+      response.set_header("Cache-Control", "no-cache");
+      if (request.get_header_value("If-None-Match") == file.tag) {
+        response.status = 304;
+        return;
+      }
+      // Not by set_content, which compresses anew for each.
+      response.set_content_provider(
+          file.bytes.size(), file.type,
+          [&file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            return sink.write(file.bytes.data() + offset, length);
+          });
+    });
+  }
+}
+
+void Web::ServeState() {
+  server_.Get("/api/state", [this](const Request&, Response& response) {
+    const auto news = desk_.See(0, kLook);
+    if (!news) return Refuse(response, 503, "nothing is known yet");
+    Answer(response, 200, WithTime(news->state));
+  });
+  server_.Get("/api/events", [this](const Request&, Response& response) { Stream(response); });
+}
+
+void Web::Stream(Response& response) {
+  // Counted until the last copy of what writes the stream is gone.
+  const std::shared_ptr<void> seat(nullptr, [this](void*) { --streams_; });
+  if (++streams_ > kMostStreams) {
+    response.set_header("Retry-After", "5");
+    return Refuse(response, 503, "too many pages look already: close some");
+  }
+  struct Told {
+    std::uint64_t number = 0;
+    std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
+  };
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Accel-Buffering", "no");
+  response.set_content_provider("text/event-stream", [this, seat, told = Told{}](
+                                                         std::size_t,
+                                                         httplib::DataSink& sink) mutable {
+    const auto news = desk_.See(told.number, kLook);
+    if (desk_.closed() || !sink.is_writable()) return false;
+    std::string text;
+    if (news) {
+      text = fmt::format("event: state\nid: {}\ndata: {}\n\n", news->number, WithTime(news->state));
+      told.number = news->number;
+    } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
+      // Not a comment: of those a page is not told, and it is to notice that nothing comes.
+      text = fmt::format("event: alive\ndata: {{\"now_unix_ms\":{}}}\n\n", NowUnixMs());
+    } else {
+      return true;
+    }
+    told.at = std::chrono::steady_clock::now();
+    return sink.write(text.data(), text.size());
+  });
+}
+
+void Web::ServeOrders() {
+  for (const NowOrder order : kOrders) {
+    server_.Post(fmt::format("/api/robots/([A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order)),
+                 [this, order](const Request& request, Response& response) {
+                   Tell(order, {NowWhom::kRobot, request.matches[1]}, request, response);
+                 });
+  }
+  server_.Post("/api/all/stop", [this](const Request& request, Response& response) {
+    Tell(NowOrder::kStop, {NowWhom::kAll, ""}, request, response);
+  });
+}
+
+void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& request,
+               Response& response) {
+  const auto reason = ReadReason(request.body);
+  if (!reason) return Refuse(response, 400, reason.error().message);
+  const auto words = desk_.Tell(order, target, *reason);
+  if (!words) return Refuse(response, 503, words.error().message);
+  if (target.whom == NowWhom::kAll) return Answer(response, 200, WordsBody(*words));
+  Answer(response, StatusOf(words->front()), WordBody(words->front()));
+}
+
+void Web::ServeMissions() {
+  server_.Get("/api/missions", [this](const Request& request, Response& response) {
+    mission::Query query;
+    query.agent = request.get_param_value("robot");
+    query.route = request.get_param_value("route");
+    query.id = request.get_param_value("mission");
+    query.page_size = static_cast<std::uint32_t>(FleetState::kMissionsShown);
+    for (const std::string* name : {&query.agent, &query.route, &query.id}) {
+      if (!name->empty() && !IsValidName(*name)) {
+        return Refuse(response, 400, "robot, route and mission are to be names");
+      }
+    }
+    if (request.has_param("limit")) {
+      const auto limit = NumberIn(request.get_param_value("limit"));
+      if (!limit || *limit < 1 || *limit > exchange::kMaxMissionsPerReply) {
+        return Refuse(response, 400,
+                      fmt::format("limit is to be 1 to {}", exchange::kMaxMissionsPerReply));
+      }
+      query.page_size = *limit;
+    }
+    const auto missions = desk_.Missions(query);
+    if (!missions) return Refuse(response, 503, missions.error().message);
+    Answer(response, 200, MissionsBody(*missions));
+  });
+  server_.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/missions",
+               [this](const Request& request, Response& response) {
+                 Send(request.matches[1], request, response);
+               });
+}
+
+void Web::Send(const std::string& robot, const Request& request, Response& response) {
+  const auto body = ReadSend(request.body);
+  if (!body) return Refuse(response, 400, body.error().message);
+  const auto report = desk_.Send({.agent = AgentId(robot),
+                                  .id = body->id.empty() ? fleet::DrawMissionId() : body->id,
+                                  .orders = body->orders,
+                                  .valid_for_s = body->valid_s,
+                                  .goes_on = body->goes_on});
+  if (!report) return Refuse(response, 504, report.error().message);
+  const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
+  Answer(response, taken ? 200 : 409, ReportBody(*report));
+}
+
+}  // namespace trailcast::console

@@ -1,0 +1,143 @@
+#include "services/console/web.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "services/exchange/in_process_exchange.h"
+#include "services/program/presence.h"
+#include "tests/support/hostile_client.h"
+
+namespace trailcast::console {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+class WebTest : public testing::Test {
+ protected:
+  [[nodiscard]] httplib::Client Client() const {
+    httplib::Client client("localhost", web_->port());
+    client.set_read_timeout(20);
+    return client;
+  }
+
+  exchange::InProcessBus bus_;
+  Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
+             Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(200)}};
+  std::unique_ptr<Web> web_ = Web::Open(desk_, "localhost", 0, {"desk.site"}).value();
+};
+
+TEST_F(WebTest, ThePageComesWithWhatKeepsOthersOut) {
+  const auto page = Client().Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_THAT(page->body, HasSubstr("/page.js"));
+  EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+  EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
+  EXPECT_EQ(page->get_header_value("X-Frame-Options"), "DENY");
+  EXPECT_EQ(page->get_header_value("Referrer-Policy"), "no-referrer");
+  for (const char* path : {"/page.js", "/page.css", "/icon.svg", "/api/openapi.yaml"}) {
+    const auto file = Client().Get(path);
+    ASSERT_TRUE(file) << path;
+    EXPECT_EQ(file->status, 200) << path;
+    const std::string tag = file->get_header_value("ETag");
+    const auto again = Client().Get(path, {{"If-None-Match", tag}});
+    ASSERT_TRUE(again) << path;
+    EXPECT_EQ(again->status, 304) << path;
+    EXPECT_EQ(again->body, "");
+  }
+  EXPECT_EQ(Client().Get("/etc/passwd")->status, 404);
+}
+
+TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
+  const auto get = [&](const char* host) { return Client().Get("/api/state", {{"Host", host}}); };
+  EXPECT_EQ(get("evil.example")->status, 421);
+  EXPECT_EQ(get("desk.site")->status, 200);
+  const auto elsewhere =
+      Client().Post("/api/all/stop", {{"Origin", "http://evil.example"}}, "{}", "application/json");
+  EXPECT_EQ(elsewhere->status, 403);
+  EXPECT_THAT(json::parse(elsewhere->body)["error"].get<std::string>(), HasSubstr("another page"));
+  EXPECT_EQ(Client().Post("/api/all/stop", "{}", "text/plain")->status, 415);
+  EXPECT_EQ(Client().Post("/api/robots/robot1/stop", "{", "application/json")->status, 400);
+  EXPECT_EQ(Client().Post("/api/robots/a%20b/stop", "{}", "application/json")->status, 404);
+  EXPECT_EQ(Client().Post("/api/robots/robot1/stop", "{}", "application/json")->status, 504);
+  EXPECT_EQ(Client().Get("/api/missions?limit=0")->status, 400);
+  EXPECT_EQ(Client().Get("/api/missions?limit=101")->status, 400);
+  EXPECT_EQ(Client().Get("/api/missions?robot=a%2Fb")->status, 400);
+  EXPECT_EQ(Client().Get("/api/missions")->status, 503) << "no server";
+}
+
+TEST_F(WebTest, ANarrowAnswerTellsTheConsolesTime) {
+  const auto state = Client().Get("/api/state");
+  ASSERT_TRUE(state);
+  const json shown = json::parse(state->body);
+  EXPECT_GT(shown["now_unix_ms"], 1'000'000'000'000);
+  EXPECT_EQ(shown["robots"], json::array());
+}
+
+TEST_F(WebTest, EventsTellWhatHasChanged) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::FollowerTopics()));
+  std::string events;
+  bool said = false;
+  (void)Client().Get("/api/events", [&](const char* data, std::size_t size) {
+    events.append(data, size);
+    if (!said && events.find("event: state") != std::string::npos) {
+      exchange::AgentStatus status;
+      status.agent = AgentId("robot1");
+      status.role = exchange::AgentRole::kFollower;
+      said = robot->Publish(status).has_value();
+    }
+    return events.find("robot1") == std::string::npos;
+  });
+  EXPECT_THAT(events, HasSubstr("data: {\"now_unix_ms\":"));
+  EXPECT_THAT(events, HasSubstr("robot1"));
+}
+
+TEST_F(WebTest, OneStreamTooManyIsRefusedAndThosePagesThatCloseMakeRoom) {
+  const std::string ask = "GET /api/events HTTP/1.1\r\nHost: desk.site\r\n\r\n";
+  {
+    std::vector<std::unique_ptr<test::RawConnection>> streams;
+    for (int i = 0; i < Web::kMostStreams; ++i) {
+      streams.push_back(std::make_unique<test::RawConnection>(web_->port()));
+      streams.back()->Send(ask);
+      ASSERT_THAT(streams.back()->Receive(), HasSubstr("200 OK")) << i;
+    }
+    const test::RawConnection one_more(web_->port());
+    one_more.Send(ask);
+    EXPECT_THAT(one_more.Receive(), HasSubstr(" 503 "));
+    EXPECT_EQ(Client().Get("/")->status, 200) << "others are served";
+  }
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  std::string answer;
+  while (answer.find("200 OK") == std::string::npos && std::chrono::steady_clock::now() < until) {
+    const test::RawConnection again(web_->port());
+    again.Send(ask);
+    answer = again.Receive();
+  }
+  EXPECT_THAT(answer, HasSubstr("200 OK"));
+}
+
+TEST_F(WebTest, RequestsWithoutEndTakeNoMemory) {
+  ASSERT_EQ(Client().Get("/")->status, 200);
+  const std::size_t before = test::ResidentBytes();
+  const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
+  const std::string post =
+      "POST /api/all/stop HTTP/1.1\r\nHost: desk.site\r\nContent-Type: application/json\r\n";
+  EXPECT_LT(test::RawConnection(web_->port())
+                .SendForEver(post + "Transfer-Encoding: chunked\r\n\r\n", chunk),
+            16U << 20U);
+  EXPECT_LT(test::RawConnection(web_->port())
+                .SendForEver(post + "Content-Length: 200000000\r\n\r\n", chunk),
+            16U << 20U);
+  EXPECT_LT(test::RawConnection(web_->port()).SendForEver("GET /", std::string(100'000, 'x')),
+            16U << 20U);
+  EXPECT_LT(test::ResidentBytes(), before + (16U << 20U));
+  EXPECT_EQ(Client().Get("/")->status, 200);
+}
+
+}  // namespace
+}  // namespace trailcast::console
