@@ -1,0 +1,234 @@
+// The console: a fleet over HTTP, and in a browser.
+#include <httplib.h>
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/robots.h"
+#include "tests/scenario/webdriver.h"
+
+namespace trailcast::test {
+namespace {
+
+using nlohmann::json;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ConsoleTest : public RobotsTest {
+ protected:
+  void SetUp() override {
+    Teach();
+    server_ = Server();
+    ASSERT_TRUE(Publish());
+    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+    agent_ =
+        Agent(With({"serve", "--store", Path("routes.db"), "--name", "robot1"}, Drives("robot1")),
+              "duty");
+    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    StartConsole();
+  }
+  // The server has the route.
+  bool Publish() {
+    return RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status == 0;
+  }
+  void StartConsole() {
+    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
+    const std::string said = "http://localhost:";
+    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
+    const std::string output = console_->output();
+    port_ = std::stoi(output.substr(output.find(said) + said.size()));
+    client_ = std::make_unique<httplib::Client>("localhost", port_);
+    client_->set_read_timeout(20);
+  }
+
+  json State() {
+    const auto got = client_->Get("/api/state");
+    return got ? json::parse(got->body, nullptr, false) : json();
+  }
+  json Robot1() {
+    for (const json& robot : State().value("robots", json::array())) {
+      if (robot["name"] == "robot1") return robot;
+    }
+    return json::object();
+  }
+  bool WaitUntil(const std::function<bool()>& condition) {
+    const auto until = steady_clock::now() + Process::kBound;
+    while (!condition()) {
+      if (steady_clock::now() > until) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return true;
+  }
+  bool WaitForState(const std::string& state) {
+    return WaitUntil([&] { return Robot1().value("state", "") == state; });
+  }
+  struct Replied {
+    int status = 0;
+    json body;
+  };
+  Replied Post(const std::string& path, const json& body = json::object()) {
+    const auto got = client_->Post(path, body.dump(), "application/json");
+    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+  }
+  double Along_m() {
+    std::ifstream in(Path("truth.csv"));
+    double x_m = 0.0;
+    for (std::string line; std::getline(in, line) && !in.eof();) {
+      const auto first = line.find(',');
+      if (first != std::string::npos && line[0] != 't') x_m = std::stod(line.substr(first + 1));
+    }
+    return x_m;
+  }
+  // It stays where it is for a second.
+  bool Stands() {
+    double at_m = Along_m();
+    auto since = steady_clock::now();
+    return WaitUntil([&] {
+      if (std::abs(Along_m() - at_m) > 0.01) {
+        at_m = Along_m();
+        since = steady_clock::now();
+      }
+      return steady_clock::now() - since > seconds(1);
+    });
+  }
+
+  std::unique_ptr<Process> server_;
+  std::unique_ptr<Process> robot_;
+  std::unique_ptr<Process> agent_;
+  std::unique_ptr<Process> console_;
+  std::unique_ptr<httplib::Client> client_;
+  int port_ = 0;
+};
+
+TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2) << console_->output();
+  ASSERT_TRUE(WaitUntil([&] { return !State()["routes"].empty(); })) << State().dump(2);
+  EXPECT_EQ(State()["routes"][0]["name"], "hall");
+  EXPECT_EQ(State()["servers"][0]["heard"], true);
+
+  const Replied sent =
+      Post("/api/robots/robot1/missions", {{"orders", "follow hall"}, {"id", "trip"}});
+  EXPECT_EQ(sent.status, 200) << sent.body.dump();
+  EXPECT_EQ(sent.body["mission"], "trip");
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2) << agent_->output();
+  EXPECT_EQ(Robot1()["mission"]["orders"], "follow hall");
+
+  const Replied paused = Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}});
+  EXPECT_EQ(paused.status, 200) << paused.body.dump();
+  EXPECT_EQ(paused.body["detail"], "paused by console: somebody walks here");
+  ASSERT_TRUE(WaitForState("paused")) << State().dump(2);
+  EXPECT_TRUE(Stands());
+  EXPECT_EQ(Robot1()["orders"], json({"resume", "cancel", "stop"}));
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+
+  const Replied stopped = Post("/api/robots/robot1/stop");
+  EXPECT_EQ(stopped.status, 200) << stopped.body.dump();
+  ASSERT_TRUE(WaitForState("stopped")) << State().dump(2);
+  EXPECT_TRUE(Stands());
+  EXPECT_LT(Along_m(), 4.3) << "of 4.5 m";
+  const Replied refused = Post("/api/robots/robot1/resume");
+  EXPECT_EQ(refused.status, 409) << refused.body.dump();
+  EXPECT_THAT(refused.body["detail"].get<std::string>(), HasSubstr("release it first"));
+  EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitUntil([&] {
+    const auto got = client_->Get("/api/missions?robot=robot1");
+    return got && got->body.find("\"arrived\"") != std::string::npos;
+  })) << State().dump(2)
+      << agent_->output();
+  EXPECT_NEAR(Along_m(), 4.5, 0.25);
+}
+
+TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "dance"}}).status, 400);
+  const Replied unknown = Post("/api/robots/robot1/missions", {{"orders", "follow attic"}});
+  EXPECT_THAT(unknown.status, testing::AnyOf(200, 409)) << unknown.body.dump();
+  EXPECT_TRUE(WaitUntil([&] {
+    const std::string detail = Robot1().value("detail", "");
+    return detail.find("refused") != detail.npos && detail.find("attic") != detail.npos;
+  })) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot7/pause").status, 504);
+  EXPECT_EQ(Post("/api/robots/robot1/dance").status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "wait 600"}, {"id", "long"}}).status,
+            200);
+  ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_object(); }));
+
+  agent_->Signal(SIGKILL);
+  (void)End(*agent_);
+  ASSERT_TRUE(WaitForState("silent")) << State().dump(2);
+  const json robot = Robot1();
+  EXPECT_EQ(robot["heard"], false);
+  EXPECT_EQ(robot["needs_person"], true) << "in the middle of a mission";
+  EXPECT_TRUE(robot["last_heard_unix_ms"].is_number());
+  server_->Signal(SIGTERM);
+  (void)End(*server_);
+  EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == false; }));
+  console_->Signal(SIGTERM);
+  EXPECT_EQ(End(*console_).status, 0) << console_->output();
+}
+
+TEST_F(ConsoleTest, AllAreStoppedAtOnce) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall"}}).status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+  const Replied stopped = Post("/api/all/stop");
+  EXPECT_EQ(stopped.status, 200);
+  EXPECT_EQ(stopped.body["robots"][0]["robot"], "robot1") << stopped.body.dump();
+  EXPECT_EQ(stopped.body["robots"][0]["obeys"], true) << stopped.body.dump();
+  EXPECT_TRUE(WaitForState("stopped"));
+}
+
+TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
+  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+  const std::filesystem::path shots =
+      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
+  std::filesystem::create_directories(shots);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(390, 844);
+  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
+  EXPECT_THAT(browser.Text(), HasSubstr("emergency stop"));
+
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Send')]"));
+  ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
+  browser.Screenshot(shots / "phone-send.png");
+  // A tap at the far end is no slide.
+  (void)browser.Type("//input[@type='range']", "\xEE\x80\x90");  // End
+  EXPECT_EQ(Robot1()["mission"], nullptr);
+  std::string right;
+  for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";  // the right arrow
+  ASSERT_TRUE(browser.Type("//input[@type='range']", right));
+  ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
+  browser.Screenshot(shots / "phone-driving.png");
+
+  ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));
+  ASSERT_TRUE(browser.WaitForText("Stopped")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("stopped by console")) << browser.Text();
+  EXPECT_TRUE(Stands());
+  EXPECT_LT(Along_m(), 4.3) << "of 4.5 m";
+  browser.Screenshot(shots / "phone-stopped.png");
+  browser.Look(390, 844, true);
+  browser.Screenshot(shots / "phone-dark.png");
+  browser.Look(1280, 800);
+  browser.Screenshot(shots / "desktop.png");
+
+  agent_->Signal(SIGKILL);
+  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
+  browser.Look(1280, 800, true);
+  browser.Screenshot(shots / "desktop-silent.png");
+  console_->Signal(SIGKILL);
+  ASSERT_TRUE(browser.WaitForText("This page has lost its console")) << browser.Text();
+  browser.Look(390, 844);
+  browser.Screenshot(shots / "phone-lost.png");
+}
+
+}  // namespace
+}  // namespace trailcast::test
