@@ -66,16 +66,20 @@ export type Answer = { ok: boolean; text: string };
 const kPatience_ms = 12000;
 
 async function post(path: string, body: object): Promise<{ status: number; json: any }> {
+  const giveUp = new AbortController();
+  const timer = window.setTimeout(() => giveUp.abort(), kPatience_ms);
   const reply = await fetch(path, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: JSON.stringify(body),
-    signal: AbortSignal.timeout(kPatience_ms),
+    signal: giveUp.signal,
   });
-  return { status: reply.status, json: await reply.json() };
+  const json = await reply.json();
+  window.clearTimeout(timer);
+  return { status: reply.status, json };
 }
 
-const unreachable: Answer = { ok: false, text: 'The console cannot be reached: nothing was sent.' };
+const unreachable: Answer = { ok: false, text: 'The console does not answer: it may not have been told.' };
 
 export async function tell(robot: string, order: Order): Promise<Answer> {
   try {

@@ -30,16 +30,16 @@ export function Badge({ state }: { state: RobotState }) {
 function Strip({ robot }: { robot: Robot }) {
   const metres = robot.along_m !== null && robot.length_m ? robot.along_m / robot.length_m : null;
   const share = Math.min(1, Math.max(0, metres ?? robot.progress));
-  const done = `${(2 + 96 * share).toFixed(1)}%`;
+  const done = `${(4 + 92 * share).toFixed(1)}%`;
   const text = metres !== null
     ? `${robot.along_m!.toFixed(1)} of ${robot.length_m!.toFixed(1)} m`
     : robot.along_m !== null ? `${robot.along_m.toFixed(1)} m` : `${Math.round(100 * share)} %`;
   return (
     <div className="strip">
       <svg role="img" aria-label={`${text} along ${robot.route}`} height="20" width="100%">
-        <line className="way" x1="2%" x2="98%" y1="10" y2="10" />
-        <line className="done" x1="2%" x2={done} y1="10" y2="10" />
-        <rect className="end" x="97%" y="3" width="4" height="14" />
+        <line className="way" x1="4%" x2="96%" y1="10" y2="10" />
+        <line className="done" x1="4%" x2={done} y1="10" y2="10" />
+        <rect className="end" x="96%" y="3" width="4" height="14" />
         <circle cx={done} cy="10" r="7" />
       </svg>
       <span>{robot.route}: {text}{robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}</span>
