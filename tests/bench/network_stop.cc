@@ -35,14 +35,16 @@ Result<void> MeasureStops(const std::string& robot, int samples) {
   auto exchange = dds::OpenDdsExchange(options, exchange::DispatcherTopics());
   if (!exchange) return tl::unexpected(exchange.error());
   std::mt19937 random(1);  // NOLINT(cert-msc51-cpp): the same each time
-  // At any moment between two pictures, and of the server's loop; driving again by then.
-  std::uniform_int_distribution<int> pause_ms(700, 1300);
+  // At any moment between two pictures, and of the server's loop; driving again, and standing, by
+  // then.
+  std::uniform_int_distribution<int> drive_ms(700, 1300);
+  constexpr milliseconds kStand{500};
   for (int i = 0; i < samples; ++i) {
     if (auto drives = Obeyed(**exchange, options.self, exchange::NowOrder::kResume, robot);
         !drives) {
       return drives;
     }
-    std::this_thread::sleep_for(milliseconds(pause_ms(random)));
+    std::this_thread::sleep_for(milliseconds(drive_ms(random)));
     const std::int64_t told_ms = NowUnixMs();
     const auto began = std::chrono::steady_clock::now();
     auto stands = Obeyed(**exchange, options.self, exchange::NowOrder::kPause, robot);
@@ -51,6 +53,7 @@ Result<void> MeasureStops(const std::string& robot, int samples) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began);
     fmt::print("{} {:.1f}\n", told_ms, answered.count());
     std::fflush(stdout);
+    std::this_thread::sleep_for(kStand);
   }
   return {};
 }
