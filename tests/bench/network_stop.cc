@@ -32,6 +32,7 @@ Result<void> MeasureStops(const std::string& robot, int samples) {
   dds::DdsOptions options;
   options.network_interface = "eth0";
   options.self = AgentId("desk");
+  options.discovery = dds::Discovery::kStar;  // as operators' commands where there is a server
   auto exchange = dds::OpenDdsExchange(options, exchange::DispatcherTopics());
   if (!exchange) return tl::unexpected(exchange.error());
   std::mt19937 random(1);  // NOLINT(cert-msc51-cpp): the same each time
