@@ -24,9 +24,7 @@ class ConsoleTest : public RobotsTest {
     server_ = Server();
     ASSERT_TRUE(Publish());
     robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
-    agent_ =
-        Agent(With({"serve", "--store", Path("routes.db"), "--name", "robot1"}, Drives("robot1")),
-              "duty");
+    agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
     StartConsole();
   }
@@ -73,27 +71,6 @@ class ConsoleTest : public RobotsTest {
     const auto got = client_->Post(path, body.dump(), "application/json");
     return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
   }
-  double Along_m() {
-    std::ifstream in(Path("truth.csv"));
-    double x_m = 0.0;
-    for (std::string line; std::getline(in, line) && !in.eof();) {
-      const auto first = line.find(',');
-      if (first != std::string::npos && line[0] != 't') x_m = std::stod(line.substr(first + 1));
-    }
-    return x_m;
-  }
-  // It stays where it is for a second.
-  bool Stands() {
-    double at_m = Along_m();
-    auto since = steady_clock::now();
-    return WaitUntil([&] {
-      if (std::abs(Along_m() - at_m) > 0.01) {
-        at_m = Along_m();
-        since = steady_clock::now();
-      }
-      return steady_clock::now() - since > seconds(1);
-    });
-  }
 
   std::unique_ptr<Process> server_;
   std::unique_ptr<Process> robot_;
@@ -120,7 +97,7 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   EXPECT_EQ(paused.status, 200) << paused.body.dump();
   EXPECT_EQ(paused.body["detail"], "paused by console: somebody walks here");
   ASSERT_TRUE(WaitForState("paused")) << State().dump(2);
-  EXPECT_TRUE(Stands());
+  EXPECT_TRUE(Stands("truth.csv"));
   EXPECT_EQ(Robot1()["orders"], json({"resume", "cancel", "stop"}));
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
@@ -128,8 +105,8 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   const Replied stopped = Post("/api/robots/robot1/stop");
   EXPECT_EQ(stopped.status, 200) << stopped.body.dump();
   ASSERT_TRUE(WaitForState("stopped")) << State().dump(2);
-  EXPECT_TRUE(Stands());
-  EXPECT_LT(Along_m(), 4.3) << "of 4.5 m";
+  EXPECT_TRUE(Stands("truth.csv"));
+  EXPECT_LT(Along_m("truth.csv"), 4.3) << "of 4.5 m";
   const Replied refused = Post("/api/robots/robot1/resume");
   EXPECT_EQ(refused.status, 409) << refused.body.dump();
   EXPECT_THAT(refused.body["detail"].get<std::string>(), HasSubstr("release it first"));
@@ -140,7 +117,7 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
     return got && got->body.find("\"arrived\"") != std::string::npos;
   })) << State().dump(2)
       << agent_->output();
-  EXPECT_NEAR(Along_m(), 4.5, 0.25);
+  EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
 }
 
 TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
@@ -220,8 +197,8 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));
   ASSERT_TRUE(browser.WaitForText("Stopped")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("stopped by console")) << browser.Text();
-  EXPECT_TRUE(Stands());
-  EXPECT_LT(Along_m(), 4.3) << "of 4.5 m";
+  EXPECT_TRUE(Stands("truth.csv"));
+  EXPECT_LT(Along_m("truth.csv"), 4.3) << "of 4.5 m";
   browser.Screenshot(shots / "phone-stopped.png");
   browser.Look(390, 844, true);
   browser.Screenshot(shots / "phone-dark.png");

@@ -19,12 +19,8 @@ class MissionsTest : public RobotsTest {
   // A robot at the route's beginning, and its agent on duty.
   void GoOnDuty() {
     robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
-    agent_ = Serve();
+    agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
-  }
-  std::unique_ptr<Process> Serve(const std::string& log = "duty") {
-    return Agent(
-        With({"serve", "--store", Path("routes.db"), "--name", "robot1"}, Drives("robot1")), log);
   }
   Ended Tool(const Words& words) {
     return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
@@ -92,7 +88,7 @@ TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {
   (void)End(*server_);
 
   server_ = Server("server.db", "server2");
-  agent_ = Serve("duty2");
+  agent_ = Serve("robot1", "duty2");
   ASSERT_TRUE(
       agent_->WaitForOutput("paused: its agent has started again in the middle of mission "
                             "trip"))

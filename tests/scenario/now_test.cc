@@ -7,7 +7,6 @@
 namespace trailcast::test {
 namespace {
 
-using std::chrono::steady_clock;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -29,21 +28,6 @@ class NowTest : public RobotsTest {
   Ended Tell(const std::string& order, const Words& words = {"robot1"}) {
     return End(*Start("trailcast", With({order}, words), order));
   }
-  // It stays where it is for a second; false if it does not within ten.
-  bool Stands() {
-    const auto deadline = steady_clock::now() + std::chrono::seconds(10);
-    double at_m = Along_m("truth.csv");
-    auto since = steady_clock::now();
-    while (steady_clock::now() < deadline) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      if (std::abs(Along_m("truth.csv") - at_m) > 0.01) {
-        at_m = Along_m("truth.csv");
-        since = steady_clock::now();
-      }
-      if (steady_clock::now() - since > std::chrono::seconds(1)) return true;
-    }
-    return false;
-  }
 
   std::unique_ptr<Process> server_;
   std::unique_ptr<Process> robot_;
@@ -56,7 +40,7 @@ TEST_F(NowTest, APausedRobotStandsAndGoesOnWhenItIsToldTo) {
   EXPECT_EQ(paused.status, 0) << paused.output;
   EXPECT_THAT(paused.output, HasSubstr("robot1: paused by operator: somebody walks here"));
   EXPECT_TRUE(follower_->WaitForOutput("HELD")) << follower_->output();
-  EXPECT_TRUE(Stands());
+  EXPECT_TRUE(Stands("truth.csv"));
   const double at_m = Along_m("truth.csv");
   EXPECT_LT(at_m, 4.3) << "of 4.5 m";
   const Ended resumed = Tell("resume", {"--all"});
@@ -72,7 +56,7 @@ TEST_F(NowTest, AStoppedRobotStandsAfterARestartTooUntilItIsReleasedAndResumed) 
   Begin();
   const Ended stopped = Tell("stop", {"--route", "hall"});
   EXPECT_EQ(stopped.status, 0) << stopped.output;
-  EXPECT_TRUE(Stands());
+  EXPECT_TRUE(Stands("truth.csv"));
   const double at_m = Along_m("truth.csv");
   follower_->Signal(SIGKILL);
   (void)End(*follower_);
@@ -83,7 +67,7 @@ TEST_F(NowTest, AStoppedRobotStandsAfterARestartTooUntilItIsReleasedAndResumed) 
   EXPECT_EQ(refused.status, 1) << refused.output;
   EXPECT_THAT(refused.output, HasSubstr("robot1: does not obey: stopped by operator on "));
   EXPECT_EQ(Tell("release").status, 0);
-  EXPECT_TRUE(Stands());
+  EXPECT_TRUE(Stands("truth.csv"));
   EXPECT_NEAR(Along_m("truth.csv"), at_m, 0.05) << "it has not moved";
   EXPECT_EQ(Tell("resume").status, 0);
   const Ended followed = End(*follower_);

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <chrono>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "tests/scenario/programs.h"
 
@@ -39,6 +42,27 @@ class RobotsTest : public ProgramsTest {
     }
     EXPECT_TRUE(x_m) << truth << " has no place";
     return x_m.value_or(-1.0);
+  }
+  // It stays where it is for a second; false if it does not within ten.
+  bool Stands(const std::string& truth) {
+    using std::chrono::steady_clock;
+    const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+    double at_m = Along_m(truth);
+    auto since = steady_clock::now();
+    while (steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      if (const double now_m = Along_m(truth); std::abs(now_m - at_m) > 0.01) {
+        at_m = now_m;
+        since = steady_clock::now();
+      }
+      if (steady_clock::now() - since > std::chrono::seconds(1)) return true;
+    }
+    return false;
+  }
+  // A robot's agent, on duty; the store has its routes.
+  std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty") {
+    return Agent(With({"serve", "--store", Path("routes.db"), "--name", robot}, Drives(robot)),
+                 log);
   }
   // Route 'hall', into this store.
   void Teach(const std::string& store = "routes.db", const std::string& path = kPath) {
