@@ -197,10 +197,7 @@ void OnDuty::Work() {
 void OnDuty::WaitOn(const mission::Task& task) {
   const auto now = steady_clock::now();
   TellState(State::kUnderWay, mission::ToText(task));
-  if (!wait_until_) {
-    wait_until_ = now + std::chrono::duration_cast<steady_clock::duration>(
-                            std::chrono::duration<double>(task.wait_s));
-  }
+  if (!wait_until_) wait_until_ = now + ToMilliseconds(task.wait_s);
   if (now >= *wait_until_) Done();
 }
 

@@ -25,19 +25,12 @@ std::string Describe(const mission::Mission& mission) {
                      PlainText(mission.orders, 200));
 }
 
-bool Names(const std::string& orders, const std::string& route) {
-  const auto tasks = mission::ParseOrders(orders);
-  return tasks && std::any_of(tasks->begin(), tasks->end(), [&](const mission::Task& task) {
-           return task.kind == mission::Task::Kind::kFollow && task.route.route == route;
-         });
-}
-
 bool IsMeant(const exchange::NowCommand& command, const mission::Mission& mission) {
   switch (command.whom) {
     case exchange::NowWhom::kRobot:
       return command.name == mission.agent.value();
     case exchange::NowWhom::kOnRoute:
-      return Names(mission.orders, command.name);
+      return mission::RoutesIn(mission.orders).contains(command.name);
     case exchange::NowWhom::kAll:
       return true;
   }

@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -49,11 +48,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   if (!peer) return program::Complain(app, peer.error());
   console::Desk desk(peer->self, std::move(peer->exchange));
   std::set<std::string> names;
-  for (std::string name : options.names) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    names.insert(std::move(name));
-  }
+  for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
   const auto web = console::Web::Open(desk, options.host, options.port, std::move(names));
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: http://localhost:{}", (*web)->port());

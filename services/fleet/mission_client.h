@@ -13,9 +13,6 @@
 
 namespace trailcast::fleet {
 
-// 16 hexadecimal digits from the system's random source.
-[[nodiscard]] std::string DrawMissionId();
-
 struct SendWatch {
   std::chrono::milliseconds timeout{5000};  // for the first answer
   bool to_its_end = false;                  // after that, however long it takes

@@ -27,8 +27,6 @@ class Sending {
   [[nodiscard]] const std::optional<mission::Report>& last() const { return last_; }
 
  private:
-  [[nodiscard]] bool IsLastWord(const mission::Report& report) const;
-
   mission::Mission mission_;
   std::optional<mission::Report> last_;
 };

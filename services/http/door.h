@@ -10,6 +10,9 @@
 
 namespace trailcast::http {
 
+// As hosts and types are compared.
+[[nodiscard]] std::string Lower(std::string text);
+
 // Any page that a browser shows, from wherever it came, can have it send requests to a program that
 // listens on its machine, and under a name that somebody points at 127.0.0.1 (DNS rebinding) even
 // read the answers. The door lets in what was meant for this program and comes from its own page,

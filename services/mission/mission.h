@@ -51,6 +51,10 @@ struct Report {
   bool operator==(const Report&) const = default;
 };
 
+// Whether `report` is the later one of the same mission. What a server says itself (change 0)
+// counts until the robot's word does, and that a mission ends there is later than that it is kept.
+[[nodiscard]] bool IsNewer(const Report& report, const Report& last);
+
 // Empty fields do not narrow it down.
 struct Query {
   std::string agent{};

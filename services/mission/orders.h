@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,9 @@ struct Task {
 
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<std::vector<Task>> ParseOrders(std::string_view orders);
+
+// Those that they name; none where they are not understood.
+[[nodiscard]] std::set<std::string> RoutesIn(std::string_view orders);
 
 // "follow hall 3..10": as ParseOrders takes it, without what is as usual.
 [[nodiscard]] std::string ToText(const Task& task);

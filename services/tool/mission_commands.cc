@@ -10,20 +10,19 @@
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/mission/orders.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/command.h"
-#include "services/tool/routes/transfer.h"
+#include "services/tool/time_spans.h"
 
 namespace trailcast::tool {
 namespace {
 
 using mission::State;
 
-const std::map<std::string, double> kUnits = {
-    {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
 constexpr double kLongest_s = 365.0 * 86400.0;
 constexpr std::chrono::milliseconds kLookAgain{1000};
 
@@ -192,7 +191,7 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
   app->add_option("--valid", options->valid_s,
                   "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
                   "for ever")
-      ->transform(CLI::AsNumberWithUnit(kUnits, CLI::AsNumberWithUnit::CASE_SENSITIVE, "TIME"))
+      ->transform(TimeSpan("TIME"))
       ->check(CLI::Range(0.0, kLongest_s))
       ->capture_default_str();
   app->add_flag("--goes-on", options->goes_on,
@@ -225,7 +224,7 @@ Command AddMissions(CLI::App& parent, const program::CommonOptions& common) {
       ->take_all()
       ->allow_extra_args(false);
   app->add_option("--newer-than", options->newer_than_s, "Only sent since: 90min, 12h, 7d; 0: any")
-      ->transform(CLI::AsNumberWithUnit(kUnits, CLI::AsNumberWithUnit::CASE_SENSITIVE, "AGE"));
+      ->transform(TimeSpan("AGE"));
   app->add_option("--limit", options->limit, "Missions to list at most")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();

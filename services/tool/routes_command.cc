@@ -14,6 +14,7 @@
 #include "services/tool/route_edits.h"
 #include "services/tool/routes/catalog_client.h"
 #include "services/tool/routes/transfer.h"
+#include "services/tool/time_spans.h"
 
 namespace trailcast::tool {
 namespace {
@@ -169,12 +170,10 @@ void AddFilters(CLI::App& app, RoutesOptions& options) {
   app.add_option("--min-length", query.min_length_m, "Metres")->check(CLI::NonNegativeNumber);
   app.add_option("--max-length", query.max_length_m, "Metres; 0: any")
       ->check(CLI::NonNegativeNumber);
-  const std::map<std::string, double> units = {
-      {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
   app.add_option("--newer-than", options.newer_than_s, "Only taught since: 90min, 12h, 7d; 0: any")
-      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE, "AGE"));
+      ->transform(TimeSpan("AGE"));
   app.add_option("--older-than", options.older_than_s, "Only taught before that")
-      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE, "AGE"));
+      ->transform(TimeSpan("AGE"));
   app.add_option("--state", options.state, "Only these")->check(CLI::IsMember(&kStates));
   program::AddPlaceOptions(app, "near", "Only beginning near", options.near);
   app.add_option("--within", options.within_m, "Metres, how near")->check(CLI::PositiveNumber);

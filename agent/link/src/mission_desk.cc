@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <variant>
 
 #include "services/base/durable_file.h"
+#include "services/base/number.h"
 #include "services/base/process_name.h"
 #include "services/base/text.h"
 #include "services/exchange/bounds.h"
@@ -34,13 +34,6 @@ std::vector<std::string> FieldsIn(const std::string& line) {
   }
 }
 
-std::optional<std::uint32_t> NumberIn(const std::string& text) {
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 }  // namespace
 
 Result<void> MissionDesk::Load() {
@@ -60,7 +53,7 @@ Result<void> MissionDesk::Load() {
     if (fields.size() != kFields) return wrong();
     std::vector<std::uint32_t> numbers;
     for (std::size_t i = 2; i < 8; ++i) {
-      const auto number = NumberIn(fields[i]);
+      const auto number = ParseNumber<std::uint32_t>(fields[i]);
       if (!number) return wrong();
       numbers.push_back(*number);
     }

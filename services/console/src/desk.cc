@@ -1,12 +1,12 @@
 #include "services/console/desk.h"
 
 #include <algorithm>
-#include <random>
 #include <utility>
 
 #include "services/base/unix_time.h"
 #include "services/console/src/errand.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/sending.h"
 #include "services/fleet/telling.h"
 
@@ -106,11 +106,6 @@ class MissionsErrand final : public ErrandFor<std::vector<mission::Record>> {
   std::optional<exchange::MissionReply> reply_;
 };
 
-std::uint64_t DrawnNumber() {
-  std::random_device random;
-  return std::uniform_int_distribution<std::uint64_t>(1)(random);
-}
-
 template <typename Reply>
 Result<Reply> Await(std::future<Result<Reply>> future, milliseconds timeout) {
   if (future.wait_for(timeout + kGrace) == std::future_status::ready) return future.get();
@@ -169,7 +164,7 @@ Result<mission::Report> Desk::Send(mission::Mission mission) {
 
 Result<std::vector<mission::Record>> Desk::Missions(const mission::Query& query) {
   auto errand = std::make_shared<MissionsErrand>(
-      exchange::MissionRequest{.client = self_, .request = DrawnNumber(), .query = query},
+      exchange::MissionRequest{.client = self_, .request = fleet::DrawNumber(), .query = query},
       options_.reply_within);
   auto future = errand->Future();
   if (!Take(std::move(errand), false)) return TooMuch();
@@ -281,8 +276,8 @@ void Desk::AskServers(Clock::time_point now) {
   routes.page_size = static_cast<std::uint32_t>(exchange::kMaxRoutesPerReply);
   // What is lost is asked for the next time.
   (void)exchange_->Publish(
-      exchange::MissionRequest{.client = self_, .request = DrawnNumber(), .query = latest});
-  (void)exchange_->Publish(exchange::CatalogRequest{self_, DrawnNumber(), routes});
+      exchange::MissionRequest{.client = self_, .request = fleet::DrawNumber(), .query = latest});
+  (void)exchange_->Publish(exchange::CatalogRequest{self_, fleet::DrawNumber(), routes});
 }
 
 void Desk::ShowNews(Clock::time_point now) {

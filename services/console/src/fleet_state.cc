@@ -111,8 +111,7 @@ void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
     known->mission.id = report.mission;
     known->sent_unix_ms = unix_ms;
   }
-  const bool last_word = known->last.change == 0 && report.change == 0;
-  if (report.change <= known->last.change && !last_word) return;
+  if (!mission::IsNewer(report, known->last)) return;
   if (known->last.state != report.state || known->last.detail != report.detail) {
     known->changed_unix_ms = unix_ms;
   }

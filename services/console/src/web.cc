@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <utility>
 
+#include "services/base/number.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/files.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
 
 namespace trailcast::console {
@@ -47,13 +48,6 @@ int StatusOf(const fleet::RobotsWord& word) {
 
 std::string WithTime(const std::string& state) {
   return fmt::format("{{\"now_unix_ms\":{},{}", NowUnixMs(), state.substr(1));
-}
-
-std::optional<std::uint32_t> NumberIn(const std::string& text) {
-  std::uint32_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && at == end ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -193,7 +187,7 @@ void Web::ServeMissions() {
       }
     }
     if (request.has_param("limit")) {
-      const auto limit = NumberIn(request.get_param_value("limit"));
+      const auto limit = ParseNumber<std::uint32_t>(request.get_param_value("limit"));
       if (!limit || *limit < 1 || *limit > exchange::kMaxMissionsPerReply) {
         return Refuse(response, 400,
                       fmt::format("limit is to be 1 to {}", exchange::kMaxMissionsPerReply));

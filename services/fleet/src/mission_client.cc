@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <random>
 #include <utility>
 
 #include "services/base/process_name.h"
@@ -12,6 +11,7 @@
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/sending.h"
 #include "services/program/json.h"
 
@@ -36,7 +36,7 @@ Result<std::vector<Record>> AskForAll(exchange::RouteExchange& exchange,
   while (true) {
     question.query.page_size =
         static_cast<std::uint32_t>(std::min(limit - all.size(), exchange::kMaxMissionsPerReply));
-    question.request = std::random_device()();
+    question.request = DrawNumber();
     auto reply =
         Ask<exchange::MissionReply>(exchange, question.client, question.request, question, timeout);
     if (!reply) return tl::unexpected(reply.error());
@@ -65,11 +65,6 @@ std::string RecordJson(const mission::Record& record) {
 }
 
 }  // namespace
-
-std::string DrawMissionId() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
-}
 
 Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
                                     const mission::Mission& mission, const SendWatch& watch) {

@@ -18,7 +18,7 @@ bool Sending::Hear(const exchange::Message& message) {
   if (report == nullptr || report->agent != mission_.agent || report->mission != mission_.id) {
     return false;
   }
-  if (last_ && report->change <= last_->change && !IsLastWord(*report)) return false;
+  if (last_ && !mission::IsNewer(*report, *last_)) return false;
   const bool is_news = !last_ || last_->state != report->state || last_->detail != report->detail;
   last_ = *report;
   return is_news;
@@ -33,11 +33,6 @@ bool Sending::Answered(milliseconds since, milliseconds timeout) const {
 bool Sending::Ended(milliseconds since) const {
   if (!last_ || !mission::HasEnded(last_->state)) return false;
   return last_->change > 0 || since > kRobotAnswers;
-}
-
-// Of a server, on what no robot has answered.
-bool Sending::IsLastWord(const mission::Report& report) const {
-  return last_->change == 0 && report.change == 0 && mission::HasEnded(report.state);
 }
 
 }  // namespace trailcast::fleet

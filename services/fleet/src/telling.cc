@@ -1,8 +1,9 @@
 #include "services/fleet/telling.h"
 
 #include <algorithm>
-#include <random>
 #include <utility>
+
+#include "services/fleet/draw.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -13,12 +14,6 @@ using std::chrono::milliseconds;
 // Whoever joins has heard of all who are there by then, usually.
 constexpr milliseconds kAllAreHeard{1500};
 
-// Processes in containers have the same number, and thus the same name.
-std::uint64_t DrawnNumber() {
-  std::random_device random;
-  return std::uniform_int_distribution<std::uint64_t>(1)(random);
-}
-
 }  // namespace
 
 Telling::Telling(const AgentId& self, exchange::NowOrder order, std::vector<NowTarget> targets,
@@ -26,7 +21,7 @@ Telling::Telling(const AgentId& self, exchange::NowOrder order, std::vector<NowT
     : targets_(std::move(targets)) {
   for (const NowTarget& target : targets_) {
     commands_.emplace_back(exchange::NowCommand{.client = self,
-                                                .number = DrawnNumber(),
+                                                .number = DrawNumber(),
                                                 .order = order,
                                                 .whom = target.whom,
                                                 .name = target.name,

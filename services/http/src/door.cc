@@ -8,12 +8,6 @@
 namespace trailcast::http {
 namespace {
 
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // "name:port" without its port.
 std::string NameOf(const std::string& host) {
   const std::size_t colon = host.rfind(':');
@@ -36,6 +30,12 @@ bool IsJson(const std::string& content_type) {
 }
 
 }  // namespace
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 std::optional<Refusal> Judge(const httplib::Request& request, const Door& door) {
   const std::string host = Lower(request.get_header_value("Host"));

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "services/base/number.h"
 #include "services/mission/mission.h"
 #include "services/route/bounds.h"
 
@@ -32,16 +32,8 @@ std::vector<std::string> Words(std::string_view text) {
   return words;
 }
 
-template <typename Number>
-std::optional<Number> NumberIn(std::string_view word) {
-  Number number{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return number;
-}
-
 std::optional<double> AmountIn(std::string_view word, double least, double most) {
-  const auto number = NumberIn<double>(word);
+  const auto number = ParseNumber<double>(word);
   return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
@@ -97,7 +89,7 @@ class Parser {
   [[nodiscard]] Result<void> Laps(Task& task) {
     (void)Take();
     const std::string word = Take();
-    const auto laps = NumberIn<std::uint32_t>(word);
+    const auto laps = ParseNumber<std::uint32_t>(word);
     if (!laps || *laps == 0 || *laps > kMostLaps) return Wrong(word, "laps, 1 to 10000");
     task.laps = *laps;
     return {};
@@ -140,6 +132,16 @@ class Parser {
 
 Result<std::vector<Task>> ParseOrders(std::string_view orders) { return Parser(orders).All(); }
 
+std::set<std::string> RoutesIn(std::string_view orders) {
+  std::set<std::string> routes;
+  const auto tasks = ParseOrders(orders);
+  if (!tasks) return routes;
+  for (const Task& task : *tasks) {
+    if (task.kind == Task::Kind::kFollow) routes.insert(task.route.route);
+  }
+  return routes;
+}
+
 std::string ToText(const Task& task) {
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
   std::string text = "follow " + task.route.route;
@@ -177,6 +179,11 @@ const char* ToString(State state) {
       return "expired";
   }
   return "unknown";
+}
+
+bool IsNewer(const Report& report, const Report& last) {
+  if (report.change != last.change) return report.change > last.change;
+  return report.change == 0 && last.state == State::kSent && report.state != State::kSent;
 }
 
 bool HasEnded(State state) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "services/mission/orders.h"
@@ -113,14 +112,14 @@ mission::GivenCommand CommandIn(SQLite::Statement& row) {
           .given_unix_ms = row.getColumn(6).getInt64()};
 }
 
-std::set<std::string> RoutesIn(const std::string& orders) {
-  std::set<std::string> routes;
-  const auto tasks = mission::ParseOrders(orders);
-  if (!tasks) return routes;
-  for (const mission::Task& task : *tasks) {
-    if (task.kind == mission::Task::Kind::kFollow) routes.insert(task.route.route);
+// "2, 6, 7": as SQL has a list.
+std::string EndedStates() {
+  std::string list;
+  for (std::uint8_t state = 0; state < mission::kStates; ++state) {
+    if (!mission::HasEnded(static_cast<mission::State>(state))) continue;
+    list += (list.empty() ? "" : ", ") + std::to_string(state);
   }
-  return routes;
+  return list;
 }
 
 // Who has it locked is another server, not somebody who is done in a moment.
@@ -156,7 +155,7 @@ struct MissionStore::Database {
 
   // Runs `work`, which may throw SQLite's exceptions.
   template <typename Work>
-  auto Guarded(const std::string& doing, const Work& work) -> Result<decltype(work())> {
+  auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
     try {
       return work();
     } catch (const SQLite::Exception& exception) {
@@ -187,7 +186,7 @@ struct MissionStore::Database {
     insert->bind(7, now_unix_ms);
     insert->exec();
     const std::int64_t number = db.getLastInsertRowid();
-    for (const std::string& route : RoutesIn(mission.orders)) {
+    for (const std::string& route : mission::RoutesIn(mission.orders)) {
       auto name =
           compiled.Take("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)");
       name->bind(1, number);
@@ -223,10 +222,8 @@ struct MissionStore::Database {
     if (++since_thinned_ <= most_kept / 100) return;
     since_thinned_ = 0;
     const std::string kept = std::to_string(most_kept);
-    db.exec(
-        "DELETE FROM mission WHERE state IN (2, 6, 7, 8, 9) AND number <= (SELECT max(number) "
-        "FROM mission) - " +
-        kept);
+    db.exec("DELETE FROM mission WHERE state IN (" + EndedStates() +
+            ") AND number <= (SELECT max(number) FROM mission) - " + kept);
     db.exec("DELETE FROM mission_route WHERE number NOT IN (SELECT number FROM mission)");
     db.exec("DELETE FROM command WHERE number <= (SELECT max(number) FROM command) - " + kept);
     db.exec(
@@ -257,41 +254,41 @@ Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
 
 Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
                                           std::int64_t now_unix_ms) {
-  auto added =
-      database_->Guarded("storing mission " + mission.id, [&]() -> Result<mission::Record> {
-        SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-        if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
-        if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
-          return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already",
-                      kMostUnanswered);
-        }
-        database_->Insert(mission, now_unix_ms);
-        database_->Thin();
-        transaction.commit();
-        return database_->Get(mission.agent, mission.id).value();
-      });
-  return added ? *std::move(added) : tl::unexpected(added.error());
-}
-
-Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t now_unix_ms) {
-  return database_->Guarded("storing what became of mission " + report.mission, [&] {
-    // A server's own word (0) counts until the robot's does.
-    auto update = database_->compiled.Take(
-        "UPDATE mission SET change = ?3, state = ?4, task = ?5, detail = ?6, changed_unix_ms = ?7 "
-        "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND change = 0 AND state = 0))");
-    update->bind(1, report.agent.value());
-    update->bind(2, report.mission);
-    update->bind(3, static_cast<std::int64_t>(report.change));
-    update->bind(4, static_cast<int>(report.state));
-    update->bind(5, static_cast<std::int64_t>(report.task));
-    update->bind(6, report.detail);
-    update->bind(7, now_unix_ms);
-    return update->exec() > 0;
+  return database_->Guarded("storing mission " + mission.id, [&]() -> Result<mission::Record> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
+    if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
+      return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already", kMostUnanswered);
+    }
+    database_->Insert(mission, now_unix_ms);
+    database_->Thin();
+    transaction.commit();
+    return database_->Get(mission.agent, mission.id).value();
   });
 }
 
+Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t now_unix_ms) {
+  return database_->Guarded("storing what became of mission " + report.mission,
+                            [&]() -> Result<bool> {
+                              // A server's own word (0) counts until the robot's does.
+                              auto update = database_->compiled.Take(
+                                  "UPDATE mission SET change = ?3, state = ?4, task = ?5, detail = "
+                                  "?6, changed_unix_ms = ?7 "
+                                  "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
+                                  "change = 0 AND state = 0))");
+                              update->bind(1, report.agent.value());
+                              update->bind(2, report.mission);
+                              update->bind(3, static_cast<std::int64_t>(report.change));
+                              update->bind(4, static_cast<int>(report.state));
+                              update->bind(5, static_cast<std::int64_t>(report.task));
+                              update->bind(6, report.detail);
+                              update->bind(7, now_unix_ms);
+                              return update->exec() > 0;
+                            });
+}
+
 Result<std::vector<mission::Record>> MissionStore::Unanswered() {
-  return database_->Guarded("reading missions", [&] {
+  return database_->Guarded("reading missions", [&]() -> Result<std::vector<mission::Record>> {
     std::vector<mission::Record> missions;
     auto select = database_->compiled.Take(std::string("SELECT ") + kColumns +
                                            " FROM mission WHERE state = 0 ORDER BY number");
@@ -301,7 +298,7 @@ Result<std::vector<mission::Record>> MissionStore::Unanswered() {
 }
 
 Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
-  return database_->Guarded("looking missions up", [&] {
+  return database_->Guarded("looking missions up", [&]() -> Result<Page> {
     auto select = database_->compiled.Take(
         std::string("SELECT ") + kColumns +
         " FROM mission WHERE number < ?1 AND (?2 = '' OR agent = ?2) AND (?3 = '' OR id = ?3) AND "
@@ -333,7 +330,7 @@ Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
 }
 
 Result<void> MissionStore::Add(const mission::NowCommand& command, std::int64_t now_unix_ms) {
-  const auto added = database_->Guarded("storing a command", [&] {
+  return database_->Guarded("storing a command", [&]() -> Result<void> {
     SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
     auto insert = database_->compiled.Take(
         "INSERT OR IGNORE INTO command (client, drawn, order_given, whom, name, reason, "
@@ -348,13 +345,12 @@ Result<void> MissionStore::Add(const mission::NowCommand& command, std::int64_t 
     insert->exec();
     database_->Thin();
     transaction.commit();
-    return true;
+    return {};
   });
-  return added ? Result<void>() : tl::unexpected(added.error());
 }
 
 Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
-  const auto added = database_->Guarded("storing an answer", [&] {
+  return database_->Guarded("storing an answer", [&]() -> Result<void> {
     auto insert = database_->compiled.Take(
         "INSERT OR IGNORE INTO answer (client, drawn, agent, refused, detail) SELECT ?1, ?2, ?3, "
         "?4, ?5 WHERE EXISTS (SELECT 1 FROM command WHERE client = ?1 AND drawn = ?2)");
@@ -364,13 +360,12 @@ Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
     insert->bind(4, answer.refused ? 1 : 0);
     insert->bind(5, answer.detail);
     insert->exec();
-    return true;
+    return {};
   });
-  return added ? Result<void>() : tl::unexpected(added.error());
 }
 
 Result<MissionStore::CommandPage> MissionStore::FindCommands(const mission::Query& query) {
-  return database_->Guarded("looking commands up", [&] {
+  return database_->Guarded("looking commands up", [&]() -> Result<CommandPage> {
     auto select = database_->compiled.Take(
         "SELECT client, drawn, order_given, whom, name, reason, given_unix_ms, number FROM command "
         "WHERE number < ?1 AND (?2 = '' OR (whom = 0 AND name = ?2) OR EXISTS (SELECT 1 FROM "

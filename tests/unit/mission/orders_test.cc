@@ -73,6 +73,25 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));
 }
 
+TEST(Orders, NameTheirRoutesOnce) {
+  EXPECT_EQ(RoutesIn("follow hall wait 1 follow yard@2 follow hall"),
+            (std::set<std::string>{"hall", "yard"}));
+  EXPECT_TRUE(RoutesIn("dance").empty());
+}
+
+TEST(Report, OfARobotIsNewerByItsNumberAndThanAnyOfAServer) {
+  const auto report = [](std::uint32_t change, State state) {
+    return Report{.change = change, .state = state};
+  };
+  EXPECT_TRUE(IsNewer(report(2, State::kUnderWay), report(1, State::kAccepted)));
+  EXPECT_FALSE(IsNewer(report(1, State::kAccepted), report(1, State::kAccepted)));
+  EXPECT_TRUE(IsNewer(report(1, State::kAccepted), report(0, State::kExpired)));
+  EXPECT_FALSE(IsNewer(report(0, State::kExpired), report(1, State::kAccepted)));
+  EXPECT_TRUE(IsNewer(report(0, State::kExpired), report(0, State::kSent)));
+  EXPECT_FALSE(IsNewer(report(0, State::kSent), report(0, State::kExpired)));
+  EXPECT_FALSE(IsNewer(report(0, State::kSent), report(0, State::kSent)));
+}
+
 TEST(State, HasANameEach) {
   for (std::uint8_t i = 0; i < kStates; ++i) {
     EXPECT_STRNE(ToString(static_cast<State>(i)), "unknown");

@@ -3,11 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <random>
 
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
+#include "services/fleet/draw.h"
 #include "services/program/json.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
@@ -67,7 +67,7 @@ std::string JsonPlace(const std::optional<route::Place>& place) {
 Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
                                           const route::RouteQuery& query,
                                           std::chrono::milliseconds timeout) {
-  const std::uint64_t request = std::random_device()();
+  const std::uint64_t request = fleet::DrawNumber();
   return fleet::Ask<exchange::CatalogReply>(
       exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
 }
@@ -75,7 +75,7 @@ Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, con
 Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange, const AgentId& client,
                                          const route::RouteEdit& edit,
                                          std::chrono::milliseconds timeout) {
-  const std::uint64_t request = std::random_device()();
+  const std::uint64_t request = fleet::DrawNumber();
   return fleet::Ask<exchange::CatalogReply>(
       exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
 }
