@@ -164,14 +164,16 @@ TEST_F(DdsLivelinessTest, AReaderThatDoesNotTakeKeepsSoMuchAndNoMore) {
     return heard > 0;
   }));
   for (int i = 0; i < 2000; ++i) ASSERT_TRUE(writer->Publish(batch));
-  heard = 0;
-  std::size_t before = 0;
+  // What comes while some are taken takes their place: how many in all is a matter of speed.
+  constexpr std::size_t kKept = 256;
+  std::size_t most = 0;
   do {
-    before = heard;
+    heard = 0;
     for (const Message& message : reader->Take(std::chrono::milliseconds(500))) count(message);
-  } while (heard > before);
-  EXPECT_GT(heard, 0U);
-  EXPECT_LE(heard, 2U * 256U);  // some come while the first are taken
+    most = std::max(most, heard);
+  } while (heard > 0);
+  EXPECT_GT(most, 0U);
+  EXPECT_LE(most, kKept);
 }
 
 }  // namespace
