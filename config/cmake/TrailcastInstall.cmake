@@ -52,6 +52,7 @@ find_dependency(fmt)
 find_dependency(tl-expected)
 find_dependency(Eigen3 NO_MODULE)
 find_dependency(OpenCVModules COMPONENTS core imgproc imgcodecs video features2d videoio calib3d)
+find_dependency(JPEG)
 find_dependency(Protobuf)
 find_dependency(OpenSSL COMPONENTS Crypto)
 find_dependency(SQLite3)
@@ -82,7 +83,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME trailcast-tools)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libtrailcast-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS FALSE)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "trailcast-tools, cyclonedds-dev, libeigen3-dev, libexpected-dev, libopencv-core-dev, \
+    "trailcast-tools, cyclonedds-dev, libeigen3-dev, libexpected-dev, libjpeg-dev, libopencv-core-dev, \
 libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-video-dev, libopencv-features2d-dev, \
 libopencv-videoio-dev, libopencv-calib3d-dev, libpqxx-dev, libprotobuf-dev, libspdlog-dev, \
 libsqlitecpp-dev, libssl-dev")

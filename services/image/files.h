@@ -22,8 +22,9 @@ namespace trailcast::image {
                                          const std::string& name);
 [[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                            const std::string& name);
-// `quality` is 1 to 100.
+// `quality` is 1 to 100. Every installation can; kInvalidArgument for a picture without pixels.
 [[nodiscard]] Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture, int quality);
+[[nodiscard]] Result<std::vector<std::uint8_t>> EncodeJpeg(const RgbImage& picture, int quality);
 [[nodiscard]] Result<void> WritePng(const RgbImage& picture, const std::filesystem::path& file);
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 

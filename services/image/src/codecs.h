@@ -11,7 +11,7 @@
 
 namespace trailcast::image {
 
-// What files.h offers, done. OpenCV's codecs bring two hundred libraries with them (GDAL, FFmpeg,
+// What files.h offers, done, but for writing JPEG (jpeg.cc). OpenCV's codecs bring two hundred libraries with them (GDAL, FFmpeg,
 // GStreamer), 240 MB, which a robot that drives has no use for. So they are in a library of their
 // own beside the programs, which files.cc loads when the first file is read or written.
 class Codecs {
@@ -23,8 +23,6 @@ class Codecs {
                                                    const std::string& name) const = 0;
   [[nodiscard]] virtual Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                                      const std::string& name) const = 0;
-  [[nodiscard]] virtual Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture,
-                                                                     int quality) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const RgbImage& picture,
                                               const std::filesystem::path& file) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const GrayImage& picture,

@@ -49,11 +49,6 @@ Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes, const std::str
   return Loaded().and_then([&](const Codecs* codecs) { return codecs->DecodeGray(bytes, name); });
 }
 
-Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture, int quality) {
-  return Loaded().and_then(
-      [&](const Codecs* codecs) { return codecs->EncodeJpeg(picture, quality); });
-}
-
 Result<void> WritePng(const RgbImage& picture, const fs::path& file) {
   return Loaded().and_then([&](const Codecs* codecs) { return codecs->WritePng(picture, file); });
 }

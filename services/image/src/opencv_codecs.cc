@@ -323,14 +323,6 @@ class OpenCvCodecs final : public Codecs {
     return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_GRAYSCALE)
         .map(FromMat<GrayImage>);
   }
-  [[nodiscard]] Result<std::vector<std::uint8_t>> EncodeJpeg(const GrayImage& picture,
-                                                             int quality) const override {
-    std::vector<std::uint8_t> bytes;
-    const bool encoded = !picture.empty() && cv::imencode(".jpg", View(picture, CV_8UC1), bytes,
-                                                          {cv::IMWRITE_JPEG_QUALITY, quality});
-    if (!encoded) return Fail(ErrorCode::kInternal, "cannot encode a picture as JPEG");
-    return bytes;
-  }
   [[nodiscard]] Result<void> WritePng(const RgbImage& picture,
                                       const fs::path& file) const override {
     cv::Mat bgr;

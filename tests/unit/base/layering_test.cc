@@ -101,6 +101,7 @@ struct Library {
 };
 const std::vector<Library> kLibraries{
     {"opencv2/", {"services/image", "services/trial", "services/vision"}},
+    {"jpeglib.h", {"services/image"}},
     {"google/protobuf/", {"services/route"}},
     {"idl/route.pb.h", {"services/route"}},
     {"idl/run_log_description.h", {"agent/diagnosis"}},

@@ -49,6 +49,32 @@ TEST(Files, GrayPictureSurvivesWritingAndReading) {
   EXPECT_EQ(read->pixels, written.pixels);
 }
 
+TEST(Files, PicturesAreMadeJpegInGreyAndInColour) {
+  const GrayImage gray = Gradient(64, 48);
+  const auto written = EncodeJpeg(gray, 95);
+  ASSERT_TRUE(written) << written.error().message;
+  const auto read = DecodeGray(*written, "gray");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->width, 64);
+  EXPECT_EQ(read->height, 48);
+  const auto coarse = EncodeJpeg(gray, 20);
+  ASSERT_TRUE(coarse);
+  EXPECT_LT(2 * coarse->size(), written->size());
+
+  RgbImage red{16, 8, {}};
+  for (int i = 0; i < 16 * 8; ++i) red.pixels.insert(red.pixels.end(), {220, 30, 40});
+  const auto coloured = DecodeRgb(EncodeJpeg(red, 90).value(), "red");
+  ASSERT_TRUE(coloured) << coloured.error().message;
+  EXPECT_NEAR(coloured->pixels[0], 220, 6);
+  EXPECT_NEAR(coloured->pixels[1], 30, 6);
+  EXPECT_NEAR(coloured->pixels[2], 40, 6);
+
+  EXPECT_FALSE(EncodeJpeg(GrayImage{}, 90));
+  const auto wide = EncodeJpeg(GrayImage{70'000, 1, std::vector<std::uint8_t>(70'000)}, 90);
+  ASSERT_FALSE(wide) << "JPEG has no such width";
+  EXPECT_THAT(wide.error().message, HasSubstr("70000x1"));
+}
+
 TEST(Files, RgbPictureKeepsItsChannelOrder) {
   const test::TempDir folder;
   const RgbImage written{2, 1, {200, 100, 50, 1, 2, 3}};
