@@ -54,6 +54,9 @@ class NewestMap {
   // Keys and values, the one that was touched last at the end.
   [[nodiscard]] auto begin() const { return entries_.begin(); }
   [[nodiscard]] auto end() const { return entries_.end(); }
+  // Values may be changed, keys may not.
+  [[nodiscard]] auto begin() { return entries_.begin(); }
+  [[nodiscard]] auto end() { return entries_.end(); }
 
  private:
   using Entries = std::list<std::pair<Key, Value>>;

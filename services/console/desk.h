@@ -31,7 +31,9 @@ class Desk {
   struct Options {
     std::chrono::milliseconds answer_within{3000};  // robots
     std::chrono::milliseconds reply_within{5000};  // robots and servers, to a mission or a question
-    std::chrono::milliseconds ask_every{3000};     // servers, while somebody looks
+    std::chrono::milliseconds ask_every{30'000};   // for missions, while somebody looks: news of
+                                                   // them are told unasked
+    std::chrono::milliseconds looks_on{3000};      // who looked so lately
   };
   // Asked at once beyond what stops robots: more are refused.
   static constexpr std::size_t kMostErrands = 16;
@@ -53,15 +55,21 @@ class Desk {
                                                             const std::string& reason);
   // Its client is filled in. As fleet::SendMission: what is known of it first.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission);
-  // A page of what servers keep, the newest first.
-  [[nodiscard]] Result<std::vector<mission::Record>> Missions(const mission::Query& query);
+  // A page of what servers keep, the newest first: of missions, or of commands.
+  [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query,
+                                                        bool commands = false);
+  // What a server has, or finds, of routes.
+  [[nodiscard]] Result<exchange::CatalogReply> Routes(const route::RouteQuery& query);
+  // The revisions that have changed. kConflict: a server says why it changes nothing.
+  [[nodiscard]] Result<exchange::CatalogReply> Edit(const route::RouteEdit& edit);
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1
-    std::string state{};       // FleetState::Json
+    StateParts state{};
   };
   // The latest, once that is newer than `number`; null when nothing has changed within `most`, or
-  // the desk is closed. Who asks looks: what servers keep is asked for.
+  // the desk is closed. Who asks looks: only while somebody does is there news, and are servers
+  // asked.
   [[nodiscard]] std::shared_ptr<const News> See(std::uint64_t number,
                                                 std::chrono::milliseconds most);
 
@@ -78,6 +86,7 @@ class Desk {
   void Begin();
   void Say(Clock::time_point now);
   void Hear(const exchange::Message& message, Clock::time_point now);
+  [[nodiscard]] bool SomebodyLooks(Clock::time_point now);
   void AskServers(Clock::time_point now);
   void ShowNews(Clock::time_point now);
 
@@ -97,7 +106,8 @@ class Desk {
   std::deque<std::shared_ptr<Errand>> stops_;
   std::deque<std::shared_ptr<Errand>> others_;
   std::size_t under_way_ = 0;  // of the others, those that wait included
-  std::shared_ptr<const News> news_;
+  std::uint64_t news_count_ = 0;
+  std::shared_ptr<const News> news_;  // null while nobody looks
   Clock::time_point looked_at_{};
   std::condition_variable changed_;
 

@@ -13,8 +13,24 @@
 
 namespace trailcast::console {
 
-// What is known of the fleet: who was heard of it, what each was sent to do, which routes there
-// are. Robots that have fallen silent stay. No I/O, no clock of its own.
+// The members of the object that openapi.yaml calls State, but for its time, each as JSON without
+// line breaks.
+struct StateParts {
+  std::map<std::string, std::string> robots{};  // by name
+  std::string servers = "[]";
+  std::string routes = "[]";
+  std::string missions = "[]";
+
+  bool operator==(const StateParts&) const = default;
+};
+// All of it.
+[[nodiscard]] std::string WholeJson(const StateParts& parts, std::int64_t now_unix_ms);
+// What openapi.yaml calls Change: what of `parts` is not as in `from`.
+[[nodiscard]] std::string ChangeJson(const StateParts& from, const StateParts& parts,
+                                     std::int64_t now_unix_ms);
+
+// What is live in the fleet: who was heard of it, what each was sent to do, the routes that robots
+// are on. Robots that have fallen silent stay. No I/O, no clock of its own.
 class FleetState {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -24,6 +40,9 @@ class FleetState {
   static constexpr std::size_t kMissionsShown = 50;
   // An agent speaks five times a second; in a large fleet each has program::Presence's share.
   static constexpr std::chrono::milliseconds kSilentAfter{3000};
+  // A route that nobody tells of is asked for so often, so many at once.
+  static constexpr std::chrono::milliseconds kAskForRouteEvery{10'000};
+  static constexpr std::size_t kMostAskedFor = 8;
 
   // `self` asks for routes and missions: replies to it are taken.
   explicit FleetState(AgentId self) : self_(std::move(self)) {}
@@ -31,13 +50,14 @@ class FleetState {
   void Handle(const exchange::Message& message, Time now, std::int64_t unix_ms);
   // What this console itself sends: without a server nobody else tells its orders.
   void Sent(const mission::Mission& mission, std::int64_t unix_ms);
-  // Who has fallen silent meanwhile.
+  // Who has fallen silent meanwhile, and which routes robots are on.
   void Tick(Time now);
   // A robot tells of a mission whose orders are not known here.
   [[nodiscard]] bool lacks_orders() const { return lacks_orders_; }
+  // Routes that robots are on and of which more is to be asked now.
+  [[nodiscard]] std::vector<RouteId> TakeLackingRoutes(Time now);
 
-  // The object that openapi.yaml calls State, without its time.
-  [[nodiscard]] std::string Json() const;
+  [[nodiscard]] StateParts Parts() const;
 
  private:
   struct Agent {
@@ -47,17 +67,25 @@ class FleetState {
     bool gone = false;
     bool silent = false;
   };
+  // That a robot is on.
+  struct Route {
+    std::optional<route::RouteInfo> info{};
+    std::optional<Time> asked_at{};
+  };
   using MissionName = std::pair<AgentId, std::string>;
+  using Latest = std::map<AgentId, const mission::Record*>;
 
   void On(const mission::Report& report, std::int64_t unix_ms);
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);
-  [[nodiscard]] const mission::Record* LatestOf(const AgentId& robot) const;
+  [[nodiscard]] Latest LatestMissions() const;
+  [[nodiscard]] std::string RobotJson(const Agent& agent, const mission::Record* latest) const;
+  [[nodiscard]] std::string MissionsJson() const;
 
   AgentId self_;
   NewestMap<AgentId, Agent> agents_{kMostAgents};
   NewestMap<MissionName, mission::Record> missions_{kMostMissions};
-  std::map<AgentId, std::vector<route::RouteInfo>> routes_;  // of each server
+  std::map<route::RouteKey, Route> routes_;
   bool lacks_orders_ = false;
 };
 

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "services/base/result.h"
-#include "services/exchange/messages.h"
-#include "services/fleet/now_client.h"
+#include "services/route/route_query.h"
 
 namespace trailcast::console {
 
-// The bodies of requests and of replies, as openapi.yaml has them. What is read may be anything:
-// kInvalidArgument says what was expected.
+// Requests, as openapi.yaml has them. What is read may be anything: kInvalidArgument says what was
+// expected.
 
 // {"reason": ".."}, or nothing at all.
 [[nodiscard]] Result<std::string> ReadReason(const std::string& body);
@@ -23,10 +23,11 @@ struct SendBody {
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
 
+// What comes behind the question mark of an address, decoded.
+using Parameters = std::multimap<std::string, std::string>;
+// Of GET /api/routes.
+[[nodiscard]] Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters);
+
 [[nodiscard]] std::string ErrorBody(const std::string& why);
-[[nodiscard]] std::string WordBody(const fleet::RobotsWord& word);
-[[nodiscard]] std::string WordsBody(const std::vector<fleet::RobotsWord>& words);
-[[nodiscard]] std::string ReportBody(const mission::Report& report);
-[[nodiscard]] std::string MissionsBody(const std::vector<mission::Record>& missions);
 
 }  // namespace trailcast::console

@@ -38,7 +38,9 @@ struct SendWatch {
 
 // "robot1: under way: ..", without what there is not to say.
 [[nodiscard]] std::string ReportText(const mission::Report& report);
+// Objects for programs, without line breaks.
 [[nodiscard]] std::string ReportJson(const mission::Report& report);
+[[nodiscard]] std::string MissionJson(const mission::Record& record);
 // A table for people, and an array of objects for programs.
 [[nodiscard]] std::string MissionsTable(const std::vector<mission::Record>& missions,
                                         std::int64_t now_unix_ms);

@@ -35,7 +35,8 @@ struct RobotsWord {
 
 // A line a robot.
 [[nodiscard]] std::string WordsText(const std::vector<RobotsWord>& words);
-// For programs: an array of objects.
+// For programs: an object, and an array of them.
+[[nodiscard]] std::string WordJson(const RobotsWord& word);
 [[nodiscard]] std::string WordsJson(const std::vector<RobotsWord>& words);
 
 }  // namespace trailcast::fleet

@@ -8,13 +8,13 @@
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/route_export.h"
+#include "services/fleet/routes/route_summary.h"
 #include "services/program/stop_signal.h"
 #include "services/route/labels.h"
 #include "services/route/route_ref.h"
 #include "services/tool/command.h"
-#include "services/tool/routes/catalog_client.h"
-#include "services/tool/routes/route_export.h"
-#include "services/tool/routes/route_summary.h"
 
 namespace trailcast::tool {
 namespace {
@@ -61,11 +61,11 @@ Result<Exported> FromStore(const ExportOptions& options) {
   const exchange::CatalogReply reply =
       catalog::Answer({.client = {}, .request = 0, .query = {.name = options.route}}, {}, **store);
   if (!reply.error.empty()) return Fail(ErrorCode::kUnavailable, "{}: {}", holder, reply.error);
-  auto info = ChooseForExport(reply, options.route, options.which, holder);
+  auto info = fleet::ChooseForExport(reply, options.route, options.which, holder);
   if (!info) return tl::unexpected(info.error());
   auto file = OpenFile(options, *info);
   if (!file) return tl::unexpected(file.error());
-  const auto bytes = ExportFromStore(**store, *info, std::move(*file));
+  const auto bytes = fleet::ExportFromStore(**store, *info, std::move(*file));
   if (!bytes) return tl::unexpected(bytes.error());
   return Exported{std::move(*info), *bytes};
 }
@@ -73,22 +73,22 @@ Result<Exported> FromStore(const ExportOptions& options) {
 Result<Exported> FromServer(const program::CommonOptions& common, const ExportOptions& options) {
   auto peer = fleet::JoinAsOperator(common, exchange::FollowerTopics());
   if (!peer) return tl::unexpected(peer.error());
-  TransferWatch watch;
+  fleet::TransferWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);
-  const auto reply = AskForRoutes(*peer->exchange, peer->self, {.name = options.route},
-                                  exchange::kMaxRoutesPerReply, watch.timeout);
+  const auto reply = fleet::AskForRoutes(*peer->exchange, peer->self, {.name = options.route},
+                                         exchange::kMaxRoutesPerReply, watch.timeout);
   if (!reply) return tl::unexpected(reply.error());
-  auto info = ChooseForExport(*reply, options.route, options.which,
-                              fmt::format("server '{}'", reply->server.value()));
+  auto info = fleet::ChooseForExport(*reply, options.route, options.which,
+                                     fmt::format("server '{}'", reply->server.value()));
   if (!info) return tl::unexpected(info.error());
   // From here on there is something to tidy up.
   const program::StopSignal stop;
   watch.stop = [] { return program::StopSignal::requested(); };
   auto file = OpenFile(options, *info);
   if (!file) return tl::unexpected(file.error());
-  TransferProgress progress(fmt::format("fetching '{}'", info->name), info->bytes);
+  fleet::TransferProgress progress(fmt::format("fetching '{}'", info->name), info->bytes);
   watch.progress = [&progress](std::uint64_t done) { progress.Show(done); };
-  const auto bytes = ExportFromServer(*peer, *info, std::move(*file), watch);
+  const auto bytes = fleet::ExportFromServer(*peer, *info, std::move(*file), watch);
   if (!bytes) return tl::unexpected(bytes.error());
   return Exported{std::move(*info), *bytes};
 }
@@ -103,7 +103,8 @@ int Run(const CLI::App& app, const program::CommonOptions& common, ExportOptions
   const route::RouteInfo& info = exported->info;
   const std::string out = options.out.empty() ? info.name + ".trailcast" : options.out.string();
   fmt::print("{}: {}, id {}, {} segments, {}, {} bytes\n", out, route::Describe(info),
-             route::ShortIds().Of(info), info.segment_count, LengthText(info), exported->bytes);
+             route::ShortIds().Of(info), info.segment_count, fleet::LengthText(info),
+             exported->bytes);
   return program::kExitOk;
 }
 

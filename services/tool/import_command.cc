@@ -8,10 +8,10 @@
 
 #include "services/base/time.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/route_import.h"
+#include "services/fleet/routes/route_summary.h"
 #include "services/tool/command.h"
-#include "services/tool/routes/catalog_client.h"
-#include "services/tool/routes/route_import.h"
-#include "services/tool/routes/route_summary.h"
 
 namespace trailcast::tool {
 namespace {
@@ -46,27 +46,28 @@ bool Check(const CLI::App& app, const ImportOptions& options) {
     if (!file) program::Complain(app, file.error());
     all = all && file.has_value();
     if (options.json) {
-      json += (json.empty() ? "\n  " : ",\n  ") + FileJson(path.string(), file);
+      json += (json.empty() ? "\n  " : ",\n  ") + fleet::FileJson(path.string(), file);
     } else if (file) {
-      fmt::print("{}", FileText(path.string(), *file));
+      fmt::print("{}", fleet::FileText(path.string(), *file));
     }
   }
   if (options.json) fmt::print("[{}\n]\n", json);
   return all;
 }
 
-using ImportOne = std::function<Result<Imported>(const RouteFile&)>;
+using ImportOne = std::function<Result<fleet::Imported>(const RouteFile&)>;
 
 // True if all are there now. Goes on after a file that is refused, but not without a server.
 bool ImportAll(const CLI::App& app, const ImportOptions& options, const ImportOne& import_one) {
   bool all = true;
   for (const fs::path& path : options.files) {
     const auto file = RouteFile::Open(path);
-    const auto imported = file ? import_one(*file) : Result<Imported>(tl::unexpected(file.error()));
+    const auto imported =
+        file ? import_one(*file) : Result<fleet::Imported>(tl::unexpected(file.error()));
     if (imported) {
       const route::RouteInfo& info = file->info();
       fmt::print("{}: route '{}' revision {} ({} segments, {}) {} {}\n", path.string(), info.name,
-                 info.revision.value(), info.segment_count, LengthText(info),
+                 info.revision.value(), info.segment_count, fleet::LengthText(info),
                  imported->was_there ? "was there already:" : "is there now:", imported->holder);
       std::fflush(stdout);
       continue;
@@ -82,20 +83,21 @@ Result<bool> IntoStore(const CLI::App& app, const ImportOptions& options) {
   auto store = store::OpenSqliteStore(options.store);
   if (!store) return tl::unexpected(store.error());
   return ImportAll(app, options, [&](const RouteFile& file) {
-    return ImportIntoStore(file, **store, "route store " + options.store.string());
+    return fleet::ImportIntoStore(file, **store, "route store " + options.store.string());
   });
 }
 
 Result<bool> ToServer(const CLI::App& app, const program::CommonOptions& common,
                       const ImportOptions& options) {
-  auto peer = fleet::JoinAsOperator(common, ImporterTopics());
+  auto peer = fleet::JoinAsOperator(common, fleet::ImporterTopics());
   if (!peer) return tl::unexpected(peer.error());
-  TransferWatch watch;
+  fleet::TransferWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);
   return ImportAll(app, options, [&](const RouteFile& file) {
-    TransferProgress progress(fmt::format("delivering '{}'", file.info().name), file.info().bytes);
+    fleet::TransferProgress progress(fmt::format("delivering '{}'", file.info().name),
+                                     file.info().bytes);
     watch.progress = [&progress](std::uint64_t done) { progress.Show(done); };
-    return ImportToServer(file, *peer, watch);
+    return fleet::ImportToServer(file, *peer, watch);
   });
 }
 

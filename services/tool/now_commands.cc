@@ -6,8 +6,8 @@
 #include "services/base/time.h"
 #include "services/fleet/now_client.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/tool/command.h"
-#include "services/tool/routes/transfer.h"
 
 namespace trailcast::tool {
 namespace {

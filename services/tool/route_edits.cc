@@ -8,10 +8,10 @@
 
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/route/labels.h"
 #include "services/route/route_ref.h"
-#include "services/tool/routes/catalog_client.h"
-#include "services/tool/routes/transfer.h"
 
 namespace trailcast::tool {
 namespace {
@@ -53,7 +53,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, RouteEdit edi
   const auto peer = fleet::JoinAsOperator(common, exchange::OperatorTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(timeout_s);
-  const auto reply = AskToEdit(*peer->exchange, peer->self, edit, timeout);
+  const auto reply = fleet::AskToEdit(*peer->exchange, peer->self, edit, timeout);
   if (!reply) return program::Complain(app, reply.error());
   Tell(reply->page.routes);
   return program::kExitOk;

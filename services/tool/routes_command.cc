@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -8,12 +7,13 @@
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
+#include "services/route/query_words.h"
 #include "services/tool/command.h"
 #include "services/tool/route_edits.h"
-#include "services/tool/routes/catalog_client.h"
-#include "services/tool/routes/transfer.h"
 #include "services/tool/time_spans.h"
 
 namespace trailcast::tool {
@@ -46,34 +46,17 @@ constexpr const char* kExamples =
     "  trailcast routes rollback aisle-3          # and the one before again\n"
     "  trailcast routes tag aisle-3 night wet";
 
-const std::map<std::string, route::RouteOrder> kOrders = {
-    {"newest", route::RouteOrder::kNewest},
-    {"oldest", route::RouteOrder::kOldest},
-    {"name", route::RouteOrder::kName},
-    {"longest", route::RouteOrder::kLongest},
-    {"shortest", route::RouteOrder::kShortest}};
-
-// Teaching or taught completely; what is complete has a standing besides.
-const std::map<std::string, route::RouteState> kStates = {
-    {"teaching", route::RouteState::kTeaching},
-    {"complete", route::RouteState::kComplete},
-    {"staged", route::RouteState::kComplete},
-    {"active", route::RouteState::kComplete},
-    {"retired", route::RouteState::kComplete}};
-const std::map<std::string, route::Standing> kStandings = {{"staged", route::Standing::kStaged},
-                                                           {"active", route::Standing::kActive},
-                                                           {"retired", route::Standing::kRetired}};
-
 std::int64_t Before(std::int64_t now_unix_ms, double age_s) {
   return now_unix_ms - static_cast<std::int64_t>(age_s * 1000.0);
 }
 
 route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms) {
   route::RouteQuery query = options.query;
-  query.order = kOrders.at(options.sort);
-  if (!options.state.empty()) query.state = kStates.at(options.state);
-  if (const auto standing = kStandings.find(options.state); standing != kStandings.end()) {
-    query.standing = standing->second;
+  query.order = route::OrderWords().at(options.sort);
+  if (!options.state.empty()) {
+    const route::StateWord& word = route::StateWords().at(options.state);
+    query.state = word.state;
+    query.standing = word.standing;
   }
   if (options.near) query.near = {*options.near, options.within_m};
   if (options.newer_than_s > 0.0) {
@@ -97,32 +80,33 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
 }
 
 // Of the routes that are complete.
-Result<RouteStudies> Study(fleet::OperatorPeer& peer, const std::vector<route::RouteInfo>& routes,
-                           std::chrono::milliseconds timeout) {
+Result<fleet::RouteStudies> Study(fleet::OperatorPeer& peer,
+                                  const std::vector<route::RouteInfo>& routes,
+                                  std::chrono::milliseconds timeout) {
   const program::StopSignal stop;
-  RouteStudies studies;
+  fleet::RouteStudies studies;
   for (const route::RouteInfo& info : routes) {
     if (info.state != route::RouteState::kComplete) continue;
-    TransferProgress progress(fmt::format("looking into '{}'", info.name), info.bytes);
-    TransferWatch watch;
+    fleet::TransferProgress progress(fmt::format("looking into '{}'", info.name), info.bytes);
+    fleet::TransferWatch watch;
     watch.timeout = timeout;
     watch.stop = [] { return program::StopSignal::requested(); };
     watch.progress = [&progress](std::uint64_t done) { progress.Show(done); };
-    auto study = StudyRoute(peer, info, watch);
+    auto study = fleet::StudyRoute(peer, info, watch);
     if (!study) return tl::unexpected(study.error());
     studies.emplace(info.key, std::move(*study));
   }
   return studies;
 }
 
-std::string TextOf(const exchange::CatalogReply& reply, const RouteStudies& studies, bool json,
-                   std::int64_t now_unix_ms) {
-  if (json) return RoutesJson(reply, studies);
-  std::string text = RoutesTable(reply, now_unix_ms);
+std::string TextOf(const exchange::CatalogReply& reply, const fleet::RouteStudies& studies,
+                   bool json, std::int64_t now_unix_ms) {
+  if (json) return fleet::RoutesJson(reply, studies);
+  std::string text = fleet::RoutesTable(reply, now_unix_ms);
   for (const route::RouteInfo& info : reply.page.routes) {
     const auto study = studies.find(info.key);
     if (study == studies.end()) continue;
-    text += WeakPlacesText(info, study->second) + GroundText(info, study->second);
+    text += fleet::WeakPlacesText(info, study->second) + fleet::GroundText(info, study->second);
   }
   return text;
 }
@@ -137,11 +121,12 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesO
       common, options.looked_into ? exchange::FollowerTopics() : exchange::ObserverTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
-  const auto reply = AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
+  const auto reply =
+      fleet::AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
   if (!reply) return program::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
   if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
-  Result<RouteStudies> studies;
+  Result<fleet::RouteStudies> studies;
   if (options.looked_into) studies = Study(*peer, routes, timeout);
   if (!studies) return program::Complain(app, studies.error());
   std::fputs(TextOf(*reply, *studies, options.json, now_unix_ms).c_str(), stdout);
@@ -174,7 +159,8 @@ void AddFilters(CLI::App& app, RoutesOptions& options) {
       ->transform(TimeSpan("AGE"));
   app.add_option("--older-than", options.older_than_s, "Only taught before that")
       ->transform(TimeSpan("AGE"));
-  app.add_option("--state", options.state, "Only these")->check(CLI::IsMember(&kStates));
+  app.add_option("--state", options.state, "Only these")
+      ->check(CLI::IsMember(&route::StateWords()));
   program::AddPlaceOptions(app, "near", "Only beginning near", options.near);
   app.add_option("--within", options.within_m, "Metres, how near")->check(CLI::PositiveNumber);
 }
@@ -187,7 +173,8 @@ Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common)
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
   AddFilters(*app, *options);
-  app->add_option("--sort", options->sort, "What comes first")->check(CLI::IsMember(&kOrders));
+  app->add_option("--sort", options->sort, "What comes first")
+      ->check(CLI::IsMember(&route::OrderWords()));
   app->add_option("--limit", options->limit, "Routes to list at most")
       ->check(CLI::Range(1, 10'000'000));
   app->add_flag("--json", options->json, "For programs");

@@ -5,11 +5,11 @@
 
 #include "services/base/time.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/transfer.h"
+#include "services/fleet/routes/where_report.h"
 #include "services/image/files.h"
 #include "services/tool/command.h"
-#include "services/tool/routes/catalog_client.h"
-#include "services/tool/routes/transfer.h"
-#include "services/tool/routes/where_report.h"
 #include "services/vision/view_features.h"
 
 namespace trailcast::tool {
@@ -43,9 +43,9 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const WhereOp
   const auto peer = fleet::JoinAsOperator(common, exchange::ObserverTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
-  const auto reply = AskCatalog(*peer->exchange, peer->self, *query, timeout);
+  const auto reply = fleet::AskCatalog(*peer->exchange, peer->self, *query, timeout);
   if (!reply) return program::Complain(app, reply.error());
-  std::fputs((options.json ? WhereJson(*reply) : WhereText(*reply)).c_str(), stdout);
+  std::fputs((options.json ? fleet::WhereJson(*reply) : fleet::WhereText(*reply)).c_str(), stdout);
   return program::kExitOk;
 }
 

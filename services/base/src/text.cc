@@ -6,8 +6,15 @@
 namespace trailcast {
 namespace {
 
-// Length of the well-formed UTF-8 character at the beginning of `text`, 0 if there is none
-// (truncated, overlong, a surrogate, beyond U+10FFFF). The Unicode standard, table 3-7.
+// C0 controls and DEL, and the C1 controls (U+0080..U+009F), which some terminals obey as well.
+bool IsControl(std::string_view character) {
+  const auto lead = static_cast<std::uint8_t>(character[0]);
+  if (character.size() == 1) return lead < 0x20 || lead == 0x7F;
+  return character.size() == 2 && lead == 0xC2 && static_cast<std::uint8_t>(character[1]) < 0xA0;
+}
+
+}  // namespace
+
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
@@ -33,15 +40,6 @@ std::size_t CharacterLength(std::string_view text) {
   }
   return length;
 }
-
-// C0 controls and DEL, and the C1 controls (U+0080..U+009F), which some terminals obey as well.
-bool IsControl(std::string_view character) {
-  const auto lead = static_cast<std::uint8_t>(character[0]);
-  if (character.size() == 1) return lead < 0x20 || lead == 0x7F;
-  return character.size() == 2 && lead == 0xC2 && static_cast<std::uint8_t>(character[1]) < 0xA0;
-}
-
-}  // namespace
 
 bool IsPlainText(std::string_view text, std::size_t max_bytes) {
   if (text.size() > max_bytes) return false;

@@ -37,13 +37,22 @@ export type Robot = {
   orders: Order[];
 };
 
+// A revision of a route, as `trailcast routes --json` has it.
 export type Route = {
   name: string;
   route: string;
   revision: number;
   state: string;
+  segments: number;
   length_m: number;
+  bytes: number;
+  scout: string;
+  camera: string;
+  taught_unix_ms: number;
+  tags: string[];
+  place: { latitude: number; longitude: number } | { site_x_m: number; site_y_m: number } | null;
   description: string;
+  teaching: string;
 };
 
 export type Server = {
@@ -61,22 +70,48 @@ export type Fleet = {
   missions: Mission[];
 };
 
+// What has changed of it: robots by name, the rest as a whole where it is there.
+export type Change = Partial<Fleet> & { now_unix_ms: number; robots: Robot[]; gone: string[] };
+
+// Of a search, with who holds each and how many of its segments its server has lost.
+export type FoundRoute = Route & { held_by: string[]; segments_lost: number };
+export type RoutePage = { routes: FoundRoute[]; total: number; next: string; similar: string[] };
+
 export type Answer = { ok: boolean; text: string };
 
 const kPatience_ms = 12000;
 
-async function post(path: string, body: object): Promise<{ status: number; json: any }> {
+async function ask(path: string, request: RequestInit): Promise<{ status: number; json: any }> {
   const giveUp = new AbortController();
   const timer = window.setTimeout(() => giveUp.abort(), kPatience_ms);
-  const reply = await fetch(path, {
+  try {
+    const reply = await fetch(path, { ...request, signal: giveUp.signal });
+    return { status: reply.status, json: await reply.json() };
+  } finally {
+    window.clearTimeout(timer);
+  }
+}
+
+function post(path: string, body: object): Promise<{ status: number; json: any }> {
+  return ask(path, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: JSON.stringify(body),
-    signal: giveUp.signal,
   });
-  const json = await reply.json();
-  window.clearTimeout(timer);
-  return { status: reply.status, json };
+}
+
+// What is there, or why not, in words.
+export async function get<Reply>(path: string, parameters: Record<string, string | string[]>): Promise<Reply | string> {
+  const query = new URLSearchParams();
+  for (const [name, value] of Object.entries(parameters)) {
+    for (const each of Array.isArray(value) ? value : [value]) if (each) query.append(name, each);
+  }
+  try {
+    const { json } = await ask(`${path}?${query}`, {});
+    return json.error ?? (json as Reply);
+  } catch {
+    return 'The console does not answer.';
+  }
 }
 
 const unreachable: Answer = { ok: false, text: 'The console does not answer: it may not have been told.' };

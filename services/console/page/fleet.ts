@@ -1,5 +1,5 @@
 import { useEffect, useState } from 'react';
-import type { Fleet } from './api';
+import type { Change, Fleet } from './api';
 
 // The console speaks every five seconds at least.
 const kLost_ms = 12000;
@@ -10,6 +10,16 @@ export type View = {
   now_ms: number;  // by the console's clock
   heard_ms: number;
 };
+
+// Robots that have not changed stay the same objects.
+function changed(fleet: Fleet | null, { gone, robots, ...rest }: Change): Fleet | null {
+  if (!fleet) return null;
+  const byName = new Map(fleet.robots.map((robot) => [robot.name, robot]));
+  for (const name of gone) byName.delete(name);
+  for (const robot of robots) byName.set(robot.name, robot);
+  const sorted = [...byName.values()].sort((one, other) => (one.name < other.name ? -1 : 1));
+  return { ...fleet, ...rest, robots: sorted };
+}
 
 export function useFleet(): View {
   const [fleet, setFleet] = useState<Fleet | null>(null);
@@ -32,6 +42,11 @@ export function useFleet(): View {
         const state = JSON.parse((event as MessageEvent).data) as Fleet;
         setFleet(state);
         heard(state.now_unix_ms);
+      });
+      source.addEventListener('change', (event) => {
+        const change = JSON.parse((event as MessageEvent).data) as Change;
+        setFleet((fleet) => changed(fleet, change));
+        heard(change.now_unix_ms);
       });
       source.addEventListener('alive', (event) => {
         heard(JSON.parse((event as MessageEvent).data).now_unix_ms);

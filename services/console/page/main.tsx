@@ -1,9 +1,11 @@
 import { useState } from 'react';
 import { createRoot } from 'react-dom/client';
-import { stopAll, type Answer, type Robot } from './api';
+import { stopAll, type Answer, type Fleet, type Robot } from './api';
 import { age, useFleet } from './fleet';
 import { Missions } from './missions';
+import { Pages, usePage } from './pages';
 import { Badge, RobotCard } from './robot';
+import { Routes } from './routes';
 
 function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   const needing = robots.filter((robot) => robot.needs_person);
@@ -23,10 +25,31 @@ function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   );
 }
 
+function Robots({ fleet, now_ms }: { fleet: Fleet | null; now_ms: number }) {
+  const robots = fleet?.robots ?? [];
+  return (
+    <>
+      <Attention robots={robots} now_ms={now_ms} />
+      <section aria-label="Robots" className="robots">
+        {fleet && robots.length === 0 && (
+          <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
+        )}
+        {robots.map((robot) => (
+          <RobotCard key={robot.name} robot={robot} now_ms={robot.heard ? 0 : now_ms} />
+        ))}
+      </section>
+      <section aria-label="Missions">
+        <h2>Missions</h2>
+        <Missions missions={fleet?.missions ?? []} now_ms={now_ms} />
+      </section>
+    </>
+  );
+}
+
 function Page() {
   const { fleet, lost, now_ms, heard_ms } = useFleet();
   const [answer, setAnswer] = useState<Answer | null>(null);
-  const robots = fleet?.robots ?? [];
+  const page = usePage();
   const servers = fleet?.servers ?? [];
   const stop = async () => {
     setAnswer({ ok: true, text: 'Stop: told to all …' });
@@ -36,6 +59,7 @@ function Page() {
     <>
       <header className="top">
         <h1>Trailcast</h1>
+        <Pages page={page} />
         <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>
       </header>
       <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
@@ -54,19 +78,7 @@ function Page() {
         </p>
       )}
       <main>
-        <Attention robots={robots} now_ms={now_ms} />
-        <section aria-label="Robots" className="robots">
-          {fleet && robots.length === 0 && (
-            <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
-          )}
-          {robots.map((robot) => (
-            <RobotCard key={robot.name} robot={robot} routes={fleet!.routes} now_ms={now_ms} />
-          ))}
-        </section>
-        <section aria-label="Missions">
-          <h2>Missions</h2>
-          <Missions missions={fleet?.missions ?? []} now_ms={now_ms} />
-        </section>
+        {page === 'routes' ? <Routes /> : <Robots fleet={fleet} now_ms={now_ms} />}
       </main>
       <footer>
         <p id="stop-help">

@@ -1,5 +1,5 @@
-import { useState } from 'react';
-import { tell, type Answer, type Order, type Robot, type RobotState, type Route } from './api';
+import { memo, useState } from 'react';
+import { tell, type Answer, type Order, type Robot, type RobotState } from './api';
 import { age } from './fleet';
 import { Send } from './send';
 
@@ -51,11 +51,9 @@ const labels: Record<Order, string> = {
   pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release',
 };
 
-export function RobotCard({ robot, routes, now_ms }: {
-  robot: Robot;
-  routes: Route[];
-  now_ms: number;
-}) {
+// Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
+// is not heard.
+export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [sending, setSending] = useState(false);
   const order = async (given: Order) => {
@@ -102,10 +100,10 @@ export function RobotCard({ robot, routes, now_ms }: {
           {maySend && <button aria-expanded={sending} onClick={() => setSending(!sending)}>Send …</button>}
         </div>
       )}
-      {obeys && sending && maySend && <Send robot={robot.name} routes={routes} onAnswer={sent} />}
+      {obeys && sending && maySend && <Send robot={robot.name} onAnswer={sent} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
     </article>
   );
-}
+});

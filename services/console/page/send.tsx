@@ -1,12 +1,12 @@
-import { useId, useState } from 'react';
-import { send, type Answer, type Route } from './api';
+import { useEffect, useId, useState } from 'react';
+import { get, send, type Answer, type RoutePage } from './api';
 
 // What moves a robot takes a whole slide, or as many presses of an arrow key: a tap on the far end
 // does not do.
 const kWholeWay = 100;
 const kFurthestAtOnce = 45;
 
-function Slide({ label, onDone }: { label: string; onDone: () => void }) {
+export function Slide({ label, onDone }: { label: string; onDone: () => void }) {
   const [at, setAt] = useState(0);
   const [from, setFrom] = useState(0);
   const move = (to: number) => {
@@ -34,19 +34,35 @@ function Slide({ label, onDone }: { label: string; onDone: () => void }) {
   );
 }
 
-export function Send({ robot, routes, onAnswer }: {
+export function Send({ robot, onAnswer }: {
   robot: string;
-  routes: Route[];
   onAnswer: (answer: Answer | null) => void;
 }) {
+  const [prefix, setPrefix] = useState('');
+  const [found, setFound] = useState<RoutePage | string | null>(null);
   const [chosen, setChosen] = useState('');
   const [laps, setLaps] = useState(1);
   const [speed, setSpeed] = useState('1');
   const id = useId();
+  useEffect(() => {
+    let still = true;
+    const timer = window.setTimeout(async () => {
+      const page = await get<RoutePage>('/api/routes', { prefix, state: 'active', sort: 'name', limit: '50' });
+      if (still) setFound(page);
+    }, prefix ? 250 : 0);
+    return () => {
+      still = false;
+      window.clearTimeout(timer);
+    };
+  }, [prefix]);
+  if (found === null) return <p className="note">Asks for routes …</p>;
+  const why = typeof found === 'string' ? found : '';
+  const routes = typeof found === 'string' ? [] : found.routes;
+  const total = typeof found === 'string' ? 0 : found.total;
   const route = routes.find((each) => each.route === chosen) ?? routes[0];
-  if (!route) return <p className="note">No route is known: teach one, or start the route server.</p>;
-  const sameName = routes.filter((each) => each.name === route.name).length > 1;
-  const name = sameName ? route.route : route.name;
+  if (!route && !prefix) return <p className="note">{why || 'No route is known: teach one.'}</p>;
+  const sameName = route && routes.filter((each) => each.name === route.name).length > 1;
+  const name = route && (sameName ? route.route : route.name);
   const orders = `follow ${name}` + (laps > 1 ? ` laps ${laps}` : '') + (speed !== '1' ? ` speed ${speed}` : '');
   const go = async () => {
     onAnswer(null);
@@ -54,31 +70,42 @@ export function Send({ robot, routes, onAnswer }: {
   };
   return (
     <div className="send">
-      <div className="fields">
-        <label htmlFor={`${id}r`}>Route
-          <select id={`${id}r`} value={route.route} onChange={(event) => setChosen(event.target.value)}>
-            {routes.map((each) => (
-              <option key={each.route} value={each.route}>
-                {each.name}{each.length_m > 0 ? `, ${each.length_m.toFixed(1)} m` : ''}
-              </option>
-            ))}
-          </select>
+      {(prefix || total > routes.length) && (
+        <label className="search">Name begins with
+          <input type="search" value={prefix} autoComplete="off" onChange={(event) => setPrefix(event.target.value)} />
+          <span className="note">{total > routes.length ? `${routes.length} of ${total} routes are listed` : ''}</span>
         </label>
-        <label htmlFor={`${id}l`}>Laps
-          <input id={`${id}l`} type="number" min={1} max={100} value={laps}
-            onChange={(event) => setLaps(Math.min(100, Math.max(1, Number(event.target.value) || 1)))} />
-        </label>
-        <label htmlFor={`${id}s`}>Speed
-          <select id={`${id}s`} value={speed} onChange={(event) => setSpeed(event.target.value)}>
-            <option value="1">as taught</option>
-            <option value="0.75">three quarters</option>
-            <option value="0.5">half</option>
-            <option value="0.25">a quarter</option>
-          </select>
-        </label>
-      </div>
-      {laps > 1 && <p className="note">Several laps need a route whose end is its beginning.</p>}
-      <Slide label={`Slide to send ${robot} along ${route.name}`} onDone={go} />
+      )}
+      {!route && <p className="note">{why || 'No route’s name begins so.'}</p>}
+      {route && (
+        <>
+          <div className="fields">
+            <label htmlFor={`${id}r`}>Route
+              <select id={`${id}r`} value={route.route} onChange={(event) => setChosen(event.target.value)}>
+                {routes.map((each) => (
+                  <option key={each.route} value={each.route}>
+                    {each.name}{each.length_m > 0 ? `, ${each.length_m.toFixed(1)} m` : ''}
+                  </option>
+                ))}
+              </select>
+            </label>
+            <label htmlFor={`${id}l`}>Laps
+              <input id={`${id}l`} type="number" min={1} max={100} value={laps}
+                onChange={(event) => setLaps(Math.min(100, Math.max(1, Number(event.target.value) || 1)))} />
+            </label>
+            <label htmlFor={`${id}s`}>Speed
+              <select id={`${id}s`} value={speed} onChange={(event) => setSpeed(event.target.value)}>
+                <option value="1">as taught</option>
+                <option value="0.75">three quarters</option>
+                <option value="0.5">half</option>
+                <option value="0.25">a quarter</option>
+              </select>
+            </label>
+          </div>
+          {laps > 1 && <p className="note">Several laps need a route whose end is its beginning.</p>}
+          <Slide label={`Slide to send ${robot} along ${route.name}`} onDone={go} />
+        </>
+      )}
     </div>
   );
 }

@@ -18,11 +18,12 @@ using std::chrono::milliseconds;
 
 // A word that waits for the thread waits for this at most.
 constexpr milliseconds kTakeWait{10};
-constexpr milliseconds kSayAgain{200};
 // Servers, of what was heard of just now.
 constexpr milliseconds kAskAgain{1000};
-// Somebody who looked so lately looks on.
-constexpr milliseconds kLooksOn{10'000};
+// Questions, whose answers may be long.
+constexpr milliseconds kAskErrandAgain{500};
+// Of a route that a robot is on.
+constexpr std::uint32_t kRevisionsAsked = 100;
 // Beyond an errand's own time: the thread itself does not run.
 constexpr milliseconds kGrace{3000};
 
@@ -77,14 +78,18 @@ class SendErrand final : public ErrandFor<mission::Report> {
   milliseconds timeout_;
 };
 
-class MissionsErrand final : public ErrandFor<std::vector<mission::Record>> {
+// One of servers, over when the first has answered.
+template <typename Request, typename Reply>
+class Question final : public ErrandFor<Reply> {
  public:
-  MissionsErrand(exchange::MissionRequest request, milliseconds timeout)
-      : request_(std::move(request)), timeout_(timeout) {}
+  // `wrong`: what it is when a server says why not.
+  Question(Request request, milliseconds timeout, ErrorCode wrong = ErrorCode::kUnavailable)
+      : request_(std::move(request)), timeout_(timeout), wrong_(wrong) {}
 
   [[nodiscard]] std::vector<exchange::Message> Words() const override { return {request_}; }
+  [[nodiscard]] milliseconds SayAgain() const override { return kAskErrandAgain; }
   void Hear(const exchange::Message& message) override {
-    const auto* reply = std::get_if<exchange::MissionReply>(&message);
+    const auto* reply = std::get_if<Reply>(&message);
     if (reply == nullptr || reply->client != request_.client) return;
     if (reply->request == request_.request) reply_ = *reply;
   }
@@ -93,18 +98,20 @@ class MissionsErrand final : public ErrandFor<std::vector<mission::Record>> {
   }
 
  private:
-  [[nodiscard]] Result<std::vector<mission::Record>> Outcome() const override {
+  [[nodiscard]] Result<Reply> Outcome() const override {
     if (!reply_) return Fail(ErrorCode::kUnavailable, "no route server answers");
-    if (!reply_->error.empty()) {
-      return Fail(ErrorCode::kUnavailable, "server {}: {}", reply_->server.value(), reply_->error);
-    }
-    return reply_->missions;
+    if (reply_->error.empty()) return *reply_;
+    return Fail(wrong_, "server {}: {}", reply_->server.value(), reply_->error);
   }
 
-  exchange::MissionRequest request_;
+  Request request_;
   milliseconds timeout_;
-  std::optional<exchange::MissionReply> reply_;
+  ErrorCode wrong_;
+  std::optional<Reply> reply_;
 };
+using MissionQuestion = Question<exchange::MissionRequest, exchange::MissionReply>;
+using RouteQuestion = Question<exchange::CatalogRequest, exchange::CatalogReply>;
+using RouteChange = Question<exchange::RouteEditRequest, exchange::CatalogReply>;
 
 template <typename Reply>
 Result<Reply> Await(std::future<Result<Reply>> future, milliseconds timeout) {
@@ -119,10 +126,10 @@ tl::unexpected<Error> TooMuch() {
 }  // namespace
 
 exchange::TopicUse ConsoleTopics() {
-  return {
-      .write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests},
-      .read = {Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates, Topic::kMissionReplies,
-               Topic::kCatalogReplies}};
+  return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
+                    Topic::kRouteEdits},
+          .read = {Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates,
+                   Topic::kMissionReplies, Topic::kCatalogReplies}};
 }
 
 Desk::Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
@@ -162,10 +169,28 @@ Result<mission::Report> Desk::Send(mission::Mission mission) {
   return Await(std::move(future), options_.reply_within);
 }
 
-Result<std::vector<mission::Record>> Desk::Missions(const mission::Query& query) {
-  auto errand = std::make_shared<MissionsErrand>(
-      exchange::MissionRequest{.client = self_, .request = fleet::DrawNumber(), .query = query},
+Result<exchange::MissionReply> Desk::Missions(const mission::Query& query, bool commands) {
+  auto errand = std::make_shared<MissionQuestion>(
+      exchange::MissionRequest{
+          .client = self_, .request = fleet::DrawNumber(), .commands = commands, .query = query},
       options_.reply_within);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), false)) return TooMuch();
+  return Await(std::move(future), options_.reply_within);
+}
+
+Result<exchange::CatalogReply> Desk::Routes(const route::RouteQuery& query) {
+  auto errand = std::make_shared<RouteQuestion>(
+      exchange::CatalogRequest{self_, fleet::DrawNumber(), query}, options_.reply_within);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), false)) return TooMuch();
+  return Await(std::move(future), options_.reply_within);
+}
+
+Result<exchange::CatalogReply> Desk::Edit(const route::RouteEdit& edit) {
+  auto errand =
+      std::make_shared<RouteChange>(exchange::RouteEditRequest{self_, fleet::DrawNumber(), edit},
+                                    options_.reply_within, ErrorCode::kConflict);
   auto future = errand->Future();
   if (!Take(std::move(errand), false)) return TooMuch();
   return Await(std::move(future), options_.reply_within);
@@ -202,7 +227,6 @@ void Desk::Run() {
   while (!closed()) {
     Begin();
     Say(Clock::now());
-    AskServers(Clock::now());
     const std::vector<exchange::Message> heard = exchange_->Take(kTakeWait);
     const auto now = Clock::now();
     for (const exchange::Message& message : heard) Hear(message, now);
@@ -233,7 +257,7 @@ void Desk::Begin() {
 void Desk::Say(Clock::time_point now) {
   for (const auto& errand : errands_) {
     if (now < errand->say_at) continue;
-    errand->say_at = now + kSayAgain;
+    errand->say_at = now + errand->SayAgain();
     for (const exchange::Message& word : errand->Words()) {
       // What could not be handed over is said again.
       (void)exchange_->Publish(word);
@@ -259,37 +283,44 @@ void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
   for (const auto& errand : errands_) errand->Hear(message);
 }
 
+bool Desk::SomebodyLooks(Clock::time_point now) {
+  const std::scoped_lock lock(mutex_);
+  return looked_at_ != Clock::time_point{} && now < looked_at_ + options_.looks_on;
+}
+
+// What is lost is asked for the next time.
 void Desk::AskServers(Clock::time_point now) {
-  bool looked = false;
-  {
-    const std::scoped_lock lock(mutex_);
-    looked = looked_at_ != Clock::time_point{} && now < looked_at_ + kLooksOn;
-  }
-  if (!looked || now < ask_at_) return;
+  if (now < ask_at_) return;
   asked_at_ = now;
   ask_at_ = now + options_.ask_every;
   mission::Query latest;
   latest.page_size = static_cast<std::uint32_t>(FleetState::kMissionsShown);
-  route::RouteQuery routes;
-  routes.standing = route::Standing::kActive;
-  routes.order = route::RouteOrder::kName;
-  routes.page_size = static_cast<std::uint32_t>(exchange::kMaxRoutesPerReply);
-  // What is lost is asked for the next time.
   (void)exchange_->Publish(
       exchange::MissionRequest{.client = self_, .request = fleet::DrawNumber(), .query = latest});
-  (void)exchange_->Publish(exchange::CatalogRequest{self_, fleet::DrawNumber(), routes});
 }
 
 void Desk::ShowNews(Clock::time_point now) {
   if (now < show_at_) return;
+  if (!SomebodyLooks(now)) {
+    const std::scoped_lock lock(mutex_);
+    news_.reset();
+    return;
+  }
   show_at_ = now + kNewsEvery;
   state_.Tick(now);
   if (state_.lacks_orders()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
-  std::string state = state_.Json();
+  AskServers(now);
+  for (const RouteId& route : state_.TakeLackingRoutes(now)) {
+    route::RouteQuery revisions;
+    revisions.name = route.value();
+    revisions.page_size = kRevisionsAsked;
+    (void)exchange_->Publish(exchange::CatalogRequest{self_, fleet::DrawNumber(), revisions});
+  }
+  StateParts state = state_.Parts();
   {
     const std::scoped_lock lock(mutex_);
     if (news_ && news_->state == state) return;
-    news_ = std::make_shared<const News>(News{news_ ? news_->number + 1 : 1, std::move(state)});
+    news_ = std::make_shared<const News>(News{++news_count_, std::move(state)});
   }
   changed_.notify_all();
 }

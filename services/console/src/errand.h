@@ -21,6 +21,9 @@ class Errand {
   Errand& operator=(const Errand&) = delete;
 
   [[nodiscard]] virtual std::vector<exchange::Message> Words() const = 0;
+  [[nodiscard]] virtual std::chrono::milliseconds SayAgain() const {
+    return std::chrono::milliseconds(200);
+  }
   virtual void Hear(const exchange::Message& message) = 0;
   // It has what it was after, or waits no longer.
   [[nodiscard]] virtual bool IsOver(std::chrono::milliseconds since) const = 0;

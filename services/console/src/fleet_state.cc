@@ -1,13 +1,17 @@
 #include "services/console/fleet_state.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <variant>
 
 #include "services/console/src/values.h"
-#include "services/exchange/servers_there.h"
+#include "services/fleet/mission_client.h"
+#include "services/fleet/routes/catalog_client.h"
 #include "services/mission/mission.h"
-#include "services/route/labels.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -133,9 +137,10 @@ void FleetState::On(const exchange::MissionReply& reply) {
 }
 
 void FleetState::On(const exchange::CatalogReply& reply) {
-  if (!reply.error.empty()) return;
-  if (!routes_.contains(reply.server) && routes_.size() >= exchange::ServersThere::kMost) return;
-  routes_[reply.server] = reply.page.routes;
+  for (const route::RouteInfo& info : reply.page.routes) {
+    if (const auto known = routes_.find(info.key); known != routes_.end())
+      known->second.info = info;
+  }
 }
 
 void FleetState::Sent(const mission::Mission& mission, std::int64_t unix_ms) {
@@ -149,106 +154,146 @@ void FleetState::Sent(const mission::Mission& mission, std::int64_t unix_ms) {
 
 void FleetState::Tick(Time now) {
   const auto share = std::chrono::milliseconds(10) * static_cast<int>(agents_.size());
-  std::vector<AgentId> names;
-  for (const auto& [name, agent] : agents_) names.push_back(name);
-  for (const AgentId& name : names) {
-    Agent& agent = *agents_.Find(name);
+  std::set<route::RouteKey> used;
+  for (auto& [name, agent] : agents_) {
     agent.silent = agent.gone || now > agent.heard_at + kSilentAfter + 3 * share;
+    if (agent.status.place) used.insert(agent.status.place->key);
   }
+  std::erase_if(routes_, [&](const auto& route) { return !used.contains(route.first); });
+  for (const route::RouteKey& key : used) routes_.try_emplace(key);
 }
 
-// What it does, or did last; of what it has refused or has not heard of it does nothing.
-const mission::Record* FleetState::LatestOf(const AgentId& robot) const {
-  const mission::Record* latest = nullptr;
+std::vector<RouteId> FleetState::TakeLackingRoutes(Time now) {
+  std::vector<RouteId> lacking;
+  for (auto& [key, route] : routes_) {
+    if (lacking.size() >= kMostAskedFor) break;
+    // One that is still being taught becomes longer.
+    if (route.info && route.info->state == route::RouteState::kComplete) continue;
+    if (route.asked_at && now < *route.asked_at + kAskForRouteEvery) continue;
+    route.asked_at = now;
+    lacking.push_back(key.route);
+  }
+  return lacking;
+}
+
+// What each robot does, or did last; of what it has refused or has not heard of it does nothing.
+FleetState::Latest FleetState::LatestMissions() const {
+  Latest latest;
   for (const auto& [name, record] : missions_) {
-    if (name.first != robot || record.last.change == 0) continue;
-    if (record.last.state == mission::State::kRefused) continue;
-    if (latest == nullptr || record.sent_unix_ms > latest->sent_unix_ms) latest = &record;
+    if (record.last.change == 0 || record.last.state == mission::State::kRefused) continue;
+    const mission::Record*& of_robot = latest[name.first];
+    if (of_robot == nullptr || record.sent_unix_ms > of_robot->sent_unix_ms) of_robot = &record;
   }
   return latest;
 }
 
-std::string FleetState::Json() const {
+std::string FleetState::RobotJson(const Agent& agent, const mission::Record* latest) const {
   using console::Json;
-  std::map<route::RouteKey, const route::RouteInfo*> by_key;
-  std::map<std::string, Json> routes;
-  for (const auto& [server, infos] : routes_) {
-    for (const route::RouteInfo& info : infos) {
-      by_key.emplace(info.key, &info);
-      routes.emplace(info.key.route.value(), Json{{"name", info.name},
-                                                  {"route", info.key.route.value()},
-                                                  {"revision", info.revision.value()},
-                                                  {"state", route::StateText(info)},
-                                                  {"length_m", Rounded(info.length_m, 100.0)},
-                                                  {"description", info.description}});
+  const AgentStatus& status = agent.status;
+  const bool ended = status.mode == AgentMode::kStopped;
+  const std::string state = StateOf(status, agent.silent && !ended);
+  const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
+  const mission::Record* mission =
+      latest != nullptr && mission::HasEnded(latest->last.state) ? nullptr : latest;
+  const bool fails = state == "fault" || failed || (state == "silent" && mission != nullptr);
+  Json robot{{"name", status.agent.value()},
+             {"role", ToText(status.role)},
+             {"state", state},
+             {"detail", status.detail},
+             {"needs_person", fails},
+             {"heard", !agent.silent},
+             {"last_heard_unix_ms", agent.silent ? Json(agent.heard_unix_ms) : Json(nullptr)},
+             {"route", status.route},
+             {"segment", status.segment},
+             {"segments", status.segments},
+             {"progress", Rounded(status.progress, 1000.0)},
+             {"along_m", nullptr},
+             {"length_m", nullptr},
+             {"speed_mps", Rounded(status.speed_mps, 100.0)},
+             {"orders", OrdersFor(StateOf(status, false), status, mission != nullptr)}};
+  if (status.place) {
+    robot["along_m"] = Rounded(status.place->along_m, 100.0);
+    const auto route = routes_.find(status.place->key);
+    if (route != routes_.end() && route->second.info) {
+      robot["length_m"] = Rounded(route->second.info->length_m, 100.0);
     }
   }
-  std::map<AgentId, const Agent*> agents;
-  for (const auto& [name, agent] : agents_) agents.emplace(name, &agent);
+  std::string text = Text(robot);
+  text.pop_back();
+  return text + ",\"mission\":" + (mission == nullptr ? "null" : fleet::MissionJson(*mission)) +
+         "}";
+}
 
-  Json robots = Json::array();
-  Json servers = Json::array();
-  for (const auto& [name, agent] : agents) {
-    const AgentStatus& status = agent->status;
-    const bool ended = status.mode == AgentMode::kStopped;
-    const std::string state = StateOf(status, agent->silent && !ended);
-    Json heard_last = agent->silent ? Json(agent->heard_unix_ms) : Json(nullptr);
-    if (status.role == AgentRole::kServer) {
-      servers.push_back({{"name", name.value()},
-                         {"heard", !agent->silent && !ended},
-                         {"last_heard_unix_ms", std::move(heard_last)},
-                         {"detail", status.detail}});
-      continue;
-    }
-    if (status.role == AgentRole::kOperator) continue;
-    const mission::Record* latest = LatestOf(name);
-    const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
-    const mission::Record* mission =
-        latest != nullptr && mission::HasEnded(latest->last.state) ? nullptr : latest;
-    const bool fails = state == "fault" || failed || (state == "silent" && mission != nullptr);
-    Json robot{{"name", name.value()},
-               {"role", ToText(status.role)},
-               {"state", state},
-               {"detail", status.detail},
-               {"needs_person", fails},
-               {"heard", !agent->silent},
-               {"last_heard_unix_ms", std::move(heard_last)},
-               {"route", status.route},
-               {"segment", status.segment},
-               {"segments", status.segments},
-               {"progress", Rounded(status.progress, 1000.0)},
-               {"along_m", nullptr},
-               {"length_m", nullptr},
-               {"speed_mps", Rounded(status.speed_mps, 100.0)},
-               {"mission", mission == nullptr ? Json(nullptr) : RecordValue(*mission)},
-               {"orders", OrdersFor(StateOf(status, false), status, mission != nullptr)}};
-    if (status.place) {
-      robot["along_m"] = Rounded(status.place->along_m, 100.0);
-      const auto info = by_key.find(status.place->key);
-      if (info != by_key.end()) robot["length_m"] = Rounded(info->second->length_m, 100.0);
-    }
-    robots.push_back(std::move(robot));
-  }
-
+std::string FleetState::MissionsJson() const {
   std::vector<const mission::Record*> newest;
   for (const auto& [name, record] : missions_) newest.push_back(&record);
   std::stable_sort(newest.begin(), newest.end(), [](const auto* one, const auto* other) {
     return one->sent_unix_ms > other->sent_unix_ms;
   });
-  Json missions = Json::array();
-  for (const mission::Record* record : newest) {
-    if (missions.size() >= kMissionsShown) break;
-    missions.push_back(RecordValue(*record));
+  newest.resize(std::min(newest.size(), kMissionsShown));
+  std::vector<std::string> missions;
+  for (const mission::Record* record : newest) missions.push_back(fleet::MissionJson(*record));
+  return program::JsonList(missions);
+}
+
+StateParts FleetState::Parts() const {
+  using console::Json;
+  StateParts parts;
+  const Latest latest = LatestMissions();
+  std::map<AgentId, Json> servers;
+  for (const auto& [name, agent] : agents_) {
+    const bool ended = agent.status.mode == AgentMode::kStopped;
+    if (agent.status.role == AgentRole::kServer) {
+      servers[name] = {
+          {"name", name.value()},
+          {"heard", !agent.silent && !ended},
+          {"last_heard_unix_ms", agent.silent ? Json(agent.heard_unix_ms) : Json(nullptr)},
+          {"detail", agent.status.detail}};
+    } else if (agent.status.role != AgentRole::kOperator) {
+      const auto mission = latest.find(name);
+      parts.robots[name.value()] =
+          RobotJson(agent, mission == latest.end() ? nullptr : mission->second);
+    }
   }
   Json listed = Json::array();
-  for (auto& [id, route] : routes) listed.push_back(std::move(route));
-  std::stable_sort(listed.begin(), listed.end(), [](const Json& one, const Json& other) {
-    return one["name"].get_ref<const std::string&>() < other["name"].get_ref<const std::string&>();
-  });
-  return Text({{"robots", std::move(robots)},
-               {"servers", std::move(servers)},
-               {"routes", std::move(listed)},
-               {"missions", std::move(missions)}});
+  for (auto& [name, server] : servers) listed.push_back(std::move(server));
+  parts.servers = Text(listed);
+  std::vector<std::string> routes;
+  for (const auto& [key, route] : routes_) {
+    if (route.info) routes.push_back(fleet::RouteJson(*route.info));
+  }
+  parts.routes = program::JsonList(routes);
+  parts.missions = MissionsJson();
+  return parts;
+}
+
+std::string WholeJson(const StateParts& parts, std::int64_t now_unix_ms) {
+  std::vector<std::string> robots;
+  for (const auto& [name, robot] : parts.robots) robots.push_back(robot);
+  return fmt::format(
+      "{{\"now_unix_ms\":{},\"robots\":{},\"servers\":{},\"routes\":{},\"missions\":{}}}",
+      now_unix_ms, program::JsonList(robots), parts.servers, parts.routes, parts.missions);
+}
+
+std::string ChangeJson(const StateParts& from, const StateParts& parts, std::int64_t now_unix_ms) {
+  std::vector<std::string> robots;
+  std::vector<std::string> gone;
+  for (const auto& [name, robot] : parts.robots) {
+    const auto known = from.robots.find(name);
+    if (known == from.robots.end() || known->second != robot) robots.push_back(robot);
+  }
+  for (const auto& [name, robot] : from.robots) {
+    if (!parts.robots.contains(name)) gone.push_back(program::JsonText(name));
+  }
+  std::string text = fmt::format("{{\"now_unix_ms\":{},\"robots\":{},\"gone\":{}", now_unix_ms,
+                                 program::JsonList(robots), program::JsonList(gone));
+  const auto add = [&](const char* name, const std::string& was, const std::string& is) {
+    if (was != is) text += fmt::format(",\"{}\":{}", name, is);
+  };
+  add("servers", from.servers, parts.servers);
+  add("routes", from.routes, parts.routes);
+  add("missions", from.missions, parts.missions);
+  return text + "}";
 }
 
 }  // namespace trailcast::console

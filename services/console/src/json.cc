@@ -2,19 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
 #include <set>
 
-#include "services/base/process_name.h"
+#include "services/base/number.h"
 #include "services/base/text.h"
 #include "services/console/src/values.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
+#include "services/route/query_words.h"
 
 namespace trailcast::console {
 namespace {
 
 constexpr std::uint32_t kLongestValid_s = 365U * 86400U;
+constexpr std::uint32_t kRoutesAPage = 50;
+constexpr std::uint32_t kMostRoutesAPage = 200;
+constexpr double kWithin_m = 50.0;
 
 Result<Json> ReadObject(const std::string& body, const std::set<std::string>& fields) {
   Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
@@ -42,11 +46,88 @@ Result<std::string> LineIn(const Json& json, const char* field) {
   return value.get<std::string>();
 }
 
-Json WordValue(const fleet::RobotsWord& word) {
-  return {{"robot", word.robot},
-          {"answered", word.answered},
-          {"obeys", word.answered && !word.refused},
-          {"detail", word.detail}};
+// A parameter that was given, and how it is read into the query.
+using ReadParameter = Result<void> (*)(const std::string& text, route::RouteQuery& query);
+
+template <typename Number, Number route::RouteQuery::*kField>
+Result<void> ReadNumberInto(const std::string& text, route::RouteQuery& query) {
+  if (ReadNumber(text, query.*kField)) return {};
+  return Fail(ErrorCode::kInvalidArgument, "is no number");
+}
+
+template <std::string route::RouteQuery::*kField>
+Result<void> ReadTextInto(const std::string& text, route::RouteQuery& query) {
+  query.*kField = text;
+  return {};
+}
+
+template <route::Place::Frame kFrame>
+Result<void> ReadNear(const std::string& text, route::RouteQuery& query) {
+  const auto place = route::ReadPlace(kFrame, text);
+  if (!place) return tl::unexpected(place.error());
+  query.near = {*place, kWithin_m};
+  return {};
+}
+
+template <typename Value>
+Result<Value> ReadWord(const std::map<std::string, Value>& words, const std::string& text) {
+  const auto word = words.find(text);
+  if (word != words.end()) return word->second;
+  std::string all;
+  for (const auto& [name, value] : words) all += (all.empty() ? "" : ", ") + name;
+  return Fail(ErrorCode::kInvalidArgument, "is to be one of {}", all);
+}
+
+Result<void> ReadTag(const std::string& text, route::RouteQuery& query) {
+  query.tags.push_back(text);
+  std::sort(query.tags.begin(), query.tags.end());
+  query.tags.erase(std::unique(query.tags.begin(), query.tags.end()), query.tags.end());
+  return {};
+}
+
+Result<void> ReadState(const std::string& text, route::RouteQuery& query) {
+  const auto word = ReadWord(route::StateWords(), text);
+  if (!word) return tl::unexpected(word.error());
+  query.state = word->state;
+  query.standing = word->standing;
+  return {};
+}
+
+Result<void> ReadSort(const std::string& text, route::RouteQuery& query) {
+  const auto word = ReadWord(route::OrderWords(), text);
+  if (!word) return tl::unexpected(word.error());
+  query.order = *word;
+  return {};
+}
+
+Result<void> ReadLimit(const std::string& text, route::RouteQuery& query) {
+  const auto limit = ParseNumber<std::uint32_t>(text);
+  if (!limit || *limit < 1 || *limit > kMostRoutesAPage) {
+    return Fail(ErrorCode::kInvalidArgument, "is to be 1 to {}", kMostRoutesAPage);
+  }
+  query.page_size = *limit;
+  return {};
+}
+
+const std::map<std::string, ReadParameter>& RouteParameters() {
+  using route::RouteQuery;
+  static const std::map<std::string, ReadParameter> kAll{
+      {"name", ReadTextInto<&RouteQuery::name>},
+      {"prefix", ReadTextInto<&RouteQuery::name_prefix>},
+      {"tag", ReadTag},
+      {"scout", ReadTextInto<&RouteQuery::scout>},
+      {"camera", ReadTextInto<&RouteQuery::camera_prefix>},
+      {"min_length_m", ReadNumberInto<double, &RouteQuery::min_length_m>},
+      {"max_length_m", ReadNumberInto<double, &RouteQuery::max_length_m>},
+      {"taught_from_unix_ms", ReadNumberInto<std::int64_t, &RouteQuery::taught_from_unix_ms>},
+      {"taught_until_unix_ms", ReadNumberInto<std::int64_t, &RouteQuery::taught_until_unix_ms>},
+      {"state", ReadState},
+      {"near_site", ReadNear<route::Place::Frame::kSite>},
+      {"near_gps", ReadNear<route::Place::Frame::kWgs84>},
+      {"sort", ReadSort},
+      {"limit", ReadLimit},
+      {"cursor", ReadTextInto<&RouteQuery::cursor>}};
+  return kAll;
 }
 
 }  // namespace
@@ -90,41 +171,36 @@ Result<SendBody> ReadSend(const std::string& body) {
   return send;
 }
 
-Json RecordValue(const mission::Record& record) {
-  const mission::Mission& mission = record.mission;
-  return {{"mission", mission.id},
-          {"robot", mission.agent.value()},
-          {"orders", mission.orders},
-          {"sent_by", WithoutProcess(mission.client.value())},
-          {"state", mission::ToString(record.last.state)},
-          {"task", record.last.task},
-          {"detail", record.last.detail},
-          {"sent_unix_ms", record.sent_unix_ms},
-          {"changed_unix_ms", record.changed_unix_ms}};
+Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters) {
+  route::RouteQuery query;
+  query.page_size = kRoutesAPage;
+  double within_m = kWithin_m;
+  for (const auto& [name, text] : parameters) {
+    if (text.empty()) continue;  // as a form sends what nobody filled in
+    if (name == "within_m") {
+      if (!ReadNumber(text, within_m)) {
+        return Fail(ErrorCode::kInvalidArgument, "'within_m' is no number");
+      }
+      continue;
+    }
+    const auto known = RouteParameters().find(name);
+    if (known == RouteParameters().end()) {
+      return Fail(ErrorCode::kInvalidArgument, "there is no parameter '{}'", PlainText(name, 64));
+    }
+    if (name != "tag" && parameters.count(name) > 1) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is given more than once", name);
+    }
+    if (auto read = known->second(text, query); !read) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}': {}", name, read.error().message);
+    }
+  }
+  if (query.near) query.near->radius_m = within_m;
+  if (auto possible = exchange::CheckQuery(query); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  return query;
 }
 
 std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }
-
-std::string WordBody(const fleet::RobotsWord& word) { return Text(WordValue(word)); }
-
-std::string WordsBody(const std::vector<fleet::RobotsWord>& words) {
-  Json robots = Json::array();
-  for (const fleet::RobotsWord& word : words) robots.push_back(WordValue(word));
-  return Text({{"robots", std::move(robots)}});
-}
-
-std::string ReportBody(const mission::Report& report) {
-  return Text({{"mission", report.mission},
-               {"robot", report.agent.value()},
-               {"state", mission::ToString(report.state)},
-               {"task", report.task},
-               {"detail", report.detail}});
-}
-
-std::string MissionsBody(const std::vector<mission::Record>& missions) {
-  Json list = Json::array();
-  for (const mission::Record& record : missions) list.push_back(RecordValue(record));
-  return Text({{"missions", std::move(list)}});
-}
 
 }  // namespace trailcast::console

@@ -3,8 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "services/exchange/messages.h"
-
 namespace trailcast::console {
 
 using Json = nlohmann::ordered_json;
@@ -13,7 +11,5 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline std::string Text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
-
-[[nodiscard]] Json RecordValue(const mission::Record& record);
 
 }  // namespace trailcast::console

@@ -10,7 +10,9 @@
 #include "services/base/number.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
+#include "services/console/src/answers.h"
 #include "services/console/src/files.h"
+#include "services/console/src/routes_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
@@ -23,7 +25,6 @@ using exchange::NowWhom;
 using httplib::Request;
 using httplib::Response;
 
-constexpr const char* kJson = "application/json; charset=utf-8";
 // How soon a stream notices that its page is gone.
 constexpr std::chrono::milliseconds kLook{1000};
 constexpr std::size_t kMostBody = 64U << 10U;
@@ -31,23 +32,9 @@ constexpr std::size_t kMostBody = 64U << 10U;
 constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume, NowOrder::kCancel,
                              NowOrder::kStop, NowOrder::kRelease};
 
-void Answer(Response& response, int status, const std::string& json) {
-  response.status = status;
-  response.set_header("Cache-Control", "no-store");
-  response.set_content(json, kJson);
-}
-
-void Refuse(Response& response, int status, const std::string& why) {
-  Answer(response, status, ErrorBody(why));
-}
-
 int StatusOf(const fleet::RobotsWord& word) {
   if (!word.answered) return 504;
   return word.refused ? 409 : 200;
-}
-
-std::string WithTime(const std::string& state) {
-  return fmt::format("{{\"now_unix_ms\":{},{}", NowUnixMs(), state.substr(1));
 }
 
 }  // namespace
@@ -76,6 +63,7 @@ Web::Web(Desk& desk)
   ServeState();
   ServeOrders();
   ServeMissions();
+  ServeRoutes(server_, desk_);
 }
 
 Result<std::unique_ptr<Web>> Web::Open(Desk& desk, const std::string& host, int port,
@@ -114,7 +102,7 @@ void Web::ServeState() {
   server_.Get("/api/state", [this](const Request&, Response& response) {
     const auto news = desk_.See(0, kLook);
     if (!news) return Refuse(response, 503, "nothing is known yet");
-    Answer(response, 200, WithTime(news->state));
+    Answer(response, 200, WholeJson(news->state, NowUnixMs()));
   });
   server_.Get("/api/events", [this](const Request&, Response& response) { Stream(response); });
 }
@@ -127,29 +115,32 @@ void Web::Stream(Response& response) {
     return Refuse(response, 503, "too many pages look already: close some");
   }
   struct Told {
-    std::uint64_t number = 0;
+    std::shared_ptr<const Desk::News> news{};
     std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
   };
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");
-  response.set_content_provider("text/event-stream", [this, seat, told = Told{}](
-                                                         std::size_t,
-                                                         httplib::DataSink& sink) mutable {
-    const auto news = desk_.See(told.number, kLook);
-    if (desk_.closed() || !sink.is_writable()) return false;
-    std::string text;
-    if (news) {
-      text = fmt::format("event: state\nid: {}\ndata: {}\n\n", news->number, WithTime(news->state));
-      told.number = news->number;
-    } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
-      // Not a comment: of those a page is not told, and it is to notice that nothing comes.
-      text = fmt::format("event: alive\ndata: {{\"now_unix_ms\":{}}}\n\n", NowUnixMs());
-    } else {
-      return true;
-    }
-    told.at = std::chrono::steady_clock::now();
-    return sink.write(text.data(), text.size());
-  });
+  response.set_content_provider(
+      "text/event-stream",
+      [this, seat, told = Told{}](std::size_t, httplib::DataSink& sink) mutable {
+        const auto news = desk_.See(told.news ? told.news->number : 0, kLook);
+        if (desk_.closed() || !sink.is_writable()) return false;
+        std::string text;
+        if (news && told.news) {
+          text = fmt::format("event: change\ndata: {}\n\n",
+                             ChangeJson(told.news->state, news->state, NowUnixMs()));
+        } else if (news) {
+          text = fmt::format("event: state\ndata: {}\n\n", WholeJson(news->state, NowUnixMs()));
+        } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
+          // Not a comment: of those a page is not told, and it is to notice that nothing comes.
+          text = fmt::format("event: alive\ndata: {{\"now_unix_ms\":{}}}\n\n", NowUnixMs());
+        } else {
+          return true;
+        }
+        if (news) told.news = news;
+        told.at = std::chrono::steady_clock::now();
+        return sink.write(text.data(), text.size());
+      });
 }
 
 void Web::ServeOrders() {
@@ -170,8 +161,9 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
   if (!reason) return Refuse(response, 400, reason.error().message);
   const auto words = desk_.Tell(order, target, *reason);
   if (!words) return Refuse(response, 503, words.error().message);
-  if (target.whom == NowWhom::kAll) return Answer(response, 200, WordsBody(*words));
-  Answer(response, StatusOf(words->front()), WordBody(words->front()));
+  if (target.whom == NowWhom::kAll)
+    return Answer(response, 200, fmt::format("{{\"robots\": {}}}", fleet::WordsJson(*words)));
+  Answer(response, StatusOf(words->front()), fleet::WordJson(words->front()));
 }
 
 void Web::ServeMissions() {
@@ -196,7 +188,8 @@ void Web::ServeMissions() {
     }
     const auto missions = desk_.Missions(query);
     if (!missions) return Refuse(response, 503, missions.error().message);
-    Answer(response, 200, MissionsBody(*missions));
+    Answer(response, 200,
+           fmt::format("{{\"missions\": {}}}", fleet::MissionsJson(missions->missions)));
   });
   server_.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/missions",
                [this](const Request& request, Response& response) {
@@ -214,7 +207,7 @@ void Web::Send(const std::string& robot, const Request& request, Response& respo
                                   .goes_on = body->goes_on});
   if (!report) return Refuse(response, 504, report.error().message);
   const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
-  Answer(response, taken ? 200 : 409, ReportBody(*report));
+  Answer(response, taken ? 200 : 409, fleet::ReportJson(*report));
 }
 
 }  // namespace trailcast::console

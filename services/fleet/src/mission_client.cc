@@ -52,18 +52,6 @@ std::string WhomText(const mission::NowCommand& command) {
   return command.whom == mission::NowWhom::kOnRoute ? "route " + command.name : command.name;
 }
 
-std::string RecordJson(const mission::Record& record) {
-  using program::JsonText;
-  const mission::Mission& mission = record.mission;
-  return fmt::format(
-      "{{\"mission\": {}, \"robot\": {}, \"orders\": {}, \"sent_by\": {}, \"state\": {}, "
-      "\"task\": {}, \"detail\": {}, \"sent_unix_ms\": {}, \"changed_unix_ms\": {}}}",
-      JsonText(mission.id), JsonText(mission.agent.value()), JsonText(mission.orders),
-      JsonText(WithoutProcess(mission.client.value())),
-      JsonText(mission::ToString(record.last.state)), record.last.task,
-      JsonText(record.last.detail), record.sent_unix_ms, record.changed_unix_ms);
-}
-
 }  // namespace
 
 Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
@@ -128,6 +116,18 @@ std::string ReportJson(const mission::Report& report) {
       JsonText(mission::ToString(report.state)), report.task, JsonText(report.detail));
 }
 
+std::string MissionJson(const mission::Record& record) {
+  using program::JsonText;
+  const mission::Mission& mission = record.mission;
+  return fmt::format(
+      "{{\"mission\": {}, \"robot\": {}, \"orders\": {}, \"sent_by\": {}, \"state\": {}, "
+      "\"task\": {}, \"detail\": {}, \"sent_unix_ms\": {}, \"changed_unix_ms\": {}}}",
+      JsonText(mission.id), JsonText(mission.agent.value()), JsonText(mission.orders),
+      JsonText(WithoutProcess(mission.client.value())),
+      JsonText(mission::ToString(record.last.state)), record.last.task,
+      JsonText(record.last.detail), record.sent_unix_ms, record.changed_unix_ms);
+}
+
 std::string MissionsTable(const std::vector<mission::Record>& missions, std::int64_t now_unix_ms) {
   if (missions.empty()) return "no missions\n";
   std::size_t id = 7;
@@ -157,7 +157,7 @@ std::string MissionsTable(const std::vector<mission::Record>& missions, std::int
 std::string MissionsJson(const std::vector<mission::Record>& missions) {
   std::string text = "[";
   for (const mission::Record& record : missions) {
-    text += (text.size() == 1 ? "\n  " : ",\n  ") + RecordJson(record);
+    text += (text.size() == 1 ? "\n  " : ",\n  ") + MissionJson(record);
   }
   return text + (missions.empty() ? "]\n" : "\n]\n");
 }

@@ -62,12 +62,16 @@ std::string WordsText(const std::vector<RobotsWord>& words) {
   return text;
 }
 
+std::string WordJson(const RobotsWord& word) {
+  return fmt::format("{{\"robot\": {}, \"answered\": {}, \"obeys\": {}, \"detail\": {}}}",
+                     program::JsonText(word.robot), word.answered, word.answered && !word.refused,
+                     program::JsonText(word.detail));
+}
+
 std::string WordsJson(const std::vector<RobotsWord>& words) {
   std::string text = "[";
   for (const RobotsWord& word : words) {
-    text += fmt::format("{}\n  {{\"robot\": {}, \"answered\": {}, \"obeys\": {}, \"detail\": {}}}",
-                        text.size() == 1 ? "" : ",", program::JsonText(word.robot), word.answered,
-                        word.answered && !word.refused, program::JsonText(word.detail));
+    text += (text.size() == 1 ? "\n  " : ",\n  ") + WordJson(word);
   }
   return text + (words.empty() ? "]\n" : "\n]\n");
 }

@@ -23,7 +23,9 @@ class DeskTest : public testing::Test {
   std::unique_ptr<exchange::RouteExchange> robot_ =
       bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
-             Desk::Options{.answer_within = milliseconds(500), .reply_within = milliseconds(500)}};
+             Desk::Options{.answer_within = milliseconds(500),
+                           .reply_within = milliseconds(500),
+                           .looks_on = milliseconds(100)}};
 
   // The first of this kind that the robot hears.
   template <typename Message>
@@ -91,7 +93,70 @@ TEST_F(DeskTest, NewsComeWhenSomethingHasChanged) {
   ASSERT_TRUE(robot_->Publish(status));
   const auto second = desk_.See(first->number, milliseconds(20'000));
   ASSERT_TRUE(second);
-  EXPECT_THAT(second->state, HasSubstr("robot1"));
+  EXPECT_TRUE(second->state.robots.contains("robot1"));
+}
+
+TEST_F(DeskTest, ServersAreAskedOnlyWhileSomebodyLooks) {
+  const auto server = bus_.Open(exchange::ServerTopics());
+  EXPECT_TRUE(server->Take(milliseconds(500)).empty());
+  ASSERT_TRUE(desk_.See(0, milliseconds(20'000)));
+  bool asked = false;
+  while (!asked) {
+    for (const exchange::Message& message : server->Take(milliseconds(100))) {
+      asked |= std::holds_alternative<exchange::MissionRequest>(message);
+      EXPECT_FALSE(std::holds_alternative<exchange::CatalogRequest>(message))
+          << "no robot is on any";
+    }
+  }
+}
+
+TEST_F(DeskTest, WhoLooksAgainLaterSeesNothingOld) {
+  const auto first = desk_.See(0, milliseconds(20'000));
+  ASSERT_TRUE(first);
+  std::shared_ptr<const Desk::News> later;
+  do {
+    (void)robot_->Take(milliseconds(300));  // meanwhile nobody looks
+    later = desk_.See(0, milliseconds(20'000));
+    ASSERT_TRUE(later);
+  } while (later->number == first->number);
+  EXPECT_EQ(later->state, first->state);
+}
+
+TEST_F(DeskTest, AServerSaysWhatItHasAndWhyItChangesNothing) {
+  const auto server = bus_.Open(exchange::ServerTopics());
+  const auto answer = [&](const std::string& error) {
+    while (true) {
+      for (const exchange::Message& message : server->Take(milliseconds(100))) {
+        exchange::CatalogReply reply;
+        reply.server = AgentId("barn");
+        reply.error = error;
+        if (const auto* query = std::get_if<exchange::CatalogRequest>(&message)) {
+          EXPECT_EQ(query->query.name_prefix, "ha");
+          reply.client = query->client;
+          reply.request = query->request;
+          reply.page.total = 7;
+        } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&message)) {
+          EXPECT_EQ(edit->edit.route, "hall");
+          reply.client = edit->client;
+          reply.request = edit->request;
+        } else {
+          continue;
+        }
+        return (void)server->Publish(reply);
+      }
+    }
+  };
+  auto routes = std::async(std::launch::async, [&] { return desk_.Routes({.name_prefix = "ha"}); });
+  answer("");
+  EXPECT_EQ(routes.get()->page.total, 7U);
+  auto edited = std::async(std::launch::async, [&] {
+    return desk_.Edit({.action = route::EditAction::kRollBack, .route = "hall"});
+  });
+  answer("there is none before it");
+  const auto why = edited.get();
+  ASSERT_FALSE(why);
+  EXPECT_EQ(why.error().code, ErrorCode::kConflict);
+  EXPECT_THAT(why.error().message, HasSubstr("barn: there is none before it"));
 }
 
 TEST_F(DeskTest, ClosedItLetsGoWhoWaits) {

@@ -49,7 +49,7 @@ class FleetStateTest : public testing::Test {
   void Hear(const exchange::Message& message) { state_.Handle(message, now_, 1000); }
   json Shown() {
     state_.Tick(now_);
-    return json::parse(state_.Json());
+    return json::parse(WholeJson(state_.Parts(), 0));
   }
   json Robot(const std::string& name = "robot1") {
     const json shown = Shown();
@@ -138,7 +138,7 @@ TEST_F(FleetStateTest, SilentInTheMiddleOfAMissionNeedsAPerson) {
   EXPECT_EQ(Robot()["needs_person"], true);
 }
 
-TEST_F(FleetStateTest, ShowsRoutesAndHowFarARobotIsAlongItsOwn) {
+TEST_F(FleetStateTest, ShowsTheRoutesThatRobotsAreOnAndHowFarEachIs) {
   exchange::CatalogReply reply;
   reply.server = AgentId("server");
   reply.client = AgentId("desk");
@@ -146,19 +146,56 @@ TEST_F(FleetStateTest, ShowsRoutesAndHowFarARobotIsAlongItsOwn) {
   hall.key = {RouteId(std::string(32, 'a')), TeachingId(1)};
   hall.name = "hall";
   hall.length_m = 12.345;
+  hall.state = route::RouteState::kComplete;
   hall.standing = route::Standing::kActive;
-  reply.page.routes = {hall};
+  route::RouteInfo other = hall;
+  other.key.teaching = TeachingId(2);
+  reply.page.routes = {hall, other};
   Hear(reply);
+  EXPECT_EQ(Shown()["routes"], json::array()) << "nobody is on them";
+  EXPECT_TRUE(state_.TakeLackingRoutes(now_).empty());
+
   AgentStatus status = Status("robot1", AgentMode::kReplaying);
   status.place = {hall.key, 3.001};
   Hear(status);
-  EXPECT_EQ(Shown()["routes"][0]["name"], "hall");
   EXPECT_EQ(Robot()["along_m"], 3.0);
-  EXPECT_EQ(Robot()["length_m"], 12.35);
-  reply.page.routes.clear();
-  reply.client = AgentId("somebody");
+  EXPECT_EQ(Robot()["length_m"], nullptr);
+  EXPECT_EQ(state_.TakeLackingRoutes(now_), std::vector{hall.key.route});
+  EXPECT_TRUE(state_.TakeLackingRoutes(now_).empty()) << "it was asked for just now";
+  EXPECT_FALSE(state_.TakeLackingRoutes(now_ + seconds(10)).empty());
+
+  exchange::CatalogReply stranger = reply;
+  stranger.client = AgentId("somebody");
+  Hear(stranger);
+  EXPECT_EQ(Shown()["routes"], json::array()) << "that was no answer to this one";
   Hear(reply);
-  EXPECT_EQ(Shown()["routes"].size(), 1U) << "that was no answer to this one";
+  ASSERT_EQ(Shown()["routes"].size(), 1U);
+  EXPECT_EQ(Shown()["routes"][0]["name"], "hall");
+  EXPECT_EQ(Shown()["routes"][0]["teaching"], "1");
+  EXPECT_EQ(Robot()["length_m"], 12.35);
+  EXPECT_TRUE(state_.TakeLackingRoutes(now_ + seconds(60)).empty());
+  status.place.reset();
+  Hear(status);
+  EXPECT_EQ(Shown()["routes"], json::array());
+}
+
+TEST_F(FleetStateTest, AChangeIsWhatIsOtherThanBefore) {
+  Hear(Status("robot1", AgentMode::kReplaying));
+  Hear(Status("robot2", AgentMode::kReplaying));
+  state_.Tick(now_);
+  const StateParts before = state_.Parts();
+  EXPECT_EQ(json::parse(ChangeJson(before, before, 5)),
+            json({{"now_unix_ms", 5}, {"robots", json::array()}, {"gone", json::array()}}));
+  Hear(Status("robot2", AgentMode::kWaiting, "paused by desk"));
+  Hear(Report("trip", 1, State::kPaused));
+  state_.Tick(now_);
+  const json change = json::parse(ChangeJson(before, state_.Parts(), 5));
+  ASSERT_EQ(change["robots"].size(), 2U) << change;
+  EXPECT_EQ(change["robots"][0]["mission"]["mission"], "trip");
+  EXPECT_EQ(change["robots"][1]["state"], "paused");
+  EXPECT_EQ(change["missions"].size(), 1U);
+  EXPECT_FALSE(change.contains("servers"));
+  EXPECT_EQ(json::parse(ChangeJson(before, StateParts{}, 5))["gone"], json({"robot1", "robot2"}));
 }
 
 TEST_F(FleetStateTest, StrangersNamesDoNotFillTheMemory) {

@@ -41,21 +41,62 @@ TEST(ConsoleBodies, AMissionNeedsOrdersThatAreUnderstood) {
   }
 }
 
-TEST(ConsoleBodies, RepliesAreJsonWhateverARobotSays) {
-  EXPECT_EQ(
-      WordBody({.robot = "robot1", .answered = true, .refused = true, .detail = "\"no\"\xff"}),
-      "{\"robot\":\"robot1\",\"answered\":true,\"obeys\":false,\"detail\":\"\\\"no\\\"\uFFFD\"}");
-  EXPECT_EQ(WordsBody({}), R"({"robots":[]})");
-  EXPECT_EQ(ErrorBody("why"), R"({"error":"why"})");
-  const mission::Record record{.mission = {.agent = AgentId("robot1"),
-                                           .id = "trip",
-                                           .client = AgentId("desk-p12"),
-                                           .orders = "follow hall"},
-                               .last = {.state = mission::State::kUnderWay},
-                               .sent_unix_ms = 5};
-  EXPECT_THAT(MissionsBody({record}),
-              testing::AllOf(HasSubstr(R"("state":"under way")"), HasSubstr(R"("sent_by":"desk")"),
-                             HasSubstr(R"("sent_unix_ms":5)")));
+TEST(ConsoleBodies, AQueryIsAsTheCatalogHasIt) {
+  EXPECT_EQ(ReadRouteQuery({})->page_size, 50U);
+  const auto query = ReadRouteQuery({{"prefix", "barn-"},
+                                     {"tag", "wet"},
+                                     {"tag", "night"},
+                                     {"scout", ""},
+                                     {"min_length_m", "2.5"},
+                                     {"taught_from_unix_ms", "5"},
+                                     {"state", "active"},
+                                     {"near_gps", "48.25,11.5"},
+                                     {"within_m", "200"},
+                                     {"sort", "longest"},
+                                     {"limit", "200"},
+                                     {"cursor", "x"}});
+  ASSERT_TRUE(query) << query.error().message;
+  EXPECT_EQ(query->name_prefix, "barn-");
+  EXPECT_EQ(query->tags, (std::vector<std::string>{"night", "wet"}));
+  EXPECT_EQ(query->min_length_m, 2.5);
+  EXPECT_EQ(query->taught_from_unix_ms, 5);
+  EXPECT_EQ(query->state, route::RouteState::kComplete);
+  EXPECT_EQ(query->standing, route::Standing::kActive);
+  EXPECT_EQ(query->near->middle.y, 48.25) << "north";
+  EXPECT_EQ(query->near->radius_m, 200.0);
+  EXPECT_EQ(query->order, route::RouteOrder::kLongest);
+  EXPECT_EQ(query->page_size, 200U);
+  EXPECT_EQ(query->cursor, "x");
+}
+
+TEST(ConsoleBodies, AQueryThatMakesNoSenseIsRefusedByName) {
+  const std::vector<Parameters> wrong{{{"limit", "0"}},
+                                      {{"limit", "201"}},
+                                      {{"limit", "x"}},
+                                      {{"name", "a/b"}},
+                                      {{"name", "a"}, {"name", "b"}},
+                                      {{"prefix", std::string(65, 'x')}},
+                                      {{"tag", "a b"}},
+                                      {{"min_length_m", "nan"}},
+                                      {{"max_length_m", "-1"}},
+                                      {{"state", "sold"}},
+                                      {{"sort", "best"}},
+                                      {{"near_site", "1"}},
+                                      {{"near_gps", "91,0"}},
+                                      {{"near_gps", "1,2"}, {"within_m", "0"}},
+                                      {{"cursor", "a\nb"}},
+                                      {{"dance", "1"}}};
+  for (const Parameters& parameters : wrong) {
+    const auto query = ReadRouteQuery(parameters);
+    ASSERT_FALSE(query) << parameters.begin()->first << "=" << parameters.begin()->second;
+    EXPECT_EQ(query.error().code, ErrorCode::kInvalidArgument);
+  }
+  EXPECT_THAT(ReadRouteQuery({{"state", "sold"}}).error().message,
+              testing::AllOf(HasSubstr("'state'"), HasSubstr("active, complete")));
+}
+
+TEST(ConsoleBodies, AnErrorIsJsonWhateverItSays) {
+  EXPECT_EQ(ErrorBody("\"no\"\xff"), "{\"error\":\"\\\"no\\\"\uFFFD\"}");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "services/program/live_lines.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // How a route's way to or from a server is watched.
 struct TransferWatch {
@@ -37,4 +37,4 @@ class TransferProgress {
   program::LiveLines lines_;
 };
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

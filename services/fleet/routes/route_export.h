@@ -9,10 +9,10 @@
 #include "services/exchange/messages.h"
 #include "services/exchange/route_finder.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/store/route_store.h"
-#include "services/tool/routes/transfer.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // Which of the routes that a name or an id's beginning means to export: the revision that followers
 // would take, or the one that is asked for. `reply` answers the catalog's question for it; `holder`
@@ -31,12 +31,12 @@ namespace trailcast::tool {
 // topics. kUnavailable when nothing new has come for the watch's timeout, or it was stopped;
 // kCorrupt when what servers hold is not what was announced.
 [[nodiscard]] Result<void> FetchInOrder(
-    fleet::OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
+    OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
     const std::function<Result<void>(const route::SegmentPiece&)>& take);
 // The same into a file.
-[[nodiscard]] Result<std::uint64_t> ExportFromServer(fleet::OperatorPeer& peer,
+[[nodiscard]] Result<std::uint64_t> ExportFromServer(OperatorPeer& peer,
                                                      const route::RouteInfo& info,
                                                      archive::RouteFileWriter writer,
                                                      const TransferWatch& watch);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -1,9 +1,9 @@
-#include "services/tool/routes/where_report.h"
+#include "services/fleet/routes/where_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(WhereJson, HasPlacesAndCoverage) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

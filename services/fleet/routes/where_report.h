@@ -4,7 +4,7 @@
 
 #include "services/exchange/messages.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // What a server found of a view, for people: a line a place, likest first, or that there is none;
 // and, where not all that is stored was searched, how much was.
@@ -12,4 +12,4 @@ namespace trailcast::tool {
 // For programs: one object.
 [[nodiscard]] std::string WhereJson(const exchange::CatalogReply& reply);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -6,12 +6,12 @@
 
 #include "services/base/result.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/route/route.h"
 #include "services/route/terrain_profile.h"
-#include "services/tool/routes/transfer.h"
 #include "services/view/weak_places.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // What a route's segments say of it besides its catalog entry.
 struct RouteStudy {
@@ -22,7 +22,7 @@ using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 
 // Fetches a complete route to look at it. Errors as FetchInOrder's; kCorrupt for a segment that
 // cannot be read.
-[[nodiscard]] Result<RouteStudy> StudyRoute(fleet::OperatorPeer& peer, const route::RouteInfo& info,
+[[nodiscard]] Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
                                             const TransferWatch& watch);
 
 // For people: where followers may be lost and why, a line a place; or that there is no such place.
@@ -34,4 +34,4 @@ using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 [[nodiscard]] std::string GroundText(const route::RouteInfo& info, const RouteStudy& study);
 [[nodiscard]] std::string GroundJson(const route::RouteInfo& info, const RouteStudy& study);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

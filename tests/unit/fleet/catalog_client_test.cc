@@ -1,4 +1,4 @@
-#include "services/tool/routes/catalog_client.h"
+#include "services/fleet/routes/catalog_client.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 
 #include "services/exchange/in_process_exchange.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using std::chrono::milliseconds;
@@ -178,4 +178,4 @@ TEST(RoutesJson, QuotesWhatACameraMayBeCalled) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -1,4 +1,4 @@
-#include "services/tool/routes/route_import.h"
+#include "services/fleet/routes/route_import.h"
 
 #include <algorithm>
 #include <set>
@@ -9,9 +9,9 @@
 #include "services/exchange/publish.h"
 #include "services/exchange/revision_numbers.h"
 #include "services/exchange/route_sender.h"
-#include "services/tool/routes/catalog_client.h"
+#include "services/fleet/routes/catalog_client.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -67,7 +67,7 @@ Result<void> AppendAll(const archive::RouteFile& file, store::RouteStore& store)
 // route announces it when asked who has it, and then has these bytes, as its receipts say.
 class Delivery {
  public:
-  Delivery(const archive::RouteFile& file, fleet::OperatorPeer& peer, AgentId server)
+  Delivery(const archive::RouteFile& file, OperatorPeer& peer, AgentId server)
       : info_(file.info()),
         peer_(peer),
         servers_{std::move(server)},
@@ -127,7 +127,7 @@ class Delivery {
   }
 
   const route::RouteInfo& info_;
-  fleet::OperatorPeer& peer_;
+  OperatorPeer& peer_;
   std::set<AgentId> servers_;
   exchange::RouteSender sender_;
   Clock::time_point inquire_at_{};
@@ -181,7 +181,7 @@ Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteSto
   return Imported{false, name};
 }
 
-Result<Imported> ImportToServer(const archive::RouteFile& file, fleet::OperatorPeer& peer,
+Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,
                                 const TransferWatch& watch) {
   const route::RouteInfo& info = file.info();
   const auto reply = AskCatalog(*peer.exchange, peer.self, {.name = info.name}, watch.timeout);
@@ -207,4 +207,4 @@ Result<Imported> ImportToServer(const archive::RouteFile& file, fleet::OperatorP
   return Imported{!delivery.asked_for(), ServerName(*delivery.holder())};
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -5,7 +5,7 @@
 #include "services/archive/route_file.h"
 #include "services/base/result.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // "40.1 m"; without odometry nobody knows.
 [[nodiscard]] std::string LengthText(const route::RouteInfo& info);
@@ -14,4 +14,4 @@ namespace trailcast::tool {
 // The same, or why it was refused, as an object for programs.
 [[nodiscard]] std::string FileJson(const std::string& path, const Result<archive::RouteFile>& file);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -8,9 +8,9 @@
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/route_exchange.h"
-#include "services/tool/routes/route_study.h"
+#include "services/fleet/routes/route_study.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 // Asks every server in reach for its routes, and gives the first reply. The question is repeated
 // until then, for a server that joins late. Errors: kUnavailable when no server answers within
@@ -38,9 +38,12 @@ namespace trailcast::tool {
 // 2); `now_unix_ms` for their ages.
 [[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
                                       std::int64_t now_unix_ms);
-// For programs: an object, and an array of them, with what was found out of some besides.
+// For programs: an object; with who holds it and what is lost of it, as the reply tells; and an
+// array of these, with what was found out of some besides.
 [[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
+[[nodiscard]] std::string RouteJson(const route::RouteInfo& info,
+                                    const exchange::CatalogReply& reply);
 [[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply,
                                      const RouteStudies& studies = {});
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -1,4 +1,4 @@
-#include "services/tool/routes/transfer.h"
+#include "services/fleet/routes/transfer.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "services/base/time.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 std::string ProgressText(const std::string& doing, std::uint64_t done, std::uint64_t total,
                          std::chrono::nanoseconds elapsed) {
@@ -31,4 +31,4 @@ void TransferProgress::Show(std::uint64_t done_bytes) {
   lines_.Show({ProgressText(doing_, done_bytes, total_bytes_, elapsed)});
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

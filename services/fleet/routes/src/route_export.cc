@@ -1,4 +1,4 @@
-#include "services/tool/routes/route_export.h"
+#include "services/fleet/routes/route_export.h"
 
 #include <fmt/ranges.h>
 
@@ -14,7 +14,7 @@
 #include "services/route/digest.h"
 #include "services/route/route_ref.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -102,7 +102,7 @@ Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::Rou
   return writer.Finish();
 }
 
-Result<void> FetchInOrder(fleet::OperatorPeer& peer, const route::RouteInfo& info,
+Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
                           const TransferWatch& watch, const Take& take) {
   const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
   exchange::RouteFetcher fetcher(peer.self, info.key, {}, integrity, Clock::now());
@@ -142,7 +142,7 @@ Result<void> FetchInOrder(fleet::OperatorPeer& peer, const route::RouteInfo& inf
   return {};
 }
 
-Result<std::uint64_t> ExportFromServer(fleet::OperatorPeer& peer, const route::RouteInfo& info,
+Result<std::uint64_t> ExportFromServer(OperatorPeer& peer, const route::RouteInfo& info,
                                        archive::RouteFileWriter writer,
                                        const TransferWatch& watch) {
   const auto fetched = FetchInOrder(
@@ -151,4 +151,4 @@ Result<std::uint64_t> ExportFromServer(fleet::OperatorPeer& peer, const route::R
   return writer.Finish();
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -5,10 +5,10 @@
 #include "services/archive/route_file.h"
 #include "services/base/result.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/transfer.h"
 #include "services/store/route_store.h"
-#include "services/tool/routes/transfer.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 
 struct Imported {
   bool was_there = false;  // all of it, before
@@ -28,8 +28,7 @@ struct Imported {
 // route with this manifest. kConflict as above, or when an operator deleted the revision there;
 // kUnavailable when no server answers, or the one that did is full, or has confirmed nothing new
 // for the watch's timeout.
-[[nodiscard]] Result<Imported> ImportToServer(const archive::RouteFile& file,
-                                              fleet::OperatorPeer& peer,
+[[nodiscard]] Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& peer,
                                               const TransferWatch& watch);
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -12,17 +12,17 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/exchange/publish.h"
 #include "services/exchange/route_keeper.h"
+#include "services/fleet/routes/route_export.h"
+#include "services/fleet/routes/route_import.h"
+#include "services/fleet/routes/route_study.h"
+#include "services/fleet/routes/route_summary.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "services/store/route_store.h"
-#include "services/tool/routes/route_export.h"
-#include "services/tool/routes/route_import.h"
-#include "services/tool/routes/route_study.h"
-#include "services/tool/routes/route_summary.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using archive::RouteFile;
@@ -86,13 +86,13 @@ class RouteTransferTest : public testing::Test {
   }
 
   Result<Imported> Import(const RouteFile& file, milliseconds timeout = milliseconds(20'000)) {
-    fleet::OperatorPeer peer{AgentId("operator-1"), bus_.Open(ImporterTopics())};
+    OperatorPeer peer{AgentId("operator-1"), bus_.Open(ImporterTopics())};
     TransferWatch watch;
     watch.timeout = timeout;
     return ImportToServer(file, peer, watch);
   }
   Result<std::uint64_t> Export(const route::RouteInfo& info, const TransferWatch& watch) {
-    fleet::OperatorPeer peer{AgentId("operator-2"), bus_.Open(exchange::FollowerTopics())};
+    OperatorPeer peer{AgentId("operator-2"), bus_.Open(exchange::FollowerTopics())};
     return ExportFromServer(peer, info, Writer("fetched.trailcast", info), watch);
   }
 
@@ -127,7 +127,7 @@ TEST_F(RouteTransferTest, ARouteIsLookedIntoWhereItIs) {
   const TaughtRoute taught = TeachSamples(5, 2);
   Hold(taught);
   Serve();
-  fleet::OperatorPeer peer{AgentId("operator-3"), bus_.Open(exchange::FollowerTopics())};
+  OperatorPeer peer{AgentId("operator-3"), bus_.Open(exchange::FollowerTopics())};
   const auto study = StudyRoute(peer, taught.info, {});
   ASSERT_TRUE(study) << study.error().message;
   // Samples are of noise: none is like the next.
@@ -284,4 +284,4 @@ TEST_F(RouteTransferTest, AFileIsDescribedForPeopleAndPrograms) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -1,14 +1,14 @@
-#include "services/tool/routes/route_study.h"
+#include "services/fleet/routes/route_study.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "services/base/angles.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/route/codec.h"
-#include "services/tool/routes/route_export.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 const char* NameOf(view::Weakness why) {
@@ -42,7 +42,7 @@ const char* UnitOf(const route::RouteInfo& info) { return info.length_m > 0.0 ? 
 
 }  // namespace
 
-Result<RouteStudy> StudyRoute(fleet::OperatorPeer& peer, const route::RouteInfo& info,
+Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
                               const TransferWatch& watch) {
   view::WeakPlaceFinder finder(info.image_width_px);
   route::TerrainProfile terrain;
@@ -113,4 +113,4 @@ std::string GroundJson(const route::RouteInfo& info, const RouteStudy& study) {
   return text + "]";
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

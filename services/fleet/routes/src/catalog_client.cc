@@ -1,4 +1,4 @@
-#include "services/tool/routes/catalog_client.h"
+#include "services/fleet/routes/catalog_client.h"
 
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 #include "services/route/labels.h"
 #include "services/route/route_ref.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 double BytesPerMeter(const route::RouteInfo& info) {
@@ -48,10 +48,9 @@ std::string Remarks(const route::RouteInfo& info, const exchange::CatalogReply& 
 }
 
 std::string JsonTexts(const std::vector<std::string>& texts) {
-  std::string list;
-  for (const std::string& text : texts)
-    list += (list.empty() ? "" : ", ") + program::JsonText(text);
-  return "[" + list + "]";
+  std::vector<std::string> quoted;
+  for (const std::string& text : texts) quoted.push_back(program::JsonText(text));
+  return program::JsonList(quoted);
 }
 
 std::string JsonPlace(const std::optional<route::Place>& place) {
@@ -67,17 +66,17 @@ std::string JsonPlace(const std::optional<route::Place>& place) {
 Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange, const AgentId& client,
                                           const route::RouteQuery& query,
                                           std::chrono::milliseconds timeout) {
-  const std::uint64_t request = fleet::DrawNumber();
-  return fleet::Ask<exchange::CatalogReply>(
-      exchange, client, request, exchange::CatalogRequest{client, request, query}, timeout);
+  const std::uint64_t request = DrawNumber();
+  return Ask<exchange::CatalogReply>(exchange, client, request,
+                                     exchange::CatalogRequest{client, request, query}, timeout);
 }
 
 Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange, const AgentId& client,
                                          const route::RouteEdit& edit,
                                          std::chrono::milliseconds timeout) {
-  const std::uint64_t request = fleet::DrawNumber();
-  return fleet::Ask<exchange::CatalogReply>(
-      exchange, client, request, exchange::RouteEditRequest{client, request, edit}, timeout);
+  const std::uint64_t request = DrawNumber();
+  return Ask<exchange::CatalogReply>(exchange, client, request,
+                                     exchange::RouteEditRequest{client, request, edit}, timeout);
 }
 
 Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
@@ -154,21 +153,25 @@ std::string RouteJson(const route::RouteInfo& info) {
       info.key.teaching.value());
 }
 
+std::string RouteJson(const route::RouteInfo& info, const exchange::CatalogReply& reply) {
+  std::string route = RouteJson(info);
+  route.pop_back();
+  return route + fmt::format(", \"held_by\": {}, \"segments_lost\": {}}}",
+                             JsonTexts(HoldersOf(info.key, reply)), LackingOf(info.key, reply));
+}
+
 std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {
   std::string text = "[";
   for (const route::RouteInfo& info : reply.page.routes) {
-    std::string route = RouteJson(info);
-    route.pop_back();
-    text += fmt::format("{}{}, \"held_by\": {}, \"segments_lost\": {}",
-                        text.size() > 1 ? ",\n  " : "\n  ", route,
-                        JsonTexts(HoldersOf(info.key, reply)), LackingOf(info.key, reply));
+    std::string route = RouteJson(info, reply);
     if (const auto study = studies.find(info.key); study != studies.end()) {
-      text += fmt::format(", \"weak\": {}, \"terrain\": {}", WeakPlacesJson(info, study->second),
-                          GroundJson(info, study->second));
+      route.pop_back();
+      route += fmt::format(", \"weak\": {}, \"terrain\": {}}}", WeakPlacesJson(info, study->second),
+                           GroundJson(info, study->second));
     }
-    text += "}";
+    text += (text.size() > 1 ? ",\n  " : "\n  ") + route;
   }
   return text + "\n]\n";
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

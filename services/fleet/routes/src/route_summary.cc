@@ -1,13 +1,13 @@
-#include "services/tool/routes/route_summary.h"
+#include "services/fleet/routes/route_summary.h"
 
 #include <fmt/ranges.h>
 
 #include "services/base/unix_time.h"
+#include "services/fleet/routes/catalog_client.h"
 #include "services/program/json.h"
 #include "services/route/digest.h"
-#include "services/tool/routes/catalog_client.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 std::string PlaceText(const route::Place& place) {
@@ -49,4 +49,4 @@ std::string FileJson(const std::string& path, const Result<archive::RouteFile>& 
                      program::JsonText(path), file->file_bytes(), RouteJson(file->info()));
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

@@ -1,4 +1,4 @@
-#include "services/tool/routes/where_report.h"
+#include "services/fleet/routes/where_report.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "services/route/route_ref.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 struct Found {
@@ -61,4 +61,4 @@ std::string WhereJson(const exchange::CatalogReply& reply) {
       places, searched.segments_indexed, searched.segments_stored, searched.routes_unseen);
 }
 
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

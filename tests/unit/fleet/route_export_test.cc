@@ -1,11 +1,11 @@
-#include "services/tool/routes/route_export.h"
+#include "services/fleet/routes/route_export.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/taught_route.h"
 
-namespace trailcast::tool {
+namespace trailcast::fleet {
 namespace {
 
 using test::TeachSamples;
@@ -70,4 +70,4 @@ TEST(ProgressText, EstimatesWhatIsLeft) {
 }
 
 }  // namespace
-}  // namespace trailcast::tool
+}  // namespace trailcast::fleet

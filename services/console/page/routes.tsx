@@ -1,0 +1,108 @@
+import { useEffect, useState, type FormEvent } from 'react';
+import { get, type FoundRoute, type RoutePage } from './api';
+import { age } from './fleet';
+
+type Search = Record<string, string>;
+
+function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
+  const submit = (event: FormEvent<HTMLFormElement>) => {
+    event.preventDefault();
+    const search: Search = {};
+    for (const [name, value] of new FormData(event.currentTarget)) search[name] = String(value).trim();
+    const { place, frame, ...rest } = search;
+    onSearch(place ? { ...rest, [frame]: place.replace(/\s/g, '') } : { ...rest, within_m: '' });
+  };
+  return (
+    <form className="filters" role="search" onSubmit={submit}>
+      <label>Name begins with<input name="prefix" type="search" autoComplete="off" /></label>
+      <label>Tag<input name="tag" autoComplete="off" /></label>
+      <label>State
+        <select name="state" defaultValue="">
+          <option value="">any</option>
+          <option>active</option><option>staged</option><option>retired</option><option>teaching</option>
+        </select>
+      </label>
+      <label>Sort
+        <select name="sort" defaultValue="newest">
+          <option>newest</option><option>oldest</option><option>name</option><option>longest</option><option>shortest</option>
+        </select>
+      </label>
+      <details>
+        <summary>More</summary>
+        <div className="more">
+          <label>Taught by<input name="scout" autoComplete="off" /></label>
+          <label>Camera begins with<input name="camera" autoComplete="off" /></label>
+          <label>Begins near
+            <select name="frame" defaultValue="near_gps">
+              <option value="near_gps">latitude,longitude</option>
+              <option value="near_site">x,y on the site, m</option>
+            </select>
+          </label>
+          <label>Place<input name="place" placeholder="48.137,11.575" autoComplete="off" /></label>
+          <label>Within, m<input name="within_m" type="number" min={1} defaultValue={50} /></label>
+        </div>
+      </details>
+      <button type="submit">Search</button>
+    </form>
+  );
+}
+
+function Line({ route }: { route: FoundRoute }) {
+  return (
+    <tr className={route.state.replace(/ /g, '-')}>
+      <td data-label="Route"><strong>{route.name}</strong></td>
+      <td data-label="Revision">{route.revision || '–'}</td>
+      <td data-label="State"><strong>{route.state}</strong></td>
+      <td data-label="Length">{route.length_m > 0 ? `${route.length_m.toFixed(1)} m` : '–'}</td>
+      <td data-label="Taught" title={new Date(route.taught_unix_ms).toLocaleString()}>
+        {age(Date.now() - route.taught_unix_ms)} ago by {route.scout}
+      </td>
+      <td data-label="Tags">{route.tags.join(', ')}</td>
+      <td data-label="What">{route.description}</td>
+    </tr>
+  );
+}
+
+export function Routes() {
+  const [search, setSearch] = useState<Search>({});
+  const [routes, setRoutes] = useState<FoundRoute[]>([]);
+  const [page, setPage] = useState<RoutePage | string | null>(null);
+  const [cursor, setCursor] = useState('');
+  useEffect(() => {
+    let still = true;
+    get<RoutePage>('/api/routes', { ...search, cursor }).then((reply) => {
+      if (!still) return;
+      setPage(reply);
+      if (typeof reply !== 'string') setRoutes((had) => (cursor ? [...had, ...reply.routes] : reply.routes));
+    });
+    return () => { still = false; };
+  }, [search, cursor]);
+  const start = (wanted: Search) => {
+    setRoutes([]);
+    setPage(null);
+    setCursor('');
+    setSearch(wanted);
+  };
+  const told = typeof page === 'string' ? `⚠ ${page}`
+    : page === null ? 'Asks …'
+    : page.total === 0 ? 'No route is so.'
+    : `${routes.length} of ${page.total}`;
+  return (
+    <section aria-label="Routes" className="routes">
+      <h2>Routes</h2>
+      <Filters onSearch={start} />
+      <p role="status" className={typeof page === 'string' ? 'answer bad' : 'note'}>{told}</p>
+      {routes.length > 0 && (
+        <table>
+          <thead>
+            <tr><th>Route</th><th>Revision</th><th>State</th><th>Length</th><th>Taught</th><th>Tags</th><th>What</th></tr>
+          </thead>
+          <tbody>{routes.map((each) => <Line key={each.route + each.teaching} route={each} />)}</tbody>
+        </table>
+      )}
+      {page !== null && typeof page !== 'string' && page.next && (
+        <button onClick={() => setCursor(page.next)}>More</button>
+      )}
+    </section>
+  );
+}

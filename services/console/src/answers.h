@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "services/base/result.h"
+#include "services/http/server.h"
+
+namespace trailcast::console {
+
+void Answer(httplib::Response& response, int status, const std::string& json);
+void Refuse(httplib::Response& response, int status, const std::string& why);
+// By what kind of error it is.
+void Refuse(httplib::Response& response, const Error& error);
+
+}  // namespace trailcast::console

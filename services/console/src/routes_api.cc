@@ -1,0 +1,40 @@
+#include "services/console/src/routes_api.h"
+
+#include <fmt/format.h>
+
+#include "services/console/json.h"
+#include "services/console/src/answers.h"
+#include "services/fleet/routes/catalog_client.h"
+#include "services/program/json.h"
+
+namespace trailcast::console {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+std::string PageJson(const exchange::CatalogReply& reply) {
+  std::vector<std::string> similar;
+  for (const std::string& name : reply.similar_names) similar.push_back(program::JsonText(name));
+  return fmt::format("{{\"routes\": {}, \"total\": {}, \"next\": {}, \"similar\": {}}}",
+                     fleet::RoutesJson(reply), reply.page.total, program::JsonText(reply.page.next),
+                     program::JsonList(similar));
+}
+
+void Search(Desk& desk, const Request& request, Response& response) {
+  const auto query = ReadRouteQuery(request.params);
+  if (!query) return Refuse(response, query.error());
+  const auto reply = desk.Routes(*query);
+  if (!reply) return Refuse(response, reply.error());
+  Answer(response, 200, PageJson(*reply));
+}
+
+}  // namespace
+
+void ServeRoutes(http::Server& server, Desk& desk) {
+  server.Get("/api/routes", [&desk](const Request& request, Response& response) {
+    Search(desk, request, response);
+  });
+}
+
+}  // namespace trailcast::console

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "services/console/desk.h"
+#include "services/http/server.h"
+
+namespace trailcast::console {
+
+// What openapi.yaml has below /api/routes. `desk` outlives the server.
+void ServeRoutes(http::Server& server, Desk& desk);
+
+}  // namespace trailcast::console
