@@ -13,6 +13,8 @@ install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/sy
         COMPONENT server)
 install(FILES config/systemd/trailcast-agent.service DESTINATION lib/systemd/system
         COMPONENT agent)
+install(FILES config/systemd/trailcast-console.service DESTINATION lib/systemd/system
+        COMPONENT tools)
 install(FILES config/route_server/server.toml DESTINATION share/trailcast COMPONENT server)
 install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.toml
               config/agent/differential.toml config/agent/tracked.toml DESTINATION share/trailcast
