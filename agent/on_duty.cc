@@ -118,6 +118,8 @@ void OnDuty::ShowFree() {
   exchange::AgentStatus status;
   status.mode = exchange::AgentMode::kWaiting;
   status.detail = Held() ? now_desk_.hold().text : last_;
+  status.hold = now_desk_.shown_hold();
+  status.on_duty = true;
   if (steady_clock::now() < stands_until_) {
     status.route = on_route_;
     status.place = place_;

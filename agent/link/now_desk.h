@@ -37,6 +37,8 @@ class NowDesk {
   // What was obeyed since the last call, a line each for the log.
   [[nodiscard]] std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
   [[nodiscard]] const Hold& hold() const { return hold_.hold(); }
+  // The same as the agent's status has it.
+  [[nodiscard]] exchange::AgentHold shown_hold() const;
 
  private:
   [[nodiscard]] bool IsMeant(const exchange::NowCommand& command, const std::string& route) const;

@@ -24,7 +24,9 @@ inline constexpr std::size_t kMaxFollowersTold = 1024;
 inline constexpr std::size_t kMaxCursorBytes = 256;
 inline constexpr std::size_t kMaxMissionsPerReply = 100;
 inline constexpr std::size_t kMaxAnswersTold = 64;  // of each command
-inline constexpr std::size_t kMaxLineBytes = 512;   // details, errors, reasons
+inline constexpr std::size_t kMaxSoftwareBytes = 64;
+inline constexpr std::size_t kMaxGlanceBytes = 64 * 1024;
+inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
 // not checked against its bytes here (route::CheckDigest), only that there is one.

@@ -157,9 +157,14 @@ enum class AgentMode : std::uint8_t {
 // A robot's place on a route. Says nothing about one on another revision, let alone another route.
 struct PlaceOnRoute {
   route::RouteKey key{};
-  double along_m = 0.0;  // from the route's beginning, in the scout's metres
+  double along_m = 0.0;       // from the route's beginning, in the scout's metres
+  double left_m = 0.0;        // beside the path
+  double left_sigma_m = 0.0;  // how sure it is of that; 0: not known
   bool operator==(const PlaceOnRoute&) const = default;
 };
+
+// How operators have a robot stand.
+enum class AgentHold : std::uint8_t { kNone = 0, kPaused = 1, kStopped = 2 };
 
 // trailcast/agents
 struct AgentStatus {
@@ -178,6 +183,11 @@ struct AgentStatus {
   std::string detail{};                 // one line for people
   std::vector<route::RouteKey> held{};  // revisions of which all is in its store, newest first
   std::optional<PlaceOnRoute> place{};  // a follower's, once it has found itself on its route
+  AgentHold hold = AgentHold::kNone;
+  bool on_duty = false;                           // it takes missions
+  std::optional<std::uint8_t> battery_percent{};  // where the robot tells
+  std::optional<std::uint8_t> link_percent{};     // of its radio, likewise
+  std::string software{};                         // its version, for people
   bool operator==(const AgentStatus&) const = default;
 };
 
@@ -235,6 +245,35 @@ struct MissionReply {
   bool operator==(const MissionReply&) const = default;
 };
 
+// trailcast/drives: a robot that teaches is driven by hand, from a program. Said again many times a
+// second: a robot that has not heard one for a moment stands.
+struct DriveCommand {
+  AgentId agent{};            // whom it is for
+  AgentId client{};           // who drives
+  double linear_mps = 0.0;    // ahead
+  double turn_radps = 0.0;    // to the left
+  std::uint64_t sent_ms = 0;  // by the client's clock, from any time on: tells late ones
+  bool operator==(const DriveCommand&) const = default;
+};
+
+// trailcast/glance_requests: what a robot's camera sees is asked for, once.
+struct GlanceRequest {
+  AgentId agent{};  // whom it is for
+  AgentId client{};
+  std::uint64_t request = 0;
+  bool operator==(const GlanceRequest&) const = default;
+};
+
+// trailcast/glances: the robot's answer.
+struct Glance {
+  AgentId agent{};
+  AgentId client{};  // who has asked, and which request it was
+  std::uint64_t request = 0;
+  std::vector<std::uint8_t> picture{};  // JPEG; empty: there is none, and `detail` says why
+  std::string detail{};                 // one line for people
+  bool operator==(const Glance&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -242,9 +281,10 @@ struct AgentGone {
   bool operator==(const AgentGone&) const = default;
 };
 
-using Message = std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt,
-                             CatalogRequest, CatalogReply, AgentStatus, RouteEditRequest, Fleet,
-                             RouteFollowers, NowCommand, NowAnswer, mission::Mission,
-                             mission::Report, MissionRequest, MissionReply, AgentGone>;
+using Message =
+    std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
+                 CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
+                 NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
+                 DriveCommand, GlanceRequest, Glance, AgentGone>;
 
 }  // namespace trailcast::exchange

@@ -28,6 +28,9 @@ enum class Topic : std::uint8_t {
   kMissionStates,
   kMissionRequests,
   kMissionReplies,
+  kDrives,
+  kGlanceRequests,
+  kGlances,
 };
 
 struct TopicUse {
@@ -56,8 +59,11 @@ struct TopicUse {
                                             // catalog, edits routes
 [[nodiscard]] TopicUse DispatcherTopics();  // of who tells robots what to do now
 [[nodiscard]] TopicUse OnDutyTopics();      // a follower's that is sent on missions
+[[nodiscard]] TopicUse TeachingTopics();    // a scout's that is driven by operators
 [[nodiscard]] TopicUse SenderTopics();      // of who sends missions
 [[nodiscard]] TopicUse HistoryTopics();     // of who asks what became of them
+[[nodiscard]] TopicUse DriverTopics();      // of who drives a robot that teaches
+[[nodiscard]] TopicUse GlanceTopics();      // of who looks through robots' cameras
 [[nodiscard]] TopicUse ObserverTopics();    // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and

@@ -15,6 +15,7 @@ enum class NowOrder : std::uint8_t {
   kCancel = 2,   // end what it does, and stand
   kStop = 3,     // stand, also after a restart, until it is released
   kRelease = 4,  // no longer stopped, but paused
+  kEnd = 5,      // what it teaches is complete
 };
 
 [[nodiscard]] const char* ToString(NowOrder order);  // "pause"

@@ -31,6 +31,9 @@ struct CommonOptions {
   std::string log_format = "text";
 };
 
+// Of all of the product's programs: "0.1.0".
+[[nodiscard]] const char* Version();
+
 // --version, --config, --name and the options of the network and the log, each with its
 // environment variable. A value on the command line wins over the file, the file over the
 // environment. With --security and no --name, the name is the one in the keys.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/exchange/route_exchange.h"
@@ -28,7 +29,7 @@ class Presence {
   // `exchange` outlives this. `status` names agent and role, and the instance of a
   // process that has one already; its mode is set here. The
   // status is published every `interval` (less often in a swarm, so that each of its agents has
-  // kForEachAgent), and when the mode changes.
+  // kForEachAgent), and when the mode changes or how operators hold it.
   Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
            std::chrono::milliseconds interval = std::chrono::milliseconds(200));
 
@@ -40,10 +41,10 @@ class Presence {
   // claims it. What servers tell of others counts as if it was heard.
   void Handle(const exchange::Message& message);
 
-  // The status to be published from now on; agent, role and instance stay.
+  // The status to be published from now on; agent, role, instance and version stay.
   void Set(exchange::AgentStatus status);
   [[nodiscard]] const exchange::AgentStatus& status() const { return status_; }
-  // Publishes when the interval has passed or the mode has changed.
+  // Publishes when the interval has passed, or the mode or the hold has changed.
   void Tick(Clock::time_point now);
   // Publishes now.
   void Publish();
@@ -71,7 +72,7 @@ class Presence {
   exchange::AgentStatus status_;
   NameClaim claim_;
   std::chrono::milliseconds interval_;
-  std::optional<exchange::AgentMode> published_mode_;
+  std::optional<std::pair<exchange::AgentMode, exchange::AgentHold>> published_;
   Clock::time_point next_{};
   exchange::ServersThere servers_;
   std::optional<AgentId> server_;  // one of those

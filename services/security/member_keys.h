@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "services/base/result.h"
+#include "services/exchange/route_exchange.h"
 #include "services/security/documents.h"
 #include "services/security/member.h"
 #include "services/security/revocation_list.h"
@@ -20,10 +22,9 @@ struct MemberKeys {
   Time expires{};
   bool scoped = false;       // its permissions allow partitions below its own (PartitionOf)
   bool revocations = false;  // and the topic on which servers spread revocations
-  bool now = false;          // and those of what robots are told to do now
-  bool missions = false;     // and those of what they are sent to do
-  std::string authority{};   // the fleet's: its certificate, PEM
-  RevocationList revoked{};  // by the authority; that of the folder, or a newer one
+  std::set<exchange::Topic> lacks{};  // topics of its role that they do not name: newer ones
+  std::string authority{};            // the fleet's: its certificate, PEM
+  RevocationList revoked{};           // by the authority; that of the folder, or a newer one
 };
 
 // Errors say which file is wrong, and what to do: kNotFound for what is not there, kCorrupt for

@@ -74,6 +74,12 @@ Message ProbeFor(Topic topic) {
       return exchange::MissionRequest{.client = kProbe};
     case Topic::kMissionReplies:
       return exchange::MissionReply{.server = kProbe, .client = kProbe};
+    case Topic::kDrives:
+      return exchange::DriveCommand{.agent = kProbe, .client = kProbe};
+    case Topic::kGlanceRequests:
+      return exchange::GlanceRequest{.agent = kProbe, .client = kProbe};
+    case Topic::kGlances:
+      return exchange::Glance{.agent = kProbe, .client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -102,6 +108,9 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const mission::Report& m) { return m.agent; }
     AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
     AgentId operator()(const exchange::MissionReply& m) { return m.server; }
+    AgentId operator()(const exchange::DriveCommand& m) { return m.client; }
+    AgentId operator()(const exchange::GlanceRequest& m) { return m.client; }
+    AgentId operator()(const exchange::Glance& m) { return m.agent; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

@@ -163,7 +163,12 @@ TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
                            .backlog = ~0U,
                            .detail = std::string(kMaxLineBytes, 'd'),
                            .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7)),
-                           .place = exchange::PlaceOnRoute{KeyNumber(7, ~0U), 1e7}};
+                           .place = exchange::PlaceOnRoute{KeyNumber(7, ~0U), 1e7, -1e3, 1e3},
+                           .hold = exchange::AgentHold::kStopped,
+                           .on_duty = true,
+                           .battery_percent = 100,
+                           .link_percent = 0,
+                           .software = std::string(exchange::kMaxSoftwareBytes, 's')};
   ExpectRoundTrip(status, Topic::kAgents);
   ExpectRoundTrip(AgentStatus{.agent = AgentId("nowhere")}, Topic::kAgents);
 }
@@ -181,6 +186,26 @@ TEST_P(RouteExchangeContract, CarriesAnEditOfExtremes) {
                               .text = std::string(kMaxLineBytes, 't'),
                               .tags = std::vector(route::kMaxTags, std::string(64, 't'))};
   ExpectRoundTrip(exchange::RouteEditRequest{AgentId("o"), ~0ULL, edit}, Topic::kRouteEdits);
+}
+
+TEST_P(RouteExchangeContract, CarriesHowARobotIsDriven) {
+  ExpectRoundTrip(exchange::DriveCommand{.agent = AgentId("r"),
+                                         .client = AgentId("o"),
+                                         .linear_mps = -0.5,
+                                         .turn_radps = 1.5,
+                                         .sent_ms = ~0ULL},
+                  Topic::kDrives);
+}
+
+TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
+  ExpectRoundTrip(exchange::GlanceRequest{AgentId("r"), AgentId("o"), ~0ULL},
+                  Topic::kGlanceRequests);
+  ExpectRoundTrip(exchange::Glance{.agent = AgentId("r"),
+                                   .client = AgentId("o"),
+                                   .request = ~0ULL,
+                                   .picture = std::vector<std::uint8_t>(exchange::kMaxGlanceBytes,
+                                                                        std::uint8_t{0xA5})},
+                  Topic::kGlances);
 }
 
 TEST_P(RouteExchangeContract, CarriesARefusal) {

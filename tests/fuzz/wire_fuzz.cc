@@ -140,6 +140,34 @@ class Samples {
     wire.held._buffer = Many<trailcast_wire_RouteKey>(keys_, wire.held._length);
     Fill(wire.on);
     wire.along_m = Real();
+    wire.left_m = Real();
+    wire.left_sigma_m = Real();
+    wire.hold = Octet();
+    wire.on_duty = Octet();
+    wire.battery_percent = Octet();
+    wire.link_percent = Octet();
+    wire.software = Text();
+  }
+  void Fill(trailcast_wire_DriveCommand& wire) {
+    wire.agent = Name();
+    wire.client = Name();
+    wire.linear_mps = Real();
+    wire.turn_radps = Real();
+    wire.sent_ms = input_.ConsumeIntegral<std::uint64_t>();
+  }
+  void Fill(trailcast_wire_GlanceRequest& wire) {
+    wire.agent = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+  }
+  void Fill(trailcast_wire_Glance& wire) {
+    wire.agent = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    picture_ = input_.ConsumeBytes<std::uint8_t>(Count());
+    wire.picture._buffer = picture_.data();
+    wire.picture._length = static_cast<std::uint32_t>(picture_.size());
+    wire.detail = Text();
   }
   void Fill(trailcast_wire_Fleet& wire) {
     wire.server = Name();
@@ -327,6 +355,7 @@ class Samples {
   std::deque<std::string> texts_;
   std::deque<std::vector<char*>> text_lists_;
   std::deque<std::vector<std::uint32_t>> numbers_;
+  std::vector<std::uint8_t> picture_;
   std::deque<std::vector<std::uint8_t>> bytes_;
   std::deque<std::vector<trailcast_wire_SegmentPiece>> pieces_;
   std::deque<std::vector<trailcast_wire_CatalogRoute>> routes_;
@@ -381,7 +410,7 @@ void FillAndTakeIn(Topic topic, FuzzedDataProvider& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trailcast::fuzz;
   FuzzedDataProvider input(data, size);
-  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 15))) {
+  switch (const auto topic = static_cast<Topic>(input.ConsumeIntegralInRange<int>(0, 18))) {
     case Topic::kRoutes:
       FillAndTakeIn<trailcast_wire_RouteAnnouncement>(topic, input);
       break;
@@ -429,6 +458,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kMissionReplies:
       FillAndTakeIn<trailcast_wire_MissionReply>(topic, input);
+      break;
+    case Topic::kDrives:
+      FillAndTakeIn<trailcast_wire_DriveCommand>(topic, input);
+      break;
+    case Topic::kGlanceRequests:
+      FillAndTakeIn<trailcast_wire_GlanceRequest>(topic, input);
+      break;
+    case Topic::kGlances:
+      FillAndTakeIn<trailcast_wire_Glance>(topic, input);
       break;
   }
   return 0;

@@ -65,7 +65,12 @@ void FollowerLink::ShowStatus() {
     status.detail = latest_.robot_trouble;
   }
   status.held = held_revisions_;
-  if (route_ && latest_.along_m) status.place = {route_->key, *latest_.along_m};
+  if (route_ && latest_.along_m) {
+    const auto offset = latest_.decision.offset.value_or(replay::PathOffset{});
+    status.place = {route_->key, *latest_.along_m, offset.left_m, offset.left_sigma_m};
+  }
+  status.hold = now_desk_.shown_hold();
+  status.on_duty = options_.now_desk != nullptr;
   presence_->Set(std::move(status));
 }
 

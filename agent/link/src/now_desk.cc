@@ -20,6 +20,18 @@ bool NowDesk::IsMeant(const exchange::NowCommand& command, const std::string& ro
   return false;
 }
 
+exchange::AgentHold NowDesk::shown_hold() const {
+  switch (hold().kind) {
+    case Hold::Kind::kNone:
+      return exchange::AgentHold::kNone;
+    case Hold::Kind::kPaused:
+      return exchange::AgentHold::kPaused;
+    case Hold::Kind::kStopped:
+      break;
+  }
+  return exchange::AgentHold::kStopped;
+}
+
 void NowDesk::Handle(const exchange::Message& message, const std::string& route,
                      std::int64_t unix_ms) {
   const auto* command = std::get_if<exchange::NowCommand>(&message);

@@ -89,6 +89,8 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
       return Stop(fmt::format("stopped by {} {}{}", by, MomentText(unix_ms), why));
     case NowOrder::kRelease:
       return Release();
+    case NowOrder::kEnd:
+      return {true, "teaches no route"};
   }
   return {true, "does not know this command"};
 }

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "services/exchange/topics.h"
+
 namespace trailcast::dds {
 namespace {
 
@@ -40,10 +42,14 @@ constexpr std::array kTable = {
     Row{T::kMissionStates,   {false,    16,        kForever}},
     Row{T::kMissionRequests, {false,    16,        kForever}},
     Row{T::kMissionReplies,  {false,    16,        kForever}},
+    Row{T::kDrives,          {false,    1,         kForever, /*best_effort=*/true}},
+    Row{T::kGlanceRequests,  {false,    1,         kForever, /*best_effort=*/true}},
+    Row{T::kGlances,         {false,    1,         kForever, /*best_effort=*/true}},
 };
 // clang-format on
 
 constexpr bool RowsAreInTopicOrder() {
+  if (kTable.size() != exchange::kTopics) return false;
   for (std::size_t i = 0; i < kTable.size(); ++i) {
     if (static_cast<std::size_t>(kTable[i].topic) != i) return false;
   }

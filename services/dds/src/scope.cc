@@ -14,8 +14,7 @@ std::string ScopeOf(const route::RouteKey& route) {
 bool MayUse(const DdsOptions& self, exchange::Topic topic) {
   using exchange::Topic;
   if (!self.keys) return true;
-  if (topic == Topic::kNow || topic == Topic::kNowAnswers) return self.keys->now;
-  if (topic >= Topic::kMissions && topic <= Topic::kMissionReplies) return self.keys->missions;
+  if (self.keys->lacks.contains(topic)) return false;
   return self.keys->scoped || (topic != Topic::kFleet && topic != Topic::kNeighbours);
 }
 

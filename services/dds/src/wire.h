@@ -2,6 +2,7 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
 #include <functional>
 
 #include "services/base/result.h"
@@ -11,6 +12,8 @@
 namespace trailcast::dds {
 
 // Between our messages and the C structs that idlc makes of idl/trailcast.idl.
+
+inline constexpr std::uint8_t kUnknownPercent = 255;
 
 [[nodiscard]] const dds_topic_descriptor_t& TypeOf(exchange::Topic topic);
 

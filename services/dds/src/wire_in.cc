@@ -189,6 +189,10 @@ Message From(const trailcast_wire_CatalogReply& wire) {
   return reply;
 }
 
+std::optional<std::uint8_t> PercentFrom(std::uint8_t wire) {
+  return wire == kUnknownPercent ? std::nullopt : std::optional(wire);
+}
+
 Message From(const trailcast_wire_AgentStatus& wire) {
   AgentStatus status{.agent = AgentId(Text(wire.agent)),
                      .instance = wire.instance,
@@ -205,8 +209,13 @@ Message From(const trailcast_wire_AgentStatus& wire) {
                      .detail = Text(wire.detail)};
   for (const trailcast_wire_RouteKey& key : Elements(wire.held)) status.held.push_back(From(key));
   if (!Text(wire.on.route).empty()) {
-    status.place = PlaceOnRoute{From(wire.on), wire.along_m};
+    status.place = PlaceOnRoute{From(wire.on), wire.along_m, wire.left_m, wire.left_sigma_m};
   }
+  status.hold = static_cast<AgentHold>(wire.hold);
+  status.on_duty = wire.on_duty != 0;
+  status.battery_percent = PercentFrom(wire.battery_percent);
+  status.link_percent = PercentFrom(wire.link_percent);
+  status.software = Text(wire.software);
   return status;
 }
 
@@ -308,6 +317,29 @@ Message From(const trailcast_wire_MissionReply& wire) {
   return reply;
 }
 
+Message From(const trailcast_wire_DriveCommand& wire) {
+  return DriveCommand{.agent = AgentId(Text(wire.agent)),
+                      .client = AgentId(Text(wire.client)),
+                      .linear_mps = wire.linear_mps,
+                      .turn_radps = wire.turn_radps,
+                      .sent_ms = wire.sent_ms};
+}
+
+Message From(const trailcast_wire_GlanceRequest& wire) {
+  return GlanceRequest{.agent = AgentId(Text(wire.agent)),
+                       .client = AgentId(Text(wire.client)),
+                       .request = wire.request};
+}
+
+Message From(const trailcast_wire_Glance& wire) {
+  const auto picture = Elements(wire.picture);
+  return Glance{.agent = AgentId(Text(wire.agent)),
+                .client = AgentId(Text(wire.client)),
+                .request = wire.request,
+                .picture = {picture.begin(), picture.end()},
+                .detail = Text(wire.detail)};
+}
+
 Message From(const trailcast_wire_RouteFollowers& wire) {
   RouteFollowers all{.server = AgentId(Text(wire.server)), .key = From(wire.key), .followers = {}};
   for (const trailcast_wire_RouteFollower& follower : Elements(wire.followers)) {
@@ -352,6 +384,12 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_MissionRequest*>(sample));
     case Topic::kMissionReplies:
       return From(*static_cast<const trailcast_wire_MissionReply*>(sample));
+    case Topic::kDrives:
+      return From(*static_cast<const trailcast_wire_DriveCommand*>(sample));
+    case Topic::kGlanceRequests:
+      return From(*static_cast<const trailcast_wire_GlanceRequest*>(sample));
+    case Topic::kGlances:
+      return From(*static_cast<const trailcast_wire_Glance*>(sample));
     case Topic::kAgents:
       break;
   }

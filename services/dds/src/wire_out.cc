@@ -238,6 +238,13 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   const PlaceOnRoute place = message.place.value_or(PlaceOnRoute{});
   sample.on = ToWire(place.key);
   sample.along_m = place.along_m;
+  sample.left_m = place.left_m;
+  sample.left_sigma_m = place.left_sigma_m;
+  sample.hold = static_cast<std::uint8_t>(message.hold);
+  sample.on_duty = static_cast<std::uint8_t>(message.on_duty ? 1 : 0);
+  sample.battery_percent = message.battery_percent.value_or(kUnknownPercent);
+  sample.link_percent = message.link_percent.value_or(kUnknownPercent);
+  sample.software = Lend(message.software);
   return use(&sample);
 }
 
@@ -389,6 +396,34 @@ Result<void> With(const MissionReply& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const DriveCommand& message, const UseSample& use) {
+  const trailcast_wire_DriveCommand sample{.agent = Lend(message.agent.value()),
+                                           .client = Lend(message.client.value()),
+                                           .linear_mps = message.linear_mps,
+                                           .turn_radps = message.turn_radps,
+                                           .sent_ms = message.sent_ms};
+  return use(&sample);
+}
+
+Result<void> With(const GlanceRequest& message, const UseSample& use) {
+  const trailcast_wire_GlanceRequest sample{.agent = Lend(message.agent.value()),
+                                            .client = Lend(message.client.value()),
+                                            .request = message.request};
+  return use(&sample);
+}
+
+Result<void> With(const Glance& message, const UseSample& use) {
+  trailcast_wire_Glance sample{};
+  sample.agent = Lend(message.agent.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  sample.picture._buffer = const_cast<std::uint8_t*>(message.picture.data());
+  sample.picture._length = sample.picture._maximum =
+      static_cast<std::uint32_t>(message.picture.size());
+  sample.detail = Lend(message.detail);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -412,7 +447,10 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_Mission_desc,
                                                              &trailcast_wire_MissionReport_desc,
                                                              &trailcast_wire_MissionRequest_desc,
-                                                             &trailcast_wire_MissionReply_desc};
+                                                             &trailcast_wire_MissionReply_desc,
+                                                             &trailcast_wire_DriveCommand_desc,
+                                                             &trailcast_wire_GlanceRequest_desc,
+                                                             &trailcast_wire_Glance_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -5,6 +5,8 @@
 namespace trailcast::exchange {
 namespace {
 
+constexpr double kMaxTurn_radps = 100.0;
+
 using route::CheckAmount;
 using route::CheckCount;
 using route::CheckEnum;
@@ -18,6 +20,10 @@ using route::SegmentPiece;
 
 Result<void> CheckIndex(SegmentIndex index) {
   return CheckCount("segment index", index.value(), kMaxSegmentsPerRoute - 1);
+}
+
+Result<void> CheckPercent(const char* field, std::optional<std::uint8_t> percent) {
+  return percent ? CheckCount(field, *percent, 100) : Result<void>();
 }
 
 Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& indices,
@@ -156,6 +162,10 @@ Result<void> Check(const AgentStatus& message) {
   if (auto ok = CheckAmount("progress", message.progress, 1.0); !ok) return ok;
   if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
   if (auto ok = CheckSpeed(message.speed_mps); !ok) return ok;
+  if (auto ok = CheckEnum("hold", message.hold, AgentHold::kStopped); !ok) return ok;
+  if (auto ok = CheckPercent("battery", message.battery_percent); !ok) return ok;
+  if (auto ok = CheckPercent("link", message.link_percent); !ok) return ok;
+  if (auto ok = CheckText("software", message.software, kMaxSoftwareBytes); !ok) return ok;
   if (auto ok = CheckCount("revisions held", message.held.size(), kMaxHeldTold); !ok) return ok;
   for (const RouteKey& key : message.held) {
     if (auto ok = CheckKey(key); !ok) return ok;
@@ -164,6 +174,10 @@ Result<void> Check(const AgentStatus& message) {
     if (auto ok = CheckKey(message.place->key); !ok) return ok;
     if (auto ok = CheckAmount("metres along the route", message.place->along_m, kMaxLength_m); !ok)
       return ok;
+    const double left_m = std::abs(message.place->left_m);
+    if (auto ok = CheckAmount("metres beside the route", left_m, kMaxLength_m); !ok) return ok;
+    const double sigma_m = message.place->left_sigma_m;
+    if (auto ok = CheckAmount("how sure of that, metres", sigma_m, kMaxLength_m); !ok) return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
@@ -197,7 +211,7 @@ Result<void> Check(const RouteFollowers& message) {
 
 Result<void> Check(const NowCommand& message) {
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckEnum("order", message.order, NowOrder::kRelease); !ok) return ok;
+  if (auto ok = CheckEnum("order", message.order, NowOrder::kEnd); !ok) return ok;
   if (auto ok = CheckEnum("whom", message.whom, NowWhom::kAll); !ok) return ok;
   if (message.whom != NowWhom::kAll) {
     if (auto ok = CheckName("name of whom it is for", message.name); !ok) return ok;
@@ -260,6 +274,27 @@ Result<void> Check(const MissionReply& message) {
     }
   }
   return CheckText("error", message.error, kMaxLineBytes);
+}
+
+Result<void> Check(const DriveCommand& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckSpeed(message.linear_mps); !ok) return ok;
+  return CheckAmount("turn in rad/s", std::abs(message.turn_radps), kMaxTurn_radps);
+}
+
+Result<void> Check(const GlanceRequest& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  return CheckName("client", message.client.value());
+}
+
+Result<void> Check(const Glance& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckCount("bytes of a picture", message.picture.size(), kMaxGlanceBytes); !ok) {
+    return ok;
+  }
+  return CheckText("detail", message.detail, kMaxLineBytes);
 }
 
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }

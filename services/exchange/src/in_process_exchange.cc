@@ -46,7 +46,6 @@ class Inbox {
     std::string instance;
     Message message;
   };
-  static constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kMissionReplies) + 1;
   std::array<std::deque<Entry>, kTopics> queues_;
 };
 

@@ -63,6 +63,14 @@ TopicUse OnDutyTopics() {
   use.read.push_back(Topic::kMissions);
   use.read.push_back(Topic::kMissionStates);  // what servers have
   use.write.push_back(Topic::kMissionStates);
+  use.read.push_back(Topic::kGlanceRequests);
+  use.write_rarely.push_back(Topic::kGlances);
+  return use;
+}
+
+TopicUse TeachingTopics() {
+  TopicUse use = ScoutTopics();
+  use.read.push_back(Topic::kDrives);
   return use;
 }
 
@@ -73,6 +81,10 @@ TopicUse SenderTopics() {
 TopicUse HistoryTopics() {
   return {.write = {Topic::kMissionRequests}, .read = {Topic::kMissionReplies}};
 }
+
+TopicUse DriverTopics() { return {.write = {Topic::kDrives}, .read = {}}; }
+
+TopicUse GlanceTopics() { return {.write = {Topic::kGlanceRequests}, .read = {Topic::kGlances}}; }
 
 TopicUse ObserverTopics() {
   TopicUse use = OperatorTopics();
@@ -97,7 +109,10 @@ std::optional<Topic> TopicOf(const Message& message) {
                                       Topic::kMissions,
                                       Topic::kMissionStates,
                                       Topic::kMissionRequests,
-                                      Topic::kMissionReplies};
+                                      Topic::kMissionReplies,
+                                      Topic::kDrives,
+                                      Topic::kGlanceRequests,
+                                      Topic::kGlances};
   if (message.index() >= std::size(kTopics)) return std::nullopt;
   return kTopics[message.index()];
 }
@@ -144,6 +159,12 @@ const char* NameOf(Topic topic) {
       return "trailcast/mission_requests";
     case Topic::kMissionReplies:
       return "trailcast/mission_replies";
+    case Topic::kDrives:
+      return "trailcast/drives";
+    case Topic::kGlanceRequests:
+      return "trailcast/glance_requests";
+    case Topic::kGlances:
+      return "trailcast/glances";
   }
   return "unknown topic";
 }

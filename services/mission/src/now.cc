@@ -12,6 +12,8 @@ const char* ToString(NowOrder order) {
       return "cancel";
     case NowOrder::kStop:
       return "stop";
+    case NowOrder::kEnd:
+      return "end";
     case NowOrder::kRelease:
       return "release";
   }

@@ -50,8 +50,10 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
+const char* Version() { return TRAILCAST_VERSION; }
+
 void AddCommonOptions(CLI::App& app, CommonOptions& options) {
-  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), TRAILCAST_VERSION));
+  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), Version()));
   app.set_config("--config", "", "TOML file with any of these options; unknown keys are errors");
   app.config_formatter(std::make_shared<Toml>());
   app.allow_config_extras(CLI::config_extras_mode::error);

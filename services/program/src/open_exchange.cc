@@ -14,6 +14,19 @@ namespace {
 
 constexpr std::chrono::hours kSoon{7 * 24};
 
+// Topics that older keys do not name, of each kind the one by which that is seen.
+struct NewerTopic {
+  exchange::Topic topic;
+  const char* what;
+};
+constexpr NewerTopic kNewerTopics[] = {
+    {exchange::Topic::kNow, "operators told robots to pause or to stop"},
+    {exchange::Topic::kMissionReplies, "it could be asked what became of missions"},
+    {exchange::Topic::kMissions, "robots were sent on missions"},
+    {exchange::Topic::kDrives, "robots that teach were driven by operators"},
+    {exchange::Topic::kGlanceRequests, "operators looked through robots' cameras"},
+};
+
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {
   const auto now = std::chrono::system_clock::now();
   auto keys = security::LoadMemberKeys(options.security, now);
@@ -51,17 +64,12 @@ Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::
             : "copy revoked.pem there by hand after each 'trailcast keys revoke'",
         keys->name);
   }
-  if (!keys->now) {
+  for (const auto& [topic, what] : kNewerTopics) {
+    if (!keys->lacks.contains(topic)) continue;
     spdlog::warn(
-        "the keys in {} are from before operators told robots to pause or to stop: this program "
-        "takes no part in that; 'trailcast keys renew {}' where the authority is",
-        options.security, keys->name);
-  }
-  if (!keys->missions) {
-    spdlog::warn(
-        "the keys in {} are from before robots were sent on missions: this program takes no part "
-        "in that; 'trailcast keys renew {}' where the authority is",
-        options.security, keys->name);
+        "the keys in {} are from before {}: this program takes no part in that; 'trailcast keys "
+        "renew {}' where the authority is",
+        options.security, what, keys->name);
   }
   return keys;
 }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "services/base/text.h"
+#include "services/program/command_line.h"
 
 namespace trailcast::program {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 exchange::AgentStatus Starting(exchange::AgentStatus status) {
   if (status.instance == 0) status.instance = MakeInstance();
   status.mode = exchange::AgentMode::kStarting;
+  status.software = Version();
   return status;
 }
 
@@ -128,20 +130,21 @@ void Presence::Set(exchange::AgentStatus status) {
   status.agent = status_.agent;
   status.role = status_.role;
   status.instance = status_.instance;
+  status.software = status_.software;
   status.detail = PlainText(status.detail, 200);
   status_ = std::move(status);
 }
 
 void Presence::Tick(Clock::time_point now) {
   TellNameTrouble();
-  if (now >= next_ || published_mode_ != status_.mode) Publish();
+  if (now >= next_ || published_ != std::pair(status_.mode, status_.hold)) Publish();
 }
 
 void Presence::Publish() {
   exchange::AgentStatus status = status_;
   if (std::string trouble = NameTrouble(); !trouble.empty()) status.detail = std::move(trouble);
   // A status that cannot be handed over is followed by the next one.
-  if (exchange_.Publish(status)) published_mode_ = status_.mode;
+  if (exchange_.Publish(status)) published_ = {status_.mode, status_.hold};
   std::size_t agents = others_.size();
   for (const auto& [server, told] : told_) agents = std::max<std::size_t>(agents, told.agents);
   next_ = Clock::now() + std::max(interval_, kForEachAgent * static_cast<int>(agents));

@@ -25,6 +25,9 @@ struct AuthorIn {
   AgentId operator()(const mission::Report& m) { return m.agent; }
   AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
   AgentId operator()(const exchange::MissionReply& m) { return m.server; }
+  AgentId operator()(const exchange::DriveCommand& m) { return m.client; }
+  AgentId operator()(const exchange::GlanceRequest& m) { return m.client; }
+  AgentId operator()(const exchange::Glance& m) { return m.agent; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 

@@ -144,12 +144,12 @@ Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
   }
   keys.scoped = AllowsScopes(*permissions, keys.member);
   keys.revocations = AllowsTopic(*permissions, kRevocationsTopic);
-  keys.now = AllowsTopic(*permissions, exchange::NameOf(exchange::Topic::kNow));
-  // Observers only ask what became of them.
-  const auto asked =
-      exchange::NameOf(keys.member.role == Role::kObserver ? exchange::Topic::kMissionReplies
-                                                           : exchange::Topic::kMissions);
-  keys.missions = AllowsTopic(*permissions, asked);
+  const exchange::TopicUse rights = RightsOf(keys.member.role);
+  for (const auto* topics : {&rights.write, &rights.read}) {
+    for (const exchange::Topic topic : *topics) {
+      if (!AllowsTopic(*permissions, exchange::NameOf(topic))) keys.lacks.insert(topic);
+    }
+  }
   return {};
 }
 

@@ -72,7 +72,7 @@ std::optional<Role> FindRole(std::string_view name) {
 TopicUse RightsOf(Role role) {
   switch (role) {
     case Role::kScout:
-      return Together(Together(SeesAgents(), exchange::ScoutTopics()), exchange::OnDutyTopics());
+      return Together(Together(SeesAgents(), exchange::TeachingTopics()), exchange::OnDutyTopics());
     case Role::kFollower:
       return Together(SeesAgents(), exchange::OnDutyTopics());
     case Role::kServer:
@@ -83,11 +83,14 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::SenderTopics());
       use = Together(std::move(use), exchange::HistoryTopics());
       use = Together(std::move(use), exchange::ScoutTopics());
+      use = Together(std::move(use), exchange::DriverTopics());
+      use = Together(std::move(use), exchange::GlanceTopics());
       std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
       return use;
     }
     case Role::kObserver:
-      return Together(exchange::ObserverTopics(), exchange::HistoryTopics());
+      return Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
+                      exchange::GlanceTopics());
   }
   return {};
 }

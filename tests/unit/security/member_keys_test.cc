@@ -11,7 +11,9 @@ namespace trailcast::security {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class MemberKeysTest : public testing::Test {
  protected:
@@ -57,19 +59,19 @@ TEST_F(MemberKeysTest, FromBeforeServersSpreadRevocationsHoldAndSaySo) {
 }
 
 TEST_F(MemberKeysTest, FromBeforeRobotsWereToldWhatToDoNowHoldAndSaySo) {
-  EXPECT_TRUE(LoadMemberKeys(scout_, now_)->now);
+  EXPECT_THAT(LoadMemberKeys(scout_, now_)->lacks, IsEmpty());
   test::MakeOfBeforeNow(authority_.folder(), scout_);
   const auto keys = LoadMemberKeys(scout_, now_);
   ASSERT_TRUE(keys) << keys.error().message;
-  EXPECT_FALSE(keys->now);
+  EXPECT_THAT(keys->lacks, ElementsAre(exchange::Topic::kNow));
 }
 
 TEST_F(MemberKeysTest, FromBeforeRobotsWereSentOnMissionsHoldAndSaySo) {
-  EXPECT_TRUE(LoadMemberKeys(scout_, now_)->missions);
+  EXPECT_THAT(LoadMemberKeys(scout_, now_)->lacks, IsEmpty());
   test::MakeOfBeforeMissions(authority_.folder(), scout_);
   const auto keys = LoadMemberKeys(scout_, now_);
   ASSERT_TRUE(keys) << keys.error().message;
-  EXPECT_FALSE(keys->missions);
+  EXPECT_THAT(keys->lacks, ElementsAre(exchange::Topic::kMissions));
 }
 
 TEST_F(MemberKeysTest, TellWhatIsMissing) {

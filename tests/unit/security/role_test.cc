@@ -38,8 +38,9 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
 
 TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(RightsOf(Role::kFollower).write, Not(Contains(Topic::kRoutes)));
-  EXPECT_THAT(RightsOf(Role::kObserver).write,
-              ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests));
+  EXPECT_THAT(
+      RightsOf(Role::kObserver).write,
+      ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kGlanceRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
