@@ -94,27 +94,27 @@ TopicUse ObserverTopics() {
 
 std::optional<Topic> TopicOf(const Message& message) {
   // In the order of the variant; AgentGone, the last, is not a topic.
-  static constexpr Topic kTopics[] = {Topic::kRoutes,
-                                      Topic::kSegments,
-                                      Topic::kSegmentRequests,
-                                      Topic::kReceipts,
-                                      Topic::kCatalogRequests,
-                                      Topic::kCatalogReplies,
-                                      Topic::kAgents,
-                                      Topic::kRouteEdits,
-                                      Topic::kFleet,
-                                      Topic::kNeighbours,
-                                      Topic::kNow,
-                                      Topic::kNowAnswers,
-                                      Topic::kMissions,
-                                      Topic::kMissionStates,
-                                      Topic::kMissionRequests,
-                                      Topic::kMissionReplies,
-                                      Topic::kDrives,
-                                      Topic::kGlanceRequests,
-                                      Topic::kGlances};
-  if (message.index() >= std::size(kTopics)) return std::nullopt;
-  return kTopics[message.index()];
+  static constexpr Topic kInOrder[] = {Topic::kRoutes,
+                                       Topic::kSegments,
+                                       Topic::kSegmentRequests,
+                                       Topic::kReceipts,
+                                       Topic::kCatalogRequests,
+                                       Topic::kCatalogReplies,
+                                       Topic::kAgents,
+                                       Topic::kRouteEdits,
+                                       Topic::kFleet,
+                                       Topic::kNeighbours,
+                                       Topic::kNow,
+                                       Topic::kNowAnswers,
+                                       Topic::kMissions,
+                                       Topic::kMissionStates,
+                                       Topic::kMissionRequests,
+                                       Topic::kMissionReplies,
+                                       Topic::kDrives,
+                                       Topic::kGlanceRequests,
+                                       Topic::kGlances};
+  if (message.index() >= std::size(kInOrder)) return std::nullopt;
+  return kInOrder[message.index()];
 }
 
 bool IsOfRoutes(Topic topic) { return topic == Topic::kSegments || topic == Topic::kNeighbours; }
