@@ -1,0 +1,85 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "services/base/newest_map.h"
+#include "services/base/result.h"
+#include "services/users/secret.h"
+#include "services/users/sessions.h"
+#include "services/users/throttle.h"
+#include "services/users/user_file.h"
+
+namespace trailcast::users {
+
+struct Who {
+  std::string name{};  // empty: nobody was asked
+  Role role = Role::kLook;
+};
+
+// Why nobody was let in.
+struct Turned {
+  enum class Why { kWrong, kTooOften, kBusy } why = Why::kWrong;
+  std::chrono::milliseconds wait{0};  // for kTooOften
+};
+
+// Lets users in and knows them again. Its methods may be called from any thread; LogIn hashes one
+// password at a time, on a thread of the lowest priority, and nothing else waits for that.
+class Guard {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Complain = std::function<void(const Error&)>;
+  struct Parts {
+    std::function<Time()> clock = [] { return std::chrono::steady_clock::now(); };
+    std::function<bool(const std::string& password, const std::string& hash)> matches = Matches;
+  };
+  static constexpr int kMostWaiting = 6;  // for their password to be hashed
+
+  // kNotFound, kCorrupt: as LoadUsers; also when there is none in it. `complain`: of a file that
+  // cannot be read later.
+  [[nodiscard]] static Result<std::unique_ptr<Guard>> Open(const std::filesystem::path& file,
+                                                           Complain complain, Parts parts);
+  [[nodiscard]] static Result<std::unique_ptr<Guard>> Open(const std::filesystem::path& file,
+                                                           Complain complain) {
+    return Open(file, std::move(complain), Parts{});
+  }
+
+  // A session's token. `address`: where the user is, as AddressKey has it.
+  [[nodiscard]] std::variant<std::string, Turned> LogIn(const std::string& name,
+                                                        const std::string& password,
+                                                        const std::string& address);
+  void LogOut(const std::string& session);
+  [[nodiscard]] std::optional<Who> WhoIn(const std::string& session);
+  // Of a program.
+  [[nodiscard]] std::optional<Who> WhoseToken(const std::string& token);
+
+ private:
+  Guard(const std::filesystem::path& file, Users users, Complain complain, Parts parts);
+  [[nodiscard]] const Users& Known(Time now) { return users_.At(now, complain_); }
+  [[nodiscard]] std::optional<Turned> MustWait(const std::string& name, const std::string& address);
+
+  Complain complain_;
+  Parts parts_;
+  std::mutex mutex_;  // guards what follows
+  WatchedUsers users_;
+  Sessions sessions_;
+  Throttle of_address_;
+  Throttle of_name_;
+  NewestMap<std::pair<std::string, std::string>, bool> known_{kMostUsers};  // name, address
+  int waiting_ = 0;
+  bool hashes_ = false;
+  std::condition_variable hashed_;
+};
+
+// An IPv4 address as it is; of an IPv6 address the network, since who has one has 2^64.
+[[nodiscard]] std::string AddressKey(const std::string& address);
+
+}  // namespace trailcast::users

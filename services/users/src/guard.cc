@@ -1,0 +1,131 @@
+#include "services/users/guard.h"
+
+#include <arpa/inet.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace trailcast::users {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Throttle::Pace kAddressPace{.free = 5, .longest = milliseconds(15 * 60 * 1000)};
+constexpr Throttle::Pace kNamePace{.free = 5};
+
+// A robot's stop is not to wait for a stranger's password.
+bool InIdleTime(const std::function<bool()>& matches) {
+  bool matched = false;
+  std::thread([&] {
+    constexpr int kLowest = 19;
+    (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+    matched = matches();
+  }).join();
+  return matched;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Guard>> Guard::Open(const std::filesystem::path& file, Complain complain,
+                                           Parts parts) {
+  auto users = LoadUsers(file);
+  if (!users) return tl::unexpected(users.error());
+  if (users->empty()) {
+    return Fail(ErrorCode::kNotFound, "there are no users in {}", file.string());
+  }
+  return std::unique_ptr<Guard>(
+      new Guard(file, *std::move(users), std::move(complain), std::move(parts)));
+}
+
+Guard::Guard(const std::filesystem::path& file, Users users, Complain complain, Parts parts)
+    : complain_(std::move(complain)),
+      parts_(std::move(parts)),
+      users_(file, std::move(users)),
+      of_address_(kAddressPace),
+      of_name_(kNamePace) {}
+
+std::variant<std::string, Turned> Guard::LogIn(const std::string& name, const std::string& password,
+                                               const std::string& address) {
+  std::unique_lock lock(mutex_);
+  if (const auto turned = MustWait(name, address)) return *turned;
+  if (waiting_ >= kMostWaiting) return Turned{.why = Turned::Why::kBusy};
+  ++waiting_;
+  hashed_.wait(lock, [this] { return !hashes_; });
+  --waiting_;
+  // Those who came at the same time may have been wrong meanwhile.
+  if (const auto turned = MustWait(name, address)) {
+    hashed_.notify_one();
+    return *turned;
+  }
+  const Users& users = Known(parts_.clock());
+  const auto found = users.find(name);
+  const std::string kept = found == users.end() ? "" : found->second.password;
+  hashes_ = true;
+  lock.unlock();
+  const bool matches = password.size() <= kLongestPassword && InIdleTime([&] {
+                         return parts_.matches(password, kept.empty() ? NobodysHash() : kept);
+                       });
+  lock.lock();
+  hashes_ = false;
+  hashed_.notify_one();
+  const auto now = parts_.clock();
+  if (!matches || kept.empty()) {
+    of_address_.Fail(address, now);
+    if (known_.Find({name, address}) == nullptr) of_name_.Fail(name, now);
+    return Turned{};
+  }
+  of_name_.Forgive(name);
+  known_.Touch({name, address}) = true;
+  return sessions_.Open({.user = name, .stamp = kept}, now);
+}
+
+std::optional<Turned> Guard::MustWait(const std::string& name, const std::string& address) {
+  const auto now = parts_.clock();
+  auto wait = of_address_.Wait(address, now);
+  if (known_.Find({name, address}) == nullptr) wait = std::max(wait, of_name_.Wait(name, now));
+  if (wait == milliseconds{0}) return std::nullopt;
+  return Turned{.why = Turned::Why::kTooOften, .wait = wait};
+}
+
+void Guard::LogOut(const std::string& session) {
+  const std::scoped_lock lock(mutex_);
+  sessions_.Close(session);
+}
+
+std::optional<Who> Guard::WhoIn(const std::string& session) {
+  const std::scoped_lock lock(mutex_);
+  const auto now = parts_.clock();
+  const auto open = sessions_.Use(session, now);
+  if (!open) return std::nullopt;
+  const Users& users = Known(now);
+  const auto found = users.find(open->user);
+  if (found != users.end() && found->second.password == open->stamp) {
+    return Who{.name = open->user, .role = found->second.role};
+  }
+  sessions_.Close(session);
+  return std::nullopt;
+}
+
+std::optional<Who> Guard::WhoseToken(const std::string& token) {
+  const std::string digest = DigestOf(token);
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [name, user] : Known(parts_.clock())) {
+    if (user.token == digest) return Who{.name = name, .role = user.role};
+  }
+  return std::nullopt;
+}
+
+std::string AddressKey(const std::string& address) {
+  in6_addr six{};
+  if (inet_pton(AF_INET6, address.c_str(), &six) != 1) return address;
+  // An IPv4 address in an IPv6 one.
+  if (IN6_IS_ADDR_V4MAPPED(&six)) return address.substr(address.rfind(':') + 1);
+  constexpr std::size_t kNetworkBytes = 8;
+  std::fill(std::begin(six.s6_addr) + kNetworkBytes, std::end(six.s6_addr), std::uint8_t{0});
+  char text[INET6_ADDRSTRLEN] = {};
+  return inet_ntop(AF_INET6, &six, text, sizeof(text));
+}
+
+}  // namespace trailcast::users
