@@ -20,6 +20,8 @@ namespace trailcast::http {
 struct Door {
   int port = 0;                      // on which localhost, 127.0.0.1 and [::1] are this program
   std::set<std::string> names = {};  // and other names of it, with any port, in lower case
+  bool any_name = false;             // where who comes has to say who they are
+  bool encrypted = false;            // its own pages come by https alone
   std::string guarded = "/api/";     // paths below it are for its own pages only
 };
 

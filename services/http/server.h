@@ -4,11 +4,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "services/base/result.h"
+#include "services/http/tls.h"
 
 namespace trailcast::http {
 
@@ -16,6 +19,7 @@ struct Limits {
   std::size_t threads = 2;
   std::size_t waiting = 32;  // connections beyond those that a thread has
   std::size_t body_bytes = 0;
+  std::size_t of_one_address = 0;  // connections that a thread has; 0: any number
 };
 
 struct Refusal {
@@ -38,15 +42,24 @@ class Server final : public httplib::Server {
   // Of each request, before its body is read; `refuse` writes the answer.
   void JudgeBy(Judge judge, Refuse refuse);
 
+  // From now on to TLS alone.
+  void Speak(Tls tls) { tls_ = std::move(tls); }
+
   // Port 0: any that is free. kUnavailable when it cannot be listened on.
   [[nodiscard]] Result<void> Listen(const std::string& host, int port);
   [[nodiscard]] int port() const { return port_; }
 
  private:
   bool process_and_close_socket(socket_t socket) override;
+  bool Answer(socket_t socket);
+  bool AnswerNow(socket_t socket);
 
   Judge judge_;
   Refuse refuse_;
+  std::optional<Tls> tls_;
+  const std::size_t of_one_address_;
+  std::mutex mutex_;                                 // guards the next
+  std::map<std::string, std::size_t> answered_now_;  // by address
   int port_ = 0;
   std::thread thread_;
 };

@@ -20,7 +20,7 @@ bool IsOurs(const std::string& host, const Door& door) {
     if (host == fmt::format("{}:{}", name, door.port)) return true;
     if (door.port == 80 && host == name) return true;
   }
-  return door.names.contains(NameOf(host));
+  return door.any_name || door.names.contains(NameOf(host));
 }
 
 bool IsJson(const std::string& content_type) {
@@ -45,8 +45,8 @@ std::optional<Refusal> Judge(const httplib::Request& request, const Door& door) 
                    "start the program with --allowed-host NAME"};
   }
   const std::string origin = Lower(request.get_header_value("Origin"));
-  const bool own_origin =
-      origin.empty() || origin == "http://" + host || origin == "https://" + host;
+  const bool own_origin = origin.empty() || origin == "https://" + host ||
+                          (!door.encrypted && origin == "http://" + host);
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   const bool own_site = site.empty() || site == "same-origin" || site == "none";
   const bool is_guarded = request.path.starts_with(door.guarded) || request.method != "GET";

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "services/http/src/stream.h"
+#include "services/http/src/tls_stream.h"
 #include "services/http/src/workers.h"
 
 namespace trailcast::http {
@@ -18,6 +19,13 @@ std::optional<Refusal> RefuseUnknownLength(const httplib::Request& request) {
   return Refusal{411, "a body has to come with its length, and without Transfer-Encoding"};
 }
 
+std::string AddressOf(socket_t socket) {
+  std::string address;
+  int port = 0;
+  Stream(socket).get_remote_ip_and_port(address, port);
+  return address;
+}
+
 void RefuseInText(const Refusal& refusal, httplib::Response& response) {
   response.status = refusal.status;
   response.set_content(refusal.why + "\n", "text/plain");
@@ -25,7 +33,8 @@ void RefuseInText(const Refusal& refusal, httplib::Response& response) {
 
 }  // namespace
 
-Server::Server(const Limits& limits) : refuse_(RefuseInText) {
+Server::Server(const Limits& limits)
+    : refuse_(RefuseInText), of_one_address_(limits.of_one_address) {
   new_task_queue = [limits] { return new Workers(limits.threads, limits.waiting); };
   set_payload_max_length(limits.body_bytes);
   // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
@@ -71,12 +80,36 @@ Result<void> Server::Listen(const std::string& host, int port) {
 }
 
 bool Server::process_and_close_socket(socket_t socket) {
-  Stream stream(socket);
-  bool closed = false;
-  const bool answered = process_request(stream, /*close_connection=*/true, closed, nullptr);
+  const bool answered = Answer(socket);
   (void)shutdown(socket, SHUT_RDWR);
   (void)close(socket);
   return answered;
+}
+
+// One address does not take all threads.
+bool Server::Answer(socket_t socket) {
+  if (of_one_address_ == 0) return AnswerNow(socket);
+  const std::string address = AddressOf(socket);
+  {
+    const std::scoped_lock lock(mutex_);
+    std::size_t& now = answered_now_[address];
+    if (now >= of_one_address_) return false;
+    ++now;
+  }
+  const bool answered = AnswerNow(socket);
+  const std::scoped_lock lock(mutex_);
+  if (--answered_now_[address] == 0) answered_now_.erase(address);
+  return answered;
+}
+
+bool Server::AnswerNow(socket_t socket) {
+  bool closed = false;
+  if (!tls_) {
+    Stream stream(socket);
+    return process_request(stream, /*close_connection=*/true, closed, nullptr);
+  }
+  TlsStream stream(socket, tls_->context());
+  return stream.Greet() && process_request(stream, /*close_connection=*/true, closed, nullptr);
 }
 
 }  // namespace trailcast::http

@@ -1,8 +1,11 @@
 #include "services/http/src/stream.h"
 
+#include <netdb.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+
+#include "services/base/number.h"
 
 namespace trailcast::http {
 namespace {
@@ -19,9 +22,7 @@ short WaitFor(socket_t socket, short events, std::chrono::steady_clock::duration
 
 }  // namespace
 
-bool Stream::is_readable() const {
-  return WaitFor(socket_, POLLIN, read_until_ - Clock::now()) != 0;
-}
+bool Stream::is_readable() const { return WaitToRead(POLLIN); }
 
 bool Stream::is_writable() const {
   constexpr short kHungUp = POLLRDHUP | POLLHUP | POLLERR;
@@ -32,8 +33,8 @@ bool Stream::is_writable() const {
 ssize_t Stream::read(char* to, std::size_t size) {
   if (next_ == end_) {
     const std::size_t most = std::min(buffer_.size(), kMostBytes - came_);
-    if (most == 0 || !is_readable()) return -1;
-    const ssize_t got = recv(socket_, buffer_.data(), most, 0);
+    if (most == 0) return -1;
+    const ssize_t got = Get(buffer_.data(), most);
     if (got <= 0) return got;
     next_ = 0;
     end_ = static_cast<std::size_t>(got);
@@ -45,12 +46,41 @@ ssize_t Stream::read(char* to, std::size_t size) {
   return static_cast<ssize_t>(given);
 }
 
-ssize_t Stream::write(const char* from, std::size_t size) {
-  const auto began = Clock::now();
-  const bool takes = (WaitFor(socket_, POLLOUT, write_wait_left_) & POLLOUT) != 0;
-  write_wait_left_ -= Clock::now() - began;
+ssize_t Stream::write(const char* from, std::size_t size) { return Put(from, size); }
+
+void Stream::get_remote_ip_and_port(std::string& ip, int& port) const {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  auto* const peer = reinterpret_cast<sockaddr*>(&address);
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> service{};
+  if (getpeername(socket_, peer, &size) != 0 ||
+      getnameinfo(peer, size, host.data(), host.size(), service.data(), service.size(),
+                  NI_NUMERICHOST | NI_NUMERICSERV) != 0) {
+    return;
+  }
+  ip = host.data();
+  (void)ReadNumber(service.data(), port);
+}
+
+ssize_t Stream::Get(char* to, std::size_t size) {
+  return WaitToRead(POLLIN) ? recv(socket_, to, size, 0) : -1;
+}
+
+ssize_t Stream::Put(const char* from, std::size_t size) {
   // As much as there is room for, so that no send waits longer.
-  return takes ? send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
+  return WaitToWrite(POLLOUT) ? send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
+}
+
+bool Stream::WaitToRead(short events) const {
+  return WaitFor(socket_, events, read_until_ - Clock::now()) != 0;
+}
+
+bool Stream::WaitToWrite(short events) {
+  const auto began = Clock::now();
+  const bool takes = (WaitFor(socket_, events, write_wait_left_) & events) != 0;
+  write_wait_left_ -= Clock::now() - began;
+  return takes;
 }
 
 }  // namespace trailcast::http

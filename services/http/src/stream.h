@@ -12,7 +12,7 @@ namespace trailcast::http {
 // One request of a client that may be anybody: no more of it is read than kMostBytes, for no longer
 // than kPatience, whatever it says of its length; and no longer than kWritePatience in all is
 // waited for a client to take its answer. The socket is the caller's to close.
-class Stream final : public httplib::Stream {
+class Stream : public httplib::Stream {
  public:
   // Of a request: its body and as much again.
   static constexpr std::size_t kMostBytes = 128U << 10U;
@@ -24,11 +24,18 @@ class Stream final : public httplib::Stream {
   [[nodiscard]] bool is_readable() const override;
   // Nor once the client has hung up.
   [[nodiscard]] bool is_writable() const override;
-  ssize_t read(char* to, std::size_t size) override;
-  ssize_t write(const char* from, std::size_t size) override;
-  void get_remote_ip_and_port(std::string&, int&) const override {}
+  ssize_t read(char* to, std::size_t size) final;
+  ssize_t write(const char* from, std::size_t size) final;
+  void get_remote_ip_and_port(std::string& ip, int& port) const override;
   void get_local_ip_and_port(std::string&, int&) const override {}
   [[nodiscard]] socket_t socket() const override { return socket_; }
+
+ protected:
+  // As recv and send; they wait by these, which are false when patience is over.
+  virtual ssize_t Get(char* to, std::size_t size);
+  virtual ssize_t Put(const char* from, std::size_t size);
+  [[nodiscard]] bool WaitToRead(short events) const;
+  [[nodiscard]] bool WaitToWrite(short events);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -75,5 +75,17 @@ TEST(Door, OtherPagesMayLinkToThePageAndNotAskForWhatIsBehindIt) {
   EXPECT_EQ(get("/api/state", "none"), 0) << "typed by a person";
 }
 
+TEST(Door, WhereOneLogsInAnyNameWillDoAndOverTlsOnlyItsOwnPages) {
+  const Door door{.port = 8080, .any_name = true, .encrypted = true};
+  const auto get = [&](const std::string& origin) {
+    const auto refusal =
+        Judge(Asked("GET", "/api/state", {{"Host", "192.0.2.7:8443"}, {"Origin", origin}}), door);
+    return refusal ? refusal->status : 0;
+  };
+  EXPECT_EQ(get("https://192.0.2.7:8443"), 0);
+  EXPECT_EQ(get("http://192.0.2.7:8443"), 403);
+  EXPECT_EQ(get("https://192.0.2.7"), 403) << "another port is another page";
+}
+
 }  // namespace
 }  // namespace trailcast::http

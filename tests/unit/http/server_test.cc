@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -98,6 +99,33 @@ TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
   for (int i = 0; i < 6; ++i) silent.push_back(std::make_unique<RawConnection>(server_.port()));
   EXPECT_EQ(Hello(), 200);
   for (const auto& client : silent) EXPECT_EQ(client->Receive(), "") << "it was hung up on";
+}
+
+TEST_F(HttpServerTest, OneAddressDoesNotTakeAllThreads) {
+  Server shared({.threads = 4, .waiting = 8, .of_one_address = 3});
+  shared.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content("hello", "text/plain");
+  });
+  ASSERT_TRUE(shared.Listen("127.0.0.1", 0));
+  std::vector<std::unique_ptr<RawConnection>> silent;
+  for (int i = 0; i < 10; ++i) silent.push_back(std::make_unique<RawConnection>(shared.port()));
+  httplib::Client other("127.0.0.1", shared.port());
+  other.set_interface("127.0.0.2");
+  other.set_read_timeout(20);
+  const auto hello = other.Get("/hello");
+  ASSERT_TRUE(hello) << httplib::to_string(hello.error());
+  EXPECT_EQ(hello->body, "hello");
+  for (std::size_t i = 3; i < silent.size(); ++i) {
+    EXPECT_EQ(silent[i]->Receive(), "") << "it was hung up on at once";
+  }
+  silent.clear();
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  int status = 0;
+  while (status != 200 && std::chrono::steady_clock::now() < until) {
+    const auto again = httplib::Client("127.0.0.1", shared.port()).Get("/hello");
+    status = again ? again->status : 0;
+  }
+  EXPECT_EQ(status, 200) << "who went makes room";
 }
 
 TEST_F(HttpServerTest, APortThatIsTakenIsRefused) {

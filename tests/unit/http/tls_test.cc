@@ -1,0 +1,127 @@
+#include "services/http/tls.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/http/server.h"
+#include "tests/support/hostile_client.h"
+#include "tests/support/self_signed.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::http {
+namespace {
+
+using test::RawConnection;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class TlsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    server_.Get("/hello", [](const httplib::Request& request, httplib::Response& response) {
+      response.set_content("hello " + request.remote_addr, "text/plain");
+    });
+    server_.Get("/long", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content(std::string(kLong, 'x'), "text/plain");
+    });
+    server_.Post("/length", [](const httplib::Request& request, httplib::Response& response) {
+      response.set_content(std::to_string(request.body.size()), "text/plain");
+    });
+    server_.Speak(Tls::Load(files_.certificate, files_.key).value());
+    ASSERT_TRUE(server_.Listen("127.0.0.1", 0));
+  }
+  [[nodiscard]] std::unique_ptr<httplib::SSLClient> Client() const {
+    auto client = std::make_unique<httplib::SSLClient>("localhost", server_.port());
+    client->set_ca_cert_path(files_.certificate.c_str());
+    client->enable_server_certificate_verification(true);
+    client->set_read_timeout(20);
+    return client;
+  }
+  [[nodiscard]] int Hello() const {
+    const auto got = Client()->Get("/hello");
+    return got ? got->status : 0;
+  }
+
+  static constexpr std::size_t kLong = 8U << 20U;
+  test::TempDir folder_;
+  test::SelfSigned files_ = test::MakeSelfSigned(folder_ / "");
+  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U}};
+};
+
+TEST_F(TlsTest, ServesWhoTrustsItsCertificate) {
+  const auto hello = Client()->Get("/hello");
+  ASSERT_TRUE(hello) << httplib::to_string(hello.error());
+  EXPECT_EQ(hello->body, "hello 127.0.0.1");
+  const auto whole = Client()->Get("/long");
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->body.size(), kLong);
+  const auto post = Client()->Post("/length", std::string(64U << 10U, 'x'), "text/plain");
+  ASSERT_TRUE(post);
+  EXPECT_EQ(post->body, "65536");
+}
+
+TEST_F(TlsTest, WhoSpeaksNoTlsGetsNothingOfIt) {
+  const RawConnection client(server_.port());
+  client.Send("GET /hello HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_THAT(client.Receive(), testing::Not(HasSubstr("hello")));
+  EXPECT_EQ(Hello(), 200);
+}
+
+TEST_F(TlsTest, WhoGreetsSlowlyOrNeverIsDoneWith) {
+  std::vector<std::unique_ptr<RawConnection>> silent;
+  for (int i = 0; i < 6; ++i) {
+    silent.push_back(std::make_unique<RawConnection>(server_.port()));
+    silent.back()->Send("\x16\x03\x01\x02");  // a handshake begins
+  }
+  EXPECT_EQ(Hello(), 200);
+}
+
+// As over plain HTTP: a body without length, or an endless request, costs next to nothing.
+TEST_F(TlsTest, RequestsWithoutEndTakeNoMemory) {
+  ASSERT_EQ(Hello(), 200);
+  const std::size_t before = test::ResidentBytes();
+  constexpr std::size_t kTooMuch = 200U << 20U;
+  const auto send_for_ever = [&](const std::string& content_type) {
+    auto client = Client();
+    client->set_write_timeout(20);
+    std::size_t sent = 0;
+    const std::string chunk(0x10000, 'x');
+    (void)client->Post(
+        "/length",
+        [&](std::size_t, httplib::DataSink& sink) {
+          sent += chunk.size();
+          return sent < kTooMuch && sink.write(chunk.data(), chunk.size());
+        },
+        content_type);
+    return sent;
+  };
+  EXPECT_LT(send_for_ever("text/plain"), 16U << 20U) << "chunked";
+  auto endless = Client();
+  (void)endless->Get("/" + std::string(16U << 20U, 'x'));
+  EXPECT_EQ(Hello(), 200);
+  // What this process's own clients hold counts, too.
+  EXPECT_LT(test::ResidentBytes(), before + (64U << 20U));
+}
+
+TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
+  const test::SelfSigned other = test::MakeSelfSigned(folder_ / "", "other");
+  const auto why = [](const std::filesystem::path& certificate, const std::filesystem::path& key) {
+    const auto tls = Tls::Load(certificate, key);
+    return tls ? "" : tls.error().message;
+  };
+  EXPECT_EQ(why(other.certificate, other.key), "");
+  EXPECT_THAT(why(folder_ / "none", files_.key),
+              AllOf(HasSubstr("the certificate in"), HasSubstr("openssl req")));
+  EXPECT_THAT(why(files_.certificate, folder_ / "none"), HasSubstr("the key in"));
+  EXPECT_THAT(why(files_.certificate, other.key), HasSubstr("the key in")) << "of another";
+  std::ofstream(folder_ / "nonsense") << "nonsense";
+  EXPECT_THAT(why(folder_ / "nonsense", files_.key), HasSubstr("the certificate in"));
+}
+
+}  // namespace
+}  // namespace trailcast::http
