@@ -23,6 +23,8 @@ class Errand;
 
 // What the console reads and writes.
 [[nodiscard]] exchange::TopicUse ConsoleTopics();
+// The same of one with the keys of an observer, that tells nobody what to do.
+[[nodiscard]] exchange::TopicUse LookingTopics();
 
 // The console's place in the fleet: a thread that owns the exchange, keeps the state, and does what
 // others ask of it. Its methods may be called from any thread; they wait for what they return.

@@ -6,6 +6,7 @@
 
 #include "services/base/result.h"
 #include "services/route/route_query.h"
+#include "services/users/guard.h"
 
 namespace trailcast::console {
 
@@ -28,6 +29,14 @@ using Parameters = std::multimap<std::string, std::string>;
 // Of GET /api/routes.
 [[nodiscard]] Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters);
 
+struct LogInBody {
+  std::string user;
+  std::string password;
+};
+[[nodiscard]] Result<LogInBody> ReadLogIn(const std::string& body);
+
+// `asks`: whether one has to log in.
+[[nodiscard]] std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks);
 [[nodiscard]] std::string ErrorBody(const std::string& why);
 
 }  // namespace trailcast::console

@@ -1,12 +1,15 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "services/console/desk.h"
+#include "services/console/users_command.h"
 #include "services/console/web.h"
 #include "services/fleet/operator_peer.h"
 #include "services/program/command_line.h"
+#include "services/program/open_exchange.h"
 #include "services/program/stop_signal.h"
 
 namespace {
@@ -14,13 +17,13 @@ namespace {
 namespace program = trailcast::program;
 namespace console = trailcast::console;
 
-constexpr const char* kFooter = R"(Example:
+constexpr const char* kFooter = R"(Examples:
   trailcast-console                # then http://localhost:8080 in this machine's browser
   ssh -L 8080:localhost:8080 desk  # or, on another one, to where it runs
+  trailcast-console users add anna --role operate   # and for others to log in from elsewhere:
+  trailcast-console --http-host 0.0.0.0 --users console-users --tls-certificate tls.pem --tls-key tls.key
 
-Whoever reaches the port commands the robots: there are no users and passwords. It therefore listens
-on this machine alone. Other machines come by ssh, or by a reverse proxy that asks who they are:
-then --allowed-host is the name under which it is reached.
+Without --users, whoever reaches the port commands the robots: it then listens on this machine alone.
 The Stop button is no emergency stop: a robot that is out of reach drives on.
 Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
 
@@ -28,30 +31,86 @@ struct WebOptions {
   std::string host = "127.0.0.1";
   int port = 8080;
   std::vector<std::string> names;
+  std::string users;
+  std::string tls_certificate;
+  std::string tls_key;
+  bool behind_proxy = false;
 };
 
-CLI::Validator LoopbackValidator() {
-  return {[](const std::string& host) -> std::string {
-            if (host == "127.0.0.1" || host == "::1" || host == "localhost") return "";
-            return "'" + host +
-                   "' lets others in, and there are no users and passwords yet: listen on "
-                   "127.0.0.1, and put a reverse proxy that asks who they are before it (with "
-                   "--allowed-host NAME)";
-          },
-          "LOOPBACK"};
+bool IsLoopback(const std::string& host) {
+  return host == "127.0.0.1" || host == "::1" || host == "localhost";
+}
+
+// What is missing for others to be let in; empty: nothing.
+std::string Missing(const WebOptions& options) {
+  if (options.tls_certificate.empty() != options.tls_key.empty()) {
+    return "--tls-certificate and --tls-key go together";
+  }
+  const bool encrypted = !options.tls_key.empty() || options.behind_proxy;
+  if (options.behind_proxy && options.users.empty()) {
+    return "--behind-proxy lets others in: --users FILE says who ('trailcast-console users add "
+           "--help')";
+  }
+  if (IsLoopback(options.host)) return "";
+  if (options.users.empty()) {
+    return "--http-host " + options.host +
+           " lets others in: --users FILE says who ('trailcast-console users add --help')";
+  }
+  if (encrypted) return "";
+  return "--http-host " + options.host +
+         " sends passwords through the network: give --tls-certificate and --tls-key, or, where a "
+         "reverse proxy speaks TLS, --behind-proxy. A certificate for tries, which browsers warn "
+         "of: openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 365 -subj "
+         "/CN=$HOSTNAME -addext subjectAltName=DNS:$HOSTNAME -keyout tls.key -out tls.pem";
+}
+
+trailcast::Result<console::Entry> OpenEntry(const WebOptions& options) {
+  console::Entry entry;
+  entry.behind_proxy = options.behind_proxy;
+  if (!options.tls_key.empty()) {
+    auto tls = trailcast::http::Tls::Load(options.tls_certificate, options.tls_key);
+    if (!tls) return tl::unexpected(tls.error());
+    entry.tls = *std::move(tls);
+  }
+  if (options.users.empty()) return entry;
+  auto guard = trailcast::users::Guard::Open(options.users, [](const trailcast::Error& error) {
+    spdlog::error("console: {}; the users are those from before", error.message);
+  });
+  if (!guard) {
+    return Wrap(guard.error(), "--users ('trailcast-console users add NAME --role ROLE --users " +
+                                   options.users + "' adds one)");
+  }
+  entry.guard = *std::move(guard);
+  return entry;
 }
 
 int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOptions& options) {
+  if (const std::string missing = Missing(options); !missing.empty()) {
+    std::fprintf(stderr, "trailcast-console: %s\n", missing.c_str());
+    return program::kExitUsage;
+  }
   program::SetUpLog(common);
+  auto entry = OpenEntry(options);
+  if (!entry) return program::Complain(app, entry.error());
   const program::StopSignal stop;
-  auto peer = trailcast::fleet::JoinAsOperator(common, console::ConsoleTopics());
+  const bool commands = program::KeysAllow(common, console::ConsoleTopics());
+  if (!commands) {
+    entry->only_looks = "this console has the keys of '" + common.name +
+                        "', which may look, and tell robots nothing";
+    spdlog::info("console: {}", entry->only_looks);
+  }
+  auto peer = trailcast::fleet::JoinAsOperator(
+      common, commands ? console::ConsoleTopics() : console::LookingTopics());
   if (!peer) return program::Complain(app, peer.error());
   console::Desk desk(peer->self, std::move(peer->exchange));
   std::set<std::string> names;
   for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
-  const auto web = console::Web::Open(desk, options.host, options.port, std::move(names));
+  const char* scheme = entry->tls ? "https" : "http";
+  const auto web =
+      console::Web::Open(desk, options.host, options.port, std::move(names), *std::move(entry));
   if (!web) return program::Complain(app, web.error());
-  spdlog::info("console: http://localhost:{}", (*web)->port());
+  spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
+               (*web)->port());
   while (!program::StopSignal::requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
@@ -69,7 +128,6 @@ int Run(int argc, char** argv) {
   program::AddCommonOptions(app, common);
   WebOptions options;
   app.add_option("--http-host", options.host, "Address of this machine to listen on")
-      ->check(LoopbackValidator())
       ->envname("TRAILCAST_HTTP_HOST");
   app.add_option("--http-port", options.port, "Port of the page; 0: any that is free")
       ->check(CLI::Range(0, 65535))
@@ -81,8 +139,22 @@ int Run(int argc, char** argv) {
       ->take_all()
       ->allow_extra_args(false)
       ->envname("TRAILCAST_ALLOWED_HOST");
+  app.add_option("--users", options.users,
+                 "File of the users that may log in, as 'trailcast-console users' writes it; "
+                 "without it, whoever reaches the port may all")
+      ->envname("TRAILCAST_USERS");
+  app.add_option("--tls-certificate", options.tls_certificate,
+                 "PEM file: serves https alone, with this certificate")
+      ->envname("TRAILCAST_TLS_CERTIFICATE");
+  app.add_option("--tls-key", options.tls_key, "PEM file: the certificate's key")
+      ->envname("TRAILCAST_TLS_KEY");
+  app.add_flag("--behind-proxy", options.behind_proxy,
+               "Only a reverse proxy reaches the port, which speaks TLS to browsers and says in "
+               "X-Forwarded-For where they are")
+      ->envname("TRAILCAST_BEHIND_PROXY");
+  const console::UsersCommand users(app);
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
-  return Serve(app, common, options);
+  return users.asked_for() ? users.Run() : Serve(app, common, options);
 }
 
 }  // namespace

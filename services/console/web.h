@@ -6,6 +6,7 @@
 #include <string>
 
 #include "services/base/result.h"
+#include "services/console/access.h"
 #include "services/console/desk.h"
 #include "services/http/door.h"
 #include "services/http/server.h"
@@ -22,21 +23,23 @@ class Web {
   // `desk` outlives this. Port 0: any that is free; `names`: by which this host is known besides
   // localhost, in lower case. kUnavailable when it cannot be listened on.
   [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, const std::string& host,
-                                                         int port, std::set<std::string> names);
+                                                         int port, std::set<std::string> names,
+                                                         Entry entry = {});
   [[nodiscard]] int port() const { return server_.port(); }
 
  private:
-  explicit Web(Desk& desk);
+  Web(Desk& desk, Entry entry);
   void ServeFiles();
   void ServeState();
   void ServeOrders();
   void ServeMissions();
-  void Stream(httplib::Response& response);
+  void Stream(const httplib::Request& request, httplib::Response& response);
   void Tell(exchange::NowOrder order, const fleet::NowTarget& target,
             const httplib::Request& request, httplib::Response& response);
   void Send(const std::string& robot, const httplib::Request& request, httplib::Response& response);
 
   Desk& desk_;
+  Access access_;
   http::Door door_;
   std::atomic<int> streams_{0};
   http::Server server_;  // the last: its threads use the others

@@ -13,4 +13,8 @@ namespace trailcast::program {
 [[nodiscard]] Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(
     const CommonOptions& options, const exchange::TopicUse& use);
 
+// Whether the role of the keys allows `use`; all is allowed without --security. Keys that are wrong
+// in other ways are told of by OpenExchange.
+[[nodiscard]] bool KeysAllow(const CommonOptions& options, const exchange::TopicUse& use);
+
 }  // namespace trailcast::program

@@ -1,4 +1,4 @@
-// The bodies of requests to the console.
+// The bodies of requests to the console, and its file of users.
 #include "services/base/text.h"
 #include "services/console/json.h"
 #include "services/exchange/bounds.h"
@@ -26,6 +26,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mission.valid_for_s = send->valid_s;
     Require(exchange::CheckBounds(mission).has_value(), "a mission may be published");
   }
+  (void)console::ReadLogIn(body);
   (void)console::ErrorBody(body);
+  if (const auto users = users::ParseUsers(body)) {
+    const auto again = users::ParseUsers(users::TextOf(*users));
+    Require(again && *again == *users, "users are read as they were written");
+  }
   return 0;
 }

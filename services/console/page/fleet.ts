@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'react';
 import type { Change, Fleet } from './api';
+import { askWhoIAm } from './me';
 
 // The console speaks every five seconds at least.
 const kLost_ms = 12000;
@@ -53,6 +54,7 @@ export function useFleet(): View {
       });
       source.onerror = () => {
         setOpen(false);
+        askWhoIAm();  // the console may have logged us out
         // After a refusal, as of too many pages, a browser does not try again by itself.
         if (source?.readyState === EventSource.CLOSED) again = window.setTimeout(connect, 2000);
       };

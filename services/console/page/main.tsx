@@ -2,6 +2,8 @@ import { useState } from 'react';
 import { createRoot } from 'react-dom/client';
 import { stopAll, type Answer, type Fleet, type Robot } from './api';
 import { age, useFleet } from './fleet';
+import { Doors, OnlyLooks, WhoIsIn } from './login';
+import { useMay } from './me';
 import { Missions } from './missions';
 import { Pages, usePage } from './pages';
 import { Badge, RobotCard } from './robot';
@@ -50,6 +52,7 @@ function Page() {
   const { fleet, lost, now_ms, heard_ms } = useFleet();
   const [answer, setAnswer] = useState<Answer | null>(null);
   const page = usePage();
+  const mayOperate = useMay('operate');
   const servers = fleet?.servers ?? [];
   const stop = async () => {
     setAnswer({ ok: true, text: 'Stop: told to all …' });
@@ -60,11 +63,13 @@ function Page() {
       <header className="top">
         <h1>Trailcast</h1>
         <Pages page={page} />
-        <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>
+        <WhoIsIn />
+        {mayOperate && <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>}
       </header>
       <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
+      <OnlyLooks />
       {lost && (
         <p className="banner" role="alert">
           ⚠ This page has lost its console. What it shows is from {age(now_ms - heard_ms)} ago, and
@@ -98,4 +103,4 @@ function Page() {
   );
 }
 
-createRoot(document.getElementById('page')!).render(<Page />);
+createRoot(document.getElementById('page')!).render(<Doors><Page /></Doors>);

@@ -1,6 +1,7 @@
 import { memo, useState } from 'react';
 import { tell, type Answer, type Order, type Robot, type RobotState } from './api';
 import { age } from './fleet';
+import { useMay } from './me';
 import { Send } from './send';
 
 const words: Record<RobotState, string> = {
@@ -64,7 +65,8 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
     setAnswer(to ?? { ok: true, text: 'Sent …' });
     if (to?.ok) setSending(false);
   };
-  const obeys = robot.role === 'follower';
+  const mayOperate = useMay('operate');
+  const obeys = mayOperate && robot.role === 'follower';
   const others = robot.orders.filter((each) => each !== 'stop');
   const mission = robot.mission;
   const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);

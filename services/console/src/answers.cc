@@ -11,6 +11,7 @@ void Answer(httplib::Response& response, int status, const std::string& json) {
 }
 
 void Refuse(httplib::Response& response, int status, const std::string& why) {
+  if (status == 401) response.set_header("WWW-Authenticate", "Bearer");
   Answer(response, status, ErrorBody(why));
 }
 

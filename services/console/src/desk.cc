@@ -132,6 +132,11 @@ exchange::TopicUse ConsoleTopics() {
                    Topic::kMissionReplies, Topic::kCatalogReplies}};
 }
 
+exchange::TopicUse LookingTopics() {
+  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests},
+          .read = {Topic::kAgents, Topic::kMissionReplies, Topic::kCatalogReplies}};
+}
+
 Desk::Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
     : self_(std::move(self)),
       options_(options),

@@ -201,6 +201,28 @@ Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters) {
   return query;
 }
 
+Result<LogInBody> ReadLogIn(const std::string& body) {
+  const auto json = ReadObject(body, {"user", "password"});
+  if (!json) return tl::unexpected(json.error());
+  LogInBody log_in;
+  for (const auto& [field, text] :
+       {std::pair{"user", &log_in.user}, std::pair{"password", &log_in.password}}) {
+    if (!json->contains(field) || !(*json)[field].is_string()) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a text", field);
+    }
+    *text = (*json)[field].get<std::string>();
+  }
+  return log_in;
+}
+
+std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks) {
+  const bool only = !only_looks.empty();
+  return Text({{"user", who.name.empty() ? Json(nullptr) : Json(who.name)},
+               {"role", users::NameOf(only ? users::Role::kLook : who.role)},
+               {"logs_in", asks},
+               {"only_looks", only ? Json(only_looks) : Json(nullptr)}});
+}
+
 std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }
 
 }  // namespace trailcast::console

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "services/base/number.h"
+#include "services/base/text.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/answers.h"
@@ -37,45 +38,76 @@ int StatusOf(const fleet::RobotsWord& word) {
   return word.refused ? 409 : 200;
 }
 
+// Robots and servers know the console alone, and who it is of its users from this.
+std::string ReasonOf(const users::Who& who, const std::string& reason) {
+  if (who.name.empty()) return reason;
+  return PlainText(reason.empty() ? who.name : who.name + ": " + reason, exchange::kMaxLineBytes);
+}
+std::string IdFor(const users::Who& who) {
+  return who.name.empty() ? fleet::DrawMissionId() : who.name + "-" + fleet::DrawMissionId();
+}
+
+// A thread for each stream, and for each errand that waits for its answer; stops have enough left.
+// Where strangers come, too, one address has enough for a room of people, and leaves more.
+http::Limits LimitsFor(const Access& access) {
+  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + 16;
+  if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
+  return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
+}
+
 }  // namespace
 
-Web::Web(Desk& desk)
-    : desk_(desk),
-      // A thread for each stream, and for each errand that waits for its answer; stops have enough
-      // left.
-      server_({.threads = kMostStreams + Desk::kMostErrands + 16, .body_bytes = kMostBody}) {
-  server_.set_default_headers({{"Content-Security-Policy",
-                                "default-src 'self'; base-uri 'none'; form-action 'none'; "
-                                "frame-ancestors 'none'"},
-                               {"X-Content-Type-Options", "nosniff"},
-                               {"X-Frame-Options", "DENY"},
-                               {"Referrer-Policy", "no-referrer"},
-                               {"Cross-Origin-Resource-Policy", "same-origin"}});
+Web::Web(Desk& desk, Entry entry)
+    : desk_(desk), access_(std::move(entry)), server_(LimitsFor(access_)) {
+  httplib::Headers headers{
+      {"Content-Security-Policy",
+       "default-src 'self'; base-uri 'none'; form-action 'none'; "
+       "frame-ancestors 'none'; object-src 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"X-Frame-Options", "DENY"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"}};
+  if (access_.encrypted()) headers.emplace("Strict-Transport-Security", "max-age=31536000");
+  server_.set_default_headers(std::move(headers));
   server_.set_error_handler([](const Request&, Response& response) {
     if (response.body.empty())
       Refuse(response, response.status, "there is nothing of this kind here");
   });
-  server_.JudgeBy([this](const Request& request) { return http::Judge(request, door_); },
-                  [](const http::Refusal& refusal, Response& response) {
-                    Refuse(response, refusal.status, refusal.why);
-                  });
+  server_.JudgeBy(
+      [this](const Request& request) {
+        auto refusal = http::Judge(request, door_);
+        return refusal ? refusal : access_.Judge(request);
+      },
+      [](const http::Refusal& refusal, Response& response) {
+        Refuse(response, refusal.status, refusal.why);
+      });
   ServeFiles();
   ServeState();
   ServeOrders();
   ServeMissions();
   ServeRoutes(server_, desk_);
+  access_.Serve(server_);
 }
 
 Result<std::unique_ptr<Web>> Web::Open(Desk& desk, const std::string& host, int port,
-                                       std::set<std::string> names) {
-  std::unique_ptr<Web> web(new Web(desk));
-  web->door_.names = std::move(names);
-  web->door_.port = port;
+                                       std::set<std::string> names, Entry entry) {
+  const bool asks = entry.guard != nullptr;
+  const auto tls = entry.tls;
+  std::unique_ptr<Web> web(new Web(desk, std::move(entry)));
+  web->door_ = {.port = port, .names = std::move(names), .encrypted = tls.has_value()};
+  web->door_.any_name = asks && web->door_.names.empty();
+  if (tls) web->server_.Speak(*tls);
+  web->access_.At(port);
   // Nobody knows a port yet that the system chooses.
   if (auto listens = web->server_.Listen(host, port); !listens) {
     return tl::unexpected(listens.error());
   }
-  web->door_.port = web->port();
+  if (port == 0) {
+    web->door_.port = web->port();
+    web->access_.At(web->port());
+  }
   return web;
 }
 
@@ -104,10 +136,11 @@ void Web::ServeState() {
     if (!news) return Refuse(response, 503, "nothing is known yet");
     Answer(response, 200, WholeJson(news->state, NowUnixMs()));
   });
-  server_.Get("/api/events", [this](const Request&, Response& response) { Stream(response); });
+  server_.Get("/api/events",
+              [this](const Request& request, Response& response) { Stream(request, response); });
 }
 
-void Web::Stream(Response& response) {
+void Web::Stream(const Request& request, Response& response) {
   // Counted until the last copy of what writes the stream is gone.
   const std::shared_ptr<void> seat(nullptr, [this](void*) { --streams_; });
   if (++streams_ > kMostStreams) {
@@ -121,10 +154,10 @@ void Web::Stream(Response& response) {
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");
   response.set_content_provider(
-      "text/event-stream",
-      [this, seat, told = Told{}](std::size_t, httplib::DataSink& sink) mutable {
+      "text/event-stream", [this, seat, still_in = access_.StillIn(request), told = Told{}](
+                               std::size_t, httplib::DataSink& sink) mutable {
         const auto news = desk_.See(told.news ? told.news->number : 0, kLook);
-        if (desk_.closed() || !sink.is_writable()) return false;
+        if (desk_.closed() || !sink.is_writable() || !still_in()) return false;
         std::string text;
         if (news && told.news) {
           text = fmt::format("event: change\ndata: {}\n\n",
@@ -159,7 +192,7 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
                Response& response) {
   const auto reason = ReadReason(request.body);
   if (!reason) return Refuse(response, 400, reason.error().message);
-  const auto words = desk_.Tell(order, target, *reason);
+  const auto words = desk_.Tell(order, target, ReasonOf(access_.WhoIs(request), *reason));
   if (!words) return Refuse(response, 503, words.error().message);
   if (target.whom == NowWhom::kAll)
     return Answer(response, 200, fmt::format("{{\"robots\": {}}}", fleet::WordsJson(*words)));
@@ -201,7 +234,7 @@ void Web::Send(const std::string& robot, const Request& request, Response& respo
   const auto body = ReadSend(request.body);
   if (!body) return Refuse(response, 400, body.error().message);
   const auto report = desk_.Send({.agent = AgentId(robot),
-                                  .id = body->id.empty() ? fleet::DrawMissionId() : body->id,
+                                  .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
                                   .orders = body->orders,
                                   .valid_for_s = body->valid_s,
                                   .goes_on = body->goes_on});

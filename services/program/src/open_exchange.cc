@@ -112,4 +112,10 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   return WithHeartbeat(*std::move(opened), options.heartbeat);
 }
 
+bool KeysAllow(const CommonOptions& options, const exchange::TopicUse& use) {
+  if (options.security.empty()) return true;
+  const auto keys = security::LoadMemberKeys(options.security, std::chrono::system_clock::now());
+  return !keys || security::BeyondRights(keys->member.role, use).empty();
+}
+
 }  // namespace trailcast::program

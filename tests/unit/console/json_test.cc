@@ -99,5 +99,17 @@ TEST(ConsoleBodies, AnErrorIsJsonWhateverItSays) {
   EXPECT_EQ(ErrorBody("\"no\"\xff"), "{\"error\":\"\\\"no\\\"\uFFFD\"}");
 }
 
+TEST(ConsoleBodies, ALogInNeedsUserAndPassword) {
+  const auto log_in = ReadLogIn(R"({"user": "anna", "password": "correct horse"})");
+  ASSERT_TRUE(log_in) << log_in.error().message;
+  EXPECT_EQ(log_in->user, "anna");
+  EXPECT_EQ(log_in->password, "correct horse");
+  for (const char* wrong : {"", "{}", R"({"user": "anna"})", R"({"user": "anna", "password": 1})",
+                            R"({"user": [], "password": ""})",
+                            R"({"user": "", "password": "", "role": "administer"})"}) {
+    EXPECT_FALSE(ReadLogIn(wrong)) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace trailcast::console

@@ -1,0 +1,81 @@
+import { useRef, useState, type FormEvent, type ReactNode } from 'react';
+import { askWhoIAm, setMe, useMe } from './me';
+
+function LogIn() {
+  const [wrong, setWrong] = useState('');
+  const [busy, setBusy] = useState(false);
+  const password = useRef<HTMLInputElement>(null);
+  const logIn = async (event: FormEvent<HTMLFormElement>) => {
+    event.preventDefault();
+    const fields = new FormData(event.currentTarget);
+    setBusy(true);
+    setWrong('');
+    try {
+      const reply = await fetch('/api/log-in', {
+        method: 'POST',
+        headers: { 'Content-Type': 'application/json' },
+        body: JSON.stringify({ user: fields.get('user'), password: fields.get('password') }),
+      });
+      const said = await reply.json();
+      if (reply.ok) return setMe(said);
+      setWrong(said.error);
+    } catch {
+      setWrong('The console does not answer.');
+    } finally {
+      setBusy(false);
+    }
+    password.current?.select();
+  };
+  return (
+    <main className="login">
+      <form onSubmit={logIn}>
+        <h1>Trailcast</h1>
+        <p className="note">Log in to see the robots and to stop them.</p>
+        <label>User
+          <input name="user" autoComplete="username" autoCapitalize="none" spellCheck={false} required autoFocus maxLength={32} />
+        </label>
+        <label>Password
+          <input name="password" type="password" autoComplete="current-password" required ref={password} maxLength={256} />
+        </label>
+        <button type="submit" disabled={busy}>{busy ? 'Logging in …' : 'Log in'}</button>
+        <p role="alert" className="answer bad">{wrong && `⚠ ${wrong}`}</p>
+      </form>
+    </main>
+  );
+}
+
+// What only those see who are let in.
+export function Doors({ children }: { children: ReactNode }) {
+  const me = useMe();
+  if (me === null) return null;
+  return me === 'out' ? <LogIn /> : <>{children}</>;
+}
+
+export function WhoIsIn() {
+  const me = useMe();
+  if (me === null || me === 'out' || !me.logs_in) return null;
+  const logOut = async () => {
+    try {
+      await fetch('/api/log-out', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{}' });
+    } finally {
+      askWhoIAm();
+    }
+  };
+  return (
+    <span className="who">
+      <span title={`May ${me.role}`}>{me.user}</span>
+      <button onClick={logOut}>Log out</button>
+    </span>
+  );
+}
+
+// Why there are no buttons, where that is so.
+export function OnlyLooks() {
+  const me = useMe();
+  if (me === null || me === 'out' || me.role !== 'look') return null;
+  return (
+    <p className="looks" role="note">
+      You may look, and not tell robots anything{me.only_looks ? `: ${me.only_looks}` : ''}.
+    </p>
+  );
+}

@@ -1,0 +1,65 @@
+#include "services/console/rights.h"
+
+#include <string_view>
+
+namespace trailcast::console {
+namespace {
+
+using users::Role;
+
+struct Row {
+  std::string_view method;
+  std::string_view path;  // a '*' is one part of it
+  std::optional<Role> needs;
+};
+
+constexpr Row kRows[] = {
+    {"GET", "/api/openapi.yaml", std::nullopt},
+    {"POST", "/api/log-in", std::nullopt},
+    {"POST", "/api/log-out", std::nullopt},
+
+    {"GET", "/api/me", Role::kLook},
+    {"GET", "/api/state", Role::kLook},
+    {"GET", "/api/events", Role::kLook},
+    {"GET", "/api/missions", Role::kLook},
+    {"GET", "/api/routes", Role::kLook},
+
+    {"POST", "/api/all/stop", Role::kOperate},
+    {"POST", "/api/robots/*/pause", Role::kOperate},
+    {"POST", "/api/robots/*/resume", Role::kOperate},
+    {"POST", "/api/robots/*/cancel", Role::kOperate},
+    {"POST", "/api/robots/*/stop", Role::kOperate},
+    {"POST", "/api/robots/*/release", Role::kOperate},
+    {"POST", "/api/robots/*/missions", Role::kOperate},
+};
+
+bool IsMeant(std::string_view path, std::string_view pattern) {
+  while (true) {
+    const std::size_t part = std::min(path.find('/'), path.size());
+    const std::size_t wanted = std::min(pattern.find('/'), pattern.size());
+    const bool fits = pattern.substr(0, wanted) == "*"
+                          ? part > 0
+                          : pattern.substr(0, wanted) == path.substr(0, part);
+    const bool path_ends = part == path.size();
+    const bool pattern_ends = wanted == pattern.size();
+    if (!fits || path_ends != pattern_ends) return false;
+    if (path_ends) return true;
+    path.remove_prefix(part + 1);
+    pattern.remove_prefix(wanted + 1);
+  }
+}
+
+}  // namespace
+
+Right RightTo(const std::string& method, const std::string& path) {
+  // The page itself is no secret.
+  if (method == "GET" && !path.starts_with("/api/")) return {.is_known = true};
+  for (const Row& row : kRows) {
+    if (row.method == method && IsMeant(path, row.path)) {
+      return {.is_known = true, .needs = row.needs};
+    }
+  }
+  return {};
+}
+
+}  // namespace trailcast::console
