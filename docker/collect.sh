@@ -2,7 +2,7 @@
 # Gathers what each image of the Dockerfile holds: the programs, stripped, the shared libraries they
 # load, and of the Debian packages that these are from, the licence and, for scanners of
 # vulnerabilities, name and version (/var/lib/dpkg/status.d).
-#   docker/collect.sh FOLDER_OF_PROGRAMS DESTINATION [server|agent|robot|tools...]
+#   docker/collect.sh FOLDER_OF_PROGRAMS DESTINATION [server|agent|robot|console|tools...]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 programs=$1 destination=$2
@@ -52,13 +52,13 @@ collect() {
 }
 
 images=("${@:3}")
-((${#images[@]})) || images=(server agent robot tools)
+((${#images[@]})) || images=(server agent robot console tools)
 for image in "${images[@]}"; do
   case $image in
-    server | agent) collect "$image" '' "$programs/trailcast-$image" ;;
+    server | agent | console) collect "$image" '' "$programs/trailcast-$image" ;;
     robot) collect robot agent "$programs/trailcast" "$here/robot.sh" ;;
     tools)
-      collect tools '' "$programs"/{trailcast{,-agent,-server},libtrailcast_{codecs,simulated}.so}
+      collect tools '' "$programs"/{trailcast{,-agent,-console,-server},libtrailcast_{codecs,simulated}.so}
       # What plots are lettered with.
       install -d "$destination/tools/etc"
       install -D -m 644 -t "$destination/tools/usr/share/fonts" \
@@ -66,7 +66,7 @@ for image in "${images[@]}"; do
       cp -rL /etc/fonts "$destination/tools/etc"
       ;;
     *)
-      printf "collect.sh: there is no image '%s': server, agent, robot or tools\n" "$image" >&2
+      printf "collect.sh: there is no image '%s': server, agent, robot, console or tools\n" "$image" >&2
       exit 2
       ;;
   esac

@@ -59,6 +59,18 @@ contain() {
   log_of[$name]=$(podman inspect --format '{{.HostConfig.LogConfig.Path}}' "$name")
 }
 
+# An operator's command, in a container of its own; operate_as NAME, with the keys of that member.
+operate() { operate_as operator "$@"; }
+operate_as() {
+  use_keys_of "$1"
+  shift
+  podman run --rm --network fleet --read-only "${keys_options[@]}" --entrypoint trailcast \
+    trailcast-robot "$@"
+}
+
+# Where a robot is by its true poses: seconds of its own clock, x, y.
+place_of() { tail -n 2 "$(files_of "$1")/truth.csv" 2>/dev/null | sed -n '1s/,/ /gp' | cut -d' ' -f1-3; }
+
 start_server() {
   contain server server --
   await 30 'the server' says server ready

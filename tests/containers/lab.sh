@@ -33,7 +33,7 @@ lab_enter() {
     images)
       lab_hide_podman
       lab_images
-      printf 'images of server, agent and robot: %d s\n' "$SECONDS"
+      printf 'images of server, agent, robot and console: %d s\n' "$SECONDS"
       LAB_STAGE=network exec unshare --net -- "$0" "$@"
       ;;
     network)
@@ -115,20 +115,20 @@ lab_base() {
   podman import --quiet "$kept" "$debian" >/dev/null
 }
 
-# The images server, agent and robot: of the programs in build/release or, with from_source set,
+# The images server, agent, robot and console: of the programs in build/release or, with from_source set,
 # from the repository alone.
 lab_images() {
   local target programs=(--network host)
   lab_base
   if [[ -z ${from_source:-} ]]; then
     "$root/docker/collect.sh" "$root/build/release/bin" "$LAB_WORK/collected/images" \
-      server agent robot
+      server agent robot console
     tar -C "$LAB_WORK/collected" -c images |
       podman import --quiet - localhost/trailcast-programs >/dev/null
     rm -rf "$LAB_WORK/collected"
     programs=(--build-arg PROGRAMS=localhost/trailcast-programs)
   fi
-  for target in server agent robot; do
+  for target in server agent robot console; do
     podman build --quiet --format docker --target "$target" "${programs[@]}" \
       --tag "trailcast-$target" --file "$root/docker/Dockerfile" "$root" >/dev/null
   done

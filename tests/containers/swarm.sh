@@ -3,9 +3,11 @@
 # container with an address of its own, and what may happen to them. Needs root, Podman (the packages
 # of group "containers") and ./run build.
 #   tests/containers/swarm.sh                  the quick ones: follow killed broken missions
+#                                              stop_under_load who_may_send
 #   tests/containers/swarm.sh --all            all of them
 #   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken missions
 #                                              queue strangers crowd compose
+#                                              stop_under_load who_may_send
 # With --from-source in front, the images are built from the repository alone, as a user would.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
@@ -20,8 +22,9 @@ source "$here/expect.sh"
 # shellcheck source=tests/containers/faults.sh
 source "$here/faults.sh"
 
-all=(follow late lossy cut killed broken missions queue strangers crowd compose)
-quick=(follow killed broken missions)
+all=(follow late lossy cut killed broken missions stop_under_load who_may_send queue
+  strangers crowd compose)
+quick=(follow killed broken missions stop_under_load who_may_send)
 
 die() {
   printf 'swarm.sh: %s\n' "$*" >&2
@@ -35,7 +38,7 @@ check_images() {
   local server agent
   server=$(lab_image_mb server)
   agent=$(lab_image_mb agent)
-  note "images above Debian: server $server MB, agent $agent MB, robot $(lab_image_mb robot) MB"
+  note "images above Debian: server $server MB, agent $agent MB, robot $(lab_image_mb robot) MB, console $(lab_image_mb console) MB"
   ((server <= 60 && agent <= 200)) || fail 'an image is too large: server at most 60 MB, agent 200'
 }
 

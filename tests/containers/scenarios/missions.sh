@@ -25,10 +25,4 @@ scenario_missions() {
   expect_sound_store
 }
 
-# An operator's command, in a container of its own.
-operate() {
-  use_keys_of operator
-  podman run --rm --network fleet --read-only "${keys_options[@]}" --entrypoint trailcast \
-    trailcast-robot "$@"
-}
 is_in_state() { [[ $(operate missions --mission trip --state "$1" 2>/dev/null) == *trip* ]]; }
