@@ -2,15 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "services/http/metrics_text.h"
+
 namespace trailcast::server {
-namespace {
-
-std::string Line(const char* name, const char* type, const char* help, std::uint64_t value) {
-  return fmt::format("# HELP trailcast_{0} {2}\n# TYPE trailcast_{0} {1}\ntrailcast_{0} {3}\n",
-                     name, type, help, value);
-}
-
-}  // namespace
 
 void LatencyHistogram::Note(double seconds) {
   for (std::size_t i = 0; i < kBounds_s.size(); ++i) {
@@ -41,45 +35,46 @@ const char* KindOf(const route::RouteQuery& query) {
 std::string Metrics::Text() const {
   constexpr const char* kCounter = "counter";
   constexpr const char* kGauge = "gauge";
-  std::string text =
-      Line("routes", kGauge, "Routes in the store, all revisions.", routes) +
-      Line("agents", kGauge, "Agents present: the server's DDS peers.", agents) +
-      Line("store_reachable", kGauge, "1 while the store can be read and written, else 0.",
-           store_reachable ? 1 : 0) +
-      Line("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
-           partial_routes) +
-      Line("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments) +
-      Line("backlog_segments", kGauge, "Segments announced and not durable yet.", backlog) +
-      Line("segments_stored_total", kCounter, "Segments made durable.", keeper.appended) +
-      Line("segment_bytes_stored_total", kCounter, "Bytes of these.", keeper.appended_bytes) +
-      Line("segments_sent_total", kCounter, "Segments sent to whoever asked.", keeper.answered) +
-      Line("segment_bytes_sent_total", kCounter, "Bytes of these.", keeper.answered_bytes) +
-      Line("receipts_total", kCounter, "Receipts sent.", keeper.receipts) +
-      Line("segments_duplicate_total", kCounter, "Segments received again.", keeper.duplicates) +
-      Line("segments_corrupt_total", kCounter, "Segments that failed their digest.",
-           keeper.corrupt) +
-      Line("conflicts_total", kCounter, "Segments and announcements that contradict what is held.",
-           keeper.conflicting) +
-      Line("store_failures_total", kCounter, "Writes and reads that the store refused.",
-           keeper.store_failures) +
-      Line("segments_damaged_total", kCounter, "Segments found damaged in the store.",
-           keeper.damaged) +
-      Line("segments_repaired_total", kCounter, "Damaged segments replaced by what a holder had.",
-           keeper.repaired) +
-      Line("requests_refused_total", kCounter,
-           "Requests of the catalog and edits that were refused, as too many waited.",
-           requests_refused) +
-      Line("over_quota_segments_total", kCounter, "Segments not taken, or not sent, for a quota.",
-           over_quota.segments) +
-      Line("over_quota_routes_total", kCounter, "Announcements of new routes beyond a quota.",
-           over_quota.routes) +
-      Line("over_quota_requests_total", kCounter, "Requests refused for a quota.",
-           over_quota.requests) +
-      Line("segments_stray_dropped_total", kCounter,
-           "Stored segments dropped because nobody announced their teaching for a day.",
-           dropped_strays) +
-      Line("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
+  http::MetricsText lines;
+  lines.Add("routes", kGauge, "Routes in the store, all revisions.", routes);
+  lines.Add("agents", kGauge, "Agents present: the server's DDS peers.", agents);
+  lines.Add("store_reachable", kGauge, "1 while the store can be read and written, else 0.",
+            store_reachable ? 1 : 0);
+  lines.Add("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
+            partial_routes);
+  lines.Add("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments);
+  lines.Add("backlog_segments", kGauge, "Segments announced and not durable yet.", backlog);
+  lines.Add("segments_stored_total", kCounter, "Segments made durable.", keeper.appended);
+  lines.Add("segment_bytes_stored_total", kCounter, "Bytes of these.", keeper.appended_bytes);
+  lines.Add("segments_sent_total", kCounter, "Segments sent to whoever asked.", keeper.answered);
+  lines.Add("segment_bytes_sent_total", kCounter, "Bytes of these.", keeper.answered_bytes);
+  lines.Add("receipts_total", kCounter, "Receipts sent.", keeper.receipts);
+  lines.Add("segments_duplicate_total", kCounter, "Segments received again.", keeper.duplicates);
+  lines.Add("segments_corrupt_total", kCounter, "Segments that failed their digest.",
+            keeper.corrupt);
+  lines.Add("conflicts_total", kCounter, "Segments and announcements that contradict what is held.",
+            keeper.conflicting);
+  lines.Add("store_failures_total", kCounter, "Writes and reads that the store refused.",
+            keeper.store_failures);
+  lines.Add("segments_damaged_total", kCounter, "Segments found damaged in the store.",
+            keeper.damaged);
+  lines.Add("segments_repaired_total", kCounter, "Damaged segments replaced by what a holder had.",
+            keeper.repaired);
+  lines.Add("requests_refused_total", kCounter,
+            "Requests of the catalog and edits that were refused, as too many waited.",
+            requests_refused);
+  lines.Add("over_quota_segments_total", kCounter, "Segments not taken, or not sent, for a quota.",
+            over_quota.segments);
+  lines.Add("over_quota_routes_total", kCounter, "Announcements of new routes beyond a quota.",
+            over_quota.routes);
+  lines.Add("over_quota_requests_total", kCounter, "Requests refused for a quota.",
+            over_quota.requests);
+  lines.Add("segments_stray_dropped_total", kCounter,
+            "Stored segments dropped because nobody announced their teaching for a day.",
+            dropped_strays);
+  lines.Add("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
+  std::string text = lines.text();
   text += fmt::format(
       "# HELP {0} Time to answer a catalog query, by what it asks for.\n"
       "# TYPE {0} histogram\n",
