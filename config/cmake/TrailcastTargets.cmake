@@ -61,7 +61,7 @@ endfunction()
 function(trailcast_test name)
   cmake_parse_arguments(ARG "TOGETHER;ALONE;APART" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 60)
+    set(ARG_TIMEOUT 180)
   endif()
   if(TRAILCAST_SANITIZE)  # several times slower
     math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")
@@ -83,7 +83,7 @@ function(trailcast_test name)
     return()
   endif()
   gtest_discover_tests(
-    ${name} DISCOVERY_MODE PRE_TEST
+    ${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 # from a cold disk, beside other work
     PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
 endfunction()
 
