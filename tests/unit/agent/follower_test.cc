@@ -253,6 +253,7 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
   auto scout_options = swarm_.ScoutNamed("scout");
   scout_options.link.delivery_timeout = milliseconds(0);
   swarm_.StartServer();
+  const auto watcher = swarm_.Join(exchange::ScoutTopics());
   // A scout that stands still in the middle of its route.
   std::promise<void> followed;
   WalkDevice scout(kFrames);
@@ -262,8 +263,18 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
   };
   auto teaching =
       std::async(std::launch::async, [&] { return swarm_.Teach(scout, scout_options, true); });
+  // The server has some of it before it is asked: the follower waits for nothing but the rest.
+  bool stored = false;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!stored && std::chrono::steady_clock::now() < deadline) {
+    for (const exchange::Message& message : watcher->Take(milliseconds(50))) {
+      const auto* receipt = std::get_if<exchange::Receipt>(&message);
+      stored |= receipt != nullptr && receipt->durable_prefix > 0;
+    }
+  }
+  EXPECT_TRUE(stored);
   auto options = swarm_.FollowerNamed("robot");
-  options.link.wait = milliseconds(1500);
+  options.link.wait = milliseconds(4000);
   const auto outcome = swarm_.Replay(device_, options, true);
   followed.set_value();
   (void)teaching.get();
@@ -271,6 +282,8 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
   EXPECT_FALSE(outcome->success);
   EXPECT_EQ(outcome->state, "WAITING") << outcome->reason;
   EXPECT_THAT(outcome->reason, HasSubstr("no further segment"));
+  EXPECT_GT(outcome->log.frames(), 0);
+  ASSERT_FALSE(device_.told.empty());
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
