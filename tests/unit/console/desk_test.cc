@@ -22,10 +22,15 @@ class DeskTest : public testing::Test {
   exchange::InProcessBus bus_;
   std::unique_ptr<exchange::RouteExchange> robot_ =
       bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
-  Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
-             Desk::Options{.answer_within = milliseconds(500),
-                           .reply_within = milliseconds(500),
-                           .looks_on = milliseconds(100)}};
+  // Robots and servers have time to answer, which nobody waits for who is answered.
+  Desk desk_{
+      AgentId("desk"), bus_.Open(ConsoleTopics()),
+      Desk::Options{.answer_within = milliseconds(20'000), .reply_within = milliseconds(20'000)}};
+  // Where nobody answers, or looks.
+  Desk hasty_{AgentId("hasty"), bus_.Open(ConsoleTopics()),
+              Desk::Options{.answer_within = milliseconds(500),
+                            .reply_within = milliseconds(500),
+                            .looks_on = milliseconds(100)}};
 
   // The first of this kind that the robot hears.
   template <typename Message>
@@ -55,31 +60,31 @@ TEST_F(DeskTest, AnOrderBringsBackWhatTheRobotAnswers) {
 }
 
 TEST_F(DeskTest, WhoDoesNotAnswerIsNamed) {
-  const auto told = desk_.Tell(NowOrder::kPause, {NowWhom::kRobot, "robot1"}, "");
+  const auto told = hasty_.Tell(NowOrder::kPause, {NowWhom::kRobot, "robot1"}, "");
   ASSERT_TRUE(told);
   EXPECT_FALSE(told->front().answered);
-  const auto all = desk_.Tell(NowOrder::kStop, {NowWhom::kAll, ""}, "");
+  const auto all = hasty_.Tell(NowOrder::kStop, {NowWhom::kAll, ""}, "");
   ASSERT_FALSE(all);
   EXPECT_THAT(all.error().message, HasSubstr("no robot is heard"));
-  const auto sent = desk_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"});
+  const auto sent = hasty_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"});
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message, HasSubstr("neither robot1 nor a route server"));
-  EXPECT_FALSE(desk_.Missions({}));
+  EXPECT_FALSE(hasty_.Missions({}));
 }
 
 TEST_F(DeskTest, AStopGoesOutWhileAllElseThatMayBeAskedWaits) {
   std::vector<std::future<bool>> others;
   for (std::size_t i = 0; i < 2 * Desk::kMostErrands; ++i) {
     others.push_back(
-        std::async(std::launch::async, [&] { return desk_.Missions({}).has_value(); }));
+        std::async(std::launch::async, [&] { return hasty_.Missions({}).has_value(); }));
   }
   auto stop = std::async(std::launch::async, [&] {
-    return desk_.Tell(NowOrder::kStop, {NowWhom::kRobot, "robot1"}, "");
+    return hasty_.Tell(NowOrder::kStop, {NowWhom::kRobot, "robot1"}, "");
   });
   EXPECT_EQ(Heard<exchange::NowCommand>().order, NowOrder::kStop);
   ASSERT_TRUE(stop.get());
   for (auto& other : others) EXPECT_FALSE(other.get());
-  const auto after = desk_.Tell(NowOrder::kPause, {NowWhom::kRobot, "robot1"}, "");
+  const auto after = hasty_.Tell(NowOrder::kPause, {NowWhom::kRobot, "robot1"}, "");
   EXPECT_TRUE(after) << "there is room again";
 }
 
@@ -111,12 +116,12 @@ TEST_F(DeskTest, ServersAreAskedOnlyWhileSomebodyLooks) {
 }
 
 TEST_F(DeskTest, WhoLooksAgainLaterSeesNothingOld) {
-  const auto first = desk_.See(0, milliseconds(20'000));
+  const auto first = hasty_.See(0, milliseconds(20'000));
   ASSERT_TRUE(first);
   std::shared_ptr<const Desk::News> later;
   do {
     (void)robot_->Take(milliseconds(300));  // meanwhile nobody looks
-    later = desk_.See(0, milliseconds(20'000));
+    later = hasty_.See(0, milliseconds(20'000));
     ASSERT_TRUE(later);
   } while (later->number == first->number);
   EXPECT_EQ(later->state, first->state);

@@ -71,7 +71,7 @@ TEST_F(MissionClientTest, ReturnsAsSoonAsTheRobotHasAnswered) {
 
 TEST_F(MissionClientTest, WhereTheRobotIsNotThereItIsKept) {
   Answering(exchange::ServerTopics(), {Of(0, State::kSent)});
-  const auto report = Send({.timeout = milliseconds(300)});
+  const auto report = Send();
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->state, State::kSent);
   EXPECT_THAT(ReportText(*report), HasSubstr("a server keeps it"));

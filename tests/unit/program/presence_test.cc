@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <future>
+#include <latch>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
@@ -51,8 +51,14 @@ class PresenceTest : public testing::Test {
   std::unique_ptr<exchange::RouteExchange> Open() {
     return bus_.Open(WithAgents(exchange::ScoutTopics()));
   }
-  static Result<void> Claim(Presence& presence) {
-    return presence.Claim([](const exchange::Message&) {}, [] { return false; });
+  // `meanwhile` is called again and again while it listens.
+  static Result<void> Claim(
+      Presence& presence, const std::function<void()>& meanwhile = [] {}) {
+    return presence.Claim([](const exchange::Message&) {},
+                          [&] {
+                            meanwhile();
+                            return false;
+                          });
   }
   exchange::InProcessBus bus_;
 };
@@ -66,13 +72,11 @@ TEST_F(PresenceTest, RefusesANameThatARunningAgentHas) {
   // It did not hear that: the running one tells it.
   const auto second_end = Open();
   Presence second(*second_end, Status("scout", 0, AgentMode::kStarting));
-  auto claimed = std::async(std::launch::async, [&] { return Claim(second).has_value(); });
-  while (claimed.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    for (const auto& message : first_end->Take(std::chrono::milliseconds(20))) {
+  EXPECT_FALSE(Claim(second, [&] {
+    for (const auto& message : first_end->Take(std::chrono::milliseconds(0))) {
       first.Handle(message);
     }
-  }
-  EXPECT_FALSE(claimed.get());
+  }));
 }
 
 TEST_F(PresenceTest, LetsExactlyOneOfTwoStartTogether) {
@@ -80,9 +84,16 @@ TEST_F(PresenceTest, LetsExactlyOneOfTwoStartTogether) {
   const auto second_end = Open();
   Presence first(*first_end, Status("scout", 0, AgentMode::kStarting));
   Presence second(*second_end, Status("scout", 0, AgentMode::kStarting));
+  // Together: each has said its name before the other is done with listening.
+  std::latch both_listen(2);
+  const auto claim = [&](Presence& presence) {
+    return Claim(presence, [&, arrived = false]() mutable {
+      if (!std::exchange(arrived, true)) both_listen.arrive_and_wait();
+    });
+  };
   Result<void> first_result;
-  std::thread other([&] { first_result = Claim(first); });
-  const auto second_result = Claim(second);
+  std::thread other([&] { first_result = claim(first); });
+  const auto second_result = claim(second);
   other.join();
   EXPECT_NE(first_result.has_value(), second_result.has_value());
 }

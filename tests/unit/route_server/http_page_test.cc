@@ -35,15 +35,22 @@ TEST(HttpPage, IsNotWellOnceNothingIsShownAnyMore) {
     const auto got = client.Get("/health");
     return got ? got->status : 0;
   };
-  page->Show({""});
-  EXPECT_EQ(status(), 200);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  // Again where a busy machine lets what was shown grow old before it is asked for.
+  const auto is_well_once_shown = [&] {
+    int answer = 0;
+    while (answer != 200 && std::chrono::steady_clock::now() < deadline) {
+      page->Show({""});
+      answer = status();
+    }
+    return answer == 200;
+  };
+  EXPECT_TRUE(is_well_once_shown());
   while (status() == 200 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(milliseconds(10));
   }
   EXPECT_EQ(status(), 503);
-  page->Show({""});
-  EXPECT_EQ(status(), 200);
+  EXPECT_TRUE(is_well_once_shown());
 }
 
 TEST(HttpPage, SaysWhyNobodyCanBeServedAndWhatIsServedInPart) {

@@ -241,7 +241,7 @@ TEST_F(PostgresStore, WhatIsDoneExclusivelyIsDoneByOneAtATimeAndAllOrNothing) {
 TEST(PostgresStoreSilence, AServerThatHangsIsTakenForLostAndTakenUpAgain) {
   PostgresServer server;
   PostgresOptions options;
-  options.patience = std::chrono::milliseconds(500);
+  options.patience = std::chrono::milliseconds(3000);  // for one that is busy, too
   const auto store = OpenPostgresStore(server.CreateDatabase(), options).value();
   ASSERT_TRUE(store->AppendSegments(Pieces({0})));
   server.Freeze();
