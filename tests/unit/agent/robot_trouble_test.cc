@@ -16,19 +16,19 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr int kTaughtFrames = 150;  // 3 m
+constexpr double kWall_m = 2.0;
 constexpr std::chrono::seconds kBound{60};
 
-// Gives no frames while it is silent, and tells whom it was asked to why.
+// Gives no frames while it is silent, from half-way on, and tells whom it was asked to why.
 class SilentDevice : public test::DrivenDevice {
  public:
-  std::atomic<bool> silent = false;
+  std::atomic<bool> heard_again = false;  // by whoever waits for it
   Halt why{"camera /robot1/image_raw: no picture for 0.3 s"};
 
   Result<std::optional<Observation>> Next() override {
-    if (silent) tell_(why);
-    const bool was_silent = silent;
-    while (silent) std::this_thread::sleep_for(milliseconds(1));
-    if (was_silent) {
+    if (late_ == late_.zero() && along_m > kSilentFrom_m) {
+      tell_(why);
+      while (!heard_again) std::this_thread::sleep_for(milliseconds(1));
       tell_({});
       late_ += std::chrono::minutes(2);
     }
@@ -39,6 +39,7 @@ class SilentDevice : public test::DrivenDevice {
   void OnTrouble(const Trouble& tell) override { tell_ = tell; }
 
  private:
+  static constexpr double kSilentFrom_m = 1.0;
   Trouble tell_;
   std::chrono::nanoseconds late_{0};  // as long as it was silent, by its own clock
 };
@@ -65,13 +66,13 @@ void ExpectStatus(const RobotDevice::Halt& why, AgentMode mode) {
   device.why = why;
   const auto options = swarm.FollowerNamed("robot1");
   auto run = std::async(std::launch::async, [&] { return swarm.Replay(device, options, true); });
-  EXPECT_TRUE(see([](const AgentStatus& status) { return status.mode == AgentMode::kReplaying; }));
-  device.silent = true;
   EXPECT_TRUE(see([&](const AgentStatus& status) {
     return status.mode == mode && status.speed_mps == 0.0 && status.detail == why.what;
   }));
-  device.silent = false;
+  device.wall_m = kWall_m;  // no further before that is seen, too
+  device.heard_again = true;
   EXPECT_TRUE(see([](const AgentStatus& status) { return status.mode == AgentMode::kReplaying; }));
+  device.wall_m = 1e9;
   const auto ended = run.get();
   ASSERT_TRUE(ended) << ended.error().message;
   EXPECT_EQ(ended->state, "ARRIVED") << ended->reason;

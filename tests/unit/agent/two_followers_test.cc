@@ -20,6 +20,7 @@ using test::DrivenDevice;
 constexpr int kTaughtFrames = 150;  // 3 m
 constexpr double kDistance_m = 0.8;
 constexpr std::chrono::seconds kBound{60};
+constexpr std::chrono::seconds kNever{3600};
 
 class TwoFollowersTest : public testing::Test {
  protected:
@@ -80,7 +81,7 @@ class TwoFollowersTest : public testing::Test {
 TEST_F(TwoFollowersTest, TheSecondStopsBehindTheFirstAndBothGoOnAfter) {
   constexpr double kStopped_m = 1.8;
   first_.wall_m = kStopped_m;
-  auto first = Start("first", first_);
+  auto first = Start("first", first_, kNever);
   ASSERT_TRUE(SeeAt("first", kStopped_m - 0.1));
   auto second = Start("second", second_);
   ASSERT_TRUE(SeeWaiting("second", "waits for first")) << last_.detail;
@@ -99,7 +100,8 @@ TEST_F(TwoFollowersTest, TheSecondStopsBehindTheFirstAndBothGoOnAfter) {
 TEST_F(TwoFollowersTest, ANeighbourThatIsWaitedForLongIsNoReasonToGiveUp) {
   constexpr double kStopped_m = 1.8;
   first_.wall_m = kStopped_m;
-  auto first = Start("first", first_);
+  // Time for the second to come up to it.
+  auto first = Start("first", first_, std::chrono::seconds(15));
   ASSERT_TRUE(SeeAt("first", kStopped_m - 0.1));
   auto second = Start("second", second_);
   ASSERT_TRUE(SeeWaiting("second", "waits for first")) << last_.detail;
@@ -116,7 +118,6 @@ TEST_F(TwoFollowersTest, ANeighbourThatIsWaitedForLongIsNoReasonToGiveUp) {
 // Side by side, neither can get away before it has heard of the other.
 TEST_F(TwoFollowersTest, OfTwoAtOnePlaceTheFirstByNameGoesFirst) {
   constexpr double kSideBySide_m = 0.1;
-  constexpr std::chrono::seconds kNever{3600};
   first_.wall_m = second_.wall_m = kSideBySide_m;
   auto second = Start("second", second_, kNever);
   ASSERT_TRUE(SeeAt("second", 0.0));
