@@ -110,6 +110,7 @@ class Desk {
   std::size_t under_way_ = 0;  // of the others, those that wait included
   std::uint64_t news_count_ = 0;
   std::shared_ptr<const News> news_;  // null while nobody looks
+  int looking_ = 0;                   // who waits in See now
   Clock::time_point looked_at_{};
   std::condition_variable changed_;
 

@@ -218,8 +218,10 @@ bool Desk::Take(std::shared_ptr<Errand> errand, bool is_stop) {
 
 std::shared_ptr<const Desk::News> Desk::See(std::uint64_t number, milliseconds most) {
   std::unique_lock lock(mutex_);
-  looked_at_ = Clock::now();
+  ++looking_;
   changed_.wait_for(lock, most, [&] { return closed_ || (news_ && news_->number > number); });
+  --looking_;
+  looked_at_ = Clock::now();
   return news_ && news_->number > number && !closed_ ? news_ : nullptr;
 }
 
@@ -290,7 +292,8 @@ void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
 
 bool Desk::SomebodyLooks(Clock::time_point now) {
   const std::scoped_lock lock(mutex_);
-  return looked_at_ != Clock::time_point{} && now < looked_at_ + options_.looks_on;
+  const bool has_looked = looked_at_ != Clock::time_point{};
+  return looking_ > 0 || (has_looked && now < looked_at_ + options_.looks_on);
 }
 
 // What is lost is asked for the next time.

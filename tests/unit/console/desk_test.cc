@@ -101,6 +101,19 @@ TEST_F(DeskTest, NewsComeWhenSomethingHasChanged) {
   EXPECT_TRUE(second->state.robots.contains("robot1"));
 }
 
+TEST_F(DeskTest, WhoWaitsForNewsLooksHoweverLongThatTakes) {
+  const auto first = hasty_.See(0, milliseconds(20'000));
+  ASSERT_TRUE(first);
+  auto news =
+      std::async(std::launch::async, [&] { return hasty_.See(first->number, milliseconds(5000)); });
+  (void)robot_->Take(milliseconds(300));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  ASSERT_TRUE(robot_->Publish(status));
+  EXPECT_TRUE(news.get());
+}
+
 TEST_F(DeskTest, ServersAreAskedOnlyWhileSomebodyLooks) {
   const auto server = bus_.Open(exchange::ServerTopics());
   EXPECT_TRUE(server->Take(milliseconds(500)).empty());
