@@ -14,6 +14,7 @@ namespace {
 
 std::string Names(const std::set<AgentId>& senders) {
   std::vector<std::string> names;
+  names.reserve(senders.size());
   for (const AgentId& sender : senders) names.push_back("'" + sender.value() + "'");
   return fmt::format("{}", fmt::join(names, ", "));
 }
