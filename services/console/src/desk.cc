@@ -273,16 +273,17 @@ void Desk::Say(Clock::time_point now) {
       }
     }
   }
-  std::size_t others_over = 0;
-  std::erase_if(errands_, [&](const std::shared_ptr<Errand>& errand) {
-    if (!errand->IsOver(std::chrono::duration_cast<milliseconds>(now - errand->began)))
-      return false;
-    errand->Finish();
-    if (!errand->is_stop) ++others_over;
-    return true;
+  const auto over = std::stable_partition(errands_.begin(), errands_.end(), [&](const auto& each) {
+    return !each->IsOver(std::chrono::duration_cast<milliseconds>(now - each->began));
   });
-  const std::scoped_lock lock(mutex_);
-  under_way_ -= others_over;
+  const std::vector<std::shared_ptr<Errand>> done(over, errands_.end());
+  errands_.erase(over, errands_.end());
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& errand : done) under_way_ -= errand->is_stop ? 0 : 1;
+  }
+  // Who has its answer has room for the next question.
+  for (const auto& errand : done) errand->Finish();
 }
 
 void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
