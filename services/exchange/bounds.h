@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxCursorBytes = 256;
 inline constexpr std::size_t kMaxMissionsPerReply = 100;
 inline constexpr std::size_t kMaxAnswersTold = 64;  // of each command
 inline constexpr std::size_t kMaxSoftwareBytes = 64;
-inline constexpr std::size_t kMaxGlanceBytes = 64 * 1024;
+inline constexpr std::size_t kMaxGlanceBytes = 64U << 10U;
 inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is

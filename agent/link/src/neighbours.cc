@@ -27,10 +27,10 @@ void Neighbours::Handle(const exchange::AgentGone& gone) {
 // The later word counts, whoever has it.
 void Neighbours::Handle(const exchange::RouteFollowers& told, Time now) {
   std::erase_if(known_, [&](const auto& entry) {  // those that have arrived, or left the route
-    const auto& [agent, known] = entry;
+    const auto& known = entry.second;
     return known.told_by == told.server && known.route == told.key &&
            std::none_of(told.followers.begin(), told.followers.end(),
-                        [&](const auto& one) { return one.agent == agent; });
+                        [&](const auto& one) { return one.agent == entry.first; });
   });
   for (const exchange::RouteFollower& one : told.followers) {
     const Time told_at = now - one.age;
