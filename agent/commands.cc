@@ -134,7 +134,9 @@ Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
     return Fail(ErrorCode::kInvalidArgument,
                 "a recording cannot be sent anywhere: on duty are robots, --ros2 or --sim");
   }
-  auto opened = OpenDevice(serve.replay.device, options.common);
+  DeviceOptions robot = serve.replay.device;
+  robot.simulated.in_real_time = true;  // as who sends it, pauses it and looks on
+  auto opened = OpenDevice(robot, options.common);
   if (!opened) return tl::unexpected(opened.error());
   auto exchange = program::OpenExchange(
       options.common, program::WithAgents(FollowersTopics(options, exchange::OnDutyTopics())));

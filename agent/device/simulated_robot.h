@@ -20,6 +20,7 @@ struct SimulatedRun {
   double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
   bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
   bool stays_at_end = false;      // the scout goes on looking where its drive ended
+  bool in_real_time = false;      // its time passes no faster than ours
   double rate_hz = 30.0;          // of its steps, each with odometry and a picture
   double turn_radius_m = 0.0;     // it steers like a car, no tighter; 0: by two driven wheels
   // For whoever judges: the true poses of the frames, as they are made, CSV

@@ -11,7 +11,8 @@
 
 namespace trailcast::agent {
 
-// A simulated robot in lockstep: the world's time passes only in Next. The scout is driven along
+// A simulated robot in lockstep: the world's time passes only in Next, which in real time waits
+// until it is due. The scout is driven along
 // the path by an operator who sees where it is; a follower starts near the path's start (drawn by
 // the seed) and does as it is told.
 class SimulatedDevice final : public SimulatedRobot {

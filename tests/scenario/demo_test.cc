@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <httplib.h>
 
 #include <algorithm>
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -65,11 +67,15 @@ class DemoTest : public ::testing::Test {
     std::filesystem::create_directory(scratch());
     std::filesystem::create_directory(out());
   }
-  ChildProcess StartDemo() {
-    auto demo =
-        ChildProcess::Start({"/usr/bin/env", "TMPDIR=" + scratch().string(),
-                             (kPrograms / "trailcast").string(), "demo", "--out", out().string()},
-                            log());
+  ChildProcess StartDemo(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"/usr/bin/env",
+                                   "TMPDIR=" + scratch().string(),
+                                   (kPrograms / "trailcast").string(),
+                                   "demo",
+                                   "--out",
+                                   out().string()};
+    words.insert(words.end(), more.begin(), more.end());
+    auto demo = ChildProcess::Start(words, log());
     EXPECT_TRUE(demo.has_value());
     return std::move(*demo);
   }
@@ -147,6 +153,50 @@ TEST_F(DemoTest, WhenTheServerDiesItSaysSoAndEnds) {
   EXPECT_THAT(Contents(log()), HasSubstr("the route server ended by signal 9"));
   EXPECT_THAT(Fleet(), IsEmpty());
   EXPECT_THAT(Left(scratch()), IsEmpty());
+}
+
+// What the console says of one of the robots.
+std::string StateOf(const std::string& robot, httplib::Client& client) {
+  const auto got = client.Get("/api/state");
+  const auto state = got ? nlohmann::json::parse(got->body, nullptr, false) : nlohmann::json();
+  for (const auto& each : state.value("robots", nlohmann::json::array())) {
+    if (each.value("name", "") == robot) return each.value("state", "");
+  }
+  return "";
+}
+
+TEST_F(DemoTest, WithAConsoleRobotsOnDutyDriveUntilItIsInterrupted) {
+  ChildProcess demo = StartDemo({"--console", "--http-port", "0"});
+  const std::string said = "open http://localhost:";
+  ASSERT_TRUE(Within(seconds(120), [&] { return Contents(log()).find(said) != std::string::npos; }))
+      << Contents(log());
+  const std::string text = Contents(log());
+  httplib::Client client("localhost", std::stoi(text.substr(text.find(said) + said.size())));
+  for (const char* robot : {"robot-1", "robot-2"}) {
+    EXPECT_TRUE(Within(seconds(200), [&] { return StateOf(robot, client) == "driving"; }))
+        << robot << Contents(log());
+  }
+  EXPECT_EQ(StateOf("robot-3", client), "free");
+  const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
+  ASSERT_EQ(demos.size(), 1U);
+  ASSERT_EQ(kill(demos.front(), SIGINT), 0);
+  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  EXPECT_TRUE(demo.Poll()->ok()) << Contents(log());
+  EXPECT_FALSE(client.Get("/api/state"));
+  EXPECT_THAT(Fleet(), IsEmpty());
+  EXPECT_THAT(Left(scratch()), IsEmpty());
+}
+
+TEST_F(DemoTest, WhereTheConsolesPortIsTakenItSaysSoAndEnds) {
+  httplib::Server other;
+  const int port = other.bind_to_any_port("127.0.0.1");
+  ASSERT_GT(port, 0);
+  ChildProcess demo = StartDemo({"--console", "--http-port", std::to_string(port)});
+  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  EXPECT_EQ(demo.Poll()->code, 1);
+  EXPECT_THAT(Contents(log()), HasSubstr("is the port taken"));
+  EXPECT_THAT(Contents(log()), HasSubstr("--http-port"));
+  EXPECT_THAT(Fleet(), IsEmpty());
 }
 
 TEST_F(DemoTest, AskingForRoutesWhereThereIsNoServerFailsAndSaysWhy) {

@@ -3,21 +3,24 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "agent/simulated/body_imu.h"
 #include "agent/simulated/camera_file.h"
 #include "services/sim/core/judge.h"
-#include "services/sim/core/path.h"
 #include "services/sim/core/path_follow_driver.h"
 #include "services/sim/core/simulated_robot.h"
 #include "services/sim/places/place.h"
 
 namespace trailcast::agent {
 namespace {
+
+using std::chrono::steady_clock;
 
 // A small robot's scanner, above the ground.
 constexpr double kScanner_m = 0.2;
@@ -29,15 +32,16 @@ struct SimulatedDevice::State {
   std::shared_ptr<const sim::World> world;
   std::unique_ptr<sim::SimulatedRobot> robot;
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
-  sim::Polyline path;
-  double along_m = 0.0;  // the scout's place on it
   bool stays_at_end = false;
+  steady_clock::duration step{0};  // in real time
+  steady_clock::time_point due{};  // the next step
   motion::VelocityCommand command;
   BodyImu imu;
   bool begun = false;  // there was a frame
   std::filesystem::path truth_file;
   std::ofstream truth;  // of that, if there is one
 
+  void AwaitNext();
   [[nodiscard]] Observation Note(sim::Observation seen);
   [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
 };
@@ -65,10 +69,13 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   if (!robot) return tl::unexpected(robot.error());
   auto state = std::make_unique<State>();
   state->stays_at_end = run.stays_at_end;
+  if (run.in_real_time) {
+    state->step = std::chrono::duration_cast<steady_clock::duration>(
+        std::chrono::duration<double>(1.0 / run.rate_hz));
+  }
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
   state->world = place->world;
   state->robot = std::move(*robot);
-  state->path = std::move(place->path.points);
   if (!run.truth.empty()) {
     state->truth_file = run.truth;
     state->truth.open(run.truth);
@@ -78,15 +85,24 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
     sim::DriverOptions driver;
     driver.shunts_from = place->path.shunts_from;
     driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
-    state->operator_.emplace(state->path, driver);
+    state->operator_.emplace(place->path.points, driver);
   }
   std::unique_ptr<SimulatedDevice> device(new SimulatedDevice(std::move(state)));
   if (auto can = device->TruthWritten(); !can) return tl::unexpected(can.error());
   return device;
 }
 
+// More than a step is not caught up with: while nobody looked, no time has passed there.
+void SimulatedDevice::State::AwaitNext() {
+  if (step.count() == 0) return;
+  std::this_thread::sleep_until(due);
+  const auto now = steady_clock::now();
+  due = (now - due < step ? due : now) + step;
+}
+
 Result<std::optional<Observation>> SimulatedDevice::Next() {
   State& s = *state_;
+  s.AwaitNext();
   if (s.operator_ && s.begun) {
     s.command = s.operator_->Command(s.Pose());
     if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
@@ -109,8 +125,6 @@ Observation SimulatedDevice::State::Note(sim::Observation seen) {
                          pose.heading_rad)
           << std::flush;
   }
-  // Looked for near where it was: a loop passes some places twice.
-  along_m = sim::Nearest(path, motion::Position(pose), along_m - 1.0, along_m + 2.0).along_m;
   const motion::ImuSample felt = imu.Feel(seen.stamp, sim::Judge(*robot).WorldFromBody());
   return {seen.stamp, std::move(seen.image), seen.odometry, {}, {felt}};
 }
@@ -142,7 +156,7 @@ std::string SimulatedDevice::camera() const { return state_->camera; }
 
 std::optional<double> SimulatedDevice::drive_progress() const {
   if (!state_->operator_) return std::nullopt;
-  return state_->along_m / sim::Length(state_->path);
+  return state_->operator_->progress();
 }
 
 Result<void> SimulatedDevice::TruthWritten() const {

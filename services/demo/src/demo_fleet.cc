@@ -12,21 +12,25 @@ namespace {
 
 constexpr auto kEndBound = std::chrono::milliseconds(5000);
 constexpr std::size_t kLogLines = 8;
-// A follower waits for the route from the moment it starts until the scout has driven two metres.
+// A follower waits for the route from the moment it starts until the scout has driven two metres;
+// one on duty may be faster than the scout that teaches it.
 constexpr const char* kWait_s = "120";
+
+// From one room to the other and back, turned on the spot at both ends.
+constexpr const char* kRound =
+    "x_m,y_m\n2.6,1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n7.2,3.2\n6,1.5\n2,1.5\n2.6,1.5\n";
 
 // The scout's make of camera, on another robot: higher up, and looking a little aside and up.
 constexpr const char* kOtherMount =
     "name = \"webcam, other mount\"\nwidth = 320\nheight = 240\nmodel = \"pinhole\"\n"
     "hfov_deg = 60.0\ndistortion = 0.10\nheight_m = 0.42\nyaw_deg = 2.0\npitch_deg = 2.0\n";
 
-Result<std::filesystem::path> WriteOtherMount(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "webcam-other-mount.toml";
+Result<void> WriteText(const std::filesystem::path& file, const char* text) {
   std::ofstream out(file);
-  out << kOtherMount;
+  out << text;
   out.close();
   if (!out) return Fail(ErrorCode::kUnavailable, "cannot write {}", file.string());
-  return file;
+  return {};
 }
 
 std::vector<std::string> NetworkWords(const program::CommonOptions& network,
@@ -50,31 +54,30 @@ std::vector<std::string> NetworkWords(const program::CommonOptions& network,
 std::vector<std::string> AgentWords(const std::string& program, const DemoRobot& robot,
                                     const std::filesystem::path& folder,
                                     const program::CommonOptions& network) {
+  using Task = DemoRobot::Task;
   std::vector<std::string> words{program};
-  for (std::string& word : NetworkWords(network, robot.name)) words.push_back(std::move(word));
-  const std::vector<std::string> what{"--server",
-                                      "--store",
-                                      (folder / (robot.name + ".db")).string(),
-                                      "--report",
-                                      robot.report.string(),
-                                      robot.scout ? "teach" : "replay",
-                                      "--route",
-                                      kDemoRoute,
-                                      "--sim",
-                                      kDemoWorld,
-                                      "--camera",
-                                      robot.camera_word,
-                                      "--seed",
-                                      std::to_string(robot.seed),
-                                      "--sim-truth",
-                                      robot.truth.string()};
-  words.insert(words.end(), what.begin(), what.end());
-  if (!robot.scout) {
-    // Each of them has the laboratory to itself: nobody is in anybody's way.
-    for (const char* word : {"--wait-for-route", "--wait", kWait_s, "--keep-distance", "0"}) {
-      words.emplace_back(word);
-    }
+  const auto add = [&](const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
+  add(NetworkWords(network, robot.name));
+  add({"--server", "--store", (folder / (robot.name + ".db")).string(), "--report",
+       robot.report.string()});
+  switch (robot.task) {
+    case Task::kTeach:
+      add({"teach", "--route", robot.route});
+      break;
+    case Task::kFollow:
+      add({"replay", "--route", robot.route, "--wait-for-route"});
+      break;
+    case Task::kOnDuty:
+      add({"serve"});
+      break;
   }
+  add({"--sim", kDemoWorld, "--camera", robot.camera_word, "--seed", std::to_string(robot.seed),
+       "--sim-truth", robot.truth.string()});
+  if (!robot.path.empty()) add({"--path", robot.path.string()});
+  // Each of them has the laboratory to itself: nobody is in anybody's way.
+  if (robot.task != Task::kTeach) add({"--wait", kWait_s, "--keep-distance", "0"});
   return words;
 }
 
@@ -83,21 +86,46 @@ std::string WithLog(std::string what, const ChildProcess& process) {
   return what;
 }
 
+// The scout and robots with other cameras than its.
+Result<std::vector<DemoRobot>> PlanSwarm(const std::filesystem::path& folder, std::uint64_t seed,
+                                         const std::string& prefix, DemoRobot::Task task) {
+  const std::filesystem::path other_mount = folder / "webcam-other-mount.toml";
+  if (auto written = WriteText(other_mount, kOtherMount); !written) {
+    return tl::unexpected(written.error());
+  }
+  const auto plan = [&](const std::string& name, DemoRobot::Task does, const std::string& camera,
+                        const std::string& camera_word) {
+    DemoRobot robot;
+    robot.name = name;
+    robot.camera = camera;
+    robot.camera_word = camera_word;
+    robot.task = does;
+    // 63 bits: what a TOML file or another program can hold as well.
+    robot.seed = sim::Random(seed, name).Bits() >> 1U;
+    robot.truth = folder / (name + "-truth.csv");
+    robot.report = folder / (name + "-report.txt");
+    return robot;
+  };
+  return std::vector<DemoRobot>{plan("scout", DemoRobot::Task::kTeach, "webcam", "webcam"),
+                                plan(prefix + "1", task, "webcam, moved", other_mount.string()),
+                                plan(prefix + "2", task, "firewire", "firewire"),
+                                plan(prefix + "3", task, "wide", "wide")};
+}
+
 }  // namespace
 
 Result<std::vector<DemoRobot>> PlanRobots(const std::filesystem::path& folder, std::uint64_t seed) {
-  const auto other_mount = WriteOtherMount(folder);
-  if (!other_mount) return tl::unexpected(other_mount.error());
-  std::vector<DemoRobot> robots(4);
-  robots[0] = {"scout", "webcam", "webcam", 0, true, {}, {}};
-  robots[1] = {"follower-1", "webcam, moved", other_mount->string(), 0, false, {}, {}};
-  robots[2] = {"follower-2", "firewire", "firewire", 0, false, {}, {}};
-  robots[3] = {"follower-3", "wide", "wide", 0, false, {}, {}};
-  for (DemoRobot& robot : robots) {
-    // 63 bits: what a TOML file or another program can hold as well.
-    robot.seed = sim::Random(seed, robot.name).Bits() >> 1U;
-    robot.truth = folder / (robot.name + "-truth.csv");
-    robot.report = folder / (robot.name + "-report.txt");
+  return PlanSwarm(folder, seed, "follower-", DemoRobot::Task::kFollow);
+}
+
+Result<std::vector<DemoRobot>> PlanDuty(const std::filesystem::path& folder, std::uint64_t seed) {
+  const std::filesystem::path round = folder / "round.csv";
+  if (auto written = WriteText(round, kRound); !written) return tl::unexpected(written.error());
+  auto robots = PlanSwarm(folder, seed, "robot-", DemoRobot::Task::kOnDuty);
+  if (!robots) return robots;
+  for (DemoRobot& robot : *robots) {
+    robot.route = kRoundRoute;
+    robot.path = round;
   }
   return robots;
 }
@@ -123,6 +151,31 @@ Result<DemoFleet> DemoFleet::Start(const std::filesystem::path& programs,
   return fleet;
 }
 
+Result<void> DemoFleet::StartConsole(const std::filesystem::path& programs,
+                                     const std::filesystem::path& folder,
+                                     const program::CommonOptions& network, int port) {
+  std::vector<std::string> words{(programs / "trailcast-console").string()};
+  program::CommonOptions everybody = network;
+  everybody.discovery = "mesh";  // as is usual for it
+  for (std::string& word : NetworkWords(everybody, "console")) words.push_back(std::move(word));
+  words.insert(words.end(), {"--http-port", std::to_string(port)});
+  auto console = ChildProcess::Start(words, folder / "console.log");
+  if (!console) return tl::unexpected(console.error());
+  console_.push_back(std::move(*console));
+  return {};
+}
+
+std::optional<std::string> DemoFleet::ConsoleAddress() const {
+  if (console_.empty()) return std::nullopt;
+  for (const std::string& line : LastLines(console_.front().log(), kLogLines)) {
+    const std::size_t begin = line.find("http://localhost:");
+    if (begin == line.npos) continue;
+    const std::size_t end = line.find_first_not_of("0123456789", begin + 17);
+    return line.substr(begin, end == line.npos ? end : end - begin);
+  }
+  return std::nullopt;
+}
+
 bool DemoFleet::RobotsEnded() {
   bool ended = true;
   for (ChildProcess& robot : robots_) ended = robot.Poll().has_value() && ended;
@@ -138,6 +191,13 @@ std::optional<std::string> DemoFleet::Broken() {
     return WithLog(fmt::format("the route server {}; its last words:", ToString(*status)),
                    server_.front());
   }
+  for (ChildProcess& console : console_) {
+    if (const auto status = console.Poll()) {
+      return WithLog(fmt::format("the console {} (--http-port takes another port); its last words:",
+                                 ToString(*status)),
+                     console);
+    }
+  }
   const auto scout = robots_.front().Poll();
   if (scout && !scout->ok()) {
     return WithLog(fmt::format("the scout {}; its last words:", ToString(*scout)), robots_.front());
@@ -150,10 +210,12 @@ std::vector<std::string> DemoFleet::RobotLog(std::size_t index, std::size_t line
 }
 
 void DemoFleet::Stop() {
-  for (ChildProcess& robot : robots_) robot.Terminate();
-  for (ChildProcess& server : server_) server.Terminate();
-  for (ChildProcess& robot : robots_) robot.Reap(kEndBound);
-  for (ChildProcess& server : server_) server.Reap(kEndBound);
+  for (auto* processes : {&robots_, &console_, &server_}) {
+    for (ChildProcess& process : *processes) process.Terminate();
+  }
+  for (auto* processes : {&robots_, &console_, &server_}) {
+    for (ChildProcess& process : *processes) process.Reap(kEndBound);
+  }
 }
 
 }  // namespace trailcast::demo

@@ -66,7 +66,7 @@ DemoRow JudgeRobot(const DemoRobot& robot, const std::optional<ExitStatus>& ende
   row.duration_s = truth->duration_s;
   row.segments = Value(*report, "segments");
   row.bytes_per_m = Value(*report, "bytes_per_m");
-  if (robot.scout) {
+  if (robot.is_scout()) {
     JudgeScout(*report, row);
   } else {
     JudgeFollower(*report, *truth, taught, row);
@@ -131,9 +131,10 @@ std::string DemoTable(const std::vector<DemoRow>& rows) {
                                  "found", "segments", "B/m", "drive s");
   for (const DemoRow& row : rows) {
     const auto meters = [&](double value) {
-      return row.robot.scout || row.path.empty() ? std::string("-") : fmt::format("{:.3f}", value);
+      return row.robot.is_scout() || row.path.empty() ? std::string("-")
+                                                      : fmt::format("{:.3f}", value);
     };
-    const char* result = row.arrived ? (row.robot.scout ? "taught" : "arrived") : "FAILED";
+    const char* result = row.arrived ? (row.robot.is_scout() ? "taught" : "arrived") : "FAILED";
     text += fmt::format("{:<11} {:<14} {:<8} {:>7} {:>8} {:>9} {:>6} {:>9} {:>6} {:>7.1f}\n",
                         row.robot.name, row.robot.camera, result, meters(row.verdict.final_error_m),
                         meters(row.verdict.mean_path_error_m), meters(row.verdict.max_path_error_m),
@@ -150,12 +151,12 @@ std::vector<plot::PlottedPath> DemoPaths(const std::vector<DemoRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const DemoRow& row = rows[i];
     const std::string label =
-        row.robot.scout
+        row.robot.is_scout()
             ? fmt::format("{} ({}): taught", row.robot.name, row.robot.camera)
             : fmt::format("{} ({}): {}, {:.2f} m from the end", row.robot.name, row.robot.camera,
                           row.arrived ? "arrived" : "did not arrive", row.verdict.final_error_m);
     paths.push_back(
-        {label, plot::PathColor(i), row.path.points_m(), row.robot.scout, !row.arrived});
+        {label, plot::PathColor(i), row.path.points_m(), row.robot.is_scout(), !row.arrived});
   }
   return paths;
 }

@@ -31,6 +31,8 @@ class PathFollowDriver {
   // arrived.
   [[nodiscard]] motion::VelocityCommand Command(const motion::Pose2& true_pose);
   [[nodiscard]] bool arrived() const { return arrived_; }
+  // How much of the path is driven, 0..1.
+  [[nodiscard]] double progress() const;
   // The path with its corners rounded: what is really driven.
   [[nodiscard]] const Polyline& path() const { return path_; }
 

@@ -28,8 +28,15 @@ class DemoReportTest : public ::testing::Test {
     return "arrived=1\nstate=ARRIVED\nreason=\nsegments=5\nfound_share=0.8500\nbytes_per_m=3000\n";
   }
   DemoRobot Robot(const std::string& name, bool scout) const {
-    return {
-        name, "webcam", "webcam", 1, scout, folder_ / (name + ".csv"), folder_ / (name + ".txt")};
+    return {name,
+            "webcam",
+            "webcam",
+            1,
+            scout ? DemoRobot::Task::kTeach : DemoRobot::Task::kFollow,
+            kDemoRoute,
+            {},
+            folder_ / (name + ".csv"),
+            folder_ / (name + ".txt")};
   }
   static void WriteText(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file) << text;

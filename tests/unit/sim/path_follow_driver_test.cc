@@ -20,6 +20,8 @@ struct Drive {
   double sharpest_radps = 0.0;
   double furthest_x_m = -9.0;
   double fastest_back_mps = 0.0;
+  bool forth = true;  // progress never went back
+  double progress = 0.0;
   motion::Pose2 end;
 };
 
@@ -32,6 +34,8 @@ Drive DriveAlong(const Polyline& points, const motion::Pose2& start, std::uint64
   for (int step = 0; step < 30 * 120 && !driver.arrived(); ++step) {
     const motion::VelocityCommand command = driver.Command(robot.true_pose());
     robot.Drive(command, 1.0 / 30.0);
+    drive.forth = drive.forth && driver.progress() >= drive.progress;
+    drive.progress = driver.progress();
     const double off_m = Nearest(driver.path(), motion::Position(robot.true_pose())).distance_m;
     drive.worst_m = std::max(drive.worst_m, off_m);
     drive.furthest_x_m = std::max(drive.furthest_x_m, robot.true_pose().x_m);
@@ -75,6 +79,8 @@ TEST(PathFollowDriver, TurnsOnTheSpotWhereThePathDoublesBack) {
   EXPECT_TRUE(drive.arrived);
   EXPECT_LT(drive.worst_m, 0.06);
   EXPECT_GT(drive.furthest_x_m, 1.95);
+  EXPECT_TRUE(drive.forth) << "on the way back, too";
+  EXPECT_GT(drive.progress, 0.99);
   EXPECT_LT(std::hypot(drive.end.x_m + 3.0, drive.end.y_m - 3.0), 0.05);
 }
 

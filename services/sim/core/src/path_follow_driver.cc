@@ -93,6 +93,16 @@ bool PathFollowDriver::EndsLeg(const Eigen::Vector2d& place) {
   return true;
 }
 
+double PathFollowDriver::progress() const {
+  double driven_m = along_m_;
+  double all_m = 0.0;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    all_m += legs_[i].length_m;
+    if (i < leg_) driven_m += legs_[i].length_m;
+  }
+  return driven_m / all_m;
+}
+
 // Backwards as forwards, with the robot's back in front.
 motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose) {
   if (arrived_) return {};
