@@ -21,7 +21,7 @@ await() {
     sleep 0.2
   done
 }
-operate() { trailcast "$@" --network-interface lo; }
+operate() { trailcast "$@" --network-interface lo --security /root/fleet/members/operator; }
 is_shown() { curl -sf http://localhost:8080/api/state | grep -q '"robot1"'; }
 pid_of() { systemctl show --value --property MainPID "$1"; }
 is_another() { [[ $(pid_of trailcast-agent) != 0 && $(pid_of trailcast-agent) != "$1" ]]; }

@@ -29,6 +29,20 @@ read_units() {
   grep -o 'Overall.*[0-9]' "$work/security"
 }
 
+# As config/README.md says: before the first start.
+give_keys() {
+  local keys=("$work/usr/bin/trailcast" keys) member
+  "${keys[@]}" init "$1/root/fleet"
+  for member in server:server robot1:follower console:operator operator:operator; do
+    "${keys[@]}" --authority "$1/root/fleet" add --role "${member#*:}" "${member%:*}"
+  done
+  for member in server:trailcast robot1:trailcast-agent console:trailcast-console; do
+    mkdir "$1/var/lib/${member#*:}"
+    cp -r "$1/root/fleet/members/${member%:*}" "$1/var/lib/${member#*:}/keys"
+  done
+  sed -i 's#^security = .*#security = "keys"#' "$1/etc/trailcast/agent.toml"
+}
+
 # In namespaces of its own, and a control group's.
 boot() {
   local root=$work/files/root
@@ -55,8 +69,10 @@ boot() {
   echo 0123456789abcdef0123456789abcdef >"$root/etc/machine-id"
   cp -a "$work/usr/." "$root/usr"
   cp "$work/usr/share/trailcast/agent.toml" "$root/etc/trailcast"
+  give_keys "$root"
   for program in agent console server; do
-    echo 'TRAILCAST_NETWORK_INTERFACE=lo' >"$root/etc/default/trailcast-$program"
+    printf '%s\n' TRAILCAST_NETWORK_INTERFACE=lo TRAILCAST_SECURITY=keys \
+      >"$root/etc/default/trailcast-$program"
   done
   mkdir "$root/mnt/checks"
   mount --bind "$work/checks" "$root/mnt/checks"
