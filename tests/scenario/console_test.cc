@@ -161,6 +161,31 @@ TEST_F(ConsoleTest, AllAreStoppedAtOnce) {
   EXPECT_TRUE(WaitForState("stopped"));
 }
 
+// A program of ten lines of shell.
+TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
+  if (std::system("command -v curl jq >/dev/null") != 0) {
+    GTEST_SKIP() << "curl and jq are not installed";
+  }
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  const auto example = [&](const Words& words) {
+    Process process(With({"/usr/bin/env", "CONSOLE=http://localhost:" + std::to_string(port_),
+                          TRAILCAST_SOURCE_DIR "/config/examples/send_and_wait.sh", "robot1"},
+                         words),
+                    Path("example.log"));
+    return End(process);
+  };
+  const Ended unknown = example({"follow", "attic"});
+  EXPECT_EQ(unknown.status, 1) << unknown.output;
+  EXPECT_THAT(unknown.output, HasSubstr("robot1: refused"));
+  const Ended wrong = example({"dance"});
+  EXPECT_NE(wrong.status, 0);
+  EXPECT_THAT(wrong.output, HasSubstr("dance"));
+  const Ended sent = example({"follow", "hall"});
+  EXPECT_EQ(sent.status, 0) << sent.output << agent_->output();
+  EXPECT_THAT(sent.output, HasSubstr("robot1: arrived"));
+  EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+}
+
 TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
   const std::filesystem::path shots =
