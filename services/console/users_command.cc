@@ -46,7 +46,7 @@ Result<std::string> NewPassword(const std::string& name) {
     return tl::unexpected(fits.error());
   }
   if (isatty(STDIN_FILENO) != 0) {
-    const auto again = ReadPassword("The same again: ");
+    auto again = ReadPassword("The same again: ");
     if (!again) return again;
     if (*again != *password) {
       return Fail(ErrorCode::kInvalidArgument, "these were two different passwords");

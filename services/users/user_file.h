@@ -14,8 +14,8 @@ namespace trailcast::users {
 // kNotFound: there is no such file; kCorrupt: it is none of users.
 [[nodiscard]] Result<Users> LoadUsers(const std::filesystem::path& file);
 
-// Changes the file, or makes it, for its owner alone. Two who change it at the same time do so one
-// after the other; nothing is written where `change` fails.
+// Changes the file, or makes it, for its owner alone, which, of root's, is the folder's. Two who
+// change it at the same time do so one after the other; nothing is written where `change` fails.
 [[nodiscard]] Result<void> ChangeUsers(const std::filesystem::path& file,
                                        const std::function<Result<void>(Users&)>& change);
 

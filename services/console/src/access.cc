@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string_view>
 
+#include "services/base/text.h"
 #include "services/console/json.h"
 #include "services/console/rights.h"
 #include "services/console/src/answers.h"
@@ -133,7 +134,7 @@ void Access::LogIn(const Request& request, Response& response) {
   if (!entry_.guard) return Refuse(response, 404, "there are no users here: nobody has to log in");
   const auto body = ReadLogIn(request.body);
   if (!body) return Refuse(response, 400, body.error().message);
-  const std::string address = AddressOf(request);
+  const std::string address = PlainText(AddressOf(request), 64);
   const auto in = entry_.guard->LogIn(body->user, body->password, address);
   if (const auto* turned = std::get_if<users::Turned>(&in)) {
     // Not the name: some type their password there.
@@ -142,6 +143,7 @@ void Access::LogIn(const Request& request, Response& response) {
   }
   spdlog::info("console: {} logs in from {}", body->user, address.empty() ? "?" : address);
   const auto& session = std::get<std::string>(in);
+  entry_.guard->LogOut(Session(request));  // that of before, if this browser had one
   SetCookie(response, session, false);
   const auto who = entry_.guard->WhoIn(session).value_or(users::Who{});
   Answer(response, 200, MeBody(who, true, entry_.only_looks));

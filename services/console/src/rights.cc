@@ -22,6 +22,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/state", Role::kLook},
     {"GET", "/api/events", Role::kLook},
     {"GET", "/api/missions", Role::kLook},
+    {"GET", "/api/robots/*/glance", Role::kLook},
     {"GET", "/api/routes", Role::kLook},
 
     {"POST", "/api/all/stop", Role::kOperate},

@@ -108,7 +108,7 @@ bool Server::AnswerNow(socket_t socket) {
     Stream stream(socket);
     return process_request(stream, /*close_connection=*/true, closed, nullptr);
   }
-  TlsStream stream(socket, tls_->context());
+  TlsStream stream(socket, tls_->Context().get());
   return stream.Greet() && process_request(stream, /*close_connection=*/true, closed, nullptr);
 }
 

@@ -2,7 +2,9 @@
 
 #include <openssl/err.h>
 #include <openssl/ssl.h>
+#include <sys/stat.h>
 
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -25,9 +27,8 @@ tl::unexpected<Error> Unusable(const char* what, const std::filesystem::path& fi
       what, file.string(), Why());
 }
 
-}  // namespace
-
-Result<Tls> Tls::Load(const std::filesystem::path& certificate, const std::filesystem::path& key) {
+Result<std::shared_ptr<SSL_CTX>> ContextOf(const std::filesystem::path& certificate,
+                                           const std::filesystem::path& key) {
   ERR_clear_error();
   const std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
   if (!context || SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION) != 1) {
@@ -51,7 +52,63 @@ Result<Tls> Tls::Load(const std::filesystem::path& certificate, const std::files
       SSL_CTX_check_private_key(context.get()) != 1) {
     return Unusable("the key", key);
   }
-  return Tls(context);
+  return context;
+}
+
+// Changes when one of the files does.
+std::string VersionOf(const std::filesystem::path& certificate, const std::filesystem::path& key) {
+  std::string version;
+  for (const std::filesystem::path& file : {certificate, key}) {
+    struct stat status {};
+    if (stat(file.c_str(), &status) != 0) return "";
+    version += fmt::format("{}.{}.{}.{} ", status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                           status.st_mtim.tv_nsec);
+  }
+  return version;
+}
+
+}  // namespace
+
+struct Tls::Files {
+  using Clock = std::chrono::steady_clock;
+
+  std::filesystem::path certificate{};
+  std::filesystem::path key{};
+  std::chrono::milliseconds look_every{};
+  std::mutex mutex{};  // guards what follows
+  std::shared_ptr<SSL_CTX> context{};
+  std::string version{};
+  Clock::time_point look_at{};
+};
+
+Result<Tls> Tls::Load(const std::filesystem::path& certificate, const std::filesystem::path& key,
+                      std::chrono::milliseconds look_every) {
+  auto version = VersionOf(certificate, key);
+  auto context = ContextOf(certificate, key);
+  if (!context) return tl::unexpected(context.error());
+  const auto files = std::make_shared<Files>();
+  files->certificate = certificate;
+  files->key = key;
+  files->look_every = look_every;
+  files->context = *std::move(context);
+  files->version = std::move(version);
+  files->look_at = Files::Clock::now() + look_every;
+  return Tls(files);
+}
+
+std::shared_ptr<ssl_ctx_st> Tls::Context() const {
+  const std::scoped_lock lock(files_->mutex);
+  const auto now = Files::Clock::now();
+  if (now < files_->look_at) return files_->context;
+  files_->look_at = now + files_->look_every;
+  std::string version = VersionOf(files_->certificate, files_->key);
+  if (version == files_->version) return files_->context;
+  // One may be there before the other is: then again the next time.
+  if (auto context = ContextOf(files_->certificate, files_->key)) {
+    files_->context = *std::move(context);
+    files_->version = std::move(version);
+  }
+  return files_->context;
 }
 
 }  // namespace trailcast::http

@@ -37,6 +37,19 @@ class Lock {
   bool holds_ = false;
 };
 
+// Root adds users to a service's folder, and the service is to read them.
+Result<void> GiveToOwner(const std::filesystem::path& file) {
+  if (geteuid() != 0) return {};
+  struct stat folder {};
+  if (stat(FolderOf(file).c_str(), &folder) == 0 &&
+      chown(file.c_str(), folder.st_uid, folder.st_gid) == 0) {
+    return {};
+  }
+  const std::error_code error(errno, std::generic_category());
+  return Fail(ErrorCode::kUnavailable, "cannot give {} to the owner of its folder: {}",
+              file.string(), error.message());
+}
+
 }  // namespace
 
 Result<Users> LoadUsers(const std::filesystem::path& file) {
@@ -70,7 +83,8 @@ Result<void> ChangeUsers(const std::filesystem::path& file,
   if (users.size() > kMostUsers) {
     return Fail(ErrorCode::kInvalidArgument, "more than {} users are too many", kMostUsers);
   }
-  return ReplaceFile(file, TextOf(users), 0600);
+  if (auto written = ReplaceFile(file, TextOf(users), 0600); !written) return written;
+  return GiveToOwner(file);
 }
 
 WatchedUsers::WatchedUsers(std::filesystem::path file, Users users)

@@ -123,5 +123,17 @@ TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
   EXPECT_THAT(why(folder_ / "nonsense", files_.key), HasSubstr("the certificate in"));
 }
 
+TEST_F(TlsTest, FilesThatAreRenewedAreTakenUp) {
+  const test::SelfSigned mine = test::MakeSelfSigned(folder_ / "", "mine");
+  const auto tls = Tls::Load(mine.certificate, mine.key, std::chrono::milliseconds(0)).value();
+  const auto first = tls.Context();
+  EXPECT_EQ(tls.Context(), first);
+  const test::SelfSigned renewed = test::MakeSelfSigned(folder_ / "", "renewed");
+  std::filesystem::rename(renewed.certificate, mine.certificate);
+  EXPECT_EQ(tls.Context(), first) << "which has no key yet";
+  std::filesystem::rename(renewed.key, mine.key);
+  EXPECT_NE(tls.Context(), first);
+}
+
 }  // namespace
 }  // namespace trailcast::http

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -65,6 +66,12 @@ TEST(Users, TheFileIsItsOwnersAlone) {
   struct stat status {};
   ASSERT_EQ(stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0600U);
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(folder.path().c_str(), 12345, 12345), 0);
+    ASSERT_TRUE(add("bob"));
+    ASSERT_EQ(stat(file.c_str(), &status), 0);
+    EXPECT_EQ(status.st_uid, 12345U) << "who the folder is of reads it";
+  }
   const auto refused = ChangeUsers(file, [](Users& users) -> Result<void> {
     users.clear();
     return Fail(ErrorCode::kNotFound, "no");
