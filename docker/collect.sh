@@ -55,7 +55,8 @@ images=("${@:3}")
 ((${#images[@]})) || images=(server agent robot console tools)
 for image in "${images[@]}"; do
   case $image in
-    server | agent | console) collect "$image" '' "$programs/trailcast-$image" ;;
+    server | agent) collect "$image" '' "$programs/trailcast-$image" ;;
+    console) collect console '' "$programs/trailcast-console" "$(command -v openssl)" "$here/console.sh" ;;
     robot) collect robot agent "$programs/trailcast" "$here/robot.sh" ;;
     tools)
       collect tools '' "$programs"/{trailcast{,-agent,-console,-server},libtrailcast_{codecs,simulated}.so}

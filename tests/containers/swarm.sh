@@ -7,7 +7,7 @@
 #   tests/containers/swarm.sh --all            all of them
 #   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken missions
 #                                              queue strangers crowd compose
-#                                              stop_under_load who_may_send
+#                                              stop_under_load who_may_send console
 # With --from-source in front, the images are built from the repository alone, as a user would.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
@@ -22,7 +22,7 @@ source "$here/expect.sh"
 # shellcheck source=tests/containers/faults.sh
 source "$here/faults.sh"
 
-all=(follow late lossy cut killed broken missions stop_under_load who_may_send queue
+all=(follow late lossy cut killed broken missions stop_under_load who_may_send queue console
   strangers crowd compose)
 quick=(follow killed broken missions stop_under_load who_may_send)
 

@@ -9,7 +9,7 @@ scenario_stop_under_load() {
   start_server
   start_robot scout webcam teach --route yard --delivery-timeout 120
   expect_taught
-  contain desk console --
+  contain desk console --env TRAILCAST_HTTP_HOST=127.0.0.1 --
   start_robot robot1 wide serve
   await 60 'robot1 in the console' tells '"robot1"'
   limit server 8mbit
