@@ -1,5 +1,8 @@
 // The route format: what is decoded encodes to bytes that decode to the same, and a piece opens
-// only with its own digest and index.
+// only with its own digest and index; and what is drawn of it.
+#include <cmath>
+
+#include "services/console/src/shape.h"
 #include "services/route/codec.h"
 #include "services/route/digest.h"
 #include "tests/fuzz/fuzz.h"
@@ -17,6 +20,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto again = route::Decode(encoded);
   Require(again && *again == *segment, "what was decoded survives encoding");
   Require(route::Encode(*again) == encoded, "equal segments give equal bytes");
+
+  trailcast::console::ShapeMaker maker(320);
+  maker.Add(*segment);
+  maker.Add(*segment);
+  for (const auto& point : maker.Shape().points) {
+    Require(std::isfinite(point.x_m) && std::isfinite(point.y_m), "it can be drawn");
+  }
 
   route::SegmentPiece piece{.key = {},
                             .index = segment->index,
