@@ -2,9 +2,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 #include <thread>
 
+#include "services/console/atlas.h"
 #include "services/console/desk.h"
+#include "services/console/site.h"
 #include "services/console/users_command.h"
 #include "services/console/web.h"
 #include "services/fleet/operator_peer.h"
@@ -35,6 +39,7 @@ struct WebOptions {
   std::string tls_certificate;
   std::string tls_key;
   bool behind_proxy = false;
+  std::filesystem::path site;
 };
 
 bool IsLoopback(const std::string& host) {
@@ -103,11 +108,21 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
       common, commands ? console::ConsoleTopics() : console::LookingTopics());
   if (!peer) return program::Complain(app, peer.error());
   console::Desk desk(peer->self, std::move(peer->exchange));
+  program::CommonOptions surveyor = common;
+  surveyor.name += "-map";
+  console::Atlas atlas(
+      [&] { return trailcast::fleet::JoinAsOperator(surveyor, console::AtlasTopics()); });
+  std::unique_ptr<console::Site> site;
+  if (!options.site.empty()) {
+    auto opened = console::Site::Open(options.site);
+    if (!opened) return program::Complain(app, opened.error());
+    site = *std::move(opened);
+  }
   std::set<std::string> names;
   for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
   const char* scheme = entry->tls ? "https" : "http";
-  const auto web =
-      console::Web::Open(desk, options.host, options.port, std::move(names), *std::move(entry));
+  const auto web = console::Web::Open(desk, atlas, site.get(), options.host, options.port,
+                                      std::move(names), *std::move(entry));
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
                (*web)->port());
@@ -115,6 +130,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   desk.Close();
+  atlas.Close();
   return program::kExitOk;
 }
 
@@ -152,6 +168,11 @@ int Run(int argc, char** argv) {
                "Only a reverse proxy reaches the port, which speaks TLS to browsers and says in "
                "X-Forwarded-For where they are")
       ->envname("TRAILCAST_BEHIND_PROXY");
+  app.add_option(
+         "--site", options.site,
+         "Folder with the site's floor plan (plan.png or plan.jpg, and site.json) and where "
+         "routes lie upon it, which people say on the page and is kept there")
+      ->envname("TRAILCAST_SITE");
   const console::UsersCommand users(app);
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   return users.asked_for() ? users.Run() : Serve(app, common, options);

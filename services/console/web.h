@@ -7,7 +7,9 @@
 
 #include "services/base/result.h"
 #include "services/console/access.h"
+#include "services/console/atlas.h"
 #include "services/console/desk.h"
+#include "services/console/site.h"
 #include "services/http/door.h"
 #include "services/http/server.h"
 
@@ -20,15 +22,17 @@ class Web {
   static constexpr int kMostStreams = 16;
   static constexpr std::chrono::seconds kAliveEvery{5};
 
-  // `desk` outlives this. Port 0: any that is free; `names`: by which this host is known besides
-  // localhost, in lower case. kUnavailable when it cannot be listened on.
-  [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, const std::string& host,
-                                                         int port, std::set<std::string> names,
+  // `desk`, `atlas` and `site`, which may be null, outlive this. Port 0: any that is free; `names`:
+  // by which this host is known besides localhost, in lower case. kUnavailable when it cannot be
+  // listened on.
+  [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, Atlas& atlas, Site* site,
+                                                         const std::string& host, int port,
+                                                         std::set<std::string> names,
                                                          Entry entry = {});
   [[nodiscard]] int port() const { return server_.port(); }
 
  private:
-  Web(Desk& desk, Entry entry);
+  Web(Desk& desk, Atlas& atlas, Site* site, Entry entry);
   void ServeFiles();
   void ServeState();
   void ServeOrders();

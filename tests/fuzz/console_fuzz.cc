@@ -1,6 +1,9 @@
-// The bodies of requests to the console, and its file of users.
+// The bodies of requests to the console, its file of users, and the files of its site.
+#include <cmath>
+
 #include "services/base/text.h"
 #include "services/console/json.h"
+#include "services/console/site.h"
 #include "services/exchange/bounds.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -27,6 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Require(exchange::CheckBounds(mission).has_value(), "a mission may be published");
   }
   (void)console::ReadLogIn(body);
+  if (const auto placement = console::ReadPlacement(body)) {
+    Require(std::abs(placement->x_m) < 1e7 && placement->scale > 0.0, "it can be drawn there");
+  }
+  (void)console::ReadSiteFile(body);
+  (void)console::ReadPlacements(body);
   (void)console::ErrorBody(body);
   if (const auto users = users::ParseUsers(body)) {
     const auto again = users::ParseUsers(users::TextOf(*users));

@@ -32,6 +32,9 @@ export type Robot = {
   progress: number;
   along_m: number | null;
   length_m: number | null;
+  route_id: string;   // empty until it has found itself there
+  teaching: string;
+  place_sigma_m: number | null;
   speed_mps: number;
   mission: Mission | null;
   orders: Order[];
@@ -108,6 +111,20 @@ export async function get<Reply>(path: string, parameters: Record<string, string
   }
   try {
     const { json } = await ask(`${path}?${query}`, {});
+    return json.error ?? (json as Reply);
+  } catch {
+    return 'The console does not answer.';
+  }
+}
+
+// What is there then, or why nothing has changed.
+export async function change<Reply>(method: 'PUT' | 'DELETE', path: string, body: object | null): Promise<Reply | string> {
+  try {
+    const { json } = await ask(path, {
+      method,
+      headers: { 'Content-Type': 'application/json' },
+      body: body ? JSON.stringify(body) : undefined,
+    });
     return json.error ?? (json as Reply);
   } catch {
     return 'The console does not answer.';

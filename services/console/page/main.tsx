@@ -3,11 +3,13 @@ import { createRoot } from 'react-dom/client';
 import { stopAll, type Answer, type Fleet, type Robot } from './api';
 import { age, useFleet } from './fleet';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
+import { MapPage } from './map';
 import { useMay } from './me';
 import { Missions } from './missions';
 import { Pages, usePage } from './pages';
 import { Badge, RobotCard } from './robot';
 import { Routes } from './routes';
+import { Lines } from './strip';
 
 function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   const needing = robots.filter((robot) => robot.needs_person);
@@ -32,6 +34,7 @@ function Robots({ fleet, now_ms }: { fleet: Fleet | null; now_ms: number }) {
   return (
     <>
       <Attention robots={robots} now_ms={now_ms} />
+      <Lines robots={robots} />
       <section aria-label="Robots" className="robots">
         {fleet && robots.length === 0 && (
           <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
@@ -83,7 +86,9 @@ function Page() {
         </p>
       )}
       <main>
-        {page === 'routes' ? <Routes /> : <Robots fleet={fleet} now_ms={now_ms} />}
+        {page === 'routes' && <Routes />}
+        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} />}
+        {page === 'fleet' && <Robots fleet={fleet} now_ms={now_ms} />}
       </main>
       <footer>
         <p id="stop-help">

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'react';
 
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
-const pages = { fleet: 'Fleet', routes: 'Routes' };
+const pages = { fleet: 'Fleet', map: 'Map', routes: 'Routes' };
 
 export type PageName = keyof typeof pages;
 

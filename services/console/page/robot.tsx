@@ -3,6 +3,7 @@ import { tell, type Answer, type Order, type Robot, type RobotState } from './ap
 import { age } from './fleet';
 import { useMay } from './me';
 import { Send } from './send';
+import { Strip } from './strip';
 
 const words: Record<RobotState, string> = {
   silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
@@ -11,7 +12,7 @@ const words: Record<RobotState, string> = {
 };
 
 // A shape each, so that colour is not needed to tell them apart.
-const shapes: Record<RobotState, string> = {
+export const shapes: Record<RobotState, string> = {
   silent: 'M3 3 13 13M13 3 3 13', stopped: 'M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z',
   paused: 'M4 3h3v10H4zM9 3h3v10H9z', starting: 'M8 3v5l3 3', free: 'M3 8h10',
   waiting: 'M4 2h8L8 8l4 6H4l4-6z', teaching: 'M3 13 4 9l7-7 3 3-7 7z', driving: 'M4 2l9 6-9 6z',
@@ -25,26 +26,6 @@ export function Badge({ state }: { state: RobotState }) {
       <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
       {words[state]}
     </span>
-  );
-}
-
-function Strip({ robot }: { robot: Robot }) {
-  const metres = robot.along_m !== null && robot.length_m ? robot.along_m / robot.length_m : null;
-  const share = Math.min(1, Math.max(0, metres ?? robot.progress));
-  const done = `${(4 + 92 * share).toFixed(1)}%`;
-  const text = metres !== null
-    ? `${robot.along_m!.toFixed(1)} of ${robot.length_m!.toFixed(1)} m`
-    : robot.along_m !== null ? `${robot.along_m.toFixed(1)} m` : `${Math.round(100 * share)} %`;
-  return (
-    <div className="strip">
-      <svg role="img" aria-label={`${text} along ${robot.route}`} height="20" width="100%">
-        <line className="way" x1="4%" x2="96%" y1="10" y2="10" />
-        <line className="done" x1="4%" x2={done} y1="10" y2="10" />
-        <rect className="end" x="96%" y="3" width="4" height="14" />
-        <circle cx={done} cy="10" r="7" />
-      </svg>
-      <span>{robot.route}: {text}{robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}</span>
-    </div>
   );
 }
 

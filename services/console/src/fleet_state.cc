@@ -207,11 +207,15 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
              {"segment", status.segment},
              {"segments", status.segments},
              {"progress", Rounded(status.progress, 1000.0)},
+             {"route_id", ""},
+             {"teaching", ""},
              {"along_m", nullptr},
              {"length_m", nullptr},
              {"speed_mps", Rounded(status.speed_mps, 100.0)},
              {"orders", OrdersFor(StateOf(status, false), status, mission != nullptr)}};
   if (status.place) {
+    robot["route_id"] = status.place->key.route.value();
+    robot["teaching"] = fmt::format("{:x}", status.place->key.teaching.value());
     robot["along_m"] = Rounded(status.place->along_m, 100.0);
     const auto route = routes_.find(status.place->key);
     if (route != routes_.end() && route->second.info) {

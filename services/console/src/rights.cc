@@ -24,6 +24,9 @@ constexpr Row kRows[] = {
     {"GET", "/api/missions", Role::kLook},
     {"GET", "/api/robots/*/glance", Role::kLook},
     {"GET", "/api/routes", Role::kLook},
+    {"GET", "/api/routes/*/shape", Role::kLook},
+    {"GET", "/api/site", Role::kLook},
+    {"GET", "/api/site/plan", Role::kLook},
 
     {"POST", "/api/all/stop", Role::kOperate},
     {"POST", "/api/robots/*/pause", Role::kOperate},
@@ -32,6 +35,8 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/stop", Role::kOperate},
     {"POST", "/api/robots/*/release", Role::kOperate},
     {"POST", "/api/robots/*/missions", Role::kOperate},
+    {"PUT", "/api/site/placements/*", Role::kOperate},
+    {"DELETE", "/api/site/placements/*", Role::kOperate},
 };
 
 bool IsMeant(std::string_view path, std::string_view pattern) {

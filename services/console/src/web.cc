@@ -13,6 +13,7 @@
 #include "services/console/json.h"
 #include "services/console/src/answers.h"
 #include "services/console/src/files.h"
+#include "services/console/src/map_api.h"
 #include "services/console/src/routes_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
@@ -57,7 +58,7 @@ http::Limits LimitsFor(const Access& access) {
 
 }  // namespace
 
-Web::Web(Desk& desk, Entry entry)
+Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry)
     : desk_(desk), access_(std::move(entry)), server_(LimitsFor(access_)) {
   httplib::Headers headers{
       {"Content-Security-Policy",
@@ -88,14 +89,16 @@ Web::Web(Desk& desk, Entry entry)
   ServeOrders();
   ServeMissions();
   ServeRoutes(server_, desk_);
+  ServeMap(server_, atlas, site);
   access_.Serve(server_);
 }
 
-Result<std::unique_ptr<Web>> Web::Open(Desk& desk, const std::string& host, int port,
+Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
+                                       const std::string& host, int port,
                                        std::set<std::string> names, Entry entry) {
   const bool asks = entry.guard != nullptr;
   const auto tls = entry.tls;
-  std::unique_ptr<Web> web(new Web(desk, std::move(entry)));
+  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry)));
   web->door_ = {.port = port, .names = std::move(names), .encrypted = tls.has_value()};
   web->door_.any_name = asks && web->door_.names.empty();
   if (tls) web->server_.Speak(*tls);

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
 #include "services/program/presence.h"
 #include "tests/support/hostile_client.h"
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::console {
 namespace {
@@ -28,7 +30,12 @@ class WebTest : public testing::Test {
   exchange::InProcessBus bus_;
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
              Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(200)}};
-  std::unique_ptr<Web> web_ = Web::Open(desk_, "localhost", 0, {"desk.site"}).value();
+  Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
+                 return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+               },
+               milliseconds(200)};
+  std::unique_ptr<Web> web_ =
+      Web::Open(desk_, atlas_, nullptr, "localhost", 0, {"desk.site"}).value();
 };
 
 TEST_F(WebTest, ThePageComesWithWhatKeepsOthersOut) {
@@ -77,6 +84,49 @@ TEST_F(WebTest, ANarrowAnswerTellsTheConsolesTime) {
   const json shown = json::parse(state->body);
   EXPECT_GT(shown["now_unix_ms"], 1'000'000'000'000);
   EXPECT_EQ(shown["robots"], json::array());
+}
+
+TEST_F(WebTest, AShapeThatCannotBeFetchedSaysWhy) {
+  const std::string id(32, 'a');
+  EXPECT_EQ(Client().Get("/api/routes/hall/shape")->status, 404);
+  EXPECT_EQ(Client().Get("/api/routes/" + id + "/shape?teaching=x")->status, 400);
+  EXPECT_EQ(Client().Get("/api/routes/" + id + "/shape?teaching=0")->status, 400);
+  const auto shape = Client().Get("/api/routes/" + id + "/shape?teaching=1f");
+  ASSERT_TRUE(shape);
+  EXPECT_EQ(shape->status, 503) << "no server";
+  EXPECT_THAT(json::parse(shape->body)["error"].get<std::string>(), HasSubstr("no route server"));
+}
+
+TEST_F(WebTest, WithoutAFolderNothingIsPutUponASite) {
+  const std::string id(32, 'a');
+  EXPECT_EQ(json::parse(Client().Get("/api/site")->body)["kept"], false);
+  EXPECT_EQ(Client().Get("/api/site/plan")->status, 404);
+  const std::string put = R"({"x_m": 1, "y_m": 2, "heading_rad": 0, "scale": 1})";
+  EXPECT_EQ(Client().Put("/api/site/placements/" + id, put, "application/json")->status, 409);
+}
+
+TEST_F(WebTest, ARouteIsPutUponASiteByItsOwnPageAlone) {
+  const test::TempDir folder;
+  std::ofstream(folder / "plan.jpg", std::ios::binary) << "\xff\xd8\xff and so on";
+  std::ofstream(folder / "site.json") << R"({"metres_per_pixel": 0.05})";
+  const auto site = Site::Open(folder / "");
+  ASSERT_TRUE(site) << site.error().message;
+  web_ = Web::Open(desk_, atlas_, site->get(), "localhost", 0, {"desk.site"}).value();
+  const auto plan = Client().Get("/api/site/plan");
+  EXPECT_EQ(plan->get_header_value("Content-Type"), "image/jpeg");
+  EXPECT_EQ(plan->body.size(), 13U);
+
+  const std::string path = "/api/site/placements/" + std::string(32, 'a');
+  const std::string put = R"({"x_m": 1, "y_m": 2, "heading_rad": 0, "scale": 1})";
+  EXPECT_EQ(Client().Put(path, put, "application/json")->status, 200);
+  EXPECT_EQ(json::parse(Client().Get("/api/site")->body)["placements"].size(), 1U);
+  EXPECT_EQ(
+      Client().Put(path, {{"Origin", "http://evil.example"}}, put, "application/json")->status,
+      403);
+  EXPECT_EQ(Client().Put(path, "{", "application/json")->status, 400);
+  EXPECT_EQ(Client().Put("/api/site/placements/hall", put, "application/json")->status, 404);
+  EXPECT_EQ(Client().Delete(path)->status, 200);
+  EXPECT_EQ(json::parse(Client().Get("/api/site")->body)["placements"].size(), 0U);
 }
 
 TEST_F(WebTest, EventsTellWhatHasChanged) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "services/console/atlas.h"
+#include "services/console/site.h"
+#include "services/http/server.h"
+
+namespace trailcast::console {
+
+// What openapi.yaml has of routes' shapes and of the site. Both outlive the server; `site` may be
+// null.
+void ServeMap(http::Server& server, Atlas& atlas, Site* site);
+
+}  // namespace trailcast::console

@@ -1,0 +1,163 @@
+// The console's strip, shapes and site, in Chromium.
+#include <httplib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "services/image/files.h"
+#include "tests/scenario/robots.h"
+#include "tests/scenario/webdriver.h"
+
+namespace trailcast::test {
+namespace {
+
+using nlohmann::json;
+using std::chrono::steady_clock;
+using testing::HasSubstr;
+
+class ConsoleMapTest : public RobotsTest {
+ protected:
+  // A floor of 8 by 4 m, its walls drawn.
+  void DrawPlan() {
+    std::filesystem::create_directory(folder_ / "site");
+    image::GrayImage plan{160, 80, std::vector<std::uint8_t>(160U * 80U, 240)};
+    for (int y = 0; y < plan.height; ++y) {
+      for (int x = 0; x < plan.width; ++x) {
+        const bool wall = x < 2 || y < 2 || x >= 158 || y >= 78 || (x == 100 && y < 50);
+        if (wall) plan.pixels[image::PixelIndex(x, y, plan.width)] = 60;
+      }
+    }
+    ASSERT_TRUE(image::WritePng(plan, folder_ / "site/plan.png"));
+    std::ofstream(folder_ / "site/site.json") << R"({"metres_per_pixel": 0.05})";
+  }
+  void StartConsole() {
+    console_ = Start("trailcast-console", {"--http-port", "0", "--site", Path("site")}, "console");
+    const std::string said = "http://localhost:";
+    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
+    const std::string output = console_->output();
+    port_ = std::stoi(output.substr(output.find(said) + said.size()));
+    client_ = std::make_unique<httplib::Client>("localhost", port_);
+    client_->set_read_timeout(20);
+  }
+  json Get(const std::string& path) {
+    const auto got = client_->Get(path);
+    return got ? json::parse(got->body, nullptr, false) : json();
+  }
+  json Robot1() {
+    const json state = Get("/api/state");
+    if (!state.is_object()) return json::object();
+    for (const json& robot : state.value("robots", json::array())) {
+      if (robot["name"] == "robot1") return robot;
+    }
+    return json::object();
+  }
+  int Post(const std::string& path, const json& body = json::object()) {
+    const auto got = client_->Post(path, body.dump(), "application/json");
+    return got ? got->status : 0;
+  }
+  static bool WaitUntil(const std::function<bool()>& condition) {
+    const auto until = steady_clock::now() + Process::kBound;
+    while (!condition()) {
+      if (steady_clock::now() > until) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return true;
+  }
+  // Pixels from the left at which a robot is drawn; below 0: it is not.
+  static double DrawnAt(Browser& browser, const std::string& of) {
+    const json at = browser.Run("const robot = document.querySelector('" + of +
+                                " .on-line circle');"
+                                "return robot ? robot.getBoundingClientRect().left : -1");
+    return at.is_number() ? at.get<double>() : -1.0;
+  }
+  static bool Moves(Browser& browser, const std::string& of) {
+    double from = -1.0;
+    return WaitUntil([&] {
+      const double at = DrawnAt(browser, of);
+      if (from < 0.0) from = at;
+      return from >= 0.0 && at > from + 3.0;
+    });
+  }
+
+  std::unique_ptr<Process> server_;
+  std::unique_ptr<Process> robot_;
+  std::unique_ptr<Process> agent_;
+  std::unique_ptr<Process> console_;
+  std::unique_ptr<httplib::Client> client_;
+  int port_ = 0;
+};
+
+TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
+  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+  Teach();
+  DrawPlan();
+  server_ = Server();
+  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+  robot_ = Robot("robot1", {});
+  agent_ = Serve("robot1");
+  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  StartConsole();
+  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") == "free"; }));
+  const std::filesystem::path shots =
+      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
+  std::filesystem::create_directories(shots);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 800);
+  const std::string page = "http://localhost:" + std::to_string(port_) + "/";
+  browser.Open(page);
+
+  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall speed 0.25"}}), 200);
+  ASSERT_TRUE(browser.WaitForText("On their way")) << browser.Text() << agent_->output();
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelectorAll('.lines .cells').length") > json(0);
+  })) << browser.Text()
+      << console_->output();
+  ASSERT_TRUE(Moves(browser, ".lines")) << browser.Text() << agent_->output();
+  ASSERT_EQ(Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}}), 200);
+  ASSERT_TRUE(browser.WaitForText("paused by console: somebody walks here")) << browser.Text();
+  browser.Screenshot(shots / "line.png");
+  browser.Look(390, 844, true);
+  browser.Screenshot(shots / "phone-line.png");
+
+  const std::string hall = Robot1().value("route_id", "");
+  const json shape = Get("/api/routes/" + hall + "/shape");
+  EXPECT_NEAR(shape["length"].get<double>(), 3.5, 0.3) << shape.dump();
+  EXPECT_NEAR(shape["points"]["x_m"].back().get<double>(), 3.5, 0.3);
+  EXPECT_EQ(shape["closing"], nullptr);
+
+  ASSERT_TRUE(browser.Click("//nav//a[contains(., 'Map')]"));
+  ASSERT_TRUE(browser.WaitForText("By wheels, not a map")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".plan") > 0.0; })) << browser.Text();
+  browser.Screenshot(shots / "phone-shape.png");
+  browser.Look(1280, 800);
+  ASSERT_EQ(Post("/api/robots/robot1/resume"), 200);
+  ASSERT_TRUE(Moves(browser, ".plan")) << browser.Text() << agent_->output();
+  browser.Screenshot(shots / "shape.png");
+  ASSERT_EQ(Post("/api/robots/robot1/pause"), 200);
+
+  // Put there with the keyboard.
+  ASSERT_TRUE(browser.Click("//label[contains(., 'Site')]"));
+  ASSERT_TRUE(browser.Click("//select/option[contains(., 'hall')]")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//button[contains(., 'in the middle')]")) << browser.Text();
+  ASSERT_TRUE(browser.Type("//*[@class='handles']",
+                           "\xEE\x80\x92\xEE\x80\x93"
+                           "e"));
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Save')]"));
+  ASSERT_TRUE(browser.WaitForText("hall is placed")) << browser.Text();
+  const json placed = Get("/api/site")["placements"][hall];
+  EXPECT_NEAR(placed["x_m"].get<double>(), 3.9, 1e-6) << placed.dump() << "left, and up";
+  EXPECT_NEAR(placed["y_m"].get<double>(), 2.1, 1e-6);
+  EXPECT_NEAR(placed["heading_rad"].get<double>(), -0.0175, 1e-3);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "site/placements.json"));
+  ASSERT_EQ(Post("/api/robots/robot1/resume"), 200);
+  ASSERT_TRUE(Moves(browser, ".site")) << browser.Text() << agent_->output();
+  browser.Screenshot(shots / "site.png");
+  browser.Look(390, 844, true);
+  browser.Screenshot(shots / "phone-site.png");
+}
+
+}  // namespace
+}  // namespace trailcast::test
