@@ -34,7 +34,8 @@ export type Robot = {
   length_m: number | null;
   route_id: string;   // empty until it has found itself there
   teaching: string;
-  place_sigma_m: number | null;
+  left_m?: number | null;        // beside its path
+  left_sigma_m?: number | null;  // how sure it is of that
   speed_mps: number;
   mission: Mission | null;
   orders: Order[];

@@ -1,6 +1,7 @@
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import { createRoot } from 'react-dom/client';
 import { stopAll, type Answer, type Fleet, type Robot } from './api';
+import { remember } from './doubts';
 import { age, useFleet } from './fleet';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
 import { MapPage } from './map';
@@ -56,6 +57,7 @@ function Page() {
   const [answer, setAnswer] = useState<Answer | null>(null);
   const page = usePage();
   const mayOperate = useMay('operate');
+  useEffect(() => remember(fleet?.robots ?? []), [fleet]);
   const servers = fleet?.servers ?? [];
   const stop = async () => {
     setAnswer({ ok: true, text: 'Stop: told to all …' });

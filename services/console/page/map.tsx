@@ -1,6 +1,7 @@
 import { useEffect, useMemo, useRef, useState } from 'react';
 import { get, type Robot, type Route } from './api';
-import { asTaught, boxOf, classPaths, onPlan, pathOf, roundLength, type OnPlan, type Point } from './plan';
+import { doubts, kUnsure_m } from './doubts';
+import { asTaught, beside, boxOf, classPaths, onPlan, pathOf, pointAt, roundLength, type OnPlan, type Point } from './plan';
 import { Badge, shapes } from './robot';
 import { along, classes, useOnScreen, useShape, type Measure, type Shape } from './shape';
 import { SiteView } from './site';
@@ -51,6 +52,7 @@ export function MapLegend({ measure }: { measure: Measure }) {
         </span>
       ))}
       <span><svg width="34" height="18" aria-hidden="true"><path className="doubt" d="M2 9H32" /></svg>followers may be unsure</span>
+      <span><svg width="34" height="18" aria-hidden="true"><path className="doubted" d="M2 9H32" /></svg>they were (± {kUnsure_m} m and more) while this page was open</span>
     </p>
   );
 }
@@ -95,11 +97,17 @@ function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measu
       <svg role="img" width="100%" height={height}
         aria-label={`The route's shape by its scout's wheels. ${text.slice(0, 20).join('; ') || 'No robot is on it.'}`}>
         {course}
+        {doubts(shape.route, shape.teaching, shape.length).map((each, i) => (
+          <path key={i} className="doubted" d={pathOf(shape, each.begin, each.end, draw)} />
+        ))}
         {robots.map((robot) => {
           const at = along(robot, shape);
-          const sigma = robot.place_sigma_m ?? 0;
+          const sigma = robot.left_sigma_m ?? 0;
           if (at === null || sigma <= 0) return null;
-          return <path key={robot.name} className="unsure-way" d={pathOf(shape, Math.max(0, at - sigma), Math.min(shape.length, at + sigma), draw)} />;
+          const on = pointAt(shape, at);
+          const one = draw(beside(on, (robot.left_m ?? 0) - sigma));
+          const other = draw(beside(on, (robot.left_m ?? 0) + sigma));
+          return <path key={robot.name} className="unsure-way" d={`M${one.x} ${one.y}L${other.x} ${other.y}`} />;
         })}
         <circle className="begin" cx={start.x} cy={start.y} r="6" />
         <rect className="finish" x={end.x - 5} y={end.y - 5} width="10" height="10" />

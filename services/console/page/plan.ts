@@ -52,6 +52,10 @@ export function pointAt(shape: Shape, at: number): Point & { heading: number } {
   };
 }
 
+export function beside(at: Point & { heading: number }, left_m: number): Point {
+  return { x: at.x - left_m * Math.sin(at.heading), y: at.y + left_m * Math.cos(at.heading) };
+}
+
 // Of a stretch, as a path: its own ends, and what lies between.
 export function pathOf(shape: Shape, begin: number, end: number, draw: (at: Point) => Point): string {
   const text = (at: Point) => {
@@ -117,9 +121,10 @@ export type OnPlan = { robot: Robot; x: number; y: number; heading: number; name
 // out.
 export function onPlan(robots: Robot[], shape: Shape, draw: (at: Point) => Point): OnPlan[] {
   const marks = robots.map((robot) => {
-    const at = pointAt(shape, along(robot, shape) ?? 0);
+    const on = pointAt(shape, along(robot, shape) ?? 0);
+    const at = beside(on, robot.left_m ?? 0);
     const { x, y } = draw(at);
-    const front = draw({ x: at.x + Math.cos(at.heading), y: at.y + Math.sin(at.heading) });
+    const front = draw({ x: at.x + Math.cos(on.heading), y: at.y + Math.sin(on.heading) });
     return { robot, x, y, heading: Math.atan2(front.y - y, front.x - x), named: false };
   });
   marks.sort((one, other) => Number(stands(one.robot)) - Number(stands(other.robot)));

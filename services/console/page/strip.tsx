@@ -1,5 +1,6 @@
 import { memo, useRef } from 'react';
 import type { Robot } from './api';
+import { doubts, kUnsure_m } from './doubts';
 import { Badge, shapes } from './robot';
 import { along, classes, stretches, useOnScreen, useShape, type Shape } from './shape';
 
@@ -10,6 +11,7 @@ const kRows = 2;
 const kLetter = 7.2;   // about as wide as one of a name
 const kLeastTick = 5;  // between hand-overs that can be told apart
 const kHalf = [2, 4, 6, 8];  // of a class's height
+const kPerMetre = 22;  // px, that a robot may be beside its path
 
 // Of them names and marks are seen first.
 export const stands = (robot: Robot) => robot.state !== 'driving' && robot.state !== 'teaching';
@@ -62,22 +64,16 @@ function place(robots: Robot[], shape: Shape | null, length: number, x: (at: num
   return marks;
 }
 
-function Marker({ mark, x, shape, width }: {
-  mark: Mark;
-  x: (at: number) => number;
-  shape: Shape | null;
-  width: number;
-}) {
+function Marker({ mark, width }: { mark: Mark; width: number }) {
   const { robot, row } = mark;
-  const sigma = robot.place_sigma_m && shape?.unit !== 's' ? robot.place_sigma_m : 0;
+  const half = 9 + kPerMetre * Math.min(1, robot.left_sigma_m ?? 0);
   const wide = robot.name.length * kLetter;
   const name = Math.min(Math.max(wide / 2, mark.x), width - wide / 2);
   const colour = `on-line ${robot.state}${robot.heard ? '' : ' unheard'}`;
   return (
     <g className={colour}>
-      {sigma > 0 && (
-        <rect className="unsure" x={x(mark.at - sigma)} width={x(mark.at + sigma) - x(mark.at - sigma)}
-          y={kMiddle - 11} height={22} rx={3} />
+      {robot.left_sigma_m && (
+        <rect className="unsure" x={mark.x - 11} width={22} y={kMiddle - half} height={2 * half} rx={4} />
       )}
       {row >= 0 && <path className="lead" d={`M${mark.x} ${kMiddle - 9}V${kMiddle - 14 - kRow * row}`} />}
       <g transform={`translate(${mark.x - 8} ${kMiddle - 8})`}>
@@ -92,8 +88,8 @@ function Marker({ mark, x, shape, width }: {
 export function how(robot: Robot, at: number | null, unit: string): string {
   const of = robot.length_m && unit === 'm' ? ` of ${robot.length_m.toFixed(1)}` : '';
   const where = at === null ? `${Math.round(100 * robot.progress)} %` : `${at.toFixed(1)}${of} ${unit}`;
-  const sure = robot.place_sigma_m ? ` ± ${robot.place_sigma_m.toFixed(2)} m` : '';
-  return `${where}${sure}${robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}`;
+  const sure = robot.left_sigma_m ? `, ${Math.abs(robot.left_m ?? 0).toFixed(2)} ± ${robot.left_sigma_m.toFixed(2)} m ${(robot.left_m ?? 0) < 0 ? 'right' : 'left'} of its path` : '';
+  return `${where}${robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}${sure}`;
 }
 
 // A route as a metro line, with the robots upon it.
@@ -101,12 +97,14 @@ export function Line({ robots }: { robots: Robot[] }) {
   const ref = useRef<HTMLDivElement>(null);
   const { seen, width } = useOnScreen(ref);
   const on = robots.find((robot) => robot.route_id) ?? robots[0];
-  const { shape, fetched, error } = useShape(on.route_id ?? '', on.teaching ?? '', seen);
+  const { shape, fetched, error } = useShape(on.route_id, on.teaching, seen);
   const known = Math.max(...robots.map((robot) => robot.length_m ?? robot.along_m ?? 0));
   const length = shape?.length || known || 1;
   const unit = shape?.unit ?? 'm';
   const x = scaleOf(length, width);
   const marks = place(robots, shape, length, x, width);
+  const unsure = doubts(on.route_id, on.teaching, length).map(({ begin, end }) =>
+    `M${x(begin).toFixed(1)} ${kMiddle + 16}H${x(end).toFixed(1)}`);
   const text = robots.slice(0, 20)
     .map((robot) => `${robot.name} ${robot.state} at ${how(robot, along(robot, shape), unit)}`).join('; ');
   return (
@@ -114,12 +112,13 @@ export function Line({ robots }: { robots: Robot[] }) {
       <svg role="img" aria-label={`Route ${on.route}: ${text}`} width="100%" height={kMiddle + 30}>
         <path className="way" d={`M${x(0)} ${kMiddle}H${x(length)}`} />
         {shape && <Cells shape={shape} width={width} />}
+        {unsure.length > 0 && <path className="doubted" d={unsure.join('')} />}
         <path className="ends" d={`M${x(0)} ${kMiddle - 11}v22M${x(length)} ${kMiddle - 11}v22`} />
         <text className="scale" x={x(0)} y={kMiddle + 27}>0</text>
         <text className="scale" x={x(length)} y={kMiddle + 27} textAnchor="end">
           {shape || known ? metres(length, unit) : 'its end'}
         </text>
-        {marks.map((mark) => <Marker key={mark.robot.name} mark={mark} x={x} shape={shape} width={width} />)}
+        {marks.map((mark) => <Marker key={mark.robot.name} mark={mark} width={width} />)}
       </svg>
       {!shape && on.route_id && (fetched > 0 || error) && (
         <p className="note">{error ? `Its segments are not shown: ${error}.` : `Fetching its segments: ${Math.round(100 * fetched)} %`}</p>
@@ -149,7 +148,8 @@ export function Legend() {
         </span>
       ))}
       <span><svg width="22" height="18" aria-hidden="true"><path className="weak" d="M0 9H22" /></svg>weak: followers may be unsure</span>
-      <span><svg width="22" height="18" aria-hidden="true"><rect className="unsure" x="2" width="18" y="2" height="14" rx="3" /></svg>where a robot may be</span>
+      <span><svg width="22" height="18" aria-hidden="true"><path className="doubted" d="M0 9H22" /></svg>they were (± {kUnsure_m} m and more) while this page was open</span>
+      <span><svg width="22" height="18" aria-hidden="true"><rect className="unsure" x="4" width="14" y="1" height="16" rx="4" /></svg>the taller, the less sure a robot is</span>
     </p>
   );
 }
