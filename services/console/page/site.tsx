@@ -1,5 +1,6 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
 import { change, get, type Answer, type Robot, type Route } from './api';
+import { useMay } from './me';
 import { ClassPaths, RoutePicker, Robots } from './map';
 import { boxOf, metresFrom, onPlan, placed, roundLength, type Box, type Origin, type Placement, type Point, type Site } from './plan';
 import { useOnScreen, useShape } from './shape';
@@ -152,6 +153,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [boxes, setBoxes] = useState<Record<string, Box>>({});
   const plan = usePlanSize(site);
+  const mayPlace = useMay('operate') && site?.kept;
 
   useEffect(() => {
     let over = false;
@@ -262,14 +264,14 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
             <PlacedRoute route={chosen} robots={robots.filter((robot) => robot.route_id === chosen.route)}
               placement={draft} toScreen={toScreen} chosen onBox={onBox} />
           )}
-          {chosen && at && site?.kept && <Handles placement={at} toScreen={toScreen} toSite={toSite} onChange={edit} />}
+          {chosen && at && mayPlace && <Handles placement={at} toScreen={toScreen} toSite={toSite} onChange={edit} />}
         </svg>
       </div>
       <p className="note">
         <svg width={bar_m * perMetre + 4} height="12" aria-hidden="true"><path className="bar" d={`M2 2v6h${bar_m * perMetre}v-6`} /></svg>{' '}
         {bar_m} m. Routes lie where somebody has put them, or where their scouts said that they begin; between them, it is as good as that.
       </p>
-      {chosen && site?.kept && (
+      {chosen && mayPlace && (
         <section className="placing" aria-label={`Place of ${chosen.name}`}>
           {!at && <button onClick={() => edit(middle)}>Put {chosen.name} in the middle</button>}
           {at && (

@@ -47,7 +47,7 @@ class AccessTest : public testing::Test {
   }
   void Open(Entry entry) {
     web_.reset();
-    web_ = Web::Open(desk_, "localhost", 0, {}, std::move(entry)).value();
+    web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}, std::move(entry)).value();
   }
   struct Got {
     int status = 0;
@@ -91,6 +91,9 @@ class AccessTest : public testing::Test {
   exchange::InProcessBus bus_;
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
              Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(200)}};
+  Atlas atlas_{[]() -> Result<fleet::OperatorPeer> {
+    return Fail(ErrorCode::kUnavailable, "there is no fleet");
+  }};
   std::unique_ptr<Web> web_;
 };
 
@@ -216,6 +219,8 @@ TEST_F(AccessTest, BehindAProxyItSaysWhereClientsAre) {
 TEST(Rights, AreGivenByTheTableAlone) {
   EXPECT_EQ(RightTo("POST", "/api/robots/robot1/stop").needs, Role::kOperate);
   EXPECT_EQ(RightTo("GET", "/api/state").needs, Role::kLook);
+  EXPECT_EQ(RightTo("GET", "/api/site").needs, Role::kLook);
+  EXPECT_EQ(RightTo("PUT", "/api/site/placements/ab").needs, Role::kOperate);
   EXPECT_TRUE(RightTo("GET", "/").is_known);
   for (const char* path : {"/api/robots//stop", "/api/robots/robot1/stop/", "/api/robots/a/b/stop",
                            "/api/robots/robot1", "/api/robots/robot1/dance", "/api/", "/api"}) {
