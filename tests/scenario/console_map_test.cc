@@ -140,7 +140,9 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
 
   // Put there with the keyboard.
   ASSERT_TRUE(browser.Click("//label[contains(., 'Site')]"));
+  ASSERT_TRUE(browser.WaitForText("hall, 3.5 m")) << browser.Text();
   ASSERT_TRUE(browser.Click("//select/option[contains(., 'hall')]")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Put hall in the middle")) << browser.Text();
   ASSERT_TRUE(browser.Click("//button[contains(., 'in the middle')]")) << browser.Text();
   ASSERT_TRUE(browser.Type("//*[@class='handles']",
                            "\xEE\x80\x92\xEE\x80\x93"
