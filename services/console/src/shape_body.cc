@@ -46,8 +46,8 @@ Json PointsValue(const std::vector<ShapePoint>& points) {
   Json y_m = Json::array();
   for (const ShapePoint& point : points) {
     along.push_back(Rounded(point.along, 100.0));
-    x_m.push_back(Rounded(point.x_m, 100.0));
-    y_m.push_back(Rounded(point.y_m, 100.0));
+    x_m.push_back(Rounded(point.x_m, 1000.0));
+    y_m.push_back(Rounded(point.y_m, 1000.0));
   }
   return {{"along", std::move(along)}, {"x_m", std::move(x_m)}, {"y_m", std::move(y_m)}};
 }
