@@ -17,7 +17,8 @@ class NowTest : public RobotsTest {
     server_ = Server();
   }
   std::unique_ptr<Process> FollowWithServer(const std::string& log = "follower") {
-    return Follow("robot1", "routes.db", {"--server", "--name", "robot1"}, log);
+    return Follow("robot1", "routes.db",
+                  {"--server", "--name", "robot1", "--max-speed", kUnhurried_mps}, log);
   }
   // On its way along the route, in real time.
   void Begin() {

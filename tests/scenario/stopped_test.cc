@@ -91,9 +91,8 @@ class StoppedTest : public ProgramsTest {
     }
     return 1e-6 * bytes;
   }
-  // In the middle of what fills that store.
-  void AwaitGrown(const std::string& store, const Process& filling) const {
-    const double begin_mb = SizeMB(store);
+  // In the middle of what fills that store, which was so large before.
+  void AwaitGrown(const std::string& store, const Process& filling, double begin_mb = 0.0) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (SizeMB(store) < begin_mb + kBeginningMB) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << filling.output();
@@ -142,9 +141,10 @@ TEST_F(StoppedTest, AServerCostsNeitherItsFollowerNorItsScoutMemory) {
   Put("server.db", 1, route::Standing::kActive);
   Put("scout.db", 2, route::Standing::kStaged);
   const auto server = Server();
+  const double held_mb = SizeMB("server.db");
   const auto follower = Fetch("follower");
   const auto scout = Deliver("scout");
-  AwaitGrown("server.db", *scout);
+  AwaitGrown("server.db", *scout, held_mb);
   AwaitGrown("follower.db", *follower);
   server->Signal(SIGSTOP);
   const MemoryWatch followers(*follower);
