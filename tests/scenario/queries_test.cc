@@ -166,12 +166,14 @@ TEST_F(QueriesTest, FiveHundredByViewAtOnceHoldUpNoWordOnHealth) {
   asks_command = {};
   EXPECT_TRUE(waiting.empty()) << waiting.size() << " robots were not answered";
   EXPECT_EQ(right, kClients);
-  EXPECT_GE(page.times, 2);
+  // Some hundred in the second or so that they take: held up it would be one. Time itself says
+  // less: a busy machine stands for as long.
+  EXPECT_GE(page.times, 10);
   EXPECT_GE(command.times, 2);
   EXPECT_EQ(page.wrong, "");
   EXPECT_EQ(command.wrong, "");
-  EXPECT_LT(page.longest, seconds(1));
-  EXPECT_LT(command.longest, seconds(1));
+  EXPECT_LT(page.longest, seconds(10));
+  EXPECT_LT(command.longest, seconds(10));
   fmt::print("{} answers in {} ms; /health asked {} times, {} ms at most; health {} times, {} ms\n",
              kClients, last.count(), page.times, page.longest.count(), command.times,
              command.longest.count());
