@@ -123,7 +123,9 @@ std::string Access::Session(const Request& request) const { return CookieIn(requ
 std::string Access::AddressOf(const Request& request) const {
   if (!entry_.behind_proxy) return users::AddressKey(request.remote_addr);
   // The last one is what the proxy has seen; those before it anybody may have written.
-  const std::string header = request.get_header_value("X-Forwarded-For");
+  const std::size_t headers = request.get_header_value_count("X-Forwarded-For");
+  const std::string header =
+      request.get_header_value("X-Forwarded-For", headers == 0 ? 0 : headers - 1);
   const std::size_t comma = header.rfind(',');
   const std::string last = comma == std::string::npos ? header : header.substr(comma + 1);
   const std::size_t from = last.find_first_not_of(' ');

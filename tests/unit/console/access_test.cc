@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "services/console/rights.h"
 #include "services/console/src/files.h"
@@ -166,6 +168,23 @@ TEST_F(AccessTest, AProgramSendsItsToken) {
   EXPECT_EQ(Get("/api/me", both).status, 401) << "a wrong one is not made good by a cookie";
 }
 
+TEST_F(AccessTest, RobotsAreToldWhoGaveAnOrder) {
+  using exchange::Topic;
+  const auto robot = bus_.Open({.write = {}, .read = {Topic::kNow, Topic::kMissions}});
+  const httplib::Headers anna = As("anna");
+  EXPECT_EQ(Post("/api/robots/robot1/stop", anna, {{"reason", "rain"}}).status, 504);
+  EXPECT_EQ(Post("/api/robots/robot1/pause", anna).status, 504);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", anna, {{"orders", "wait 5"}}).status, 504);
+  std::set<std::string> said;
+  for (const exchange::Message& message : robot->Take(milliseconds(1000))) {
+    if (const auto* now = std::get_if<exchange::NowCommand>(&message)) said.insert(now->reason);
+    if (const auto* mission = std::get_if<mission::Mission>(&message)) {
+      said.insert(mission->id.substr(0, 5));
+    }
+  }
+  EXPECT_EQ(said, (std::set<std::string>{"anna", "anna-", "anna: rain"}));
+}
+
 TEST_F(AccessTest, WhoGuessesIsToldToWait) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(LogIn("anna", "wrong").status, 401) << i;
   const Got refused = LogIn("anna", kPassword);
@@ -213,6 +232,8 @@ TEST_F(AccessTest, BehindAProxyItSaysWhereClientsAre) {
   EXPECT_THAT(in.header("Strict-Transport-Security"), HasSubstr("max-age"));
   for (int i = 0; i < 6; ++i) EXPECT_EQ(LogIn("anna", "wrong", stranger).status, 401);
   EXPECT_EQ(LogIn("guest", kPassword, {{"X-Forwarded-For", "10.0.0.9, 192.0.2.1"}}).status, 429);
+  const httplib::Headers two{{"X-Forwarded-For", "10.0.0.8"}, {"X-Forwarded-For", "192.0.2.1"}};
+  EXPECT_EQ(LogIn("guest", kPassword, two).status, 429);
   EXPECT_EQ(LogIn("guest", kPassword, {{"X-Forwarded-For", "192.0.2.2"}}).status, 200);
 }
 
