@@ -126,7 +126,8 @@ void Atlas::Run() {
 }
 
 Result<route::RouteInfo> Atlas::Ask(fleet::OperatorPeer& peer, const Wanted& wanted) {
-  const auto& [route, teaching] = wanted;
+  const RouteId& route = wanted.first;
+  const std::optional<TeachingId>& teaching = wanted.second;
   const auto reply = fleet::AskForRoutes(*peer.exchange, peer.self, {.name = route.value()},
                                          exchange::kMaxRoutesPerReply, reply_within_);
   if (!reply) return tl::unexpected(reply.error());
