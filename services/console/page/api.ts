@@ -34,9 +34,13 @@ export type Robot = {
   length_m: number | null;
   route_id: string;   // empty until it has found itself there
   teaching: string;
-  left_m?: number | null;        // beside its path
-  left_sigma_m?: number | null;  // how sure it is of that
+  left_m: number | null;        // beside its path
+  left_sigma_m: number | null;  // how sure it is of that
   speed_mps: number;
+  on_duty: boolean;
+  battery_percent: number | null;
+  link_percent: number | null;
+  software: string;
   mission: Mission | null;
   orders: Order[];
 };

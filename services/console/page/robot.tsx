@@ -4,6 +4,7 @@ import { age } from './fleet';
 import { useMay } from './me';
 import { Send } from './send';
 import { Strip } from './strip';
+import { Vitals } from './vitals';
 
 const words: Record<RobotState, string> = {
   silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
@@ -69,6 +70,7 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
       )}
       {robot.detail && robot.detail !== 'free' && <p className="detail">{robot.detail}</p>}
       {robot.route && <Strip robot={robot} />}
+      <Vitals robot={robot} />
       {mission && (
         <p className="mission">
           Mission <code>{mission.mission}</code> of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'}

@@ -196,6 +196,9 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
   const mission::Record* mission =
       latest != nullptr && mission::HasEnded(latest->last.state) ? nullptr : latest;
   const bool fails = state == "fault" || failed || (state == "silent" && mission != nullptr);
+  const auto percent = [](std::optional<std::uint8_t> value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
   Json robot{{"name", status.agent.value()},
              {"role", ToText(status.role)},
              {"state", state},
@@ -211,12 +214,23 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
              {"teaching", ""},
              {"along_m", nullptr},
              {"length_m", nullptr},
+             {"left_m", nullptr},
+             {"left_sigma_m", nullptr},
              {"speed_mps", Rounded(status.speed_mps, 100.0)},
+             {"on_duty", status.on_duty},
+             {"battery_percent", percent(status.battery_percent)},
+             {"link_percent", percent(status.link_percent)},
+             {"software", status.software},
              {"orders", OrdersFor(StateOf(status, false), status, mission != nullptr)}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();
     robot["teaching"] = fmt::format("{:x}", status.place->key.teaching.value());
     robot["along_m"] = Rounded(status.place->along_m, 100.0);
+    if (status.place->left_sigma_m > 0.0) {
+      robot["left_m"] = Rounded(status.place->left_m, 100.0);
+      // Never 0, which is how robots say that they do not know.
+      robot["left_sigma_m"] = std::max(0.01, Rounded(status.place->left_sigma_m, 100.0));
+    }
     const auto route = routes_.find(status.place->key);
     if (route != routes_.end() && route->second.info) {
       robot["length_m"] = Rounded(route->second.info->length_m, 100.0);

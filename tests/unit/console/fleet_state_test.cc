@@ -85,6 +85,27 @@ TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
   EXPECT_EQ(Robot()["needs_person"], true);
 }
 
+TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
+  AgentStatus status = Status("robot1", AgentMode::kWaiting);
+  Hear(status);
+  EXPECT_EQ(Robot()["battery_percent"], nullptr);
+  EXPECT_EQ(Robot()["link_percent"], nullptr);
+  EXPECT_EQ(Robot()["left_sigma_m"], nullptr);
+  status.battery_percent = 12;
+  status.link_percent = 71;
+  status.software = "0.1.0";
+  status.place = {{RouteId(std::string(32, 'a')), TeachingId(1)}, 3.0, -0.118, 0.031};
+  Hear(status);
+  EXPECT_EQ(Robot()["battery_percent"], 12);
+  EXPECT_EQ(Robot()["link_percent"], 71);
+  EXPECT_EQ(Robot()["software"], "0.1.0");
+  EXPECT_EQ(Robot()["left_m"], -0.12);
+  EXPECT_EQ(Robot()["left_sigma_m"], 0.03);
+  status.place->left_sigma_m = 0.003;
+  Hear(status);
+  EXPECT_EQ(Robot()["left_sigma_m"], 0.01);
+}
+
 TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   Hear(Status("robot1", AgentMode::kReplaying));
   Hear(Status("robot2", AgentMode::kReplaying));
