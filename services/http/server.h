@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -9,17 +10,29 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/http/tls.h"
 
 namespace trailcast::http {
 
+class Stream;
+
 struct Limits {
   std::size_t threads = 2;
   std::size_t waiting = 32;  // connections beyond those that a thread has
   std::size_t body_bytes = 0;
   std::size_t of_one_address = 0;  // connections that a thread has; 0: any number
+};
+
+// A request that may bring more, and take longer, than others.
+struct Allowance {
+  std::string method{};
+  std::string path{};  // begins so
+  std::size_t body_bytes = 0;
+  std::chrono::milliseconds patience{};  // to read it, and for the client to take its answer;
+                                         // without a pause of ten seconds
 };
 
 struct Refusal {
@@ -42,6 +55,8 @@ class Server final : public httplib::Server {
   // Of each request, before its body is read; `refuse` writes the answer.
   void JudgeBy(Judge judge, Refuse refuse);
 
+  void Allow(Allowance allowance);
+
   // From now on to TLS alone.
   void Speak(Tls tls) { tls_ = std::move(tls); }
 
@@ -53,7 +68,12 @@ class Server final : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override;
   bool Answer(socket_t socket);
   bool AnswerNow(socket_t socket);
+  bool AnswerNow(Stream& stream);
+  [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;
+  [[nodiscard]] std::optional<Refusal> JudgeBody(const httplib::Request& request) const;
 
+  const std::size_t body_bytes_;
+  std::vector<Allowance> allowances_;
   Judge judge_;
   Refuse refuse_;
   std::optional<Tls> tls_;

@@ -6,11 +6,11 @@
 #include "services/base/time.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/picture_query.h"
 #include "services/fleet/routes/transfer.h"
 #include "services/fleet/routes/where_report.h"
 #include "services/image/files.h"
 #include "services/tool/command.h"
-#include "services/vision/view_features.h"
 
 namespace trailcast::tool {
 namespace {
@@ -27,14 +27,9 @@ constexpr const char* kExamples =
     "  trailcast where --frame now.png --json --network-interface lo";
 
 Result<route::RouteQuery> QueryOf(const WhereOptions& options) {
-  constexpr std::size_t kTooFew = 8;  // as teaching has it
-  const auto frame = image::ReadGray(options.frame);
-  if (!frame) return tl::unexpected(frame.error());
-  route::RouteQuery query{.view = vision::DescribeForQuery(*frame)};
-  if (query.view.size() >= kTooFew) return query;
-  return Fail(ErrorCode::kInvalidArgument,
-              "{} shows too little to be recognised: {} features, expected {} or more",
-              options.frame, query.view.size(), kTooFew);
+  return image::ReadGray(options.frame).and_then([&](const image::GrayImage& frame) {
+    return fleet::QueryByPicture(frame, options.frame);
+  });
 }
 
 int Run(const CLI::App& app, const program::CommonOptions& common, const WhereOptions& options) {

@@ -23,10 +23,13 @@ bool IsOurs(const std::string& host, const Door& door) {
   return door.any_name || door.names.contains(NameOf(host));
 }
 
-bool IsJson(const std::string& content_type) {
+// Other pages cannot send these without asking first (the Fetch standard, 2.2.2, safelisted types).
+bool IsOfOurs(const std::string& content_type) {
   std::string type = content_type.substr(0, content_type.find(';'));
   while (!type.empty() && type.back() == ' ') type.pop_back();
-  return Lower(type) == "application/json";
+  type = Lower(type);
+  return type == "application/json" || type == "application/octet-stream" || type == "image/jpeg" ||
+         type == "image/png";
 }
 
 }  // namespace
@@ -53,8 +56,10 @@ std::optional<Refusal> Judge(const httplib::Request& request, const Door& door) 
   if (is_guarded && !(own_origin && own_site)) {
     return Refusal{403, "this comes from another page than this program's own"};
   }
-  if (request.method == "POST" && !IsJson(request.get_header_value("Content-Type"))) {
-    return Refusal{415, "a POST needs 'Content-Type: application/json'"};
+  if (request.method == "POST" && !IsOfOurs(request.get_header_value("Content-Type"))) {
+    return Refusal{415,
+                   "a POST needs 'Content-Type: application/json', or of a file image/jpeg, "
+                   "image/png or application/octet-stream"};
   }
   return std::nullopt;
 }

@@ -3,21 +3,17 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "services/base/number.h"
 #include "services/http/src/stream.h"
 #include "services/http/src/tls_stream.h"
 #include "services/http/src/workers.h"
 
 namespace trailcast::http {
 namespace {
-
-// cpp-httplib reads such a body without a bound.
-std::optional<Refusal> RefuseUnknownLength(const httplib::Request& request) {
-  if (!request.has_header("Transfer-Encoding")) return std::nullopt;
-  return Refusal{411, "a body has to come with its length, and without Transfer-Encoding"};
-}
 
 std::string AddressOf(socket_t socket) {
   std::string address;
@@ -34,16 +30,18 @@ void RefuseInText(const Refusal& refusal, httplib::Response& response) {
 }  // namespace
 
 Server::Server(const Limits& limits)
-    : refuse_(RefuseInText), of_one_address_(limits.of_one_address) {
+    : body_bytes_(limits.body_bytes),
+      refuse_(RefuseInText),
+      of_one_address_(limits.of_one_address) {
   new_task_queue = [limits] { return new Workers(limits.threads, limits.waiting); };
-  set_payload_max_length(limits.body_bytes);
+  set_payload_max_length(body_bytes_);
   // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
   set_socket_options([](socket_t socket) {
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-    auto refusal = RefuseUnknownLength(request);
+    auto refusal = JudgeBody(request);
     if (!refusal && judge_) refusal = judge_(request);
     if (!refusal) return HandlerResponse::Unhandled;
     refuse_(*refusal, response);
@@ -59,6 +57,39 @@ Server::~Server() {
 void Server::JudgeBy(Judge judge, Refuse refuse) {
   judge_ = std::move(judge);
   refuse_ = std::move(refuse);
+}
+
+void Server::Allow(Allowance allowance) {
+  allowances_.push_back(std::move(allowance));
+  std::size_t most = body_bytes_;
+  for (const Allowance& each : allowances_) most = std::max(most, each.body_bytes);
+  set_payload_max_length(most);
+}
+
+const Allowance* Server::AllowanceOf(const httplib::Request& request) const {
+  const auto found =
+      std::find_if(allowances_.begin(), allowances_.end(), [&](const Allowance& each) {
+        return request.method == each.method && request.path.starts_with(each.path);
+      });
+  return found == allowances_.end() ? nullptr : &*found;
+}
+
+std::optional<Refusal> Server::JudgeBody(const httplib::Request& request) const {
+  // cpp-httplib reads such a body without a bound, and unpacks what is packed into any size.
+  if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) {
+    return Refusal{411,
+                   "a body has to come with its length, and without Transfer-Encoding and "
+                   "Content-Encoding"};
+  }
+  const Allowance* allowance = AllowanceOf(request);
+  if (!request.has_header("Content-Length")) {
+    if (allowance == nullptr || allowance->body_bytes <= body_bytes_) return std::nullopt;
+    return Refusal{411, "a body has to come with its length"};
+  }
+  const std::size_t most = allowance == nullptr ? body_bytes_ : allowance->body_bytes;
+  const auto bytes = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
+  if (bytes && *bytes <= most) return std::nullopt;
+  return Refusal{413, fmt::format("the body may have {} bytes at most", most)};
 }
 
 Result<void> Server::Listen(const std::string& host, int port) {
@@ -103,13 +134,22 @@ bool Server::Answer(socket_t socket) {
 }
 
 bool Server::AnswerNow(socket_t socket) {
-  bool closed = false;
   if (!tls_) {
     Stream stream(socket);
-    return process_request(stream, /*close_connection=*/true, closed, nullptr);
+    return AnswerNow(stream);
   }
   TlsStream stream(socket, tls_->Context().get());
-  return stream.Greet() && process_request(stream, /*close_connection=*/true, closed, nullptr);
+  return stream.Greet() && AnswerNow(stream);
+}
+
+bool Server::AnswerNow(Stream& stream) {
+  bool closed = false;
+  return process_request(stream, /*close_connection=*/true, closed,
+                         [&](const httplib::Request& request) {
+                           const Allowance* allowance = AllowanceOf(request);
+                           if (allowance == nullptr || JudgeBody(request)) return;
+                           stream.Allow(allowance->body_bytes, allowance->patience);
+                         });
 }
 
 }  // namespace trailcast::http

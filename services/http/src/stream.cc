@@ -22,17 +22,25 @@ short WaitFor(socket_t socket, short events, std::chrono::steady_clock::duration
 
 }  // namespace
 
+void Stream::Allow(std::size_t bytes, milliseconds patience) {
+  most_bytes_ = kMostBytes + bytes;
+  read_until_ = Clock::now() + patience;
+  write_wait_left_ = patience;
+  longest_pause_ = kLongestPause;
+}
+
 bool Stream::is_readable() const { return WaitToRead(POLLIN); }
 
 bool Stream::is_writable() const {
   constexpr short kHungUp = POLLRDHUP | POLLHUP | POLLERR;
-  const short seen = WaitFor(socket_, POLLOUT | POLLRDHUP, write_wait_left_);
+  const short seen =
+      WaitFor(socket_, POLLOUT | POLLRDHUP, std::min(write_wait_left_, longest_pause_));
   return (seen & POLLOUT) != 0 && (seen & kHungUp) == 0;
 }
 
 ssize_t Stream::read(char* to, std::size_t size) {
   if (next_ == end_) {
-    const std::size_t most = std::min(buffer_.size(), kMostBytes - came_);
+    const std::size_t most = std::min(buffer_.size(), most_bytes_ - came_);
     if (most == 0) return -1;
     const ssize_t got = Get(buffer_.data(), most);
     if (got <= 0) return got;
@@ -73,12 +81,13 @@ ssize_t Stream::Put(const char* from, std::size_t size) {
 }
 
 bool Stream::WaitToRead(short events) const {
-  return WaitFor(socket_, events, read_until_ - Clock::now()) != 0;
+  return WaitFor(socket_, events, std::min(read_until_ - Clock::now(), longest_pause_)) != 0;
 }
 
 bool Stream::WaitToWrite(short events) {
   const auto began = Clock::now();
-  const bool takes = (WaitFor(socket_, events, write_wait_left_) & events) != 0;
+  const auto most = std::min(write_wait_left_, longest_pause_);
+  const bool takes = (WaitFor(socket_, events, most) & events) != 0;
   write_wait_left_ -= Clock::now() - began;
   return takes;
 }

@@ -11,7 +11,8 @@ namespace trailcast::http {
 
 // One request of a client that may be anybody: no more of it is read than kMostBytes, for no longer
 // than kPatience, whatever it says of its length; and no longer than kWritePatience in all is
-// waited for a client to take its answer. The socket is the caller's to close.
+// waited for a client to take its answer, unless more is allowed. The socket is the caller's to
+// close.
 class Stream : public httplib::Stream {
  public:
   // Of a request: its body and as much again.
@@ -19,7 +20,12 @@ class Stream : public httplib::Stream {
   static constexpr std::chrono::milliseconds kPatience{5'000};
   static constexpr std::chrono::milliseconds kWritePatience{20'000};
 
+  static constexpr std::chrono::milliseconds kLongestPause{10'000};
+
   explicit Stream(socket_t socket) : socket_(socket) {}
+
+  // So many bytes more, and so long from now on, but no pause of kLongestPause.
+  void Allow(std::size_t bytes, std::chrono::milliseconds patience);
 
   [[nodiscard]] bool is_readable() const override;
   // Nor once the client has hung up.
@@ -41,8 +47,10 @@ class Stream : public httplib::Stream {
   using Clock = std::chrono::steady_clock;
 
   socket_t socket_;
-  const Clock::time_point read_until_ = Clock::now() + kPatience;
+  std::size_t most_bytes_ = kMostBytes;
+  Clock::time_point read_until_ = Clock::now() + kPatience;
   Clock::duration write_wait_left_ = kWritePatience;
+  Clock::duration longest_pause_ = kWritePatience;
   std::array<char, 4096> buffer_{};  // what came and was not read yet: [next_, end_)
   std::size_t next_ = 0;
   std::size_t end_ = 0;

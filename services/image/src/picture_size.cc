@@ -54,11 +54,15 @@ std::uint64_t OfJpeg(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+bool IsJpeg(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 2> kJpeg = {0xFF, 0xD8};
+  return BeginsWith(bytes, kJpeg);
+}
+
 std::uint64_t PromisedPixels(std::span<const std::uint8_t> bytes) {
   constexpr std::array<std::uint8_t, 8> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  constexpr std::array<std::uint8_t, 2> kJpeg = {0xFF, 0xD8};
   if (BeginsWith(bytes, kPng)) return OfPng(bytes);
-  return BeginsWith(bytes, kJpeg) ? OfJpeg(bytes) : 0;
+  return IsJpeg(bytes) ? OfJpeg(bytes) : 0;
 }
 
 }  // namespace trailcast::image

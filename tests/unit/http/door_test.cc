@@ -44,7 +44,10 @@ TEST(Door, LetsInWhatIsMeantForThisHost) {
       << "who knows which is meant";
 }
 
-TEST(Door, APostIsJsonAndFromNoOtherPage) {
+TEST(Door, APostIsJsonOrAFileAndFromNoOtherPage) {
+  for (const char* type : {"image/jpeg", "image/png", "application/octet-stream"}) {
+    EXPECT_EQ(StatusOfPost({{"Content-Type", type}}), 0) << type;
+  }
   EXPECT_EQ(StatusOfPost({{"Content-Type", "application/json"}}), 0);
   EXPECT_EQ(StatusOfPost({{"Content-Type", "Application/JSON ; charset=utf-8"}}), 0);
   for (const char* type : {"text/plain", "application/x-www-form-urlencoded", "",

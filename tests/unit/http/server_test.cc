@@ -48,6 +48,38 @@ TEST_F(HttpServerTest, TakesBodiesUpToItsBound) {
   }
 }
 
+TEST(HttpServer, SomeRequestsMayBringMoreThanOthers) {
+  Server server({.threads = 2, .body_bytes = 1000});
+  const auto tell_length = [](const httplib::Request& request, httplib::Response& response) {
+    response.set_content(std::to_string(request.body.size()), "text/plain");
+  };
+  server.Post("/file", tell_length);
+  server.Post("/length", tell_length);
+  server.Allow({.method = "POST",
+                .path = "/file",
+                .body_bytes = 1U << 20U,
+                .patience = std::chrono::seconds(20)});
+  ASSERT_TRUE(server.Listen("127.0.0.1", 0));
+  httplib::Client client("127.0.0.1", server.port());
+  const auto post = [&](const char* path, std::size_t bytes) {
+    const auto got = client.Post(path, std::string(bytes, 'x'), "application/octet-stream");
+    return got ? got->body : "refused while it was sent";
+  };
+  EXPECT_EQ(post("/file", 1U << 20U), "1048576");
+  EXPECT_EQ(post("/length", 1000), "1000");
+  const auto answer = [&](const std::string& head) {
+    const RawConnection raw(server.port());
+    raw.Send("POST " + head + "\r\n\r\n");
+    return raw.Receive();
+  };
+  EXPECT_THAT(answer("/length HTTP/1.1\r\nHost: x\r\nContent-Length: 1001"), HasSubstr("413"));
+  EXPECT_THAT(answer("/file HTTP/1.1\r\nHost: x\r\nContent-Length: 1048577"), HasSubstr("413"));
+  EXPECT_THAT(answer("/file HTTP/1.1\r\nHost: x\r\nContent-Length: -1"), HasSubstr("413"));
+  EXPECT_THAT(answer("/file HTTP/1.1\r\nHost: x"), HasSubstr("411"));
+  EXPECT_THAT(answer("/length HTTP/1.1\r\nHost: x\r\nContent-Encoding: gzip\r\nContent-Length: 9"),
+              HasSubstr("411"));
+}
+
 TEST_F(HttpServerTest, WhatIsJudgedIsRefusedBeforeItsBodyIsRead) {
   Server judged({.body_bytes = 1000});
   judged.Post("/length", [](const httplib::Request&, httplib::Response&) { FAIL(); });

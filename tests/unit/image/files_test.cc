@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/image/picture_check.h"
 #include "services/image/src/picture_size.h"
 #include "tests/support/temp_dir.h"
 
@@ -47,6 +48,21 @@ TEST(Files, GrayPictureSurvivesWritingAndReading) {
   EXPECT_EQ(read->width, 31);
   EXPECT_EQ(read->height, 17);
   EXPECT_EQ(read->pixels, written.pixels);
+}
+
+TEST(Files, WhatAStrangerSendsIsLookedAtBeforeItIsDecoded) {
+  const std::vector<std::uint8_t> jpeg = EncodeJpeg(Gradient(64, 48), 95).value();
+  EXPECT_TRUE(CheckPicture(jpeg, 64 * 48));
+  const auto large = CheckPicture(jpeg, 64 * 48 - 1);
+  ASSERT_FALSE(large);
+  EXPECT_THAT(large.error().message, HasSubstr("3072 pixels; at most 3071"));
+  for (const std::string text : {"", "GIF89a", "\x89PNG\r\n\x1a\n", "\xFF\xD8"}) {
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    EXPECT_FALSE(CheckPicture(bytes, 1'000'000)) << text;
+  }
+  std::vector<std::uint8_t> scans = jpeg;
+  for (int i = 0; i < 65; ++i) scans.insert(scans.end(), {0xFF, 0xDA});
+  EXPECT_THAT(CheckPicture(scans, 1'000'000).error().message, HasSubstr("scans"));
 }
 
 TEST(Files, PicturesAreMadeJpegInGreyAndInColour) {

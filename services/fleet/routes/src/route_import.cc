@@ -201,6 +201,10 @@ Result<Imported> ImportToServer(const archive::RouteFile& file, OperatorPeer& pe
       receipted = delivery.receipted();
       deadline = Clock::now() + watch.timeout;
     }
+    if (watch.stop()) {
+      return Fail(ErrorCode::kUnavailable, "interrupted: {} of {} segments are delivered",
+                  receipted, info.segment_count);
+    }
     if (Clock::now() > deadline) return FellSilent(info, delivery, reply->server, watch.timeout);
     watch.progress(info.bytes * receipted / info.segment_count);
   }

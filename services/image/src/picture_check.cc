@@ -1,0 +1,28 @@
+#include "services/image/picture_check.h"
+
+#include "services/image/src/picture_size.h"
+
+namespace trailcast::image {
+
+Result<void> CheckPicture(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels) {
+  const std::uint64_t pixels = PromisedPixels(bytes);
+  if (pixels == 0) return Fail(ErrorCode::kInvalidArgument, "this is no JPEG and no PNG");
+  if (pixels > most_pixels) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the picture has {} pixels; at most {} are looked at: make it smaller", pixels,
+                most_pixels);
+  }
+  // A progressive JPEG has about ten scans; each is a pass over all pixels, and may be a few bytes.
+  constexpr std::ptrdiff_t kMostScans = 64;
+  std::ptrdiff_t scans = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i) {
+    if (bytes[i - 1] == 0xFF && bytes[i] == 0xDA) ++scans;
+  }
+  if (IsJpeg(bytes) && scans > kMostScans) {
+    return Fail(ErrorCode::kInvalidArgument, "the picture has {} scans; at most {} are decoded",
+                scans, kMostScans);
+  }
+  return {};
+}
+
+}  // namespace trailcast::image
