@@ -57,9 +57,9 @@ class Desk {
                                                             const std::string& reason);
   // Its client is filled in. As fleet::SendMission: what is known of it first.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission);
-  // A page of what servers keep, the newest first: of missions, or of commands.
-  [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query,
-                                                        bool commands = false);
+  // A page of what servers keep, the newest first.
+  [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query);
+  [[nodiscard]] Result<exchange::MissionReply> Commands(const mission::Query& query);
   // What a server has, or finds, of routes.
   [[nodiscard]] Result<exchange::CatalogReply> Routes(const route::RouteQuery& query);
   // The revisions that have changed. kConflict: a server says why it changes nothing.
@@ -83,6 +83,9 @@ class Desk {
   using Clock = std::chrono::steady_clock;
 
   void Run();
+  template <typename AnErrand>
+  [[nodiscard]] auto CarryOut(std::shared_ptr<AnErrand> errand, bool is_stop,
+                              std::chrono::milliseconds timeout);
   // False: it is one too many.
   [[nodiscard]] bool Take(std::shared_ptr<Errand> errand, bool is_stop);
   void Begin();

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "services/base/result.h"
+#include "services/mission/mission.h"
+#include "services/route/route_edit.h"
 #include "services/route/route_query.h"
 #include "services/users/guard.h"
 
@@ -28,6 +30,13 @@ struct SendBody {
 using Parameters = std::multimap<std::string, std::string>;
 // Of GET /api/routes.
 [[nodiscard]] Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters);
+// Of GET /api/missions and of GET /api/commands.
+[[nodiscard]] Result<mission::Query> ReadMissionQuery(const Parameters& parameters);
+[[nodiscard]] Result<mission::Query> ReadCommandQuery(const Parameters& parameters);
+
+// How `route`, by its name or id, is to be changed.
+[[nodiscard]] Result<route::RouteEdit> ReadRouteEdit(const std::string& route,
+                                                     const std::string& body);
 
 struct LogInBody {
   std::string user;
@@ -37,6 +46,9 @@ struct LogInBody {
 
 // `asks`: whether one has to log in.
 [[nodiscard]] std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks);
+// Which revision is to be fetched: {"route": its id, "teaching": "1f"}.
+[[nodiscard]] Result<route::RouteKey> ReadFetch(const std::string& body);
+
 [[nodiscard]] std::string ErrorBody(const std::string& why);
 
 }  // namespace trailcast::console

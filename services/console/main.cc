@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -121,8 +123,14 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   std::set<std::string> names;
   for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
   const char* scheme = entry->tls ? "https" : "http";
-  const auto web = console::Web::Open(desk, atlas, site.get(), options.host, options.port,
-                                      std::move(names), *std::move(entry));
+  std::atomic<int> couriers{0};  // each has a name of its own
+  const auto web =
+      console::Web::Open(desk, atlas, site.get(), options.host, options.port, std::move(names),
+                         *std::move(entry), [&](const trailcast::exchange::TopicUse& use) {
+                           program::CommonOptions courier = common;
+                           courier.name += fmt::format("-file{}", ++couriers);
+                           return trailcast::fleet::JoinAsOperator(courier, use);
+                         });
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
                (*web)->port());

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "services/console/atlas.h"
 #include "services/console/desk.h"
 #include "services/console/site.h"
+#include "services/console/transfers.h"
 #include "services/http/door.h"
 #include "services/http/server.h"
 
@@ -23,16 +25,17 @@ class Web {
   static constexpr std::chrono::seconds kAliveEvery{5};
 
   // `desk`, `atlas` and `site`, which may be null, outlive this. Port 0: any that is free; `names`:
-  // by which this host is known besides localhost, in lower case. kUnavailable when it cannot be
-  // listened on.
+  // by which this host is known besides localhost, in lower case; `join`: how files of routes get
+  // into the fleet, without which none are carried. kUnavailable when it cannot be listened on.
   [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, Atlas& atlas, Site* site,
                                                          const std::string& host, int port,
                                                          std::set<std::string> names,
-                                                         Entry entry = {});
+                                                         Entry entry = {},
+                                                         Transfers::Join join = {});
   [[nodiscard]] int port() const { return server_.port(); }
 
  private:
-  Web(Desk& desk, Atlas& atlas, Site* site, Entry entry);
+  Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join);
   void ServeFiles();
   void ServeState();
   void ServeOrders();
@@ -44,6 +47,7 @@ class Web {
 
   Desk& desk_;
   Access access_;
+  std::optional<Transfers> transfers_;
   http::Door door_;
   std::atomic<int> streams_{0};
   http::Server server_;  // the last: its threads use the others

@@ -1,4 +1,6 @@
-// The bodies of requests to the console, its file of users, and the files of its site.
+// Requests to the console: their bodies, and what stands behind their question mark; its file of
+// users, and the files of its site.
+#include <algorithm>
 #include <cmath>
 
 #include "services/base/text.h"
@@ -9,6 +11,25 @@
 
 using trailcast::fuzz::Require;
 using namespace trailcast;
+
+namespace {
+
+// As what stands behind an address's question mark: "name=hall&tag=wet".
+console::Parameters ParametersIn(const std::string& text) {
+  console::Parameters parameters;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find('&', at), text.size());
+    const std::string one = text.substr(at, end - at);
+    const std::size_t equals = std::min(one.find('='), one.size());
+    parameters.emplace(one.substr(0, equals),
+                       equals < one.size() ? one.substr(equals + 1) : std::string());
+    at = end + 1;
+  }
+  return parameters;
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string body(reinterpret_cast<const char*>(data), size);
@@ -35,6 +56,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   (void)console::ReadSiteFile(body);
   (void)console::ReadPlacements(body);
+  if (const auto edit = console::ReadRouteEdit("hall", body)) {
+    const exchange::RouteEditRequest request{AgentId("desk"), 1, *edit};
+    Require(exchange::CheckBounds(request).has_value(), "an edit may be published");
+  }
+  if (const auto key = console::ReadFetch(body)) {
+    Require(IsValidName(key->route.value()), "a route is asked for by its id");
+  }
+  const console::Parameters parameters = ParametersIn(body);
+  if (const auto query = console::ReadRouteQuery(parameters)) {
+    Require(exchange::CheckQuery(*query).has_value(), "a query is as servers want it");
+    const exchange::CatalogRequest request{AgentId("desk"), 1, *query};
+    Require(exchange::CheckBounds(request).has_value(), "a query may be published");
+  }
+  for (const auto read : {console::ReadMissionQuery, console::ReadCommandQuery}) {
+    const auto query = read(parameters);
+    if (!query) continue;
+    const exchange::MissionRequest request{
+        .client = AgentId("desk"), .request = 1, .query = *query};
+    Require(exchange::CheckBounds(request).has_value(), "a question may be published");
+  }
   (void)console::ErrorBody(body);
   if (const auto users = users::ParseUsers(body)) {
     const auto again = users::ParseUsers(users::TextOf(*users));

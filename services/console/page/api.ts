@@ -173,3 +173,90 @@ export async function send(robot: string, orders: string): Promise<Answer> {
     return unreachable;
   }
 }
+
+// A page of what servers keep; `next` 0 on the last.
+export type MissionPage = { missions: Mission[]; next: number };
+
+export type Command = {
+  given_by: string;
+  command: string;
+  whom: string;
+  reason: string;
+  given_unix_ms: number;
+  answers: { robot: string; obeys: boolean; detail: string }[];
+};
+export type CommandPage = { commands: Command[]; next: number };
+
+export type RouteAction = 'activate' | 'rollback' | 'retire';
+
+export async function editRoute(route: string, action: RouteAction, revision: number): Promise<Answer> {
+  try {
+    const { json } = await post(`/api/routes/${route}/edits`, { action, revision });
+    if (json.error) return { ok: false, text: json.error };
+    const changed = (json.changed as Route[]).map((each) => `revision ${each.revision} is ${each.state}`);
+    return { ok: true, text: changed.length > 0 ? `Done: ${changed.join(', ')}.` : 'Nothing to change: it is so already.' };
+  } catch {
+    return { ok: false, text: 'The console does not answer: it may have been changed, or not.' };
+  }
+}
+
+// Where a picture was taken, the likest first, and how much was searched.
+export type Found = {
+  places: { name: string; route: string; revision: number; segment: number; segments: number; score: number }[];
+  segments_indexed: number;
+  segments_stored: number;
+  routes_unseen: number;
+};
+
+export async function where(picture: Blob): Promise<Found | string> {
+  try {
+    const { json } = await ask('/api/where', {
+      method: 'POST',
+      headers: { 'Content-Type': picture.type },
+      body: picture,
+    });
+    return json.error ?? (json as Found);
+  } catch {
+    return 'The console does not answer.';
+  }
+}
+
+// A route on its way as a file: to be downloaded, or uploaded and then delivered to a server.
+export type Transfer = {
+  transfer: string;
+  upload: boolean;
+  state: 'under way' | 'done' | 'failed';
+  route: string;
+  revision: number;
+  done_bytes: number;
+  total_bytes: number;
+  detail: string;
+};
+
+export async function startDownload({ route, teaching }: Route): Promise<Transfer | string> {
+  try {
+    const { json } = await post('/api/transfers', { route, teaching });
+    return json.error ?? (json as Transfer);
+  } catch {
+    return 'The console does not answer.';
+  }
+}
+
+// fetch does not tell how much was sent. What is returned gives it up.
+export function upload(file: File, onSent: (bytes: number) => void, onEnd: (transfer: Transfer | string) => void): () => void {
+  const request = new XMLHttpRequest();
+  request.upload.onprogress = (event) => onSent(event.loaded);
+  request.onerror = () => onEnd('The upload was cut off: is the file too large, or has the console ended?');
+  request.onload = () => {
+    try {
+      const json = JSON.parse(request.responseText);
+      onEnd(json.error ?? (json as Transfer));
+    } catch {
+      onEnd('The console gave no answer that this page understands.');
+    }
+  };
+  request.open('POST', '/api/transfers/uploads');
+  request.setRequestHeader('Content-Type', 'application/octet-stream');
+  request.send(file);
+  return () => request.abort();
+}

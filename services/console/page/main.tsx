@@ -3,6 +3,7 @@ import { createRoot } from 'react-dom/client';
 import { stopAll, type Answer, type Fleet, type Robot } from './api';
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
+import { History } from './history';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
 import { MapPage } from './map';
 import { useMay } from './me';
@@ -55,7 +56,7 @@ function Robots({ fleet, now_ms }: { fleet: Fleet | null; now_ms: number }) {
 function Page() {
   const { fleet, lost, now_ms, heard_ms } = useFleet();
   const [answer, setAnswer] = useState<Answer | null>(null);
-  const page = usePage();
+  const { page, open } = usePage();
   const mayOperate = useMay('operate');
   useEffect(() => remember(fleet?.robots ?? []), [fleet]);
   const servers = fleet?.servers ?? [];
@@ -88,9 +89,10 @@ function Page() {
         </p>
       )}
       <main>
-        {page === 'routes' && <Routes />}
-        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} />}
         {page === 'fleet' && <Robots fleet={fleet} now_ms={now_ms} />}
+        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} />}
+        {page === 'routes' && <Routes open={open} />}
+        {page === 'history' && <History open={open} now_ms={now_ms} />}
       </main>
       <footer>
         <p id="stop-help">

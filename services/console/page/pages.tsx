@@ -1,23 +1,23 @@
 import { useEffect, useState } from 'react';
 
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
-const pages = { fleet: 'Fleet', map: 'Map', routes: 'Routes' };
+const pages = { fleet: 'Fleet', map: 'Map', routes: 'Routes', history: 'History' };
 
 export type PageName = keyof typeof pages;
 
-function here(): PageName {
-  const name = window.location.hash.slice(1).split('/')[0];
-  return name in pages ? (name as PageName) : 'fleet';
+function here(): { page: PageName; open: string } {
+  const [name, open = ''] = window.location.hash.slice(1).split('/');
+  return { page: name in pages ? (name as PageName) : 'fleet', open };
 }
 
-export function usePage(): PageName {
-  const [page, setPage] = useState(here);
+export function usePage(): { page: PageName; open: string } {
+  const [at, setAt] = useState(here);
   useEffect(() => {
-    const moved = () => setPage(here());
+    const moved = () => setAt(here());
     window.addEventListener('hashchange', moved);
     return () => window.removeEventListener('hashchange', moved);
   }, []);
-  return page;
+  return at;
 }
 
 export function Pages({ page }: { page: PageName }) {

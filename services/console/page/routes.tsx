@@ -1,6 +1,8 @@
 import { useEffect, useState, type FormEvent } from 'react';
 import { get, type FoundRoute, type RoutePage } from './api';
+import { Finder } from './finder';
 import { age } from './fleet';
+import { Revisions } from './revisions';
 
 type Search = Record<string, string>;
 
@@ -27,6 +29,7 @@ function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
           <option>newest</option><option>oldest</option><option>name</option><option>longest</option><option>shortest</option>
         </select>
       </label>
+      <button type="submit">Search</button>
       <details>
         <summary>More</summary>
         <div className="more">
@@ -42,7 +45,6 @@ function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
           <label>Within, m<input name="within_m" type="number" min={1} defaultValue={50} /></label>
         </div>
       </details>
-      <button type="submit">Search</button>
     </form>
   );
 }
@@ -50,7 +52,7 @@ function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
 function Line({ route }: { route: FoundRoute }) {
   return (
     <tr className={route.state.replace(/ /g, '-')}>
-      <td data-label="Route"><strong>{route.name}</strong></td>
+      <td data-label="Route"><a href={`#routes/${route.route}`}>{route.name}</a></td>
       <td data-label="Revision">{route.revision || '–'}</td>
       <td data-label="State"><strong>{route.state}</strong></td>
       <td data-label="Length">{route.length_m > 0 ? `${route.length_m.toFixed(1)} m` : '–'}</td>
@@ -63,7 +65,7 @@ function Line({ route }: { route: FoundRoute }) {
   );
 }
 
-export function Routes() {
+function Listing() {
   const [search, setSearch] = useState<Search>({});
   const [routes, setRoutes] = useState<FoundRoute[]>([]);
   const [page, setPage] = useState<RoutePage | string | null>(null);
@@ -88,8 +90,7 @@ export function Routes() {
     : page.total === 0 ? 'No route is so.'
     : `${routes.length} of ${page.total}`;
   return (
-    <section aria-label="Routes" className="routes">
-      <h2>Routes</h2>
+    <>
       <Filters onSearch={start} />
       <p role="status" className={typeof page === 'string' ? 'answer bad' : 'note'}>{told}</p>
       {routes.length > 0 && (
@@ -103,6 +104,14 @@ export function Routes() {
       {page !== null && typeof page !== 'string' && page.next && (
         <button onClick={() => setCursor(page.next)}>More</button>
       )}
+    </>
+  );
+}
+
+export function Routes({ open }: { open: string }) {
+  return (
+    <section aria-label="Routes" className="routes">
+      {open ? <Revisions key={open} route={open} /> : <><h2>Routes</h2><Finder /><Listing /></>}
     </section>
   );
 }

@@ -157,48 +157,53 @@ void Desk::Close() {
   changed_.notify_all();
 }
 
+template <typename AnErrand>
+auto Desk::CarryOut(std::shared_ptr<AnErrand> errand, bool is_stop, milliseconds timeout) {
+  auto future = errand->Future();
+  using Outcome = decltype(future.get());
+  if (!Take(std::move(errand), is_stop)) return Outcome(TooMuch());
+  return Await(std::move(future), timeout);
+}
+
 Result<std::vector<fleet::RobotsWord>> Desk::Tell(exchange::NowOrder order,
                                                   const fleet::NowTarget& target,
                                                   const std::string& reason) {
-  auto errand = std::make_shared<TellErrand>(self_, order, target, reason, options_.answer_within);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), order == exchange::NowOrder::kStop)) return TooMuch();
-  return Await(std::move(future), options_.answer_within);
+  return CarryOut(
+      std::make_shared<TellErrand>(self_, order, target, reason, options_.answer_within),
+      order == exchange::NowOrder::kStop, options_.answer_within);
 }
 
 Result<mission::Report> Desk::Send(mission::Mission mission) {
   mission.client = self_;
-  auto errand = std::make_shared<SendErrand>(std::move(mission), options_.reply_within);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), false)) return TooMuch();
-  return Await(std::move(future), options_.reply_within);
+  return CarryOut(std::make_shared<SendErrand>(std::move(mission), options_.reply_within), false,
+                  options_.reply_within);
 }
 
-Result<exchange::MissionReply> Desk::Missions(const mission::Query& query, bool commands) {
-  auto errand = std::make_shared<MissionQuestion>(
-      exchange::MissionRequest{
-          .client = self_, .request = fleet::DrawNumber(), .commands = commands, .query = query},
-      options_.reply_within);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), false)) return TooMuch();
-  return Await(std::move(future), options_.reply_within);
+Result<exchange::MissionReply> Desk::Missions(const mission::Query& query) {
+  const exchange::MissionRequest request{
+      .client = self_, .request = fleet::DrawNumber(), .query = query};
+  return CarryOut(std::make_shared<MissionQuestion>(request, options_.reply_within), false,
+                  options_.reply_within);
+}
+
+Result<exchange::MissionReply> Desk::Commands(const mission::Query& query) {
+  const exchange::MissionRequest request{
+      .client = self_, .request = fleet::DrawNumber(), .commands = true, .query = query};
+  return CarryOut(std::make_shared<MissionQuestion>(request, options_.reply_within), false,
+                  options_.reply_within);
 }
 
 Result<exchange::CatalogReply> Desk::Routes(const route::RouteQuery& query) {
-  auto errand = std::make_shared<RouteQuestion>(
-      exchange::CatalogRequest{self_, fleet::DrawNumber(), query}, options_.reply_within);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), false)) return TooMuch();
-  return Await(std::move(future), options_.reply_within);
+  const exchange::CatalogRequest request{self_, fleet::DrawNumber(), query};
+  return CarryOut(std::make_shared<RouteQuestion>(request, options_.reply_within), false,
+                  options_.reply_within);
 }
 
 Result<exchange::CatalogReply> Desk::Edit(const route::RouteEdit& edit) {
-  auto errand =
-      std::make_shared<RouteChange>(exchange::RouteEditRequest{self_, fleet::DrawNumber(), edit},
-                                    options_.reply_within, ErrorCode::kConflict);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), false)) return TooMuch();
-  return Await(std::move(future), options_.reply_within);
+  const exchange::RouteEditRequest request{self_, fleet::DrawNumber(), edit};
+  return CarryOut(
+      std::make_shared<RouteChange>(request, options_.reply_within, ErrorCode::kConflict), false,
+      options_.reply_within);
 }
 
 bool Desk::Take(std::shared_ptr<Errand> errand, bool is_stop) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <functional>
+#include <limits>
 #include <set>
 
 #include "services/base/number.h"
@@ -46,18 +49,67 @@ Result<std::string> LineIn(const Json& json, const char* field) {
   return value.get<std::string>();
 }
 
-// A parameter that was given, and how it is read into the query.
-using ReadParameter = Result<void> (*)(const std::string& text, route::RouteQuery& query);
+// How a parameter that was given is read into a query.
+template <typename Query>
+using Readers = std::map<std::string, std::function<Result<void>(const std::string&, Query&)>>;
 
-template <typename Number, Number route::RouteQuery::*kField>
-Result<void> ReadNumberInto(const std::string& text, route::RouteQuery& query) {
-  if (ReadNumber(text, query.*kField)) return {};
-  return Fail(ErrorCode::kInvalidArgument, "is no number");
+template <typename Query, typename Number>
+auto NumberInto(Number Query::*field) {
+  return [field](const std::string& text, Query& query) -> Result<void> {
+    if (ReadNumber(text, query.*field)) return {};
+    return Fail(ErrorCode::kInvalidArgument, "is no number");
+  };
 }
 
-template <std::string route::RouteQuery::*kField>
-Result<void> ReadTextInto(const std::string& text, route::RouteQuery& query) {
-  query.*kField = text;
+template <typename Query>
+auto TextInto(std::string Query::*field) {
+  return [field](const std::string& text, Query& query) -> Result<void> {
+    query.*field = text;
+    return {};
+  };
+}
+
+template <typename Query>
+auto NameInto(std::string Query::*field) {
+  return [field](const std::string& text, Query& query) -> Result<void> {
+    if (!IsValidName(text)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "is to be a name of 1 to 64 letters, digits, '_', '.', '-'");
+    }
+    query.*field = text;
+    return {};
+  };
+}
+
+template <typename Query>
+auto LimitInto(std::uint32_t Query::*field, std::uint32_t most) {
+  return [field, most](const std::string& text, Query& query) -> Result<void> {
+    const auto limit = ParseNumber<std::uint32_t>(text);
+    if (!limit || *limit < 1 || *limit > most) {
+      return Fail(ErrorCode::kInvalidArgument, "is to be 1 to {}", most);
+    }
+    query.*field = *limit;
+    return {};
+  };
+}
+
+// Those of `several` may be given more than once.
+template <typename Query>
+Result<void> ReadParameters(const Parameters& parameters, const Readers<Query>& readers,
+                            const std::string& several, Query& query) {
+  for (const auto& [name, text] : parameters) {
+    if (text.empty()) continue;  // as a form sends what nobody filled in
+    const auto known = readers.find(name);
+    if (known == readers.end()) {
+      return Fail(ErrorCode::kInvalidArgument, "there is no parameter '{}'", PlainText(name, 64));
+    }
+    if (name != several && parameters.count(name) > 1) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is given more than once", name);
+    }
+    if (auto read = known->second(text, query); !read) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}': {}", name, read.error().message);
+    }
+  }
   return {};
 }
 
@@ -100,34 +152,84 @@ Result<void> ReadSort(const std::string& text, route::RouteQuery& query) {
   return {};
 }
 
-Result<void> ReadLimit(const std::string& text, route::RouteQuery& query) {
-  const auto limit = ParseNumber<std::uint32_t>(text);
-  if (!limit || *limit < 1 || *limit > kMostRoutesAPage) {
-    return Fail(ErrorCode::kInvalidArgument, "is to be 1 to {}", kMostRoutesAPage);
-  }
-  query.page_size = *limit;
-  return {};
-}
+// With how near that is.
+struct PagedQuery : route::RouteQuery {
+  double within_m = kWithin_m;
+};
 
-const std::map<std::string, ReadParameter>& RouteParameters() {
-  using route::RouteQuery;
-  static const std::map<std::string, ReadParameter> kAll{
-      {"name", ReadTextInto<&RouteQuery::name>},
-      {"prefix", ReadTextInto<&RouteQuery::name_prefix>},
+const Readers<PagedQuery>& RouteParameters() {
+  using Query = PagedQuery;
+  static const Readers<Query> kAll{
+      {"name", TextInto<Query>(&Query::name)},
+      {"prefix", TextInto<Query>(&Query::name_prefix)},
       {"tag", ReadTag},
-      {"scout", ReadTextInto<&RouteQuery::scout>},
-      {"camera", ReadTextInto<&RouteQuery::camera_prefix>},
-      {"min_length_m", ReadNumberInto<double, &RouteQuery::min_length_m>},
-      {"max_length_m", ReadNumberInto<double, &RouteQuery::max_length_m>},
-      {"taught_from_unix_ms", ReadNumberInto<std::int64_t, &RouteQuery::taught_from_unix_ms>},
-      {"taught_until_unix_ms", ReadNumberInto<std::int64_t, &RouteQuery::taught_until_unix_ms>},
+      {"scout", TextInto<Query>(&Query::scout)},
+      {"camera", TextInto<Query>(&Query::camera_prefix)},
+      {"min_length_m", NumberInto<Query, double>(&Query::min_length_m)},
+      {"max_length_m", NumberInto<Query, double>(&Query::max_length_m)},
+      {"taught_from_unix_ms", NumberInto<Query, std::int64_t>(&Query::taught_from_unix_ms)},
+      {"taught_until_unix_ms", NumberInto<Query, std::int64_t>(&Query::taught_until_unix_ms)},
       {"state", ReadState},
       {"near_site", ReadNear<route::Place::Frame::kSite>},
       {"near_gps", ReadNear<route::Place::Frame::kWgs84>},
+      {"within_m", NumberInto<Query, double>(&Query::within_m)},
       {"sort", ReadSort},
-      {"limit", ReadLimit},
-      {"cursor", ReadTextInto<&RouteQuery::cursor>}};
+      {"limit", LimitInto<Query>(&Query::page_size, kMostRoutesAPage)},
+      {"cursor", TextInto<Query>(&Query::cursor)}};
   return kAll;
+}
+
+Readers<mission::Query> RecordParameters() {
+  using mission::Query;
+  return {{"robot", NameInto<Query>(&Query::agent)},
+          {"route", NameInto<Query>(&Query::route)},
+          {"by", NameInto<Query>(&Query::client)},
+          {"from_unix_ms", NumberInto<Query, std::int64_t>(&Query::from_unix_ms)},
+          {"until_unix_ms", NumberInto<Query, std::int64_t>(&Query::until_unix_ms)},
+          {"limit", LimitInto<Query>(&Query::page_size, exchange::kMaxMissionsPerReply)},
+          {"before", NumberInto<Query, std::uint64_t>(&Query::before)}};
+}
+
+Result<void> ReadMissionState(const std::string& text, mission::Query& query) {
+  std::string all;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const std::string word = mission::ToString(static_cast<mission::State>(i));
+    if (text == word) {
+      query.states |= 1U << i;
+      return {};
+    }
+    all += (all.empty() ? "" : ", ") + word;
+  }
+  return Fail(ErrorCode::kInvalidArgument, "is to be one of {}", all);
+}
+
+const std::map<std::string, route::EditAction>& EditWords() {
+  using route::EditAction;
+  static const std::map<std::string, EditAction> kWords{
+      {"activate", EditAction::kActivate}, {"rollback", EditAction::kRollBack},
+      {"rename", EditAction::kRename},     {"tag", EditAction::kTag},
+      {"untag", EditAction::kUntag},       {"describe", EditAction::kDescribe},
+      {"retire", EditAction::kRetire}};
+  return kWords;
+}
+
+Result<std::vector<std::string>> TagsIn(const Json& json) {
+  std::vector<std::string> tags;
+  if (!json.contains("tags")) return tags;
+  const Json& list = json["tags"];
+  if (!list.is_array() || list.size() > route::kMaxTags) {
+    return Fail(ErrorCode::kInvalidArgument, "'tags' is to be a list of at most {} words",
+                route::kMaxTags);
+  }
+  for (const Json& tag : list) {
+    if (!tag.is_string()) {
+      return Fail(ErrorCode::kInvalidArgument, "'tags' is to be a list of words");
+    }
+    tags.push_back(tag.get<std::string>());
+  }
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  return tags;
 }
 
 }  // namespace
@@ -172,33 +274,70 @@ Result<SendBody> ReadSend(const std::string& body) {
 }
 
 Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters) {
-  route::RouteQuery query;
+  PagedQuery query;
   query.page_size = kRoutesAPage;
-  double within_m = kWithin_m;
-  for (const auto& [name, text] : parameters) {
-    if (text.empty()) continue;  // as a form sends what nobody filled in
-    if (name == "within_m") {
-      if (!ReadNumber(text, within_m)) {
-        return Fail(ErrorCode::kInvalidArgument, "'within_m' is no number");
-      }
-      continue;
-    }
-    const auto known = RouteParameters().find(name);
-    if (known == RouteParameters().end()) {
-      return Fail(ErrorCode::kInvalidArgument, "there is no parameter '{}'", PlainText(name, 64));
-    }
-    if (name != "tag" && parameters.count(name) > 1) {
-      return Fail(ErrorCode::kInvalidArgument, "'{}' is given more than once", name);
-    }
-    if (auto read = known->second(text, query); !read) {
-      return Fail(ErrorCode::kInvalidArgument, "'{}': {}", name, read.error().message);
-    }
+  if (auto read = ReadParameters(parameters, RouteParameters(), "tag", query); !read) {
+    return tl::unexpected(read.error());
   }
-  if (query.near) query.near->radius_m = within_m;
+  if (query.near) query.near->radius_m = query.within_m;
   if (auto possible = exchange::CheckQuery(query); !possible) {
     return tl::unexpected(possible.error());
   }
   return query;
+}
+
+Result<mission::Query> ReadMissionQuery(const Parameters& parameters) {
+  static const Readers<mission::Query> kAll = [] {
+    Readers<mission::Query> readers = RecordParameters();
+    readers.emplace("mission", NameInto<mission::Query>(&mission::Query::id));
+    readers.emplace("state", ReadMissionState);
+    return readers;
+  }();
+  mission::Query query;
+  if (auto read = ReadParameters(parameters, kAll, "state", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  return query;
+}
+
+Result<mission::Query> ReadCommandQuery(const Parameters& parameters) {
+  static const Readers<mission::Query> kAll = RecordParameters();
+  mission::Query query;
+  if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  return query;
+}
+
+Result<route::RouteEdit> ReadRouteEdit(const std::string& route, const std::string& body) {
+  const auto json = ReadObject(body, {"action", "revision", "text", "tags"});
+  if (!json) return tl::unexpected(json.error());
+  const auto action = LineIn(*json, "action").and_then([](const std::string& word) {
+    return ReadWord(EditWords(), word);
+  });
+  if (!action) return Wrap(action.error(), "'action'");
+  const auto text = LineIn(*json, "text");
+  if (!text) return tl::unexpected(text.error());
+  const auto tags = TagsIn(*json);
+  if (!tags) return tl::unexpected(tags.error());
+  route::RouteEdit edit{.action = *action, .route = route, .text = *text, .tags = *tags};
+  if (json->contains("revision")) {
+    const Json& revision = (*json)["revision"];
+    constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
+    if (!revision.is_number_unsigned() || revision.get<std::uint64_t>() > kMost) {
+      return Fail(ErrorCode::kInvalidArgument, "'revision' is to be a number, 0 for all");
+    }
+    edit.revision = revision.get<std::uint32_t>();
+  }
+  const bool of_whole_route =
+      edit.action == route::EditAction::kRename || edit.action == route::EditAction::kRollBack;
+  if (of_whole_route && edit.revision != 0) {
+    return Fail(ErrorCode::kInvalidArgument, "this is about the whole route: leave 'revision' out");
+  }
+  if (auto possible = exchange::CheckEdit(edit); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  return edit;
 }
 
 Result<LogInBody> ReadLogIn(const std::string& body) {
@@ -221,6 +360,27 @@ std::string MeBody(const users::Who& who, bool asks, const std::string& only_loo
                {"role", users::NameOf(only ? users::Role::kLook : who.role)},
                {"logs_in", asks},
                {"only_looks", only ? Json(only_looks) : Json(nullptr)}});
+}
+
+Result<route::RouteKey> ReadFetch(const std::string& body) {
+  const auto json = ReadObject(body, {"route", "teaching"});
+  if (!json) return tl::unexpected(json.error());
+  const auto route = LineIn(*json, "route");
+  const auto teaching = LineIn(*json, "teaching");
+  if (!route) return tl::unexpected(route.error());
+  if (!teaching) return tl::unexpected(teaching.error());
+  constexpr std::size_t kIdDigits = 32;
+  if (route->size() != kIdDigits || !IsValidName(*route)) {
+    return Fail(ErrorCode::kInvalidArgument, "'route' is to be a route's id, of {} digits",
+                kIdDigits);
+  }
+  std::uint64_t number = 0;
+  const char* const end = teaching->data() + teaching->size();
+  const auto [stop, error] = std::from_chars(teaching->data(), end, number, 16);
+  if (error != std::errc{} || stop != end) {
+    return Fail(ErrorCode::kInvalidArgument, "'teaching' is to be a hexadecimal number");
+  }
+  return route::RouteKey{RouteId(*route), TeachingId(number)};
 }
 
 std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }

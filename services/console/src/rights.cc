@@ -23,10 +23,16 @@ constexpr Row kRows[] = {
     {"GET", "/api/events", Role::kLook},
     {"GET", "/api/missions", Role::kLook},
     {"GET", "/api/robots/*/glance", Role::kLook},
+    {"GET", "/api/commands", Role::kLook},
     {"GET", "/api/routes", Role::kLook},
     {"GET", "/api/routes/*/shape", Role::kLook},
     {"GET", "/api/site", Role::kLook},
     {"GET", "/api/site/plan", Role::kLook},
+
+    {"POST", "/api/where", Role::kLook},
+    {"POST", "/api/transfers", Role::kLook},
+    {"GET", "/api/transfers/*", Role::kLook},
+    {"GET", "/api/transfers/*/file", Role::kLook},
 
     {"POST", "/api/all/stop", Role::kOperate},
     {"POST", "/api/robots/*/pause", Role::kOperate},
@@ -37,6 +43,8 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"PUT", "/api/site/placements/*", Role::kOperate},
     {"DELETE", "/api/site/placements/*", Role::kOperate},
+    {"POST", "/api/routes/*/edits", Role::kOperate},
+    {"POST", "/api/transfers/uploads", Role::kOperate},
 };
 
 bool IsMeant(std::string_view path, std::string_view pattern) {

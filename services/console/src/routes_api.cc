@@ -29,12 +29,25 @@ void Search(Desk& desk, const Request& request, Response& response) {
   Answer(response, 200, PageJson(*reply));
 }
 
+void Edit(Desk& desk, const Request& request, Response& response) {
+  const auto edit = ReadRouteEdit(request.matches[1], request.body);
+  if (!edit) return Refuse(response, edit.error());
+  const auto reply = desk.Edit(*edit);
+  if (!reply) return Refuse(response, reply.error());
+  std::vector<std::string> changed;
+  for (const route::RouteInfo& info : reply->page.routes) changed.push_back(fleet::RouteJson(info));
+  Answer(response, 200, fmt::format("{{\"changed\": {}}}", program::JsonList(changed)));
+}
+
 }  // namespace
 
 void ServeRoutes(http::Server& server, Desk& desk) {
   server.Get("/api/routes", [&desk](const Request& request, Response& response) {
     Search(desk, request, response);
   });
+  server.Post(
+      "/api/routes/([A-Za-z0-9_.-]{1,64})/edits",
+      [&desk](const Request& request, Response& response) { Edit(desk, request, response); });
 }
 
 }  // namespace trailcast::console

@@ -7,14 +7,16 @@
 #include <optional>
 #include <utility>
 
-#include "services/base/number.h"
 #include "services/base/text.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/answers.h"
 #include "services/console/src/files.h"
+#include "services/console/src/history_api.h"
 #include "services/console/src/map_api.h"
 #include "services/console/src/routes_api.h"
+#include "services/console/src/transfers_api.h"
+#include "services/console/src/where_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
@@ -58,7 +60,7 @@ http::Limits LimitsFor(const Access& access) {
 
 }  // namespace
 
-Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry)
+Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join)
     : desk_(desk), access_(std::move(entry)), server_(LimitsFor(access_)) {
   httplib::Headers headers{
       {"Content-Security-Policy",
@@ -90,15 +92,18 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry)
   ServeMissions();
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
+  ServeWhere(server_, desk_);
+  if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
   access_.Serve(server_);
 }
 
 Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
                                        const std::string& host, int port,
-                                       std::set<std::string> names, Entry entry) {
+                                       std::set<std::string> names, Entry entry,
+                                       Transfers::Join join) {
   const bool asks = entry.guard != nullptr;
   const auto tls = entry.tls;
-  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry)));
+  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry), std::move(join)));
   web->door_ = {.port = port, .names = std::move(names), .encrypted = tls.has_value()};
   web->door_.any_name = asks && web->door_.names.empty();
   if (tls) web->server_.Speak(*tls);
@@ -203,30 +208,7 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
 }
 
 void Web::ServeMissions() {
-  server_.Get("/api/missions", [this](const Request& request, Response& response) {
-    mission::Query query;
-    query.agent = request.get_param_value("robot");
-    query.route = request.get_param_value("route");
-    query.id = request.get_param_value("mission");
-    query.page_size = static_cast<std::uint32_t>(FleetState::kMissionsShown);
-    for (const std::string* name : {&query.agent, &query.route, &query.id}) {
-      if (!name->empty() && !IsValidName(*name)) {
-        return Refuse(response, 400, "robot, route and mission are to be names");
-      }
-    }
-    if (request.has_param("limit")) {
-      const auto limit = ParseNumber<std::uint32_t>(request.get_param_value("limit"));
-      if (!limit || *limit < 1 || *limit > exchange::kMaxMissionsPerReply) {
-        return Refuse(response, 400,
-                      fmt::format("limit is to be 1 to {}", exchange::kMaxMissionsPerReply));
-      }
-      query.page_size = *limit;
-    }
-    const auto missions = desk_.Missions(query);
-    if (!missions) return Refuse(response, 503, missions.error().message);
-    Answer(response, 200,
-           fmt::format("{{\"missions\": {}}}", fleet::MissionsJson(missions->missions)));
-  });
+  ServeHistory(server_, desk_);
   server_.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/missions",
                [this](const Request& request, Response& response) {
                  Send(request.matches[1], request, response);

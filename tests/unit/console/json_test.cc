@@ -95,6 +95,18 @@ TEST(ConsoleBodies, AQueryThatMakesNoSenseIsRefusedByName) {
               testing::AllOf(HasSubstr("'state'"), HasSubstr("active, complete")));
 }
 
+TEST(ConsoleBodies, AnEditSaysWhatIsToBecomeOfARoute) {
+  const auto edit =
+      ReadRouteEdit("hall", R"({"action": "tag", "revision": 2, "tags": ["wet", "night", "wet"]})");
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->action, route::EditAction::kTag);
+  EXPECT_EQ(edit->route, "hall");
+  EXPECT_EQ(edit->revision, 2U);
+  EXPECT_EQ(edit->tags, (std::vector<std::string>{"night", "wet"}));
+  EXPECT_THAT(ReadRouteEdit("hall", R"({"action": "sell"})").error().message,
+              testing::AllOf(HasSubstr("'action'"), HasSubstr("activate")));
+}
+
 TEST(ConsoleBodies, AnErrorIsJsonWhateverItSays) {
   EXPECT_EQ(ErrorBody("\"no\"\xff"), "{\"error\":\"\\\"no\\\"\uFFFD\"}");
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "services/console/desk.h"
+#include "services/http/server.h"
+
+namespace trailcast::console {
+
+// GET /api/missions and GET /api/commands. `desk` outlives the server.
+void ServeHistory(http::Server& server, Desk& desk);
+
+}  // namespace trailcast::console
