@@ -38,7 +38,7 @@ function Places({ found }: { found: Found }) {
 
 // Pictures tell where they were taken, route files are uploaded: dropped, or chosen.
 export function Finder() {
-  const mayOperate = useMay('operate');
+  const mayAdminister = useMay('administer');
   const [over, setOver] = useState(false);
   const [shows, setShows] = useState(false);
   const [found, setFound] = useState<Found | string | null>(null);
@@ -57,7 +57,7 @@ export function Finder() {
   };
   const take = (files: FileList | null) => {
     for (const file of files ?? []) {
-      if (mayOperate && file.name.endsWith('.trailcast')) {
+      if (mayAdminister && file.name.endsWith('.trailcast')) {
         setUploads((had) => [...had, { number: had.length, file }]);
       } else {
         void look(file);
@@ -75,13 +75,13 @@ export function Finder() {
       onDragOver={(event) => { event.preventDefault(); setOver(true); }}
       onDragLeave={() => setOver(false)} onDrop={drop}
     >
-      <p>Drop a picture of a robot’s camera here, or of one like it, to find where it was taken{mayOperate ? '; or a route file, to upload it' : ''}.</p>
+      <p>Drop a picture of a robot’s camera here, or of one like it, to find where it was taken{mayAdminister ? '; or a route file, to upload it' : ''}.</p>
       <div className="orders">
         <label className="button">
           Find by picture …
           <input type="file" accept="image/*" className="hidden" onChange={(event) => { take(event.target.files); event.target.value = ''; }} />
         </label>
-        {mayOperate && <label className="button">
+        {mayAdminister && <label className="button">
           Upload route …
           <input type="file" accept=".trailcast" className="hidden" onChange={(event) => { take(event.target.files); event.target.value = ''; }} />
         </label>}

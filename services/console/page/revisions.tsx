@@ -52,7 +52,7 @@ export function Revisions({ route }: { route: string }) {
   const [page, setPage] = useState<RoutePage | string | null>(null);
   const [asked, setAsked] = useState<Asked | null>(null);
   const [answer, setAnswer] = useState<Answer | null>(null);
-  const mayOperate = useMay('operate');
+  const mayAdminister = useMay('administer');
   const look = useCallback(async () => {
     setPage(await get<RoutePage>('/api/routes', { name: route, sort: 'newest', limit: '200' }));
   }, [route]);
@@ -74,7 +74,7 @@ export function Revisions({ route }: { route: string }) {
       {back}
       <header className="routehead">
         <h2>{name}</h2>
-        {mayOperate && revisions.length > 1 && (
+        {mayAdminister && revisions.length > 1 && (
           <button onClick={() => setAsked({ action: 'rollback', revision: 0, what: 'Robots will follow the revision before the active one.' })}>
             Roll back …
           </button>
@@ -102,12 +102,12 @@ export function Revisions({ route }: { route: string }) {
               {revisions.map((each) => (
                 <td key={each.teaching}>
                   <div className="orders">
-                    {mayOperate && each.state !== 'active' && each.state !== 'teaching' && (
+                    {mayAdminister && each.state !== 'active' && each.state !== 'teaching' && (
                       <button onClick={() => setAsked({ action: 'activate', revision: each.revision, what: 'Robots will follow this revision from now on.' })}>
                         Activate …
                       </button>
                     )}
-                    {mayOperate && each.state !== 'retired' && each.state !== 'teaching' && (
+                    {mayAdminister && each.state !== 'retired' && each.state !== 'teaching' && (
                       <button onClick={() => setAsked({ action: 'retire', revision: each.revision, what: 'It is kept, and offered to no robot.' })}>
                         Retire …
                       </button>

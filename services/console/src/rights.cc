@@ -43,8 +43,8 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"PUT", "/api/site/placements/*", Role::kOperate},
     {"DELETE", "/api/site/placements/*", Role::kOperate},
-    {"POST", "/api/routes/*/edits", Role::kOperate},
-    {"POST", "/api/transfers/uploads", Role::kOperate},
+    {"POST", "/api/routes/*/edits", Role::kAdminister},
+    {"POST", "/api/transfers/uploads", Role::kAdminister},
 };
 
 bool IsMeant(std::string_view path, std::string_view pattern) {
