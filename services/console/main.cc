@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -110,10 +109,8 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
       common, commands ? console::ConsoleTopics() : console::LookingTopics());
   if (!peer) return program::Complain(app, peer.error());
   console::Desk desk(peer->self, std::move(peer->exchange));
-  program::CommonOptions surveyor = common;
-  surveyor.name += "-map";
   console::Atlas atlas(
-      [&] { return trailcast::fleet::JoinAsOperator(surveyor, console::AtlasTopics()); });
+      [&] { return trailcast::fleet::JoinAsOperator(common, console::AtlasTopics(), 1); });
   std::unique_ptr<console::Site> site;
   if (!options.site.empty()) {
     auto opened = console::Site::Open(options.site);
@@ -124,13 +121,11 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
   const char* scheme = entry->tls ? "https" : "http";
   std::atomic<int> couriers{0};  // each has a name of its own
-  const auto web =
-      console::Web::Open(desk, atlas, site.get(), options.host, options.port, std::move(names),
-                         *std::move(entry), [&](const trailcast::exchange::TopicUse& use) {
-                           program::CommonOptions courier = common;
-                           courier.name += fmt::format("-file{}", ++couriers);
-                           return trailcast::fleet::JoinAsOperator(courier, use);
-                         });
+  const auto web = console::Web::Open(
+      desk, atlas, site.get(), options.host, options.port, std::move(names), *std::move(entry),
+      [&](const trailcast::exchange::TopicUse& use) {
+        return trailcast::fleet::JoinAsOperator(common, use, 2 + couriers++ % 98);
+      });
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
                (*web)->port());

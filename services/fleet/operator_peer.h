@@ -12,8 +12,9 @@ struct OperatorPeer {
   AgentId self;
   std::unique_ptr<exchange::RouteExchange> exchange;
 };
-// Under a name of its own: two operators may be at work at the same time.
+// Under a name of its own: two operators may be at work at the same time, and one process may be
+// several members, each with another `number` below 100.
 [[nodiscard]] Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
-                                                  const exchange::TopicUse& use);
+                                                  const exchange::TopicUse& use, int number = 0);
 
 }  // namespace trailcast::fleet

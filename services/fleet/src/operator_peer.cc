@@ -8,9 +8,10 @@
 namespace trailcast::fleet {
 
 Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
-                                    const exchange::TopicUse& use) {
+                                    const exchange::TopicUse& use, int number) {
   program::CommonOptions network = common;
-  network.name = ProcessName(common.name, getpid());
+  // Keys are of the name without what is behind it.
+  network.name = ProcessName(common.name, getpid() * 100L + number);
   auto exchange = program::OpenExchange(network, use);
   if (!exchange) return tl::unexpected(exchange.error());
   return OperatorPeer{AgentId(network.name), std::move(*exchange)};
