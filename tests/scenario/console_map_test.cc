@@ -138,11 +138,15 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   browser.Screenshot(shots / "shape.png");
   ASSERT_EQ(Post("/api/robots/robot1/pause"), 200);
 
-  // Put there with the keyboard.
+  // Put there with the keyboard; all of it is on the screen, which need not scroll.
+  browser.Look(1280, 1500);
   ASSERT_TRUE(browser.Click("//label[contains(., 'Site')]"));
   ASSERT_TRUE(browser.WaitForText("hall, 3.5 m")) << browser.Text();
   ASSERT_TRUE(browser.Click("//select/option[contains(., 'hall')]")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("Put hall in the middle")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelector('.site image') !== null") == json(true);
+  })) << "the floor plan";
   ASSERT_TRUE(browser.Click("//button[contains(., 'in the middle')]")) << browser.Text();
   ASSERT_TRUE(browser.Type("//*[@class='handles']",
                            "\xEE\x80\x92\xEE\x80\x93"
