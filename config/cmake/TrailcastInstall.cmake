@@ -17,6 +17,8 @@ install(PROGRAMS config/examples/send_and_wait.sh DESTINATION share/trailcast CO
 install(FILES config/systemd/trailcast-console.service DESTINATION lib/systemd/system
         COMPONENT tools)
 install(FILES config/route_server/server.toml DESTINATION share/trailcast COMPONENT server)
+install(FILES config/grafana/trailcast.json config/prometheus/trailcast-alerts.yml
+        DESTINATION share/trailcast COMPONENT tools)
 install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.toml
               config/agent/differential.toml config/agent/tracked.toml DESTINATION share/trailcast
         COMPONENT agent)

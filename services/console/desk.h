@@ -16,6 +16,7 @@
 #include "services/console/fleet_state.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/now_client.h"
+#include "services/http/metrics_text.h"
 
 namespace trailcast::console {
 
@@ -65,6 +66,9 @@ class Desk {
   // The revisions that have changed. kConflict: a server says why it changes nothing.
   [[nodiscard]] Result<exchange::CatalogReply> Edit(const route::RouteEdit& edit);
 
+  // All that is measured, for Prometheus.
+  [[nodiscard]] Result<http::MetricsText> Measure();
+
   struct News {
     std::uint64_t number = 0;  // counts up from 1
     StateParts state{};
@@ -111,6 +115,7 @@ class Desk {
   std::deque<std::shared_ptr<Errand>> stops_;
   std::deque<std::shared_ptr<Errand>> others_;
   std::size_t under_way_ = 0;  // of the others, those that wait included
+  std::uint64_t refused_ = 0;
   std::uint64_t news_count_ = 0;
   std::shared_ptr<const News> news_;  // null while nobody looks
   int looking_ = 0;                   // who waits in See now

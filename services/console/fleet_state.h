@@ -5,11 +5,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
+#include "services/http/metrics_text.h"
 
 namespace trailcast::console {
 
@@ -58,6 +60,8 @@ class FleetState {
   [[nodiscard]] std::vector<RouteId> TakeLackingRoutes(Time now);
 
   [[nodiscard]] StateParts Parts() const;
+  // Robots, servers and missions, for Prometheus.
+  void Measure(http::MetricsText& text) const;
 
  private:
   struct Agent {
@@ -72,6 +76,12 @@ class FleetState {
     std::optional<route::RouteInfo> info{};
     std::optional<Time> asked_at{};
   };
+  // How a robot is doing.
+  struct Standing {
+    std::string_view state{};  // of kRobotStates
+    bool needs_person = false;
+    const mission::Record* mission = nullptr;  // that has not ended
+  };
   using MissionName = std::pair<AgentId, std::string>;
   using Latest = std::map<AgentId, const mission::Record*>;
 
@@ -79,12 +89,14 @@ class FleetState {
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);
   [[nodiscard]] Latest LatestMissions() const;
+  [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
   [[nodiscard]] std::string RobotJson(const Agent& agent, const mission::Record* latest) const;
   [[nodiscard]] std::string MissionsJson() const;
 
   AgentId self_;
   NewestMap<AgentId, Agent> agents_{kMostAgents};
   NewestMap<MissionName, mission::Record> missions_{kMostMissions};
+  std::map<mission::State, std::uint64_t> became_;  // how often missions were seen to
   std::map<route::RouteKey, Route> routes_;
   bool lacks_orders_ = false;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include "services/base/result.h"
 #include "services/console/access.h"
 #include "services/console/atlas.h"
+#include "services/console/command_counts.h"
 #include "services/console/desk.h"
 #include "services/console/site.h"
 #include "services/console/transfers.h"
@@ -40,6 +42,7 @@ class Web {
   void ServeState();
   void ServeOrders();
   void ServeMissions();
+  void ServeMetrics();
   void Stream(const httplib::Request& request, httplib::Response& response);
   void Tell(exchange::NowOrder order, const fleet::NowTarget& target,
             const httplib::Request& request, httplib::Response& response);
@@ -50,6 +53,9 @@ class Web {
   std::optional<Transfers> transfers_;
   http::Door door_;
   std::atomic<int> streams_{0};
+  std::atomic<std::uint64_t> streams_refused_{0};
+  std::atomic<std::uint64_t> stream_bytes_{0};
+  CommandCounts commands_;
   http::Server server_;  // the last: its threads use the others
 };
 

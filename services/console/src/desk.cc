@@ -113,6 +113,26 @@ using MissionQuestion = Question<exchange::MissionRequest, exchange::MissionRepl
 using RouteQuestion = Question<exchange::CatalogRequest, exchange::CatalogReply>;
 using RouteChange = Question<exchange::RouteEditRequest, exchange::CatalogReply>;
 
+// Looks at the desk's own state, in its thread.
+class MeasureErrand final : public ErrandFor<http::MetricsText> {
+ public:
+  explicit MeasureErrand(FleetState& state) : state_(state) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {}; }
+  void Hear(const exchange::Message& /*message*/) override {}
+  [[nodiscard]] bool IsOver(milliseconds /*since*/) const override { return true; }
+
+ private:
+  [[nodiscard]] Result<http::MetricsText> Outcome() const override {
+    state_.Tick(std::chrono::steady_clock::now());
+    http::MetricsText text;
+    state_.Measure(text);
+    return text;
+  }
+
+  FleetState& state_;
+};
+
 template <typename Reply>
 Result<Reply> Await(std::future<Result<Reply>> future, milliseconds timeout) {
   if (future.wait_for(timeout + kGrace) == std::future_status::ready) return future.get();
@@ -206,16 +226,31 @@ Result<exchange::CatalogReply> Desk::Edit(const route::RouteEdit& edit) {
       options_.reply_within);
 }
 
+Result<http::MetricsText> Desk::Measure() {
+  auto errand = std::make_shared<MeasureErrand>(state_);
+  auto future = errand->Future();
+  if (!Take(std::move(errand), false)) return TooMuch();
+  auto text = Await(std::move(future), milliseconds(0));
+  if (!text) return text;
+  const std::scoped_lock lock(mutex_);
+  text->Add("console_requests_refused_total", "counter",
+            "Commands and questions that were one too many.", refused_);
+  return text;
+}
+
 bool Desk::Take(std::shared_ptr<Errand> errand, bool is_stop) {
   const std::scoped_lock lock(mutex_);
   if (closed_) return false;
   errand->is_stop = is_stop;
+  const bool too_many = is_stop ? stops_.size() >= kMostStops : under_way_ >= kMostErrands;
+  if (too_many) {
+    ++refused_;
+    return false;
+  }
   if (is_stop) {
-    if (stops_.size() >= kMostStops) return false;
     stops_.push_back(std::move(errand));
     return true;
   }
-  if (under_way_ >= kMostErrands) return false;
   ++under_way_;
   others_.push_back(std::move(errand));
   return true;

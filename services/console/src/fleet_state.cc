@@ -7,6 +7,7 @@
 #include <set>
 #include <variant>
 
+#include "services/console/src/robot_state.h"
 #include "services/console/src/values.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/routes/catalog_client.h"
@@ -19,39 +20,6 @@ namespace {
 using exchange::AgentMode;
 using exchange::AgentRole;
 using exchange::AgentStatus;
-
-// How a robot stands by an operator's word is told in words alone (agent/link/operator_hold.h).
-bool SaysStopped(const std::string& detail) {
-  return detail.starts_with("stopped by ") || detail.starts_with("stopped, nobody");
-}
-bool SaysPaused(const std::string& detail) {
-  return detail.starts_with("paused by ") || detail.starts_with("released, ") ||
-         detail.starts_with("its agent has started again");
-}
-
-const char* StateOf(const AgentStatus& status, bool silent) {
-  if (silent) return "silent";
-  if (status.mode == AgentMode::kWaiting && SaysStopped(status.detail)) return "stopped";
-  if (status.mode == AgentMode::kWaiting && SaysPaused(status.detail)) return "paused";
-  switch (status.mode) {
-    case AgentMode::kStarting:
-      return "starting";
-    case AgentMode::kWaiting:
-      return status.role == AgentRole::kFollower && status.detail.starts_with("free") ? "free"
-                                                                                      : "waiting";
-    case AgentMode::kTeaching:
-      return "teaching";
-    case AgentMode::kReplaying:
-      return "driving";
-    case AgentMode::kArrived:
-      return "arrived";
-    case AgentMode::kStopped:
-      return "ended";
-    case AgentMode::kFault:
-      return "fault";
-  }
-  return "waiting";
-}
 
 // Coarse, so that noise is no news.
 double Rounded(double value, double parts) {
@@ -74,20 +42,6 @@ Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_missi
   return orders;
 }
 
-const char* ToText(AgentRole role) {
-  switch (role) {
-    case AgentRole::kServer:
-      return "server";
-    case AgentRole::kScout:
-      return "scout";
-    case AgentRole::kFollower:
-      return "follower";
-    case AgentRole::kOperator:
-      return "operator";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t unix_ms) {
@@ -108,14 +62,17 @@ void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
   const MissionName name{report.agent, report.mission};
   mission::Record* known = missions_.Find(name);
-  if (known == nullptr) {
+  const bool is_new = known == nullptr;
+  if (is_new) {
     lacks_orders_ = true;
     known = &missions_.Touch(name);
     known->mission.agent = report.agent;
     known->mission.id = report.mission;
     known->sent_unix_ms = unix_ms;
   }
-  if (!mission::IsNewer(report, known->last)) return;
+  const bool newer = mission::IsNewer(report, known->last);
+  if (is_new || (newer && report.state != known->last.state)) ++became_[report.state];
+  if (!newer) return;
   if (known->last.state != report.state || known->last.detail != report.detail) {
     known->changed_unix_ms = unix_ms;
   }
@@ -126,11 +83,17 @@ void FleetState::On(const exchange::MissionReply& reply) {
   lacks_orders_ = false;
   // The newest first, and the newest is to stay longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
-    mission::Record& known = missions_.Touch({record->mission.agent, record->mission.id});
+    const MissionName name{record->mission.agent, record->mission.id};
+    const bool is_new = missions_.Find(name) == nullptr;
+    mission::Record& known = missions_.Touch(name);
     const mission::Report heard = known.last;
     const std::int64_t changed_unix_ms = known.changed_unix_ms;
     known = *record;
-    if (heard.change <= record->last.change) continue;
+    if (heard.change <= record->last.change) {
+      // What was over before this console looked is history.
+      if (!is_new && heard.state != record->last.state) ++became_[record->last.state];
+      continue;
+    }
     known.last = heard;
     known.changed_unix_ms = changed_unix_ms;
   }
@@ -146,6 +109,7 @@ void FleetState::On(const exchange::CatalogReply& reply) {
 void FleetState::Sent(const mission::Mission& mission, std::int64_t unix_ms) {
   const MissionName name{mission.agent, mission.id};
   if (missions_.Find(name) != nullptr) return;
+  ++became_[mission::State::kSent];
   missions_.Touch(name) = {.mission = mission,
                            .last = {.agent = mission.agent, .mission = mission.id},
                            .sent_unix_ms = unix_ms,
@@ -187,15 +151,23 @@ FleetState::Latest FleetState::LatestMissions() const {
   return latest;
 }
 
+FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::Record* latest) {
+  Standing standing;
+  const bool has_ended = latest != nullptr && mission::HasEnded(latest->last.state);
+  standing.mission = has_ended ? nullptr : latest;
+  const bool on_mission = standing.mission != nullptr;
+  const bool ended = agent.status.mode == AgentMode::kStopped;
+  standing.state = RobotState(agent.status, agent.silent && !ended, on_mission);
+  const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
+  standing.needs_person =
+      failed || standing.state == "fault" || (standing.state == "silent" && on_mission);
+  return standing;
+}
+
 std::string FleetState::RobotJson(const Agent& agent, const mission::Record* latest) const {
   using console::Json;
   const AgentStatus& status = agent.status;
-  const bool ended = status.mode == AgentMode::kStopped;
-  const std::string state = StateOf(status, agent.silent && !ended);
-  const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
-  const mission::Record* mission =
-      latest != nullptr && mission::HasEnded(latest->last.state) ? nullptr : latest;
-  const bool fails = state == "fault" || failed || (state == "silent" && mission != nullptr);
+  const auto [state, needs_person, mission] = StandingOf(agent, latest);
   const auto percent = [](std::optional<std::uint8_t> value) {
     return value ? Json(*value) : Json(nullptr);
   };
@@ -203,7 +175,7 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
              {"role", ToText(status.role)},
              {"state", state},
              {"detail", status.detail},
-             {"needs_person", fails},
+             {"needs_person", needs_person},
              {"heard", !agent.silent},
              {"last_heard_unix_ms", agent.silent ? Json(agent.heard_unix_ms) : Json(nullptr)},
              {"route", status.route},
@@ -221,7 +193,8 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
              {"battery_percent", percent(status.battery_percent)},
              {"link_percent", percent(status.link_percent)},
              {"software", status.software},
-             {"orders", OrdersFor(StateOf(status, false), status, mission != nullptr)}};
+             {"orders", OrdersFor(RobotState(status, false, mission != nullptr), status,
+                                  mission != nullptr)}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();
     robot["teaching"] = fmt::format("{:x}", status.place->key.teaching.value());

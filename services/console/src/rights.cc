@@ -28,6 +28,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/routes/*/shape", Role::kLook},
     {"GET", "/api/site", Role::kLook},
     {"GET", "/api/site/plan", Role::kLook},
+    {"GET", "/metrics", Role::kLook},
 
     {"POST", "/api/where", Role::kLook},
     {"POST", "/api/transfers", Role::kLook},
@@ -66,14 +67,13 @@ bool IsMeant(std::string_view path, std::string_view pattern) {
 }  // namespace
 
 Right RightTo(const std::string& method, const std::string& path) {
-  // The page itself is no secret.
-  if (method == "GET" && !path.starts_with("/api/")) return {.is_known = true};
   for (const Row& row : kRows) {
     if (row.method == method && IsMeant(path, row.path)) {
       return {.is_known = true, .needs = row.needs};
     }
   }
-  return {};
+  // The page itself is no secret.
+  return {.is_known = method == "GET" && !path.starts_with("/api/")};
 }
 
 }  // namespace trailcast::console

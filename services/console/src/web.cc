@@ -90,6 +90,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeState();
   ServeOrders();
   ServeMissions();
+  ServeMetrics();
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
   ServeWhere(server_, desk_);
@@ -152,6 +153,7 @@ void Web::Stream(const Request& request, Response& response) {
   // Counted until the last copy of what writes the stream is gone.
   const std::shared_ptr<void> seat(nullptr, [this](void*) { --streams_; });
   if (++streams_ > kMostStreams) {
+    ++streams_refused_;
     response.set_header("Retry-After", "5");
     return Refuse(response, 503, "too many pages look already: close some");
   }
@@ -180,6 +182,7 @@ void Web::Stream(const Request& request, Response& response) {
         }
         if (news) told.news = news;
         told.at = std::chrono::steady_clock::now();
+        stream_bytes_ += text.size();
         return sink.write(text.data(), text.size());
       });
 }
@@ -202,6 +205,7 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
   if (!reason) return Refuse(response, 400, reason.error().message);
   const auto words = desk_.Tell(order, target, ReasonOf(access_.WhoIs(request), *reason));
   if (!words) return Refuse(response, 503, words.error().message);
+  commands_.Count(order, *words);
   if (target.whom == NowWhom::kAll)
     return Answer(response, 200, fmt::format("{{\"robots\": {}}}", fleet::WordsJson(*words)));
   Answer(response, StatusOf(words->front()), fleet::WordJson(words->front()));

@@ -102,7 +102,8 @@ class AccessTest : public testing::Test {
 TEST_F(AccessTest, WhoIsNotLoggedInSeesThePageAlone) {
   EXPECT_EQ(Get("/").status, 200);
   EXPECT_EQ(Get("/page.js").status, 200);
-  for (const char* path : {"/api/state", "/api/events", "/api/missions", "/api/me", "/api/none"}) {
+  for (const char* path :
+       {"/api/state", "/api/events", "/api/missions", "/api/me", "/api/none", "/metrics"}) {
     EXPECT_EQ(Get(path).status, 401) << path;
   }
   const Got refused = Post("/api/all/stop");
@@ -243,7 +244,9 @@ TEST(Rights, AreGivenByTheTableAlone) {
   EXPECT_EQ(RightTo("GET", "/api/state").needs, Role::kLook);
   EXPECT_EQ(RightTo("GET", "/api/site").needs, Role::kLook);
   EXPECT_EQ(RightTo("PUT", "/api/site/placements/ab").needs, Role::kOperate);
+  EXPECT_EQ(RightTo("GET", "/metrics").needs, Role::kLook);
   EXPECT_TRUE(RightTo("GET", "/").is_known);
+  EXPECT_FALSE(RightTo("POST", "/").is_known);
   for (const char* path : {"/api/robots//stop", "/api/robots/robot1/stop/", "/api/robots/a/b/stop",
                            "/api/robots/robot1", "/api/robots/robot1/dance", "/api/", "/api"}) {
     EXPECT_FALSE(RightTo("POST", path).is_known) << path;

@@ -8,6 +8,7 @@
 namespace trailcast::console {
 namespace {
 
+using exchange::AgentHold;
 using exchange::AgentMode;
 using exchange::AgentRole;
 using exchange::AgentStatus;
@@ -58,8 +59,11 @@ class FleetStateTest : public testing::Test {
     }
     return json();
   }
-  std::string StateOf(AgentMode mode, const std::string& detail) {
-    Hear(Status("robot1", mode, detail));
+  std::string StateOf(AgentMode mode, AgentHold hold = AgentHold::kNone, bool on_duty = false) {
+    AgentStatus status = Status("robot1", mode);
+    status.hold = hold;
+    status.on_duty = on_duty;
+    Hear(status);
     return Robot()["state"];
   }
 
@@ -68,21 +72,27 @@ class FleetStateTest : public testing::Test {
 };
 
 TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
-  EXPECT_EQ(StateOf(AgentMode::kReplaying, ""), "driving");
+  EXPECT_EQ(StateOf(AgentMode::kReplaying), "driving");
   EXPECT_EQ(Robot()["orders"], json({"pause", "stop"}));
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, "free; mission a: arrived"), "free");
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, "paused by desk: rain"), "paused");
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "free");
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kPaused), "paused");
   EXPECT_EQ(Robot()["orders"], json({"resume", "stop"}));
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, "released, and stands until it is told to resume"),
-            "paused");
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, "stopped by desk on 2026-11-24 at 05:30:12 UTC"),
-            "stopped");
+  EXPECT_EQ(StateOf(AgentMode::kReplaying, AgentHold::kStopped), "driving") << "yet";
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kStopped, true), "stopped");
   EXPECT_EQ(Robot()["orders"], json({"release", "stop"}));
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, "waits for robot2"), "waiting");
-  EXPECT_EQ(StateOf(AgentMode::kStopped, "stopped by a signal"), "ended");
+  EXPECT_EQ(StateOf(AgentMode::kWaiting), "waiting");
+  EXPECT_EQ(StateOf(AgentMode::kStopped, AgentHold::kStopped), "ended");
   EXPECT_EQ(Robot()["orders"], json::array());
-  EXPECT_EQ(StateOf(AgentMode::kFault, "LOST"), "fault");
+  EXPECT_EQ(StateOf(AgentMode::kFault), "fault");
   EXPECT_EQ(Robot()["needs_person"], true);
+}
+
+TEST_F(FleetStateTest, WhoIsOnDutyIsFreeOnlyWithoutAMission) {
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "free");
+  Hear(Report("trip", 1, State::kUnderWay));
+  EXPECT_EQ(Robot()["state"], "waiting");
+  Hear(Report("trip", 2, State::kArrived));
+  EXPECT_EQ(Robot()["state"], "free");
 }
 
 TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
@@ -207,7 +217,9 @@ TEST_F(FleetStateTest, AChangeIsWhatIsOtherThanBefore) {
   const StateParts before = state_.Parts();
   EXPECT_EQ(json::parse(ChangeJson(before, before, 5)),
             json({{"now_unix_ms", 5}, {"robots", json::array()}, {"gone", json::array()}}));
-  Hear(Status("robot2", AgentMode::kWaiting, "paused by desk"));
+  AgentStatus paused = Status("robot2", AgentMode::kWaiting);
+  paused.hold = AgentHold::kPaused;
+  Hear(paused);
   Hear(Report("trip", 1, State::kPaused));
   state_.Tick(now_);
   const json change = json::parse(ChangeJson(before, state_.Parts(), 5));
