@@ -15,6 +15,7 @@
 #include "services/base/time.h"
 #include "services/program/open_exchange.h"
 #include "services/program/output_file.h"
+#include "services/program/radio.h"
 #include "services/program/stop_signal.h"
 
 namespace trailcast::agent {
@@ -29,6 +30,14 @@ Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& opti
                                                       const exchange::TopicUse& use) {
   if (!options.server) return nullptr;
   return program::OpenExchange(options.common, program::WithAgents(use));
+}
+
+// Of a device that outlives whoever asks.
+std::function<program::Vitals()> VitalsOf(const RobotDevice& device,
+                                          const CommandOptions& options) {
+  return [&device, radio = options.common.network_interface] {
+    return program::Vitals{device.battery_percent(), program::LinkPercent(radio)};
+  };
 }
 
 // With keys only scouts may say what routes there are.
@@ -141,7 +150,8 @@ Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
   auto exchange = program::OpenExchange(
       options.common, program::WithAgents(FollowersTopics(options, exchange::OnDutyTopics())));
   if (!exchange) return tl::unexpected(exchange.error());
-  const OnDutyOptions duty = MakeOnDutyOptions(options, serve);
+  OnDutyOptions duty = MakeOnDutyOptions(options, serve);
+  duty.vitals = VitalsOf(*opened->device, options);
   if (auto served = ServeOnDuty(*opened->device, duty, std::move(*exchange)); !served) {
     return tl::unexpected(served.error());
   }
@@ -158,9 +168,9 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  const ScoutOptions scout{
-      teach.route,  LinkOptions(options, teach),    teach.tags,         teach.place,
-      teach.review, UnfinishedOf(teach.unfinished), teach.device.intake};
+  ScoutOptions scout{teach.route,  LinkOptions(options, teach),    teach.tags,         teach.place,
+                     teach.review, UnfinishedOf(teach.unfinished), teach.device.intake};
+  scout.link.vitals = VitalsOf(*opened->device, options);
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->TruthWritten(); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);
@@ -224,8 +234,9 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, FollowersTopics(options));
   if (!exchange) return tl::unexpected(exchange.error());
-  const auto outcome = Replay(*opened->device, MakeFollowerOptions(options, replay, *ref),
-                              std::move(*store), std::move(*exchange));
+  FollowerOptions follower = MakeFollowerOptions(options, replay, *ref);
+  follower.link.vitals = VitalsOf(*opened->device, options);
+  const auto outcome = Replay(*opened->device, follower, std::move(*store), std::move(*exchange));
   if (!outcome) return tl::unexpected(outcome.error());
   auto written = Tell(outcome->summary, options);
   if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);

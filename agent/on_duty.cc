@@ -48,6 +48,7 @@ class OnDuty {
         desk_(options.agent, options.missions_file),
         own_visit_(exchange_.Visit()),
         presence_(*own_visit_, FreeStatus(options.agent)) {
+    presence_.FeelBy(options.vitals);
     exchange_.Tend({[this](const exchange::Message& message) { Hear(message); },
                     [this](exchange::RouteExchange& to) { Say(to); },
                     [this](const exchange::AgentStatus& status) { SawStatus(status); }});
@@ -208,6 +209,7 @@ void OnDuty::Follow(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
   follower.link.instance = presence_.status().instance;
   follower.link.now_desk = &now_desk_;
+  follower.link.vitals = options_.vitals;
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   follower.end_m = task.to_m;

@@ -8,6 +8,7 @@
 #include "agent/follower.h"
 #include "services/exchange/route_exchange.h"
 #include "services/mission/orders.h"
+#include "services/program/presence.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::agent {
@@ -21,7 +22,8 @@ struct OnDutyOptions {
   std::function<FollowerOptions(const mission::Task&)> follower;
   // Of the agent's routes, for each following.
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_store;
-  std::function<bool()> stop = [] { return false; };  // any thread
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // any thread
+  std::function<bool()> stop = [] { return false; };                           // any thread
 };
 
 // Takes missions and does them with `device`, one at a time, until `options.stop` says so. After a

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,6 +40,8 @@ class RobotDevice {
   [[nodiscard]] virtual std::string camera() const = 0;
   // Share of the drive done, 0..1, where the device knows it (a recording, a scripted scout).
   [[nodiscard]] virtual std::optional<double> drive_progress() const = 0;
+  // How full its battery is, where the robot tells. Any thread.
+  [[nodiscard]] virtual std::optional<std::uint8_t> battery_percent() const { return std::nullopt; }
 
  protected:
   RobotDevice() = default;

@@ -72,6 +72,10 @@ void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Op
 CLI::Option* AddImuTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                dds::Ros2Options& topics);
 
+// The one of its battery.
+CLI::Option* AddBatteryTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                   dds::Ros2Options& topics);
+
 // The robot's topics, if they name no interface, are on the network's.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
 

@@ -51,6 +51,7 @@ class Ros2Device final : public RobotDevice {
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override { return std::nullopt; }
+  [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;
   void OnTrouble(const Trouble& tell) override;
 
  private:

@@ -26,6 +26,7 @@ struct SimulatedRun {
   // For whoever judges: the true poses of the frames, as they are made, CSV
   // `t_s,x_m,y_m,heading_rad` in the world's frame. Empty: nowhere.
   std::filesystem::path truth{};
+  double battery_minutes = 0.0;          // that a full one lasts; 0: it tells of none
   std::vector<sim::RoughPatch> rough{};  // what its wheels feel besides the place's ground
 };
 

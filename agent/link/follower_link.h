@@ -39,6 +39,7 @@ struct FollowerLinkOptions {
   // what operators have told it, which outlives the link. 0 and null: this link is all there is.
   std::uint64_t instance = 0;
   NowDesk* now_desk = nullptr;
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
   bool feeds_segments = true;   // false: nobody drives, the segments are stored and not read back
   bool hears_operators = true;  // false: there is nothing that could be held
   // How long the agent waits for a server, the route, or the next segment, while none comes.

@@ -29,7 +29,8 @@ struct ScoutLinkOptions {
   std::chrono::milliseconds delivery_timeout{30'000};
   // After a signal the process shall end soon.
   std::chrono::milliseconds delivery_timeout_when_stopped{3'000};
-  std::function<bool()> stop = [] { return false; };  // any thread
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
+  std::function<bool()> stop = [] { return false; };                           // any thread
 };
 
 // The scout's other half: a thread that owns store and exchange, writes each segment down, then

@@ -33,6 +33,7 @@ class SimulatedDevice final : public SimulatedRobot {
   void SetGrip(double left, double right);
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override;
+  [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;
 
   [[nodiscard]] Result<void> TruthWritten() const override;
 

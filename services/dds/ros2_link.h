@@ -34,6 +34,7 @@ struct Ros2Options {
   std::string scan;                 // empty: none
   std::vector<std::string> ranges;  // sensors that measure in a cone, any number
   std::string imu;                  // empty: none
+  std::string battery;              // empty: none
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
 
@@ -43,6 +44,7 @@ struct Ros2Options {
   [[nodiscard]] std::string ScanTopic() const;
   [[nodiscard]] std::string RangeTopic(std::size_t sensor) const;
   [[nodiscard]] std::string ImuTopic() const;
+  [[nodiscard]] std::string BatteryTopic() const;
   [[nodiscard]] std::string CommandTopic() const;
   [[nodiscard]] bool image_is_compressed() const;
   // kInvalidArgument for a topic name that ROS or DDS would refuse.
@@ -92,14 +94,22 @@ struct Ros2Imu {
   motion::ImuSample felt;
 };
 
+// sensor_msgs/BatteryState, as it is said: any of these may be no number.
+struct Ros2Battery {
+  SensorTime stamp{};
+  float percentage = 0.0F;
+  float charge_ah = 0.0F;
+  float capacity_ah = 0.0F;
+};
+
 // geometry_msgs/Twist or TwistStamped.
 struct Ros2Command {
   SensorTime stamp{};  // of the frame that it answers; Twist has none
   motion::VelocityCommand velocity;
 };
 
-using Ros2Sensed =
-    std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range, Ros2Imu>;
+using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range,
+                                Ros2Imu, Ros2Battery>;
 
 // Who drives the robot: senses and commands. One thread may Take while another calls the rest.
 class Ros2Driver {
@@ -125,6 +135,7 @@ class Ros2Driver {
     int scanners = 0;            // who publishes the scan topic
     std::vector<int> rangers{};  // who publishes each of the range topics
     int imus = 0;                // who publishes the IMU topic
+    int batteries = 0;           // who publishes the battery topic
   };
   [[nodiscard]] Peers peers() const;
 
@@ -151,6 +162,8 @@ class Ros2Robot {
   [[nodiscard]] Result<void> Publish(const Ros2Range& range);
   // If there is an IMU topic.
   [[nodiscard]] Result<void> Publish(const Ros2Imu& imu);
+  // If there is a battery topic.
+  [[nodiscard]] Result<void> Publish(const Ros2Battery& battery);
   // The latest command that came since, if any, after waiting for one at most so long.
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
   // Whether somebody is there to look at its pictures.

@@ -15,6 +15,12 @@
 
 namespace trailcast::program {
 
+// What is known of a robot itself: 0 to 100.
+struct Vitals {
+  std::optional<std::uint8_t> battery_percent{};
+  std::optional<std::uint8_t> link_percent{};
+};
+
 // An agent as its peers see it: claims its name, publishes its status, and notes whether a server
 // is heard. Owned by the thread that owns the exchange.
 class Presence {
@@ -25,6 +31,8 @@ class Presence {
   static constexpr std::chrono::milliseconds kForEachAgent{10};
   // Strangers can make up names: more are not kept.
   static constexpr std::size_t kMostAgents = 4096;
+  // A battery below this is told in words, too.
+  static constexpr std::uint8_t kBatteryLow_percent = 20;
 
   // `exchange` outlives this. `status` names agent and role, and the instance of a
   // process that has one already; its mode is set here. The
@@ -41,6 +49,8 @@ class Presence {
   // claims it. What servers tell of others counts as if it was heard.
   void Handle(const exchange::Message& message);
 
+  // Asked of the robot whenever its status is published, from the thread that does so.
+  void FeelBy(std::function<Vitals()> vitals) { vitals_ = std::move(vitals); }
   // The status to be published from now on; agent, role, instance and version stay.
   void Set(exchange::AgentStatus status);
   [[nodiscard]] const exchange::AgentStatus& status() const { return status_; }
@@ -72,6 +82,7 @@ class Presence {
   exchange::AgentStatus status_;
   NameClaim claim_;
   std::chrono::milliseconds interval_;
+  std::function<Vitals()> vitals_ = [] { return Vitals{}; };
   std::optional<std::pair<exchange::AgentMode, exchange::AgentHold>> published_;
   Clock::time_point next_{};
   exchange::ServersThere servers_;

@@ -91,6 +91,8 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
   agent::AddScanTopicOption(*app, ros2, "Topics", options->robot.topics);
   options->robot.topics.imu = "imu";
   agent::AddImuTopicOption(*app, ros2, "Topics", options->robot.topics);
+  options->robot.topics.battery = "battery_state";
+  agent::AddBatteryTopicOption(*app, ros2, "Topics", options->robot.topics);
   options->robot.topics.ranges = {"range"};
   options->robot.range_mounts.resize(1);
   agent::AddRangeTopicOption(*app, ros2, "Topics", options->robot.topics,

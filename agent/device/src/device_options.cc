@@ -98,6 +98,7 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
     return command.add_option(flag, value, text)->needs(ros2)->group(robot);
   };
   AddRos2TopicOptions(command, ros2, robot, topics);
+  AddBatteryTopicOption(command, ros2, robot, topics);
   add("--camera-name", options.ros2.camera, "The camera's make, for the catalog");
   add("--sensor-timeout", options.sensor_timeout_s,
       "Seconds without a picture, odometry, a scan, a range or an obeying base until the robot is "
@@ -153,6 +154,7 @@ std::string WhatIsHeard(const dds::Ros2Options& topics) {
     text += ", ranges from " + topics.RangeTopic(i);
   }
   if (!topics.imu.empty()) text += ", an IMU on " + topics.ImuTopic();
+  if (!topics.battery.empty()) text += ", a battery on " + topics.BatteryTopic();
   return text;
 }
 
@@ -243,6 +245,10 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
         ->check(CLI::Range(0.05, 2.0));
   }
   AddRoughPatches(command, simulated.rough)->needs(world)->group(simulation);
+  add("--sim-battery", simulated.battery_minutes,
+      "How many of its minutes a full battery lasts; default: it does not tell of any")
+      ->default_str("")
+      ->check(CLI::Range(0.1, 100'000.0));
   add("--sim-truth", options.simulated.truth, "Writes the true poses here as it goes, for a judge");
   return world;
 }
@@ -355,6 +361,15 @@ CLI::Option* AddImuTopicOption(CLI::App& command, CLI::Option* robot, const std:
           "--imu-topic", topics.imu,
           "sensor_msgs/Imu in the base's frame, by which the route knows how rough and steep "
           "its ground is; '' for none")
+      ->needs(robot)
+      ->group(group);
+}
+
+CLI::Option* AddBatteryTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
+                                   dds::Ros2Options& topics) {
+  return command
+      .add_option("--battery-topic", topics.battery,
+                  "sensor_msgs/BatteryState, of which operators are told; '' for none")
       ->needs(robot)
       ->group(group);
 }

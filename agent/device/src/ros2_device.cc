@@ -19,6 +19,8 @@ using std::chrono::steady_clock;
 constexpr std::chrono::hours kLockstepTimeout{24};
 // Odometry of a frame's own moment may arrive a little after the frame.
 constexpr milliseconds kOdometryLate{60};
+// What a battery said longer ago is not known any more. Slow ones speak twice a minute.
+constexpr std::chrono::minutes kBatteryCounts{2};
 // No base that is driven by our commands or by a person does more; those told to be faster do.
 constexpr double kLeastGate_mps = 3.0;
 constexpr double kLeastGate_radps = 6.0;
@@ -231,6 +233,13 @@ std::string Ros2Device::camera() const {
   const State& s = *state_;
   if (s.width_px == 0) return s.run.camera;
   return fmt::format("{} {}x{}", s.run.camera, s.width_px, s.height_px);
+}
+
+std::optional<std::uint8_t> Ros2Device::battery_percent() const {
+  State& s = *state_;
+  const std::lock_guard guard(s.lock);
+  const bool old = steady_clock::now() > s.battery_heard_at + kBatteryCounts;
+  return old ? std::nullopt : s.battery_percent;
 }
 
 void Ros2Device::OnTrouble(const Trouble& tell) { state_->tell = tell; }

@@ -55,6 +55,10 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     KeepImu(inertia->felt);
     return;
   }
+  if (const auto* battery = std::get_if<dds::Ros2Battery>(&sensed)) {
+    KeepBattery(*battery, now);
+    return;
+  }
   if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
     KeepFrame(std::move(*jpeg), now);
   } else {
@@ -77,6 +81,11 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   last_bytes = bytes;
   if (!newest) unserved_since = now;
   newest = Ros2Frame{now, *taken, std::move(picture)};
+}
+
+void Ros2Device::State::KeepBattery(const dds::Ros2Battery& battery, steady_clock::time_point now) {
+  battery_percent = gauge.Read(battery.percentage, battery.charge_ah, battery.capacity_ah);
+  battery_heard_at = now;
 }
 
 void Ros2Device::State::KeepImu(const motion::ImuSample& felt) {

@@ -17,6 +17,7 @@
 #include "agent/device/src/robot_watch.h"
 #include "agent/device/src/ros2_picture.h"
 #include "agent/device/src/still_watch.h"
+#include "services/motion/battery.h"
 
 // What the two threads of a ROS 2 robot's device share: the one that hears the robot and stops it
 // (ros2_hearing.cc), and the one that drives it (ros2_device.cc).
@@ -52,6 +53,7 @@ struct Ros2Device::State {
   void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
   void KeepImu(const motion::ImuSample& felt);
+  void KeepBattery(const dds::Ros2Battery& battery, std::chrono::steady_clock::time_point now);
   void KeepScan(const dds::Ros2Scan& scan, std::chrono::steady_clock::time_point now);
   void KeepRange(const dds::Ros2Range& range, std::chrono::steady_clock::time_point now);
   void SlowDown();
@@ -88,7 +90,10 @@ struct Ros2Device::State {
   SensedPoses poses;
   bool odometry_stands = false;        // it comes, with stamps that do not advance
   std::vector<motion::ImuSample> imu;  // since the last frame that was handed out
-  int frames_without_imu = 0;          // that were, until the first sample comes
+  motion::BatteryGauge gauge;
+  std::optional<std::uint8_t> battery_percent;
+  std::chrono::steady_clock::time_point battery_heard_at;
+  int frames_without_imu = 0;  // that were, until the first sample comes
   std::optional<Ros2Frame> newest;
   std::chrono::steady_clock::time_point unserved_since;  // since when there has been a newest frame
   std::optional<SensorTime> last_stamp;                  // of the frame before, handed out or not

@@ -52,7 +52,9 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
       place_note_(options_.place_file),
       neighbours_(options_.agent),
       now_desk_(DeskOf(options_, own_desk_)) {
-  if (exchange_) presence_.emplace(*exchange_, FollowerStatus(options_));
+  if (!exchange_) return;
+  presence_.emplace(*exchange_, FollowerStatus(options_));
+  presence_->FeelBy(options_.vitals);
 }
 
 FollowerLink::~FollowerLink() { Finish(); }

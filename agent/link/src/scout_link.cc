@@ -37,7 +37,9 @@ ScoutLink::ScoutLink(ScoutLinkOptions options, std::unique_ptr<store::RouteStore
       store_(std::move(store)),
       exchange_(std::move(exchange)),
       outbox_(options_.agent, *store_) {
-  if (exchange_) presence_.emplace(*exchange_, ScoutStatus(options_.agent));
+  if (!exchange_) return;
+  presence_.emplace(*exchange_, ScoutStatus(options_.agent));
+  presence_->FeelBy(options_.vitals);
 }
 
 ScoutLink::~ScoutLink() {

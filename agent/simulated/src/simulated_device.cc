@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -37,6 +39,8 @@ struct SimulatedDevice::State {
   steady_clock::time_point due{};  // the next step
   motion::VelocityCommand command;
   BodyImu imu;
+  double battery_s = 0.0;  // that it lasts; 0: it tells of none
+  std::atomic<double> charge = 1.0;
   bool begun = false;  // there was a frame
   std::filesystem::path truth_file;
   std::ofstream truth;  // of that, if there is one
@@ -73,6 +77,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
     state->step = std::chrono::duration_cast<steady_clock::duration>(
         std::chrono::duration<double>(1.0 / run.rate_hz));
   }
+  state->battery_s = 60.0 * run.battery_minutes;
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
   state->world = place->world;
   state->robot = std::move(*robot);
@@ -118,6 +123,7 @@ Observation SimulatedDevice::NextBlind() {
 
 Observation SimulatedDevice::State::Note(sim::Observation seen) {
   begun = true;
+  if (battery_s > 0.0) charge = std::max(0.0, 1.0 - Seconds(seen.stamp) / battery_s);
   const motion::Pose2 pose = Pose();
   // Whoever looks meanwhile reads whole lines.
   if (truth.is_open()) {
@@ -157,6 +163,11 @@ std::string SimulatedDevice::camera() const { return state_->camera; }
 std::optional<double> SimulatedDevice::drive_progress() const {
   if (!state_->operator_) return std::nullopt;
   return state_->operator_->progress();
+}
+
+std::optional<std::uint8_t> SimulatedDevice::battery_percent() const {
+  if (state_->battery_s <= 0.0) return std::nullopt;
+  return static_cast<std::uint8_t>(std::lround(100.0 * state_->charge));
 }
 
 Result<void> SimulatedDevice::TruthWritten() const {

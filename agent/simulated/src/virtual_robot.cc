@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kListen{20};
 // In lockstep a frame that nobody answered is said again.
 constexpr milliseconds kSayAgain{500};
+constexpr std::chrono::seconds kBatteryEvery{1};
 const motion::Pose2 kFront{0.25, 0.0, 0.0};
 
 dds::Ros2Image ToRos2(RobotElectronics::Picture picture) {
@@ -46,6 +48,7 @@ class VirtualRobot {
   [[nodiscard]] std::vector<Pillar> Obstacles() const;
   [[nodiscard]] Result<void> SayWhatStands(SensorTime stamp);
   [[nodiscard]] Result<void> SayImu(const Observation& seen);
+  [[nodiscard]] Result<void> SayBattery(const Observation& seen);
   [[nodiscard]] Result<void> SayPictures(const Observation& seen);
   void WaitForAnswer(const Observation& seen);
   void WaitForTick();
@@ -57,6 +60,7 @@ class VirtualRobot {
   RobotElectronics electronics_;
   motion::VelocityCommand answer_;  // in lockstep
   SensorTime seen_at_{0};
+  std::optional<SensorTime> battery_said_at_;
   std::optional<steady_clock::time_point> told_to_stand_at_;  // first after a fault
   steady_clock::time_point next_tick_ = steady_clock::now();
   std::size_t frames_ = 0;
@@ -100,6 +104,7 @@ Result<void> VirtualRobot::Say(const Observation& seen) {
   if (auto said = SayOdometry(seen); !said) return said;
   if (auto said = SayWhatStands(seen.stamp); !said) return said;
   if (auto said = SayImu(seen); !said) return said;
+  if (auto said = SayBattery(seen); !said) return said;
   return SayPictures(seen);
 }
 
@@ -142,6 +147,16 @@ Result<void> VirtualRobot::SayWhatStands(SensorTime stamp) {
 Result<void> VirtualRobot::SayImu(const Observation& seen) {
   if (seen.imu.empty() || !link_.imu_is_heard()) return {};
   return link_.Publish(dds::Ros2Imu{seen.stamp, seen.imu.back()});
+}
+
+Result<void> VirtualRobot::SayBattery(const Observation& seen) {
+  constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+  const auto percent = robot_.battery_percent();
+  if (!percent || options_.topics.battery.empty()) return {};
+  if (battery_said_at_ && seen.stamp < *battery_said_at_ + kBatteryEvery) return {};
+  battery_said_at_ = seen.stamp;
+  return link_.Publish(dds::Ros2Battery{seen.stamp, static_cast<float>(*percent) / 100.0F,
+                                        kNotMeasured, kNotMeasured});
 }
 
 Result<void> VirtualRobot::SayPictures(const Observation& seen) {

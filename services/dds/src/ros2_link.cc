@@ -130,6 +130,7 @@ std::string Ros2Options::RangeTopic(std::size_t sensor) const {
   return Resolve(robot, ranges[sensor]);
 }
 std::string Ros2Options::ImuTopic() const { return Resolve(robot, imu); }
+std::string Ros2Options::BatteryTopic() const { return Resolve(robot, battery); }
 std::string Ros2Options::CommandTopic() const { return Resolve(robot, command); }
 bool Ros2Options::image_is_compressed() const { return image.ends_with("/compressed"); }
 
@@ -138,6 +139,7 @@ Result<void> Ros2Options::Validate() const {
   if (!odometry.empty()) names.push_back(OdometryTopic());
   if (!scan.empty()) names.push_back(ScanTopic());
   if (!imu.empty()) names.push_back(ImuTopic());
+  if (!battery.empty()) names.push_back(BatteryTopic());
   for (std::size_t i = 0; i < ranges.size(); ++i) names.push_back(RangeTopic(i));
   for (const std::string& name : names) {
     if (!IsRosName(name)) {
@@ -159,6 +161,7 @@ struct Ros2Driver::State {
   std::optional<Reader> scan;
   std::vector<Reader> ranges;
   std::optional<Reader> imu;
+  std::optional<Reader> battery;
   Writer command;
 };
 
@@ -190,6 +193,12 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
     if (!reader) return tl::unexpected(reader.error());
     imu = *std::move(reader);
   }
+  std::optional<Reader> battery;
+  if (!options.battery.empty()) {
+    auto reader = node->Hear(BatteryType(), options.BatteryTopic(), SensorQos(1));
+    if (!reader) return tl::unexpected(reader.error());
+    battery = *std::move(reader);
+  }
   std::vector<Reader> ranges;
   for (std::size_t i = 0; i < options.ranges.size(); ++i) {
     auto reader = node->Hear(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
@@ -199,9 +208,10 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
-  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(new State{
-      options, std::move(network), *std::move(node), *std::move(image), std::move(odometry),
-      std::move(scan), std::move(ranges), std::move(imu), *std::move(command)})));
+  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
+      new State{options, std::move(network), *std::move(node), *std::move(image),
+                std::move(odometry), std::move(scan), std::move(ranges), std::move(imu),
+                std::move(battery), *std::move(command)})));
 }
 
 std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
@@ -234,6 +244,12 @@ std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
       if (!info.valid_data) return;
       if (auto imu = ImuFromWire(sample)) sensed.emplace_back(*imu);
     });
+  }
+  if (s.battery) {
+    (void)s.battery->Take(kMaxSamplesPerTake,
+                          [&](const void* sample, const dds_sample_info_t& info) {
+                            if (info.valid_data) sensed.emplace_back(BatteryFromWire(sample));
+                          });
   }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
     if (info.valid_data) {
@@ -273,6 +289,10 @@ Ros2Driver::Peers Ros2Driver::peers() const {
     peers.imus = s.imu->matched();
     mismatches.push_back(Mismatch(s.options.ImuTopic(), s.imu->refused_policy()));
   }
+  if (s.battery) {
+    peers.batteries = s.battery->matched();
+    mismatches.push_back(Mismatch(s.options.BatteryTopic(), s.battery->refused_policy()));
+  }
   std::erase(mismatches, std::string());
   peers.mismatch = fmt::format("{}", fmt::join(mismatches, ", "));
   return peers;
@@ -287,6 +307,7 @@ struct Ros2Robot::State {
   std::optional<Writer> scan;
   std::vector<Writer> ranges;
   std::optional<Writer> imu;
+  std::optional<Writer> battery;
 };
 
 Ros2Robot::Ros2Robot(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -319,15 +340,21 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
     if (!writer) return tl::unexpected(writer.error());
     imu = *std::move(writer);
   }
+  std::optional<Writer> battery;
+  if (!options.battery.empty()) {
+    auto writer = node->Speak(BatteryType(), options.BatteryTopic(), SensorQos(1));
+    if (!writer) return tl::unexpected(writer.error());
+    battery = *std::move(writer);
+  }
   std::vector<Writer> ranges;
   for (std::size_t i = 0; i < options.ranges.size(); ++i) {
     auto writer = node->Speak(RangeType(), options.RangeTopic(i), SensorQos(kNewestScans));
     if (!writer) return tl::unexpected(writer.error());
     ranges.push_back(*std::move(writer));
   }
-  return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(
-      new State{options, *std::move(node), *std::move(command), *std::move(image),
-                *std::move(odometry), std::move(scan), std::move(ranges), std::move(imu)})));
+  return std::unique_ptr<Ros2Robot>(new Ros2Robot(std::unique_ptr<State>(new State{
+      options, *std::move(node), *std::move(command), *std::move(image), *std::move(odometry),
+      std::move(scan), std::move(ranges), std::move(imu), std::move(battery)})));
 }
 
 Result<void> Ros2Robot::Publish(const Ros2Image& image) {
@@ -355,6 +382,11 @@ Result<void> Ros2Robot::Publish(const Ros2Range& range) {
 Result<void> Ros2Robot::Publish(const Ros2Imu& imu) {
   if (!state_->imu) return Fail(ErrorCode::kInvalidArgument, "the robot has no IMU topic");
   return WithRos2Wire(imu, [&](const void* sample) { return state_->imu->Write(sample); });
+}
+
+Result<void> Ros2Robot::Publish(const Ros2Battery& battery) {
+  if (!state_->battery) return Fail(ErrorCode::kInvalidArgument, "the robot has no battery topic");
+  return WithRos2Wire(battery, [&](const void* sample) { return state_->battery->Write(sample); });
 }
 
 std::optional<Ros2Command> Ros2Robot::Take(std::chrono::milliseconds max_wait) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -64,6 +65,8 @@ const dds_topic_descriptor_t& ScanType() { return sensor_msgs_msg_dds__LaserScan
 const dds_topic_descriptor_t& RangeType() { return sensor_msgs_msg_dds__Range__desc; }
 
 const dds_topic_descriptor_t& ImuType() { return sensor_msgs_msg_dds__Imu__desc; }
+
+const dds_topic_descriptor_t& BatteryType() { return sensor_msgs_msg_dds__BatteryState__desc; }
 
 const dds_topic_descriptor_t& CommandType(Ros2CommandType type) {
   return type == Ros2CommandType::kTwist ? geometry_msgs_msg_dds__Twist__desc
@@ -150,6 +153,20 @@ Result<void> WithRos2Wire(const Ros2Imu& imu, const UseSample& use) {
   return use(&wire);
 }
 
+Result<void> WithRos2Wire(const Ros2Battery& battery, const UseSample& use) {
+  constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+  std::array<char, 8> frame{"battery"};
+  sensor_msgs_msg_dds__BatteryState_ wire{};
+  wire.header.stamp = ToTime(battery.stamp);
+  wire.header.frame_id = Text(frame);
+  wire.voltage = wire.temperature = wire.current = wire.design_capacity = kNotMeasured;
+  wire.charge = battery.charge_ah;
+  wire.capacity = battery.capacity_ah;
+  wire.percentage = battery.percentage;
+  wire.present = true;
+  return use(&wire);
+}
+
 Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type, const UseSample& use) {
   if (type == Ros2CommandType::kTwist) {
     const auto wire = ToTwist(command.velocity);
@@ -227,6 +244,11 @@ std::optional<Ros2Imu> ImuFromWire(const void* sample) {
   }
   if (!imu.felt.attitude && !imu.felt.acceleration_mps2) return std::nullopt;
   return imu;
+}
+
+Ros2Battery BatteryFromWire(const void* sample) {
+  const auto& wire = *static_cast<const sensor_msgs_msg_dds__BatteryState_*>(sample);
+  return {FromTime(wire.header.stamp), wire.percentage, wire.charge, wire.capacity};
 }
 
 std::optional<Ros2Command> CommandFromWire(const void* sample, Ros2CommandType type) {

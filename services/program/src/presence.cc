@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "services/base/text.h"
+#include "services/exchange/bounds.h"
 #include "services/program/command_line.h"
 
 namespace trailcast::program {
@@ -142,6 +143,15 @@ void Presence::Tick(Clock::time_point now) {
 
 void Presence::Publish() {
   exchange::AgentStatus status = status_;
+  const Vitals vitals = vitals_();
+  status.battery_percent = vitals.battery_percent;
+  status.link_percent = vitals.link_percent;
+  if (vitals.battery_percent && *vitals.battery_percent < kBatteryLow_percent) {
+    status.detail =
+        PlainText(fmt::format("{}{}battery low: {} %", status.detail,
+                              status.detail.empty() ? "" : "; ", *vitals.battery_percent),
+                  exchange::kMaxLineBytes);
+  }
   if (std::string trouble = NameTrouble(); !trouble.empty()) status.detail = std::move(trouble);
   // A status that cannot be handed over is followed by the next one.
   if (exchange_.Publish(status)) published_ = {status_.mode, status_.hold};

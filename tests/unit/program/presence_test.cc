@@ -111,6 +111,34 @@ TEST_F(PresenceTest, KnowsTheServerUntilItIsGone) {
   EXPECT_FALSE(presence.server());
 }
 
+TEST_F(PresenceTest, TellsWhatItFeelsWithEachStatusAndALowBatteryInWords) {
+  const auto end = Open();
+  const auto peer = bus_.Open(exchange::OperatorTopics());
+  Presence presence(*end, Status("robot1", 7, AgentMode::kStarting));
+  const auto said = [&] {
+    presence.Publish();
+    exchange::AgentStatus last;
+    for (const exchange::Message& message : peer->Take(std::chrono::milliseconds(0))) {
+      if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) last = *status;
+    }
+    return last;
+  };
+  EXPECT_EQ(said().battery_percent, std::nullopt) << "it tells none";
+  Vitals vitals{.battery_percent = 20, .link_percent = 71};
+  presence.FeelBy([&] { return vitals; });
+  exchange::AgentStatus status = Status("robot1", 7, AgentMode::kWaiting);
+  status.detail = "free";
+  presence.Set(status);
+  EXPECT_EQ(said().battery_percent, 20);
+  EXPECT_EQ(said().link_percent, 71);
+  EXPECT_EQ(said().detail, "free");
+  vitals = {.battery_percent = 19};
+  EXPECT_EQ(said().detail, "free; battery low: 19 %");
+  EXPECT_EQ(said().link_percent, std::nullopt);
+  presence.Set(Status("robot1", 7, AgentMode::kWaiting));
+  EXPECT_EQ(said().detail, "battery low: 19 %");
+}
+
 TEST_F(PresenceTest, OfSeveralServersItKnowsOneThatIsThere) {
   const auto end = Open();
   Presence presence(*end, Status("scout", 0, AgentMode::kStarting));
