@@ -16,6 +16,7 @@ constexpr const char* kExamples =
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
+    "  trailcast fleet                        # robots that are heard, and how they are\n"
     "  trailcast send robot2 follow hall      # a robot on duty; 'missions' tells what became of "
     "it\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
@@ -44,6 +45,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddExportCommand(app, common),
                                 trailcast::tool::AddImportCommand(app, common),
                                 trailcast::tool::AddWhereCommand(app, common),
+                                trailcast::tool::AddFleetCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),
                                 trailcast::tool::AddRobotCommand(app, common)};

@@ -1,0 +1,63 @@
+#include "services/fleet/robots_there.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::fleet {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+exchange::AgentStatus RobotStatus(const std::string& name) {
+  exchange::AgentStatus status;
+  status.agent = AgentId(name);
+  status.instance = 7;
+  status.role = exchange::AgentRole::kFollower;
+  status.mode = exchange::AgentMode::kWaiting;
+  return status;
+}
+
+TEST(RobotsThere, AreToldWithWhatTheySayOfThemselves) {
+  RobotsThere robots;
+  EXPECT_EQ(robots.Text(), "");
+  EXPECT_EQ(robots.Json(), "[]\n");
+  exchange::AgentStatus status = RobotStatus("robot1");
+  status.hold = exchange::AgentHold::kPaused;
+  status.route = "hall";
+  status.detail = "paused by desk: \"rain\"";
+  status.place = {{RouteId(std::string(32, 'a')), TeachingId(1)}, 3.5, 0.012, 0.031};
+  status.battery_percent = 62;
+  status.software = "0.1.0";
+  robots.Hear(status);
+  robots.Hear(RobotStatus("robot2"));
+  EXPECT_THAT(robots.Text(), HasSubstr("robot1           paused    hall"));
+  EXPECT_THAT(robots.Text(), HasSubstr("±3 cm"));
+  EXPECT_THAT(robots.Text(), HasSubstr("62 %"));
+  EXPECT_THAT(robots.Text(), HasSubstr("robot2           waiting   -"));
+  EXPECT_THAT(robots.Json(), HasSubstr("\"hold\": \"paused\""));
+  EXPECT_THAT(robots.Json(), HasSubstr("\"battery_percent\": 62, \"link_percent\": null"));
+  EXPECT_THAT(robots.Json(), HasSubstr("\"along_m\": 3.50, \"left_m\": 0.012"));
+  EXPECT_THAT(robots.Json(), HasSubstr("\"detail\": \"paused by desk: \\\"rain\\\"\""));
+  EXPECT_THAT(robots.Json(), HasSubstr("\"robot\": \"robot2\", \"mode\": \"waiting\""));
+}
+
+TEST(RobotsThere, AreNeitherServersNorGoneNorWithoutEnd) {
+  RobotsThere robots;
+  exchange::AgentStatus server = RobotStatus("server");
+  server.role = exchange::AgentRole::kServer;
+  robots.Hear(server);
+  robots.Hear(RobotStatus("robot1"));
+  EXPECT_THAT(robots.Text(), Not(HasSubstr("server")));
+  robots.Hear(exchange::AgentGone{AgentId("robot1"), 6});
+  EXPECT_EQ(robots.size(), 1U) << "that was another process";
+  robots.Hear(exchange::AgentGone{AgentId("robot1"), 7});
+  EXPECT_EQ(robots.size(), 0U);
+  for (std::size_t i = 0; i < 2 * RobotsThere::kMost; ++i) {
+    robots.Hear(RobotStatus("robot" + std::to_string(i)));
+  }
+  EXPECT_EQ(robots.size(), RobotsThere::kMost);
+}
+
+}  // namespace
+}  // namespace trailcast::fleet
