@@ -23,7 +23,7 @@ class ConsoleTest : public RobotsTest {
     Teach();
     server_ = Server();
     ASSERT_TRUE(Publish());
-    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-battery", "1000"});
     agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
     StartConsole();
@@ -84,6 +84,8 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   ASSERT_TRUE(WaitForState("free")) << State().dump(2) << console_->output();
   EXPECT_EQ(State()["routes"], json::array()) << "no robot is on one";
   EXPECT_EQ(State()["servers"][0]["heard"], true);
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["battery_percent"] > 90; })) << Robot1();
+  EXPECT_NE(Robot1()["software"], "");
 
   const Replied sent =
       Post("/api/robots/robot1/missions", {{"orders", "follow hall"}, {"id", "trip"}});

@@ -64,7 +64,7 @@ class RobotsTest : public ProgramsTest {
   // A robot's agent, on duty; the store has its routes.
   std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty") {
     return Agent(With({"serve", "--store", Path("routes.db"), "--name", robot, "--max-speed",
-                       kUnhurried_mps},
+                       kUnhurried_mps, "--battery-topic", "battery_state"},
                       Drives(robot)),
                  log);
   }
