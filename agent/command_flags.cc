@@ -169,6 +169,14 @@ void AddServeOptions(CLI::App& command, ServeCommand& serve) {
                   "MISSION-TASK-LAP.log")
       ->check(CLI::ExistingDirectory);
   AddFollowing(command, serve.replay);
+  SimulatedRun& simulated = serve.replay.device.simulated;
+  command
+      .add_flag(
+          "--sim-driver", simulated.has_driver,
+          "Whoever is to drive the simulated robot when it teaches is simulated, too, and drives "
+          "it along the path")
+      ->needs("--sim")
+      ->group("Simulated robot");
 }
 
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch) {

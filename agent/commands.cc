@@ -26,6 +26,9 @@ namespace {
 constexpr store::SqliteOptions kOfCopies{.durability =
                                              store::SqliteOptions::Durability::kWithRoutes};
 
+// A robot on duty has more to do than to wait for a server.
+constexpr double kDeliverOnDuty_s = 10.0;
+
 Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
                                                       const exchange::TopicUse& use) {
   if (!options.server) return nullptr;
@@ -47,11 +50,24 @@ exchange::TopicUse FollowersTopics(const CommandOptions& options,
   return use;
 }
 
-ScoutLinkOptions LinkOptions(const CommandOptions& options, const TeachCommand& teach) {
+// A robot on duty mostly follows: it writes what a scout does rarely, and overhears requests for
+// segments, which are made again.
+exchange::TopicUse TeachingToo(exchange::TopicUse use) {
+  const exchange::TopicUse teaching = exchange::TeachingTopics();
+  for (const exchange::Topic topic : teaching.write) {
+    if (!use.Writes(topic)) use.write_rarely.push_back(topic);
+  }
+  for (const exchange::Topic topic : teaching.read) {
+    if (!use.Hears(topic)) use.read.push_back(topic);
+  }
+  return use;
+}
+
+ScoutLinkOptions LinkOptions(const CommandOptions& options, double delivery_timeout_s) {
   ScoutLinkOptions link;
   link.agent = AgentId(options.common.name);
   link.store_file = options.store_file;
-  link.delivery_timeout = ToMilliseconds(teach.delivery_timeout_s);
+  link.delivery_timeout = ToMilliseconds(delivery_timeout_s);
   link.stop = [] { return program::StopSignal::requested(); };
   return link;
 }
@@ -131,6 +147,13 @@ OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeComman
     replay.speed_factor = task.speed_factor;
     return MakeFollowerOptions(options, replay, task.route);
   };
+  duty.scout = [&](const mission::Task& /*task*/) {
+    ScoutOptions scout;
+    scout.link = LinkOptions(options, kDeliverOnDuty_s);
+    scout.intake = serve.replay.device.intake;
+    return scout;
+  };
+  duty.open_scouts_store = [&] { return store::OpenSqliteStore(options.store_file); };
   duty.open_store = [&] { return store::OpenSqliteStore(options.store_file, kOfCopies); };
   duty.stop = [] { return program::StopSignal::requested(); };
   return duty;
@@ -147,10 +170,15 @@ Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
   robot.simulated.in_real_time = true;  // as who sends it, pauses it and looks on
   auto opened = OpenDevice(robot, options.common);
   if (!opened) return tl::unexpected(opened.error());
-  auto exchange = program::OpenExchange(
-      options.common, program::WithAgents(FollowersTopics(options, exchange::OnDutyTopics())));
-  if (!exchange) return tl::unexpected(exchange.error());
   OnDutyOptions duty = MakeOnDutyOptions(options, serve);
+  exchange::TopicUse use = FollowersTopics(options, exchange::OnDutyTopics());
+  if (program::KeysAllow(options.common, exchange::TeachingTopics())) {
+    use = TeachingToo(std::move(use));
+  } else {
+    duty.why_no_scout = "this robot has a follower's keys: only one with a scout's teaches";
+  }
+  auto exchange = program::OpenExchange(options.common, program::WithAgents(std::move(use)));
+  if (!exchange) return tl::unexpected(exchange.error());
   duty.vitals = VitalsOf(*opened->device, options);
   if (auto served = ServeOnDuty(*opened->device, duty, std::move(*exchange)); !served) {
     return tl::unexpected(served.error());
@@ -168,8 +196,10 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!store) return tl::unexpected(store.error());
   auto exchange = Join(options, exchange::ScoutTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  ScoutOptions scout{teach.route,  LinkOptions(options, teach),    teach.tags,         teach.place,
-                     teach.review, UnfinishedOf(teach.unfinished), teach.device.intake};
+  ScoutOptions scout{teach.route,        LinkOptions(options, teach.delivery_timeout_s),
+                     teach.tags,         teach.place,
+                     teach.review,       UnfinishedOf(teach.unfinished),
+                     teach.device.intake};
   scout.link.vitals = VitalsOf(*opened->device, options);
   const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
   if (auto truth = opened->TruthWritten(); !truth) return tl::unexpected(truth.error());
@@ -183,9 +213,9 @@ Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& delive
   auto exchange =
       program::OpenExchange(options.common, program::WithAgents(exchange::ScoutTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
-  return Ended(
-      DeliverBacklog(LinkOptions(options, deliver), std::move(*store), std::move(*exchange)),
-      options);
+  return Ended(DeliverBacklog(LinkOptions(options, deliver.delivery_timeout_s), std::move(*store),
+                              std::move(*exchange)),
+               options);
 }
 
 Result<int> RunTeachings(const CommandOptions& options) {

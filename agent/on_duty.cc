@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "agent/device/standstill.h"
+#include "agent/hands.h"
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
+#include "agent/link/outbox.h"
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/publish.h"
@@ -27,6 +29,7 @@ constexpr milliseconds kWait{50};
 // A robot whose mission has ended on its way stands there yet, and others wait for it, as they do
 // for one whose agent has ended.
 constexpr std::chrono::seconds kStandsThere{60};
+constexpr std::chrono::seconds kDeliverAgain{60};
 
 exchange::AgentStatus FreeStatus(const AgentId& agent) {
   exchange::AgentStatus status;
@@ -35,8 +38,12 @@ exchange::AgentStatus FreeStatus(const AgentId& agent) {
   return status;
 }
 
-// While a route is followed, what comes in is heard in the thread of the follower's link, and the
-// one that runs this waits for it: neither needs a lock.
+mission::Task::Kind Kind(const MissionDesk::Current& current) {
+  return current.tasks[current.task].kind;
+}
+
+// While a route is followed or taught, what comes in is heard in the thread of that link, and the
+// one that runs this waits for it, or takes from the hands: neither needs a lock.
 class OnDuty {
  public:
   OnDuty(RobotDevice& device, const OnDutyOptions& options,
@@ -67,8 +74,12 @@ class OnDuty {
   void Work();
   void WaitOn(const mission::Task& task);
   void Follow(const mission::Task& task);
+  void Teach(const mission::Task& task);
+  [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
+  void FindUndelivered();
+  void Deliver();
   void Judge(const Result<ReplayOutcome>& outcome);
-  void Done();
+  void Done(const std::string& what = {});
   void End(State state, const std::string& why);
   void TellState(State state, const std::string& why);
 
@@ -81,6 +92,10 @@ class OnDuty {
   program::Presence presence_;
   bool claimed_ = false;
   bool following_ = false;
+  bool delivering_ = false;
+  bool undelivered_ = false;  // what it taught before
+  steady_clock::time_point deliver_at_{};
+  Hands* hands_ = nullptr;     // while it teaches
   std::optional<State> told_;  // of the mission under way
   std::string told_why_;
   bool was_under_way_ = false;  // in this following
@@ -94,7 +109,15 @@ class OnDuty {
 void OnDuty::Hear(const exchange::Message& message) {
   desk_.Handle(message);
   if (claimed_) presence_.Handle(message);
-  if (!following_) now_desk_.Handle(message, "", NowUnixMs());
+  if (following_) return;
+  const bool teaches = hands_ != nullptr;
+  now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
+  if (!teaches) return;
+  hands_->Tell(now_desk_.hold());
+  const auto* drive = std::get_if<exchange::DriveCommand>(&message);
+  if (drive != nullptr && drive->agent == options_.agent) {
+    hands_->Hear(*drive, steady_clock::now());
+  }
 }
 
 void OnDuty::Say(exchange::RouteExchange& to) {
@@ -105,6 +128,8 @@ void OnDuty::Say(exchange::RouteExchange& to) {
   TellNews();
   if (following_) return;
   (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
+  if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
+  if (delivering_) return;
   ShowFree();
   presence_.Tick(now);
 }
@@ -137,14 +162,16 @@ void OnDuty::TellState(State state, const std::string& why) {
   desk_.Tell(state, why);
 }
 
-// What the follower tells of itself is what becomes of the mission.
+// What follower or scout tells of itself is what becomes of the mission.
 void OnDuty::SawStatus(const exchange::AgentStatus& status) {
-  if (!following_ || !desk_.current()) return;
+  const bool at_work = following_ || hands_ != nullptr;
+  if (!at_work || !desk_.current()) return;
   on_route_ = status.route;
   place_ = status.place;
   if (Held()) {
     TellState(State::kPaused, now_desk_.hold().text);
-  } else if (status.mode == exchange::AgentMode::kReplaying) {
+  } else if (status.mode == exchange::AgentMode::kReplaying ||
+             status.mode == exchange::AgentMode::kTeaching) {
     was_under_way_ = true;
     TellState(State::kUnderWay, "");
   } else if (!was_under_way_ && status.mode == exchange::AgentMode::kWaiting) {
@@ -162,8 +189,13 @@ Result<void> OnDuty::Run() {
     return claimed;
   }
   claimed_ = true;
+  FindUndelivered();
   if (const auto& current = desk_.current();
-      current && current->begun && !current->mission.goes_on) {
+      current && current->begun && Kind(*current) == mission::Task::Kind::kTeach) {
+    End(State::kFailed,
+        "its agent has started again in the middle of it: what was taught is kept, cut off, and "
+        "no robot follows it unless an operator activates it");
+  } else if (current && current->begun && !current->mission.goes_on) {
     now_desk_.Pause(fmt::format("its agent has started again in the middle of mission {}",
                                 current->mission.id));
   }
@@ -174,8 +206,10 @@ Result<void> OnDuty::Run() {
       Work();
     } else {
       now_desk_.ForgetCancelled();  // there was nothing to cancel
+      if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
     }
   }
+  (void)exchange_.Take(kWait);  // with which the last news is told
   exchange::AgentStatus last;
   last.mode = exchange::AgentMode::kStopped;
   last.detail = "stopped by a signal";
@@ -192,6 +226,8 @@ void OnDuty::Work() {
     TellState(State::kPaused, now_desk_.hold().text);
   } else if (task.kind == mission::Task::Kind::kWait) {
     WaitOn(task);
+  } else if (task.kind == mission::Task::Kind::kTeach) {
+    Teach(task);
   } else {
     Follow(task);
   }
@@ -231,6 +267,77 @@ void OnDuty::Follow(const mission::Task& task) {
   Judge(outcome);
 }
 
+ScoutOptions OnDuty::ScoutFor(const mission::Task& task) {
+  ScoutOptions scout = options_.scout(task);
+  scout.route = task.route.route;
+  scout.tags = task.tags;
+  scout.link.instance = presence_.status().instance;
+  scout.link.besides = [this](exchange::AgentStatus& status) {
+    status.hold = now_desk_.shown_hold();
+    status.on_duty = true;
+    if (Held()) status.detail = now_desk_.hold().text;
+  };
+  return scout;
+}
+
+void OnDuty::Teach(const mission::Task& task) {
+  if (!options_.why_no_scout.empty()) return End(State::kRefused, options_.why_no_scout);
+  auto store = options_.open_scouts_store();
+  if (!store) return End(State::kFailed, store.error().message);
+  Hands hands;
+  was_under_way_ = false;
+  on_route_ = task.route.route;
+  now_desk_.Teaches(true);
+  hands_ = &hands;
+  const auto taught =
+      TeachByHand(device_, ScoutFor(task), hands, *std::move(store), exchange_.Visit());
+  hands_ = nullptr;
+  now_desk_.Teaches(false);
+  stands_until_ = {};
+  undelivered_ = !taught || !taught->delivered;
+  deliver_at_ = {};
+  if (!taught) return End(State::kFailed, taught.error().message);
+  spdlog::info("{}", taught->text);
+  switch (taught->end) {
+    case Taught::End::kComplete:
+      return Done(taught->text);
+    case Taught::End::kDiscarded:
+      return End(State::kCancelled, taught->text);
+    case Taught::End::kInterrupted:
+      return End(State::kFailed, "its agent was stopped; " + taught->text);
+  }
+}
+
+// Of teachings that earlier runs have left; those that were cut off end with what is there.
+void OnDuty::FindUndelivered() {
+  if (!options_.why_no_scout.empty()) return;
+  const auto store = options_.open_scouts_store();
+  if (!store) return spdlog::error("{}", store.error().message);
+  const auto notes = Outbox(options_.agent, **store).LoadBacklog();
+  if (!notes) return spdlog::error("{}", notes.error().message);
+  for (const std::string& note : *notes) spdlog::info("{}", note);
+  undelivered_ = !notes->empty();
+}
+
+// Missions wait for it, a little.
+void OnDuty::Deliver() {
+  deliver_at_ = steady_clock::now() + kDeliverAgain;
+  auto store = options_.open_scouts_store();
+  if (!store) return spdlog::error("{}", store.error().message);
+  ScoutLinkOptions link = ScoutFor({}).link;
+  link.besides = [this](exchange::AgentStatus& status) {
+    status.mode = exchange::AgentMode::kWaiting;
+    status.hold = now_desk_.shown_hold();
+    status.on_duty = true;
+    status.detail = Held() ? now_desk_.hold().text : "free; a server is given what it has taught";
+  };
+  delivering_ = true;
+  const auto delivered = DeliverBacklog(link, *std::move(store), exchange_.Visit());
+  delivering_ = false;
+  undelivered_ = !delivered;
+  if (!delivered) spdlog::warn("{}", delivered.error().message);
+}
+
 void OnDuty::Judge(const Result<ReplayOutcome>& outcome) {
   if (!outcome) {
     End(State::kFailed, outcome.error().message);
@@ -249,12 +356,12 @@ void OnDuty::Judge(const Result<ReplayOutcome>& outcome) {
   }
 }
 
-void OnDuty::Done() {
+void OnDuty::Done(const std::string& what) {
   wait_until_.reset();
   told_.reset();
   desk_.NoteDone();
   if (const auto& current = desk_.current(); current->task >= current->tasks.size()) {
-    End(State::kArrived, "");
+    End(State::kArrived, what);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,8 @@
 
 namespace trailcast::agent {
 namespace {
+
+using exchange::AgentMode;
 
 route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device,
                           const image::GrayImage& frame) {
@@ -40,6 +43,7 @@ struct Drive {
   bool reverse = false;                                       // is driven backwards
   double turned_rad = 0.0;                                    // on the spot, at the end
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
+  Result<void> driven;  // to its end, or what kept it from that
 };
 
 // Hands a finished segment over; never waits for it.
@@ -95,9 +99,21 @@ void TellReverse(const TeachStep& step, Drive& drive) {
   }
 }
 
+// False: the drive is over.
+Result<bool> Steer(RobotDevice& device, Hands* hands) {
+  if (hands == nullptr) return true;
+  hands->Take();
+  if (hands->hold().cancelled || hands->hold().ended) return false;
+  const auto wanted = hands->Wanted(std::chrono::steady_clock::now());
+  if (!wanted) return true;
+  const auto driven = device.Drive(*wanted);
+  if (!driven) return tl::unexpected(driven.error());
+  return true;
+}
+
 // The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
-                       ScoutLink& link, Drive& drive) {
+                       Hands* hands, ScoutLink& link, Drive& drive) {
   const Standstill standstill(device);
   TeachOptions teach;
   teach.intake = options.intake;
@@ -121,6 +137,9 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     now.drive_progress = device.drive_progress();
     link.Report(now);
     if (!result) break;
+    const auto goes_on = Steer(device, hands);
+    if (!goes_on) result = tl::unexpected(goes_on.error());
+    if (!goes_on || !*goes_on) break;
     auto next = device.Next();
     if (!next) {
       result = tl::unexpected(next.error());
@@ -214,6 +233,34 @@ Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, Scou
   return there;
 }
 
+// Up to the drive's end, whatever that is; the error: it did not begin.
+Result<void> BeginAndDrive(RobotDevice& device, const ScoutOptions& options, Hands* hands,
+                           ScoutLink& link, Drive& drive) {
+  const auto cut_off = SettleUnfinished(options, link);
+  if (!cut_off) return tl::unexpected(cut_off.error());
+  if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
+  auto first = Begin(device, options, link, *cut_off);
+  if (!first) return tl::unexpected(first.error());
+  drive.driven = TeachLoop(device, std::move(*first), options, hands, link, drive);
+  return {};
+}
+
+// A person drives it for as long as this is there.
+class DrivenByHand {
+ public:
+  explicit DrivenByHand(RobotDevice& device) : device_(device) { device_.ByHand(true); }
+  ~DrivenByHand() { device_.ByHand(false); }
+  DrivenByHand(const DrivenByHand&) = delete;
+  DrivenByHand& operator=(const DrivenByHand&) = delete;
+
+ private:
+  RobotDevice& device_;
+};
+
+void Close(ScoutLink& link, const Result<void>& judged, AgentMode mode) {
+  link.Close(judged ? mode : AgentMode::kFault, judged ? "" : judged.error().message);
+}
+
 }  // namespace
 
 Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
@@ -225,27 +272,54 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
     spdlog::info("no --server: the route is kept in {} only", options.link.store_file);
   }
   ScoutLink link(options.link, std::move(store), std::move(exchange));
-  const auto cut_off = SettleUnfinished(options, link);
-  if (!cut_off) return tl::unexpected(cut_off.error());
-  if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
-  auto first = Begin(device, options, link, *cut_off);
-  if (!first) return tl::unexpected(first.error());
   Drive drive;
-  const auto driven = TeachLoop(device, std::move(*first), options, link, drive);
-  auto outcome = link.Finish(/*cut_off=*/!driven);
+  if (auto begun = BeginAndDrive(device, options, nullptr, link, drive); !begun) {
+    return tl::unexpected(begun.error());
+  }
+  auto outcome =
+      link.Finish(drive.driven ? ScoutLink::Ending::kComplete : ScoutLink::Ending::kCutOff);
   if (!outcome) return tl::unexpected(outcome.error());
-  const auto judged = Judge(driven, *outcome, send, options.link.store_file);
-  using exchange::AgentMode;
+  const auto judged = Judge(drive.driven, *outcome, send, options.link.store_file);
   const bool interrupted = options.link.stop();
-  link.Close(!judged       ? AgentMode::kFault
-             : interrupted ? AgentMode::kStopped
-                           : AgentMode::kArrived,
-             judged ? "" : judged.error().message);
+  Close(link, judged, interrupted ? AgentMode::kStopped : AgentMode::kArrived);
   if (!judged) return tl::unexpected(judged.error());
   TellEarlier(*outcome);
   TellTaught(*outcome, drive.has_odometry, send);
   TellNotTaught(drive.turned_rad);
   return Summarize(*outcome, drive);
+}
+
+Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options, Hands& hands,
+                           std::unique_ptr<store::RouteStore> store,
+                           std::unique_ptr<exchange::RouteExchange> exchange) {
+  const Standstill standstill(device);
+  const DrivenByHand by_hand(device);
+  ScoutLink link(options.link, std::move(store), std::move(exchange));
+  Drive drive;
+  if (auto begun = BeginAndDrive(device, options, &hands, link, drive); !begun) {
+    return tl::unexpected(begun.error());
+  }
+  using End = Taught::End;
+  using Ending = ScoutLink::Ending;
+  const End end = hands.hold().cancelled ? End::kDiscarded
+                  : options.link.stop()  ? End::kInterrupted
+                                         : End::kComplete;
+  auto outcome = link.Finish(!drive.driven              ? Ending::kCutOff
+                             : end == End::kDiscarded   ? Ending::kDiscard
+                             : end == End::kInterrupted ? Ending::kCutOff
+                                                        : Ending::kComplete);
+  if (!outcome) return tl::unexpected(outcome.error());
+  if (drive.driven && end == End::kDiscarded) {
+    Close(link, {}, AgentMode::kStopped);
+    return Taught{end, outcome->delivered, "what was taught is discarded"};
+  }
+  const auto judged = Judge(drive.driven, *outcome, /*sent=*/false, options.link.store_file);
+  Close(link, judged, end == End::kComplete ? AgentMode::kArrived : AgentMode::kStopped);
+  if (!judged) return tl::unexpected(judged.error());
+  TellEarlier(*outcome);
+  TellTaught(*outcome, drive.has_odometry, /*sent=*/true);
+  TellNotTaught(drive.turned_rad);
+  return Taught{end, outcome->delivered, TaughtText(*outcome, end == End::kInterrupted)};
 }
 
 Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
@@ -256,7 +330,6 @@ Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
   if (auto started = link.Start(std::nullopt); !started) return tl::unexpected(started.error());
   auto outcome = link.Finish();
   if (!outcome) return tl::unexpected(outcome.error());
-  using exchange::AgentMode;
   link.Close(outcome->delivered ? AgentMode::kArrived : AgentMode::kFault, "");
   if (!outcome->delivered) {
     return tl::unexpected(NotReceipted(*outcome, options.store_file));

@@ -8,6 +8,7 @@
 
 #include "agent/device/device.h"
 #include "agent/diagnosis/summary.h"
+#include "agent/hands.h"
 #include "agent/link/scout_link.h"
 #include "agent/unfinished.h"
 #include "services/vision/picture_intake.h"
@@ -30,6 +31,23 @@ struct ScoutOptions {
 [[nodiscard]] Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
                                     std::unique_ptr<store::RouteStore> store,
                                     std::unique_ptr<exchange::RouteExchange> exchange);
+
+struct Taught {
+  enum class End {
+    kComplete,
+    kDiscarded,    // as an operator has cancelled it
+    kInterrupted,  // by `options.link.stop`: what was taught is kept, cut off
+  };
+  End end = End::kComplete;
+  bool delivered = false;  // to a server; otherwise what is taught is in the store, for later
+  std::string text{};      // one line for people: what was taught, and where it is
+};
+
+// The same of a robot whose drive operators end, and which is driven by `hands` where somebody
+// does. A server is no condition: what none has confirmed in time stays in the store.
+[[nodiscard]] Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options,
+                                         Hands& hands, std::unique_ptr<store::RouteStore> store,
+                                         std::unique_ptr<exchange::RouteExchange> exchange);
 
 // Sends what earlier runs left without a receipt, and waits for the receipts.
 [[nodiscard]] Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,

@@ -93,6 +93,16 @@ void TellTaught(const ScoutLink::Outcome& outcome, bool has_odometry, bool sent)
   }
 }
 
+std::string TaughtText(const ScoutLink::Outcome& outcome, bool interrupted) {
+  const route::RouteInfo& route = *outcome.route;
+  std::string text = fmt::format("taught {}: {:.1f} m, {} segments", Which(route), route.length_m,
+                                 route.segment_count);
+  if (interrupted) text += "; cut off: no robot follows it unless an operator activates it";
+  if (outcome.refusal) return text + "; kept on the robot: " + *outcome.refusal;
+  return text +
+         (outcome.delivered ? "; a server has it" : "; kept on the robot until a server is there");
+}
+
 void TellNotTaught(double turned_rad) {
   if (std::abs(turned_rad) > kToldTurn_rad) {
     spdlog::warn(

@@ -16,6 +16,9 @@ void TellNotTaught(double turned_rad);
 // The same of what earlier runs taught and this one delivered.
 void TellEarlier(const ScoutLink::Outcome& outcome);
 
+// One line of what operators are told: what was taught, and where it is.
+[[nodiscard]] std::string TaughtText(const ScoutLink::Outcome& outcome, bool interrupted);
+
 // What is wrong with what was taught, if anything; what is kept where, and what to do. `sent`: with
 // a server.
 [[nodiscard]] Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome,

@@ -36,6 +36,10 @@ class RobotDevice {
   using Trouble = std::function<void(const Halt& halt)>;
   virtual void OnTrouble(const Trouble& /*tell*/) {}
 
+  // A person drives it from now on, in whatever way, or no longer: what stands in its way is theirs
+  // to see.
+  virtual void ByHand(bool /*begins*/) {}
+
   // For people: "webcam 320x240", "recorded 160x120".
   [[nodiscard]] virtual std::string camera() const = 0;
   // Share of the drive done, 0..1, where the device knows it (a recording, a scripted scout).

@@ -53,6 +53,7 @@ class Ros2Device final : public RobotDevice {
   [[nodiscard]] std::optional<double> drive_progress() const override { return std::nullopt; }
   [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;
   void OnTrouble(const Trouble& tell) override;
+  void ByHand(bool begins) override;
 
  private:
   struct State;

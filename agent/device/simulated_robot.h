@@ -19,6 +19,7 @@ struct SimulatedRun {
   std::uint64_t seed = 1;         // draws the robot's errors and all noise
   double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
   bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
+  bool has_driver = false;        // who does the same whenever it is driven by hand
   bool stays_at_end = false;      // the scout goes on looking where its drive ended
   bool in_real_time = false;      // its time passes no faster than ours
   double rate_hz = 30.0;          // of its steps, each with odometry and a picture

@@ -28,6 +28,7 @@ class NowDesk {
   // As OperatorHold has them.
   void Pause(std::string text) { hold_.Pause(std::move(text)); }
   void ForgetCancelled() { hold_.ForgetCancelled(); }
+  void Teaches(bool teaches) { hold_.Teaches(teaches); }
 
   // `route`: the name of the one that the robot is on. `unix_ms`: now, by the robot's clock.
   void Handle(const exchange::Message& message, const std::string& route, std::int64_t unix_ms);

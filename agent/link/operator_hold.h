@@ -15,6 +15,7 @@ struct Hold {
   enum class Kind { kNone, kPaused, kStopped };
   Kind kind = Kind::kNone;
   bool cancelled = false;  // what the robot does is over
+  bool ended = false;      // what it teaches is complete
   std::string text{};      // for people: "paused by desk: somebody walks here"; empty: it may drive
   bool operator==(const Hold&) const = default;
 };
@@ -42,6 +43,11 @@ class OperatorHold {
   void Pause(std::string text);
   // What was cancelled is over: what comes next is not.
   void ForgetCancelled() { hold_.cancelled = false; }
+  // Whether there is a teaching to be ended, which is not yet.
+  void Teaches(bool teaches) {
+    teaches_ = teaches;
+    hold_.ended = false;
+  }
 
   [[nodiscard]] const Hold& hold() const { return hold_; }
 
@@ -52,6 +58,7 @@ class OperatorHold {
 
   std::filesystem::path file_;
   Hold hold_;
+  bool teaches_ = false;
 };
 
 }  // namespace trailcast::agent

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,7 +31,11 @@ struct ScoutLinkOptions {
   // After a signal the process shall end soon.
   std::chrono::milliseconds delivery_timeout_when_stopped{3'000};
   std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
-  std::function<bool()> stop = [] { return false; };                           // any thread
+  std::function<bool()> stop = [] { return false; };  // any thread
+  // Of an agent on duty: its process in the fleet, which has claimed the name (0: this link is all
+  // there is), and what its statuses say besides, asked in the link's thread.
+  std::uint64_t instance = 0;
+  std::function<void(exchange::AgentStatus&)> besides = [](exchange::AgentStatus&) {};
 };
 
 // The scout's other half: a thread that owns store and exchange, writes each segment down, then
@@ -81,9 +86,14 @@ class ScoutLink {
     // Of earlier runs, and all on a server now; with what that says of each.
     std::vector<std::pair<route::RouteInfo, exchange::StandingThere>> earlier;
   };
-  // No segment will follow: completes the route, waits for receipts, ends the thread. `cut_off`:
-  // what failed on the way kept it from its end. The error is the store's, if it failed.
-  [[nodiscard]] Result<Outcome> Finish(bool cut_off = false);
+  enum class Ending : std::uint8_t {
+    kComplete,
+    kCutOff,   // something on the way kept the route from its end
+    kDiscard,  // it is not wanted
+  };
+  // No segment will follow: completes the route, waits for receipts, ends the thread. The error is
+  // the store's, if it failed.
+  [[nodiscard]] Result<Outcome> Finish(Ending ending = Ending::kComplete);
   // The last status peers see. After Finish.
   void Close(exchange::AgentMode mode, const std::string& detail);
 
@@ -96,6 +106,7 @@ class ScoutLink {
   [[nodiscard]] Result<void> Step();
   [[nodiscard]] Result<void> StoreOffered();
   [[nodiscard]] Result<void> Trade();
+  [[nodiscard]] Result<void> End();
   [[nodiscard]] Result<void> Deliver();
   [[nodiscard]] Result<void> TellHeld();
   [[nodiscard]] bool HasAsked() const;
@@ -122,7 +133,7 @@ class ScoutLink {
   TeachingNow latest_;
   Bell bell_;
   std::atomic<bool> ending_{false};
-  std::atomic<bool> cut_off_{false};
+  std::atomic<Ending> how_{Ending::kComplete};
   std::atomic<bool> failed_{false};
   std::optional<Error> error_;  // written by the thread, read after it ended
   std::thread thread_;

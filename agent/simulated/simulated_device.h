@@ -31,6 +31,8 @@ class SimulatedDevice final : public SimulatedRobot {
                                         const std::vector<Pillar>& pillars) const;
   // As in sim::SimulatedRobot.
   void SetGrip(double left, double right);
+  // Where SimulatedRun has a driver, that one drives it along the path.
+  void ByHand(bool begins) override;
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override;
   [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;

@@ -14,10 +14,12 @@ namespace trailcast::mission {
 // What a mission consists of, one after the other:
 //   follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]   metres along the route, either may be
 //                                                           missing; F times the taught speed
+//   teach ROUTE [TAG ...]    a person drives until it is told to be ended; no tag is called as what
+//                            an order begins with
 //   wait SECONDS
-// as in "follow hall 3..10 speed 0.5 wait 20 follow yard laps 2".
+// as in "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel".
 struct Task {
-  enum class Kind : std::uint8_t { kFollow, kWait };
+  enum class Kind : std::uint8_t { kFollow, kWait, kTeach };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
   double from_m = 0.0;  // where the robot stands at first; 0: at the route's beginning
@@ -25,6 +27,7 @@ struct Task {
   std::uint32_t laps = 1;
   double speed_factor = 1.0;
   double wait_s = 0.0;
+  std::vector<std::string> tags{};  // of what is taught, in any order
 };
 
 // kInvalidArgument, with the word that was not understood and what was expected.

@@ -42,10 +42,13 @@ constexpr const char* kSendExamples =
     "  follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]\n"
     "                       metres along the route, either may be missing; F times the taught "
     "speed\n"
+    "  teach ROUTE [TAG ...]   a person drives until 'trailcast end robot1'\n"
     "  wait SECONDS\n"
     "Examples:\n"
     "  trailcast send robot1 follow hall\n"
     "  trailcast send robot1 follow hall 3..10 speed 0.5 wait 20 follow yard laps 2\n"
+    "  trailcast send robot1 teach yard wet gravel   # then drive it: its joystick, or the "
+    "console\n"
     "  trailcast send robot1 follow hall --wait      # until it has arrived, or says why not\n"
     "  trailcast send robot1 follow hall --valid 2h  # however late it is back by then\n"
     "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
@@ -229,7 +232,7 @@ Command AddMissions(CLI::App& parent, const program::CommonOptions& common) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   app->add_flag("--commands", options->commands,
-                "Those that robots were given with pause, resume, cancel, stop and release");
+                "Those that robots were given with pause, resume, cancel, stop, release and end");
   app->add_flag("--watch", options->watch, "Again whenever something has changed, until Ctrl-C");
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")

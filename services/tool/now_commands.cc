@@ -1,4 +1,4 @@
-// `trailcast pause`, `resume`, `cancel`, `stop` and `release`.
+// `trailcast pause`, `resume`, `cancel`, `stop`, `release` and `end`.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -90,7 +90,9 @@ std::vector<Command> AddNowCommands(CLI::App& parent, const program::CommonOptio
           AddOne(parent, common, NowOrder::kStop,
                  "Have robots stand, also after a restart, until they are released"),
           AddOne(parent, common, NowOrder::kRelease,
-                 "Release stopped robots: they stand until they are told to resume")};
+                 "Release stopped robots: they stand until they are told to resume"),
+          AddOne(parent, common, NowOrder::kEnd,
+                 "End what robots are teaching: the route is complete ('cancel' discards it)")};
 }
 
 }  // namespace trailcast::tool

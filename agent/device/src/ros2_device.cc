@@ -242,6 +242,11 @@ std::optional<std::uint8_t> Ros2Device::battery_percent() const {
   return old ? std::nullopt : s.battery_percent;
 }
 
+void Ros2Device::ByHand(bool begins) {
+  const std::lock_guard guard(state_->lock);
+  state_->by_hand = begins;
+}
+
 void Ros2Device::OnTrouble(const Trouble& tell) { state_->tell = tell; }
 
 }  // namespace trailcast::agent

@@ -106,7 +106,7 @@ void Ros2Device::State::KeepRange(const dds::Ros2Range& range, steady_clock::tim
 
 // Somebody may step in the way between two pictures.
 void Ros2Device::State::SlowDown() {
-  if (told == motion::VelocityCommand{}) return;
+  if (by_hand || told == motion::VelocityCommand{}) return;
   const motion::VelocityCommand slower = obstacles->Want(told);
   if (!obstacles->waits() && slower != told) (void)Say(slower);
 }
@@ -117,7 +117,7 @@ void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   if (!trouble && drove && driver->peers().bases == 0) {
     trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
   }
-  if (!trouble && obstacles && obstacles->waits()) {
+  if (!trouble && obstacles && !by_hand && obstacles->waits()) {
     trouble = {RobotWatch::Trouble::Part::kObstacle, *obstacles->waits()};
   }
   if (run.lockstep && trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
@@ -175,7 +175,7 @@ motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand&
 
 motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) {
   const motion::VelocityCommand shaped = Shaped(wanted);
-  if (!obstacles) return shaped;
+  if (!obstacles || by_hand) return shaped;
   const motion::VelocityCommand allowed = obstacles->Want(shaped);
   if (obstacles->backs_unseen() && !backs_unseen) {
     spdlog::warn(

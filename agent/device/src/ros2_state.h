@@ -86,6 +86,7 @@ struct Ros2Device::State {
   bool ending = false;
   RobotWatch watch;
   std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
+  bool by_hand = false;                    // they do not count
   bool backs_unseen = false;               // it is told to
   SensedPoses poses;
   bool odometry_stands = false;        // it comes, with stamps that do not advance

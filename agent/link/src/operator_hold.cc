@@ -44,7 +44,8 @@ Result<void> OperatorHold::Keep() const {
 // The robot stands first; whether that outlasts a restart is said.
 OperatorHold::Obeyed OperatorHold::Stop(std::string text) {
   if (hold_.kind == Hold::Kind::kStopped) return {false, hold_.text};
-  hold_ = {.kind = Hold::Kind::kStopped, .cancelled = hold_.cancelled, .text = std::move(text)};
+  hold_.kind = Hold::Kind::kStopped;
+  hold_.text = std::move(text);
   const auto kept = Keep();
   if (kept) return {false, hold_.text};
   return {false, hold_.text + "; but not after a restart: " + kept.error().message};
@@ -60,15 +61,15 @@ OperatorHold::Obeyed OperatorHold::Release() {
     return {true,
             fmt::format("still stopped: cannot remove {}: {}", file_.string(), failed.message())};
   }
-  hold_ = {.kind = Hold::Kind::kPaused,
-           .cancelled = hold_.cancelled,
-           .text = "released, and stands until it is told to resume"};
+  hold_.kind = Hold::Kind::kPaused;
+  hold_.text = "released, and stands until it is told to resume";
   return {false, hold_.text};
 }
 
 void OperatorHold::Pause(std::string text) {
   if (hold_.kind != Hold::Kind::kNone) return;
-  hold_ = {.kind = Hold::Kind::kPaused, .cancelled = hold_.cancelled, .text = std::move(text)};
+  hold_.kind = Hold::Kind::kPaused;
+  hold_.text = std::move(text);
 }
 
 OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, const std::string& by,
@@ -80,7 +81,8 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
       return {false, hold_.text};
     case NowOrder::kResume:
       if (hold_.kind == Hold::Kind::kStopped) return {true, hold_.text + "; release it first"};
-      hold_ = {.cancelled = hold_.cancelled};
+      hold_.kind = Hold::Kind::kNone;
+      hold_.text.clear();
       return {false, "drives on"};
     case NowOrder::kCancel:
       hold_.cancelled = true;
@@ -90,7 +92,9 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
     case NowOrder::kRelease:
       return Release();
     case NowOrder::kEnd:
-      return {true, "teaches no route"};
+      if (!teaches_) return {true, "teaches no route"};
+      hold_.ended = true;
+      return {false, "ends the route that it teaches"};
   }
   return {true, "does not know this command"};
 }

@@ -93,19 +93,21 @@ Result<std::string> Outbox::Discard(route::RouteInfo info, bool send) {
   if (!unreceipted) return tl::unexpected(unreceipted.error());
   const std::string which = route::Describe(info);
   const std::string id = route::ShortIds().Of(info);
-  const bool confirmed = unreceipted->size() < held->size();
-  if (confirmed && send) {
+  // What was sent a moment ago may be there as well.
+  const bool may_be_there = unreceipted->size() < held->size() || sending_.contains(info.key);
+  if (may_be_there && send) {
     if (auto taken = TakeUp(info, Receipts::kNoted); !taken) return taken;
     info = sending_.at(info.key).sender.info();
     sending_.at(info.key).laid_aside = true;
   }
   info.standing = route::Standing::kRetired;
   if (auto put = store_.PutRoute(info); !put) return tl::unexpected(put.error());
-  if (!confirmed) {
+  if (!may_be_there) {
     return fmt::format("{} ({}) is discarded: no server has confirmed any of it", which, id);
   }
   return fmt::format(
-      "{} ({}) is discarded here; a server has some of it, and no scout deletes anything there: "
+      "{} ({}) is discarded here; a server may have some of it, and no scout deletes anything "
+      "there: "
       "{}an operator deletes it with 'trailcast routes delete {}'",
       which, id,
       send ? "it is told that the teaching was cut off, so that no robot follows it, and " : "",

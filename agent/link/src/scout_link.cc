@@ -22,10 +22,13 @@ constexpr milliseconds kWait{20};
 constexpr milliseconds kServerPatience{3000};
 constexpr milliseconds kServerAsksWithin{1500};
 
-exchange::AgentStatus ScoutStatus(const AgentId& agent) {
+// Who is on duty follows, too, and is told so by operators.
+exchange::AgentStatus ScoutStatus(const ScoutLinkOptions& options) {
   exchange::AgentStatus status;
-  status.agent = agent;
-  status.role = exchange::AgentRole::kScout;
+  status.agent = options.agent;
+  status.instance = options.instance;
+  status.role =
+      options.instance != 0 ? exchange::AgentRole::kFollower : exchange::AgentRole::kScout;
   return status;
 }
 
@@ -38,7 +41,7 @@ ScoutLink::ScoutLink(ScoutLinkOptions options, std::unique_ptr<store::RouteStore
       exchange_(std::move(exchange)),
       outbox_(options_.agent, *store_) {
   if (!exchange_) return;
-  presence_.emplace(*exchange_, ScoutStatus(options_.agent));
+  presence_.emplace(*exchange_, ScoutStatus(options_));
   presence_->FeelBy(options_.vitals);
 }
 
@@ -55,6 +58,7 @@ Result<void> ScoutLink::Open() {
   if (!notes) return tl::unexpected(notes.error());
   for (const std::string& note : *notes) spdlog::info("{}", note);
   if (auto told = TellHeld(); !told) return told;
+  if (options_.instance != 0) return {};
   const auto handle = [this](const exchange::Message& message) {
     outbox_.Handle(message, steady_clock::now());
   };
@@ -88,8 +92,8 @@ void ScoutLink::Report(const TeachingNow& now) {
   [[maybe_unused]] const bool put = reports_.TryPut(TeachingNow(now));
 }
 
-Result<ScoutLink::Outcome> ScoutLink::Finish(bool cut_off) {
-  cut_off_ = cut_off;
+Result<ScoutLink::Outcome> ScoutLink::Finish(Ending ending) {
+  how_ = ending;
   ending_ = true;
   bell_.Ring();
   if (thread_.joinable()) thread_.join();
@@ -117,13 +121,21 @@ void ScoutLink::Run() {
   Result<void> result;
   while (result && !ending_.load()) result = Step();
   if (result) result = StoreOffered();
-  if (result && key_) result = outbox_.Complete(*key_, cut_off_);
+  if (result && key_) result = End();
   if (result) result = TellHeld();
   if (result && exchange_) result = Deliver();
   if (!result) {
     error_ = result.error();
     failed_ = true;
   }
+}
+
+Result<void> ScoutLink::End() {
+  if (auto ended = outbox_.Complete(*key_, how_ != Ending::kComplete); !ended) return ended;
+  if (how_ != Ending::kDiscard) return {};
+  const route::RouteInfo taught = outbox_.info(*key_);
+  key_.reset();
+  return Discard(taught);
 }
 
 Result<void> ScoutLink::TellHeld() {
@@ -187,6 +199,7 @@ Result<void> ScoutLink::Deliver() {
                  outbox_.unreceipted(), Seconds(options_.delivery_timeout));
   }
   while (!outbox_.Done() || !HasAsked()) {
+    if (how_ == Ending::kDiscard && !presence_->server()) return {};
     const auto bound = options_.stop() ? std::min(options_.delivery_timeout_when_stopped,
                                                   options_.delivery_timeout)
                                        : options_.delivery_timeout;
@@ -246,6 +259,7 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
     const route::RouteInfo& info = outbox_.info(*key_);
     status.segments = info.segment_count;
     status.segment = info.segment_count;
+    if (options_.instance != 0) status.place = {*key_, info.length_m, 0.0, 0.0};
   }
   const bool driving = mode == exchange::AgentMode::kTeaching;
   status.progress = driving ? latest_.drive_progress.value_or(0.0) : 1.0;
@@ -254,6 +268,7 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
   status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
   status.detail = PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
   status.held = held_revisions_;
+  options_.besides(status);
   presence_->Set(std::move(status));
 }
 

@@ -34,6 +34,8 @@ struct SimulatedDevice::State {
   std::shared_ptr<const sim::World> world;
   std::unique_ptr<sim::SimulatedRobot> robot;
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
+  std::optional<sim::DriverOptions> driver;        // who comes when it is driven by hand
+  sim::Polyline path;                              // along which
   bool stays_at_end = false;
   steady_clock::duration step{0};  // in real time
   steady_clock::time_point due{};  // the next step
@@ -86,12 +88,12 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
     state->truth.open(run.truth);
     state->truth << "t_s,x_m,y_m,heading_rad\n" << std::flush;
   }
-  if (run.drives_itself) {
-    sim::DriverOptions driver;
-    driver.shunts_from = place->path.shunts_from;
-    driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
-    state->operator_.emplace(place->path.points, driver);
-  }
+  sim::DriverOptions driver;
+  driver.shunts_from = place->path.shunts_from;
+  driver.speed_mps = run.speed_mps > 0.0 ? run.speed_mps : place->speed_mps;
+  if (run.drives_itself) state->operator_.emplace(place->path.points, driver);
+  if (run.has_driver) state->driver = driver;
+  state->path = std::move(place->path.points);
   std::unique_ptr<SimulatedDevice> device(new SimulatedDevice(std::move(state)));
   if (auto can = device->TruthWritten(); !can) return tl::unexpected(can.error());
   return device;
@@ -113,6 +115,14 @@ Result<std::optional<Observation>> SimulatedDevice::Next() {
     if (s.operator_->arrived() && !s.stays_at_end) return std::nullopt;
   }
   return s.Note(s.robot->Step(s.command));
+}
+
+void SimulatedDevice::ByHand(bool begins) {
+  State& s = *state_;
+  if (!s.driver) return;
+  s.operator_.reset();
+  s.command = {};
+  if (begins) s.operator_.emplace(s.path, *s.driver);
 }
 
 Observation SimulatedDevice::NextBlind() {

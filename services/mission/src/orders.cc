@@ -1,12 +1,14 @@
 #include "services/mission/orders.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "services/base/ids.h"
 #include "services/base/number.h"
 #include "services/mission/mission.h"
 #include "services/route/bounds.h"
@@ -15,8 +17,8 @@ namespace trailcast::mission {
 namespace {
 
 constexpr const char* kGrammar =
-    "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]' or 'wait SECONDS', one after the "
-    "other";
+    "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' or 'wait "
+    "SECONDS', one after the other";
 constexpr std::uint32_t kMostLaps = 10'000;
 constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
 constexpr double kLeastSpeed = 0.1;
@@ -37,6 +39,10 @@ std::optional<double> AmountIn(std::string_view word, double least, double most)
   return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
+bool BeginsAnOrder(const std::string& word) {
+  return word == "follow" || word == "wait" || word == "teach";
+}
+
 class Parser {
  public:
   explicit Parser(std::string_view orders) : words_(Words(orders)) {}
@@ -44,7 +50,7 @@ class Parser {
   [[nodiscard]] Result<std::vector<Task>> All() {
     std::vector<Task> tasks;
     while (!rest().empty()) {
-      auto task = Next() == "wait" ? Wait() : Follow();
+      auto task = Next() == "wait" ? Wait() : Next() == "teach" ? Teach() : Follow();
       if (!task) return tl::unexpected(task.error());
       tasks.push_back(*std::move(task));
     }
@@ -63,6 +69,20 @@ class Parser {
     const auto seconds = AmountIn(word, 0.0, kLongestWait_s);
     if (!seconds) return Wrong(word, "seconds, a week at most");
     return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
+  }
+
+  [[nodiscard]] Result<Task> Teach() {
+    (void)Take();
+    Task task{.kind = Task::Kind::kTeach, .route = {.route = Take()}};
+    if (auto named = route::CheckName("route to teach", task.route.route); !named) {
+      return tl::unexpected(named.error());
+    }
+    while (!rest().empty() && !BeginsAnOrder(Next())) {
+      if (!IsValidName(Next())) return Wrong(Next(), "a tag, of letters, digits, '_', '.', '-'");
+      task.tags.push_back(Take());
+    }
+    if (auto few = route::CheckTags(task.tags); !few) return Wrap(few.error(), "orders");
+    return task;
   }
 
   [[nodiscard]] Result<Task> Follow() {
@@ -137,13 +157,17 @@ std::set<std::string> RoutesIn(std::string_view orders) {
   const auto tasks = ParseOrders(orders);
   if (!tasks) return routes;
   for (const Task& task : *tasks) {
-    if (task.kind == Task::Kind::kFollow) routes.insert(task.route.route);
+    if (task.kind != Task::Kind::kWait) routes.insert(task.route.route);
   }
   return routes;
 }
 
 std::string ToText(const Task& task) {
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
+  if (task.kind == Task::Kind::kTeach) {
+    return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",
+                       fmt::join(task.tags, " "));
+  }
   std::string text = "follow " + task.route.route;
   if (task.route.revision > 0) text += fmt::format("@{}", task.route.revision);
   if (task.from_m > 0.0 || task.to_m > 0.0) {

@@ -385,6 +385,17 @@ TEST_F(Ros2DeviceTest, StandsBeforeWhatItScansAndGoesOnWhenThatIsGone) {
   EXPECT_TRUE(DrivesAhead());
 }
 
+TEST_F(Ros2DeviceTest, DrivenByHandItDoesNotWaitBeforeWhatItScans) {
+  OpenWithAScanner();
+  device_->ByHand(true);
+  SayScan(0.55F);
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  const auto seen = SayAllUntil(next, 0.55F);
+  ASSERT_TRUE(seen) << seen.error().message;
+  ASSERT_TRUE(device_->Drive(kAhead));
+  EXPECT_TRUE(Told(kAhead));
+}
+
 TEST_F(Ros2DeviceTest, SlowsDownByAScanThatComesBetweenTwoPictures) {
   OpenWithAScanner();
   const auto deadline = steady_clock::now() + std::chrono::seconds(20);

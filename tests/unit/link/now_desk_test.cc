@@ -46,6 +46,18 @@ class NowDeskTest : public testing::Test {
   NowDesk desk_{AgentId("robot1"), folder_ / "robot1.stop"};
 };
 
+TEST_F(NowDeskTest, EndsWhatItTeachesAndNothingElse) {
+  EXPECT_TRUE(Tell(NowOrder::kEnd).refused);
+  desk_.Teaches(true);
+  (void)Obeyed(NowOrder::kPause);
+  (void)Obeyed(NowOrder::kEnd);
+  EXPECT_TRUE(desk_.hold().ended);
+  EXPECT_EQ(kind(), Hold::Kind::kPaused);
+  desk_.Teaches(false);
+  EXPECT_FALSE(desk_.hold().ended) << "the next one is another";
+  EXPECT_TRUE(Tell(NowOrder::kEnd).refused);
+}
+
 TEST_F(NowDeskTest, PausesAndResumes) {
   const NowAnswer paused = Say({.client = AgentId("desk-p77"),
                                 .number = ++number_,

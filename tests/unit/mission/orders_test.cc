@@ -33,8 +33,9 @@ TEST(Orders, AreFollowedAndWaitedForInTheirOrder) {
 }
 
 TEST(Orders, AsTextAreTheSameOrders) {
-  for (const char* text : {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5",
-                           "follow a3f9c21 2..", "follow hall 0..7.5"}) {
+  for (const char* text :
+       {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5", "follow a3f9c21 2..",
+        "follow hall 0..7.5", "teach yard", "teach yard wet laps 2.5-ton"}) {
     const auto tasks = ParseOrders(text);
     ASSERT_TRUE(tasks) << tasks.error().message;
     EXPECT_EQ(ToText(tasks->front()), text);
@@ -48,6 +49,18 @@ TEST(Orders, OfARouteCalledLikeAWord) {
   ASSERT_THAT(*tasks, SizeIs(3));
   EXPECT_EQ((*tasks)[0].route.route, "follow");
   EXPECT_EQ((*tasks)[1].route.route, "wait");
+}
+
+TEST(Orders, OfATeachingHaveItsTagsUpToTheNextOrder) {
+  const auto tasks = ParseOrders("teach yard wet gravel wait 2 teach teach follow yard");
+  ASSERT_TRUE(tasks) << tasks.error().message;
+  ASSERT_THAT(*tasks, SizeIs(4));
+  EXPECT_EQ((*tasks)[0].kind, Task::Kind::kTeach);
+  EXPECT_EQ((*tasks)[0].route.route, "yard");
+  EXPECT_THAT((*tasks)[0].tags, testing::ElementsAre("wet", "gravel"));
+  EXPECT_EQ((*tasks)[1].kind, Task::Kind::kWait);
+  EXPECT_EQ((*tasks)[2].route.route, "teach");
+  EXPECT_EQ((*tasks)[3].kind, Task::Kind::kFollow);
 }
 
 TEST(Orders, ThatAreNotUnderstoodAreNamed) {
@@ -68,14 +81,18 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("follow hall speed nan"), HasSubstr("'nan'"));
   EXPECT_THAT(why("follow hall 10..3"), HasSubstr("FROM..TO"));
   EXPECT_THAT(why("follow hall -1..3"), HasSubstr("FROM..TO"));
+  EXPECT_THAT(why("teach"), HasSubstr("route to teach"));
+  EXPECT_THAT(why("teach hall@2"), HasSubstr("hall@2"));
+  EXPECT_THAT(why("teach hall a/b"), HasSubstr("'a/b' was not understood: expected a tag"));
+  EXPECT_THAT(why("teach hall 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17"), HasSubstr("tags"));
   EXPECT_THAT(why("wait"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait -1"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));
 }
 
 TEST(Orders, NameTheirRoutesOnce) {
-  EXPECT_EQ(RoutesIn("follow hall wait 1 follow yard@2 follow hall"),
-            (std::set<std::string>{"hall", "yard"}));
+  EXPECT_EQ(RoutesIn("follow hall wait 1 follow yard@2 follow hall teach dock wet"),
+            (std::set<std::string>{"dock", "hall", "yard"}));
   EXPECT_TRUE(RoutesIn("dance").empty());
 }
 
