@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/console/driving.h"
 #include "services/console/fleet_state.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/now_client.h"
@@ -58,6 +59,11 @@ class Desk {
                                                             const std::string& reason);
   // Its client is filled in. As fleet::SendMission: what is known of it first.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission);
+  // Passes on how a robot that teaches is to be driven, and waits for nothing.
+  [[nodiscard]] mission::DriverSeat::Verdict Drive(const AgentId& robot,
+                                                   const Driving::Word& word) {
+    return driving_.Hear(robot, word, Clock::now());
+  }
   // A page of what servers keep, the newest first.
   [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query);
   [[nodiscard]] Result<exchange::MissionReply> Commands(const mission::Query& query);
@@ -109,6 +115,8 @@ class Desk {
   Clock::time_point asked_at_{};
   Clock::time_point ask_at_{};
   Clock::time_point show_at_{};
+
+  Driving driving_;
 
   std::mutex mutex_;  // guards what follows
   bool closed_ = false;

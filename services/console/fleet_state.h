@@ -54,6 +54,7 @@ class FleetState {
   void Sent(const mission::Mission& mission, std::int64_t unix_ms);
   // Who has fallen silent meanwhile, and which routes robots are on.
   void Tick(Time now);
+  [[nodiscard]] bool Teaches(const AgentId& robot) const;
   // A robot tells of a mission whose orders are not known here.
   [[nodiscard]] bool lacks_orders() const { return lacks_orders_; }
   // Routes that robots are on and of which more is to be asked now.

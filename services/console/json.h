@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/base/result.h"
+#include "services/console/driving.h"
 #include "services/mission/mission.h"
 #include "services/route/route_edit.h"
 #include "services/route/route_query.h"
@@ -37,6 +38,9 @@ using Parameters = std::multimap<std::string, std::string>;
 // How `route`, by its name or id, is to be changed.
 [[nodiscard]] Result<route::RouteEdit> ReadRouteEdit(const std::string& route,
                                                      const std::string& body);
+
+// {"linear_mps", "turn_radps", "driver", "said_ms"}: all of it.
+[[nodiscard]] Result<Driving::Word> ReadDrive(const std::string& body);
 
 struct LogInBody {
   std::string user;

@@ -51,6 +51,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Require(exchange::CheckBounds(mission).has_value(), "a mission may be published");
   }
   (void)console::ReadLogIn(body);
+  if (const auto word = console::ReadDrive(body)) {
+    const exchange::DriveCommand command{.agent = AgentId("robot1"),
+                                         .client = AgentId("desk"),
+                                         .linear_mps = word->linear_mps,
+                                         .turn_radps = word->turn_radps};
+    Require(exchange::CheckBounds(command).has_value(), "a robot may be driven so");
+    Require(IsValidName(word->driver), "a driver has a name");
+  }
   if (const auto placement = console::ReadPlacement(body)) {
     Require(std::abs(placement->x_m) < 1e7 && placement->scale > 0.0, "it can be drawn there");
   }

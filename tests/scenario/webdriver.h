@@ -98,6 +98,14 @@ class Browser {
     return !element.empty() &&
            Ask("POST", session_ + "/element/" + element + "/value", {{"text", keys}}).is_null();
   }
+  // Whatever has the focus sees the key go down, and up again after so long.
+  [[nodiscard]] bool HoldKey(const std::string& key, int ms) {
+    const Json held = {{{"type", "keyDown"}, {"value", key}},
+                       {{"type", "pause"}, {"duration", ms}},
+                       {{"type", "keyUp"}, {"value", key}}};
+    const Json keyboard = {{"type", "key"}, {"id", "keyboard"}, {"actions", held}};
+    return Ask("POST", session_ + "/actions", {{"actions", Json::array({keyboard})}}).is_null();
+  }
   void Screenshot(const std::filesystem::path& file) {
     const Json shot = Ask("GET", session_ + "/screenshot", nullptr);
     std::ofstream(file, std::ios::binary) << Decoded(shot.get<std::string>());

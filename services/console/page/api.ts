@@ -16,7 +16,7 @@ export type RobotState =
   | 'silent' | 'stopped' | 'paused' | 'starting' | 'free' | 'waiting' | 'teaching' | 'driving'
   | 'arrived' | 'ended' | 'fault';
 
-export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release';
+export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end';
 
 export type Robot = {
   name: string;
@@ -41,6 +41,8 @@ export type Robot = {
   battery_percent: number | null;
   link_percent: number | null;
   software: string;
+  teaches: boolean;
+  features: number;
   mission: Mission | null;
   orders: Order[];
 };
@@ -89,9 +91,9 @@ export type Answer = { ok: boolean; text: string };
 
 const kPatience_ms = 12000;
 
-async function ask(path: string, request: RequestInit): Promise<{ status: number; json: any }> {
+async function ask(path: string, request: RequestInit, patience_ms = kPatience_ms): Promise<{ status: number; json: any }> {
   const giveUp = new AbortController();
-  const timer = window.setTimeout(() => giveUp.abort(), kPatience_ms);
+  const timer = window.setTimeout(() => giveUp.abort(), patience_ms);
   try {
     const reply = await fetch(path, { ...request, signal: giveUp.signal });
     return { status: reply.status, json: await reply.json() };
@@ -100,12 +102,12 @@ async function ask(path: string, request: RequestInit): Promise<{ status: number
   }
 }
 
-function post(path: string, body: object): Promise<{ status: number; json: any }> {
+function post(path: string, body: object, patience_ms = kPatience_ms): Promise<{ status: number; json: any }> {
   return ask(path, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: JSON.stringify(body),
-  });
+  }, patience_ms);
 }
 
 // What is there, or why not, in words.
@@ -146,6 +148,19 @@ export async function tell(robot: string, order: Order): Promise<Answer> {
     return { ok: status === 200, text: (json.obeys ? '' : 'Does not obey: ') + json.detail };
   } catch {
     return unreachable;
+  }
+}
+
+// A word of who drives: good for a moment, and then of no use. Why it is not passed on, if it is not.
+const kDrivePatience_ms = 1000;
+export async function drive(
+  robot: string, word: { linear_mps: number; turn_radps: number; driver: string; said_ms: number },
+): Promise<string> {
+  try {
+    const { json } = await post(`/api/robots/${robot}/drive`, word, kDrivePatience_ms);
+    return json.error ?? '';
+  } catch {
+    return 'The console does not answer: the robot stands.';
   }
 }
 

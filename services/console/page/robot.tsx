@@ -4,6 +4,7 @@ import { age } from './fleet';
 import { useMay } from './me';
 import { Send } from './send';
 import { Strip } from './strip';
+import { Teach, Teaching } from './teach';
 import { Vitals } from './vitals';
 
 const words: Record<RobotState, string> = {
@@ -31,25 +32,25 @@ export function Badge({ state }: { state: RobotState }) {
 }
 
 const labels: Record<Order, string> = {
-  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release',
+  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End',
 };
 
 // Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
 // is not heard.
 export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
   const [answer, setAnswer] = useState<Answer | null>(null);
-  const [sending, setSending] = useState(false);
+  const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
   const order = async (given: Order) => {
     setAnswer({ ok: true, text: `${labels[given]}: told …` });
     setAnswer(await tell(robot.name, given));
   };
   const sent = (to: Answer | null) => {
     setAnswer(to ?? { ok: true, text: 'Sent …' });
-    if (to?.ok) setSending(false);
+    if (to?.ok) setOpen('');
   };
   const mayOperate = useMay('operate');
   const obeys = mayOperate && robot.role === 'follower';
-  const others = robot.orders.filter((each) => each !== 'stop');
+  const others = robot.orders.filter((each) => each !== 'stop' && !(robot.teaches && (each === 'end' || each === 'cancel')));
   const mission = robot.mission;
   const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);
   return (
@@ -69,7 +70,7 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
         <p className="last-heard">Last heard {age(now_ms - robot.last_heard_unix_ms)} ago; what follows is from then.</p>
       )}
       {robot.detail && robot.detail !== 'free' && <p className="detail">{robot.detail}</p>}
-      {robot.route && <Strip robot={robot} />}
+      {robot.route && !robot.teaches && <Strip robot={robot} />}
       <Vitals robot={robot} />
       {mission && (
         <p className="mission">
@@ -82,10 +83,16 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
           {others.map((each) => (
             <button key={each} onClick={() => order(each)}>{labels[each]}</button>
           ))}
-          {maySend && <button aria-expanded={sending} onClick={() => setSending(!sending)}>Send …</button>}
+          {maySend && (['send', 'teach'] as const).map((each) => (
+            <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
+              {each === 'send' ? 'Send …' : 'Teach …'}
+            </button>
+          ))}
         </div>
       )}
-      {obeys && sending && maySend && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
+      {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={setAnswer} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>

@@ -147,7 +147,7 @@ tl::unexpected<Error> TooMuch() {
 
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
-                    Topic::kRouteEdits},
+                    Topic::kRouteEdits, Topic::kDrives},
           .read = {Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates,
                    Topic::kMissionReplies, Topic::kCatalogReplies}};
 }
@@ -302,6 +302,10 @@ void Desk::Begin() {
 }
 
 void Desk::Say(Clock::time_point now) {
+  for (const exchange::DriveCommand& command : driving_.Take(self_)) {
+    // What is lost is said anew, by whoever drives.
+    if (state_.Teaches(command.agent)) (void)exchange_->Publish(command);
+  }
   for (const auto& errand : errands_) {
     if (now < errand->say_at) continue;
     errand->say_at = now + errand->SayAgain();

@@ -37,6 +37,7 @@ Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_missi
   } else if (state != "ended") {
     orders.push_back("pause");
   }
+  if (status.on_duty && status.mode == AgentMode::kTeaching) orders.push_back("end");
   if (has_mission) orders.push_back("cancel");
   if (state != "ended") orders.push_back("stop");
   return orders;
@@ -193,6 +194,8 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
              {"battery_percent", percent(status.battery_percent)},
              {"link_percent", percent(status.link_percent)},
              {"software", status.software},
+             {"teaches", status.mode == AgentMode::kTeaching},
+             {"features", status.features},
              {"orders", OrdersFor(RobotState(status, false, mission != nullptr), status,
                                   mission != nullptr)}};
   if (status.place) {
@@ -213,6 +216,11 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
   text.pop_back();
   return text + ",\"mission\":" + (mission == nullptr ? "null" : fleet::MissionJson(*mission)) +
          "}";
+}
+
+bool FleetState::Teaches(const AgentId& robot) const {
+  const Agent* agent = agents_.Find(robot);
+  return agent != nullptr && agent->status.mode == AgentMode::kTeaching;
 }
 
 std::string FleetState::MissionsJson() const {

@@ -49,6 +49,11 @@ Result<std::string> LineIn(const Json& json, const char* field) {
   return value.get<std::string>();
 }
 
+Result<double> NumberIn(const Json& json, const char* field) {
+  if (json.contains(field) && json[field].is_number()) return json[field].get<double>();
+  return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a number", field);
+}
+
 // How a parameter that was given is read into a query.
 template <typename Query>
 using Readers = std::map<std::string, std::function<Result<void>(const std::string&, Query&)>>;
@@ -271,6 +276,37 @@ Result<SendBody> ReadSend(const std::string& body) {
     send.goes_on = (*json)["goes_on"].get<bool>();
   }
   return send;
+}
+
+Result<Driving::Word> ReadDrive(const std::string& body) {
+  const auto json = ReadObject(body, {"linear_mps", "turn_radps", "driver", "said_ms"});
+  if (!json) return tl::unexpected(json.error());
+  const auto linear_mps = NumberIn(*json, "linear_mps");
+  if (!linear_mps) return tl::unexpected(linear_mps.error());
+  const auto turn_radps = NumberIn(*json, "turn_radps");
+  if (!turn_radps) return tl::unexpected(turn_radps.error());
+  auto driver = LineIn(*json, "driver");
+  if (!driver) return tl::unexpected(driver.error());
+  if (!IsValidName(*driver)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'driver' is to be a name of 1 to 64 letters, digits, '_', '.', '-', the same one "
+                "for as long as one person drives");
+  }
+  if (!json->contains("said_ms") || !(*json)["said_ms"].is_number_unsigned()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'said_ms' is to be a whole number: by the driver's clock, from any time on");
+  }
+  const exchange::DriveCommand command{.agent = AgentId("robot"),
+                                       .client = AgentId("console"),
+                                       .linear_mps = *linear_mps,
+                                       .turn_radps = *turn_radps};
+  if (auto possible = exchange::CheckBounds(command); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  return Driving::Word{.linear_mps = *linear_mps,
+                       .turn_radps = *turn_radps,
+                       .driver = *std::move(driver),
+                       .said_ms = (*json)["said_ms"].get<std::uint64_t>()};
 }
 
 Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters) {

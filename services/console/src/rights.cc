@@ -41,6 +41,8 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/cancel", Role::kOperate},
     {"POST", "/api/robots/*/stop", Role::kOperate},
     {"POST", "/api/robots/*/release", Role::kOperate},
+    {"POST", "/api/robots/*/end", Role::kOperate},
+    {"POST", "/api/robots/*/drive", Role::kOperate},
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"PUT", "/api/site/placements/*", Role::kOperate},
     {"DELETE", "/api/site/placements/*", Role::kOperate},

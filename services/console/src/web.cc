@@ -11,6 +11,7 @@
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/answers.h"
+#include "services/console/src/driving_api.h"
 #include "services/console/src/files.h"
 #include "services/console/src/history_api.h"
 #include "services/console/src/map_api.h"
@@ -33,8 +34,8 @@ using httplib::Response;
 constexpr std::chrono::milliseconds kLook{1000};
 constexpr std::size_t kMostBody = 64U << 10U;
 
-constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume, NowOrder::kCancel,
-                             NowOrder::kStop, NowOrder::kRelease};
+constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCancel,
+                             NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd};
 
 int StatusOf(const fleet::RobotsWord& word) {
   if (!word.answered) return 504;
@@ -93,6 +94,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeMetrics();
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
+  ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
   access_.Serve(server_);

@@ -83,6 +83,12 @@ TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
   EXPECT_EQ(StateOf(AgentMode::kWaiting), "waiting");
   EXPECT_EQ(StateOf(AgentMode::kStopped, AgentHold::kStopped), "ended");
   EXPECT_EQ(Robot()["orders"], json::array());
+  EXPECT_EQ(StateOf(AgentMode::kTeaching, AgentHold::kNone, true), "teaching");
+  EXPECT_EQ(Robot()["orders"], json({"pause", "end", "stop"}));
+  EXPECT_EQ(StateOf(AgentMode::kTeaching, AgentHold::kPaused, true), "paused");
+  EXPECT_EQ(Robot()["teaches"], true);
+  EXPECT_TRUE(state_.Teaches(AgentId("robot1")));
+  EXPECT_FALSE(state_.Teaches(AgentId("robot7")));
   EXPECT_EQ(StateOf(AgentMode::kFault), "fault");
   EXPECT_EQ(Robot()["needs_person"], true);
 }

@@ -131,8 +131,8 @@ class MetricsPageTest : public testing::Test {
              Desk::Options{.answer_within = std::chrono::milliseconds(200),
                            .reply_within = std::chrono::milliseconds(200)}};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-                 return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
-               }};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+  }};
   std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}).value();
 };
 

@@ -78,6 +78,37 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
   EXPECT_EQ(Client().Get("/api/missions")->status, 503) << "no server";
 }
 
+TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::TeachingTopics()));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  status.mode = exchange::AgentMode::kTeaching;
+  ASSERT_TRUE(robot->Publish(status));
+  while (!json::parse(Client().Get("/api/state")->body)["robots"][0].value("teaches", false)) {
+  }
+  const auto drive = [&](const char* body) {
+    return Client().Post("/api/robots/robot1/drive", body, "application/json")->status;
+  };
+  EXPECT_EQ(drive(R"({"linear_mps":0.4,"turn_radps":-0.2,"driver":"ann","said_ms":100000})"), 200);
+  EXPECT_EQ(drive(R"({"linear_mps":1,"turn_radps":0,"driver":"bob","said_ms":5})"), 409);
+  EXPECT_EQ(drive(R"({"linear_mps":1,"turn_radps":0,"driver":"ann","said_ms":99000})"), 409);
+  EXPECT_EQ(drive(R"({"linear_mps":1e9,"turn_radps":0,"driver":"ann","said_ms":100001})"), 400);
+  EXPECT_EQ(drive(R"({"linear_mps":1,"driver":"ann","said_ms":100001})"), 400);
+  for (int i = 0; i < 200; ++i) {
+    for (const exchange::Message& message : robot->Take(milliseconds(50))) {
+      const auto* heard = std::get_if<exchange::DriveCommand>(&message);
+      if (heard == nullptr) continue;
+      EXPECT_EQ(heard->agent, AgentId("robot1"));
+      EXPECT_EQ(heard->client, AgentId("desk"));
+      EXPECT_EQ(heard->linear_mps, 0.4);
+      EXPECT_EQ(heard->turn_radps, -0.2);
+      return;
+    }
+  }
+  FAIL() << "the robot has heard nothing";
+}
+
 TEST_F(WebTest, ANarrowAnswerTellsTheConsolesTime) {
   const auto state = Client().Get("/api/state");
   ASSERT_TRUE(state);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "services/base/ids.h"
+#include "services/base/newest_map.h"
+#include "services/exchange/messages.h"
+#include "services/mission/driver_seat.h"
+
+namespace trailcast::console {
+
+// How robots are driven by the people at this console: of several at one robot the first, until
+// that is silent for a moment. A word that waits is replaced by the next. Any thread.
+class Driving {
+ public:
+  using Time = mission::DriverSeat::Time;
+  // Robots' names come from strangers: more are not kept.
+  static constexpr std::size_t kMostRobots = 256;
+
+  struct Word {
+    double linear_mps = 0.0;
+    double turn_radps = 0.0;
+    std::string driver{};       // a page, or a program
+    std::uint64_t said_ms = 0;  // by its own clock
+  };
+  [[nodiscard]] mission::DriverSeat::Verdict Hear(const AgentId& robot, const Word& word, Time now);
+
+  // What robots are to be told: of each the latest, once.
+  [[nodiscard]] std::vector<exchange::DriveCommand> Take(const AgentId& self);
+
+ private:
+  std::mutex mutex_;
+  NewestMap<AgentId, mission::DriverSeat> seats_{kMostRobots};
+  std::map<AgentId, exchange::DriveCommand> waiting_;
+};
+
+}  // namespace trailcast::console

@@ -1,0 +1,249 @@
+// Robots on duty that teach: sent, driven by hand from afar, ended, followed by others.
+#include <httplib.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/robots.h"
+#include "tests/scenario/webdriver.h"
+
+namespace trailcast::test {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class TeachMissionTest : public RobotsTest {
+ protected:
+  void SetUp() override {
+    server_ = Server();
+    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+    agent_ = Serve("robot1");
+    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
+    const std::string said = "http://localhost:";
+    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
+    const std::string output = console_->output();
+    port_ = std::stoi(output.substr(output.find(said) + said.size()));
+    ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("state", "") == "free"; }));
+  }
+  json Get(const std::string& path) {
+    httplib::Client client("localhost", port_);
+    client.set_read_timeout(20);
+    const auto got = client.Get(path);
+    return got ? json::parse(got->body, nullptr, false) : json();
+  }
+  struct Replied {
+    int status = 0;
+    json body{};
+  };
+  Replied Post(const std::string& path, const json& body = json::object()) {
+    httplib::Client client("localhost", port_);
+    client.set_read_timeout(20);
+    const auto got = client.Post(path, body.dump(), "application/json");
+    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+  }
+  json State(const std::string& name) {
+    const json state = Get("/api/state");
+    if (!state.is_object()) return json::object();
+    for (const json& robot : state["robots"]) {
+      if (robot["name"] == name) return robot;
+    }
+    return json::object();
+  }
+  // Of the mission of this name.
+  std::string Became(const std::string& mission) {
+    const json missions = Get("/api/missions?mission=" + mission);
+    if (!missions.is_object() || missions["missions"].empty()) return "";
+    const json& last = missions["missions"][0];
+    return last["state"].get<std::string>() + ": " + last["detail"].get<std::string>();
+  }
+  bool WaitForEnd(const std::string& mission, const std::string& state) {
+    return WaitUntil([&] { return Became(mission).starts_with(state); });
+  }
+  bool WaitUntil(const std::function<bool()>& condition) {
+    const auto until = steady_clock::now() + Process::kBound;
+    while (!condition()) {
+      if (steady_clock::now() > until) return false;
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+    return true;
+  }
+  void SendToTeach(const std::string& orders, const std::string& id) {
+    const Replied sent = Post("/api/robots/robot1/missions", {{"orders", orders}, {"id", id}});
+    ASSERT_EQ(sent.status, 200) << sent.body.dump();
+    ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("teaches", false); }))
+        << agent_->output();
+  }
+  // A word as a person's page says one ten times a second.
+  Replied Say(double linear_mps, double turn_radps = 0.0, const std::string& driver = "ann") {
+    const auto now = steady_clock::now().time_since_epoch();
+    return Post("/api/robots/robot1/drive",
+                {{"linear_mps", linear_mps},
+                 {"turn_radps", turn_radps},
+                 {"driver", driver},
+                 {"said_ms", std::chrono::duration_cast<milliseconds>(now).count()}});
+  }
+  // As far east as that; false if it does not get there.
+  bool DriveTo(double along_m) {
+    return WaitUntil([&] {
+      const auto before = steady_clock::now();
+      EXPECT_EQ(Say(0.4).status, 200);
+      const auto took = std::chrono::duration<double, std::milli>(steady_clock::now() - before);
+      longest_word_ms_ = std::max(longest_word_ms_, took.count());
+      std::this_thread::sleep_for(milliseconds(60));
+      return Along_m("truth.csv") >= along_m;
+    });
+  }
+  // The robot's time in its truth, and how far east it is.
+  std::vector<std::array<double, 2>> Truth() {
+    std::vector<std::array<double, 2>> rows;
+    std::ifstream in(Path("truth.csv"));
+    for (std::string line; std::getline(in, line) && !in.eof();) {
+      const auto comma = line.find(',');
+      if (line[0] == 't' || comma == std::string::npos) continue;
+      rows.push_back({std::stod(line), std::stod(line.substr(comma + 1))});
+    }
+    return rows;
+  }
+  // When its wheels last turned.
+  double StoodSince_s() {
+    const auto rows = Truth();
+    double since_s = rows.front()[0];
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (std::abs(rows[i][1] - rows[i - 1][1]) > 2e-4) since_s = rows[i][0];
+    }
+    return since_s;
+  }
+  Ended Tool(const Words& words) {
+    return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
+  }
+
+  std::unique_ptr<Process> server_;
+  std::unique_ptr<Process> robot_;
+  std::unique_ptr<Process> agent_;
+  std::unique_ptr<Process> console_;
+  int port_ = 0;
+  int tools_ = 0;
+  double longest_word_ms_ = 0.0;
+};
+
+TEST_F(TeachMissionTest, WhatAPersonDrivesFromAfarIsFollowedByAnother) {
+  SendToTeach("teach yard wet", "lesson");
+  ASSERT_TRUE(DriveTo(2.5)) << agent_->output();
+  EXPECT_EQ(Say(-1.0, 0.0, "bob").status, 409) << "ann drives";
+  const double silent_s = Truth().back()[0];
+  ASSERT_TRUE(Stands("truth.csv"));
+  const double took_s = StoodSince_s() - silent_s;
+  RecordProperty("stood_after_s", std::to_string(took_s));
+  RecordProperty("longest_word_ms", std::to_string(longest_word_ms_));
+  EXPECT_LT(took_s, 1.5) << "0.3 s without a word, and a base's braking, on a busy machine";
+  EXPECT_TRUE(State("robot1").value("teaches", false)) << "it goes on";
+
+  ASSERT_TRUE(DriveTo(4.0)) << agent_->output();
+  ASSERT_TRUE(Stands("truth.csv"));
+  const double end_m = Along_m("truth.csv");
+  const Replied ended = Post("/api/robots/robot1/end");
+  EXPECT_EQ(ended.status, 200) << ended.body.dump();
+  ASSERT_TRUE(WaitForEnd("lesson", "arrived")) << Became("lesson") << agent_->output();
+  EXPECT_THAT(Became("lesson"), AllOf(HasSubstr("taught 'yard'"), HasSubstr("a server has it")));
+  const json routes = Get("/api/routes?name=yard");
+  ASSERT_EQ(routes["routes"].size(), 1U) << routes.dump();
+  EXPECT_EQ(routes["routes"][0]["state"], "active");
+  EXPECT_EQ(routes["routes"][0]["tags"], json({"wet"}));
+  EXPECT_NEAR(routes["routes"][0]["length_m"].get<double>(), end_m - 1.0, 0.3);
+  EXPECT_EQ(Post("/api/robots/robot1/end").status, 409) << "it teaches no route";
+
+  robot_->Signal(SIGTERM);
+  const auto other = Robot("robot2", {"--sim-truth", Path("truth2.csv")});
+  const auto follower = Agent(
+      With({"serve", "--store", Path("robot2.db"), "--name", "robot2"}, Drives("robot2")), "duty2");
+  ASSERT_TRUE(follower->WaitForOutput("on duty as 'robot2'")) << follower->output();
+  const Ended followed = Tool({"send", "robot2", "follow", "yard", "--wait"});
+  EXPECT_EQ(followed.status, 0) << followed.output << follower->output();
+  EXPECT_NEAR(Along_m("truth2.csv"), end_m, 0.3);
+}
+
+TEST_F(TeachMissionTest, AHeldRobotStandsAndWhatIsCancelledIsFollowedByNobody) {
+  SendToTeach("teach yard", "lesson");
+  ASSERT_TRUE(DriveTo(2.2)) << agent_->output();
+  const Replied paused = Post("/api/robots/robot1/pause");
+  EXPECT_EQ(paused.status, 200) << paused.body.dump();
+  ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("state", "") == "paused"; }));
+  EXPECT_TRUE(State("robot1").value("teaches", false));
+  ASSERT_TRUE(Stands("truth.csv"));
+  const double at_m = Along_m("truth.csv");
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(Say(0.4).status, 200);
+    std::this_thread::sleep_for(milliseconds(60));
+  }
+  EXPECT_NEAR(Along_m("truth.csv"), at_m, 0.02);
+  EXPECT_EQ(Tool({"resume", "robot1"}).status, 0);
+  ASSERT_TRUE(DriveTo(at_m + 0.5)) << agent_->output();
+  EXPECT_EQ(Tool({"cancel", "robot1"}).status, 0);
+  ASSERT_TRUE(WaitForEnd("lesson", "cancelled")) << Became("lesson") << agent_->output();
+  EXPECT_THAT(Became("lesson"), HasSubstr("discarded"));
+  EXPECT_TRUE(Get("/api/routes?name=yard&state=active")["routes"].empty());
+  EXPECT_EQ(Tool({"end", "robot1"}).status, 1) << "it teaches no route";
+}
+
+TEST_F(TeachMissionTest, AfterARestartTheTeachingHasFailedAndNothingMoves) {
+  SendToTeach("teach yard", "lesson");
+  ASSERT_TRUE(DriveTo(2.2)) << agent_->output();
+  agent_->Signal(SIGKILL);
+  (void)End(*agent_);
+  ASSERT_TRUE(Stands("truth.csv"));
+  const double at_m = Along_m("truth.csv");
+  agent_ = Serve("robot1", "duty2");
+  ASSERT_TRUE(WaitForEnd("lesson", "failed")) << Became("lesson") << agent_->output();
+  EXPECT_THAT(Became("lesson"), HasSubstr("has started again in the middle"));
+  EXPECT_NEAR(Along_m("truth.csv"), at_m, 0.02);
+  EXPECT_TRUE(Get("/api/routes?name=yard&state=active")["routes"].empty());
+}
+
+TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {
+  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+  const std::filesystem::path shots =
+      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
+  std::filesystem::create_directories(shots);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(390, 844);
+  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Teach')]"));
+  ASSERT_TRUE(browser.Type("//label[contains(., 'Name')]/input", "yard"));
+  ASSERT_TRUE(browser.Type("//label[contains(., 'Tags')]/input", "wet, a/b"));
+  ASSERT_TRUE(browser.WaitForText("cannot be a tag")) << browser.Text();
+  ASSERT_TRUE(browser.Type("//label[contains(., 'Tags')]/input", "\xEE\x80\x83\xEE\x80\x83"));
+  ASSERT_TRUE(browser.WaitForText("Slide to have robot1 teach yard")) << browser.Text();
+  browser.Screenshot(shots / "phone-teach.png");
+  std::string right;
+  for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";  // the right arrow
+  ASSERT_TRUE(browser.Type("//input[@type='range']", right));
+  ASSERT_TRUE(browser.WaitForText("Features in view")) << browser.Text() << agent_->output();
+
+  ASSERT_TRUE(browser.Click("//div[@role='application']"));
+  ASSERT_TRUE(WaitUntil([&] {
+    EXPECT_TRUE(browser.HoldKey("w", 1000));
+    return Along_m("truth.csv") > 2.2;
+  })) << browser.Text();
+  browser.Screenshot(shots / "phone-driving.png");
+  browser.Look(1280, 800, true);
+  browser.Screenshot(shots / "desktop-teaching.png");
+  EXPECT_TRUE(Stands("truth.csv")) << "the key is let go";
+  ASSERT_TRUE(browser.Click("//button[contains(., 'End')]"));
+  ASSERT_TRUE(browser.WaitForText("a server has it")) << browser.Text() << agent_->output();
+  EXPECT_THAT(browser.Text(), Not(HasSubstr("Features in view")));
+}
+
+}  // namespace
+}  // namespace trailcast::test
