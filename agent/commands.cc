@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agent/fetch.h"
+#include "agent/glances.h"
 #include "agent/on_duty.h"
 #include "agent/teachings.h"
 #include "services/base/angles.h"
@@ -60,6 +61,14 @@ exchange::TopicUse TeachingToo(exchange::TopicUse use) {
   for (const exchange::Topic topic : teaching.read) {
     if (!use.Hears(topic)) use.read.push_back(topic);
   }
+  return use;
+}
+
+// Of a robot whose camera others look through: hears what they ask, and says what they hear.
+exchange::TopicUse WithGlances(exchange::TopicUse use) {
+  const exchange::TopicUse theirs = exchange::GlanceTopics();
+  use.read.insert(use.read.end(), theirs.write.begin(), theirs.write.end());
+  use.write_rarely.insert(use.write_rarely.end(), theirs.read.begin(), theirs.read.end());
   return use;
 }
 
@@ -194,14 +203,16 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, exchange::ScoutTopics());
+  auto exchange = Join(options, WithGlances(exchange::ScoutTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
-  ScoutOptions scout{teach.route,        LinkOptions(options, teach.delivery_timeout_s),
-                     teach.tags,         teach.place,
-                     teach.review,       UnfinishedOf(teach.unfinished),
-                     teach.device.intake};
+  Glances glances(AgentId(options.common.name));
+  ScoutOptions scout{teach.route,         LinkOptions(options, teach.delivery_timeout_s),
+                     teach.tags,          teach.place,
+                     teach.review,        UnfinishedOf(teach.unfinished),
+                     teach.device.intake, &glances};
   scout.link.vitals = VitalsOf(*opened->device, options);
-  const auto summary = Teach(*opened->device, scout, std::move(*store), std::move(*exchange));
+  const auto summary =
+      Teach(*opened->device, scout, std::move(*store), glances.Through(std::move(*exchange)));
   if (auto truth = opened->TruthWritten(); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);
 }
@@ -262,11 +273,14 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file, kOfCopies);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, FollowersTopics(options));
+  auto exchange = Join(options, WithGlances(FollowersTopics(options)));
   if (!exchange) return tl::unexpected(exchange.error());
+  Glances glances(AgentId(options.common.name));
   FollowerOptions follower = MakeFollowerOptions(options, replay, *ref);
+  follower.glances = &glances;
   follower.link.vitals = VitalsOf(*opened->device, options);
-  const auto outcome = Replay(*opened->device, follower, std::move(*store), std::move(*exchange));
+  const auto outcome =
+      Replay(*opened->device, follower, std::move(*store), glances.Through(std::move(*exchange)));
   if (!outcome) return tl::unexpected(outcome.error());
   auto written = Tell(outcome->summary, options);
   if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);

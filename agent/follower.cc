@@ -8,6 +8,7 @@
 
 #include "agent/comfort.h"
 #include "agent/device/standstill.h"
+#include "agent/glances.h"
 #include "agent/progress_watch.h"
 #include "agent/stand.h"
 #include "agent/yielding.h"
@@ -57,6 +58,8 @@ class Loop {
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
   [[nodiscard]] bool PassedEnd() const;  // where it was to end before the route does
+  void ShowGlance(const Observation& observation, const ReplayStep& step);
+  void ShowWaiting();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
   bool End(std::string state, std::string reason);
@@ -78,6 +81,7 @@ class Loop {
   std::optional<LeftAt> left_;
   std::optional<double> went_on_at_m_;  // where it then found itself
   bool fed_ = false;                    // since the last frame
+  bool looked_ = false;                 // at this frame
   // By something of the robot that has failed, or something in its way: now, since the last step.
   bool held_ = false;
   bool was_held_ = false;
@@ -152,6 +156,7 @@ Result<bool> Loop::WaitForFeed() {
                              Seconds(options_.link.wait), segments_));
     }
     link_.WaitForNews(kWakeUp);
+    ShowWaiting();
     if (auto taken = TakeFeed(); !taken) return tl::unexpected(taken.error());
     if (!TakeHold()) return false;
   }
@@ -191,6 +196,7 @@ Result<void> Loop::Run() {
 Result<ReplayStep> Loop::Decide(const Observation& observation) {
   while (auto neighbours = link_.TryTakeNeighbours()) yielding_.Hear(std::move(*neighbours));
   const bool held = hold_.kind != Hold::Kind::kNone;
+  looked_ = false;
   if (const ReplayStep* wish = held ? stand_.WithoutLooking(observation.stamp) : nullptr) {
     return StandingStep(*wish, ReplayState::kHeld, hold_.text);
   }
@@ -198,6 +204,7 @@ Result<ReplayStep> Loop::Decide(const Observation& observation) {
   if (auto standing = yielding_.StandOn(observation.stamp, now)) return *standing;
   auto step = session_->Observe(observation);
   if (!step) return step;
+  looked_ = true;
   if (held && step->state != ReplayState::kLost) {
     stand_.Begin(*step, observation.stamp);
     return StandingStep(*std::move(step), ReplayState::kHeld, hold_.text);
@@ -215,6 +222,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
+  ShowGlance(observation, *step);
   if (observation.unknown.distance_m > 0.0) {
     diagnosis_.Note("odometry", fmt::format("jumped: {:.2f} m may have been driven meanwhile",
                                             observation.unknown.distance_m));
@@ -242,6 +250,25 @@ Result<bool> Loop::Step(const Observation& observation) {
 bool Loop::PassedEnd() const {
   return options_.end_m > 0.0 && last_->state == ReplayState::kFollowing && last_->along_m &&
          *last_->along_m >= options_.end_m;
+}
+
+// After the command: who looks delays no more than the next frame, by the time of a copy.
+void Loop::ShowGlance(const Observation& observation, const ReplayStep& step) {
+  if (options_.glances == nullptr || !options_.glances->wanted()) return;
+  GlanceFrame frame;
+  if (looked_) {
+    frame.picture = *session_->picture();
+    frame.features = session_->ViewFeatures(step);
+    frame.stored = step.sight.stored;
+    frame.turn_rad = step.turn_rad;
+  } else {
+    frame.picture = observation.image;
+  }
+  options_.glances->Show(std::move(frame));
+}
+
+void Loop::ShowWaiting() {
+  if (options_.glances != nullptr) options_.glances->ShowIfWanted(device_);
 }
 
 void Loop::Tell(const ReplayStep& step) {

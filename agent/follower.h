@@ -15,6 +15,8 @@
 
 namespace trailcast::agent {
 
+class Glances;
+
 struct FollowerOptions {
   FollowerLinkOptions link;
   ReplayMethodOptions session;
@@ -29,7 +31,8 @@ struct FollowerOptions {
   // What ground the robot can drive: with limits, and a route that is complete, it looks at all of
   // it before it moves; of one that is still being taught it knows no more than has come.
   TerrainLimits terrain{};
-  bool comfort = false;  // it drives slower where the ground is rough
+  bool comfort = false;        // it drives slower where the ground is rough
+  Glances* glances = nullptr;  // for those who look through its camera; null: nobody does
 };
 
 struct ReplayOutcome {

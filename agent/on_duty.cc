@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "agent/device/standstill.h"
+#include "agent/glances.h"
 #include "agent/hands.h"
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_desk.h"
@@ -26,6 +27,8 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{50};
+// Of what fails while a robot is free nobody needs to hear that is soon over, as when it starts.
+constexpr std::chrono::seconds kAilsFor{2};
 // A robot whose mission has ended on its way stands there yet, and others wait for it, as they do
 // for one whose agent has ended.
 constexpr std::chrono::seconds kStandsThere{60};
@@ -50,7 +53,8 @@ class OnDuty {
          std::unique_ptr<exchange::RouteExchange> exchange)
       : device_(device),
         options_(options),
-        exchange_(std::move(exchange)),
+        glances_(options.agent),
+        exchange_(glances_.Through(std::move(exchange))),
         now_desk_(options.agent, options.stop_file),
         desk_(options.agent, options.missions_file),
         own_visit_(exchange_.Visit()),
@@ -68,6 +72,7 @@ class OnDuty {
   void Say(exchange::RouteExchange& to);
   void SawStatus(const exchange::AgentStatus& status);
   void ShowFree();
+  void NoteAilment(steady_clock::time_point now);
   void TellNews();
   [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
 
@@ -85,6 +90,7 @@ class OnDuty {
 
   RobotDevice& device_;
   const OnDutyOptions& options_;
+  Glances glances_;
   LastingExchange exchange_;
   NowDesk now_desk_;
   MissionDesk desk_;
@@ -104,6 +110,8 @@ class OnDuty {
   std::optional<exchange::PlaceOnRoute> place_;
   steady_clock::time_point stands_until_{};
   std::string last_ = "free";
+  std::optional<steady_clock::time_point> ails_since_;
+  std::string ailment_;  // of the robot, while nothing drives it
 };
 
 void OnDuty::Hear(const exchange::Message& message) {
@@ -146,11 +154,31 @@ void OnDuty::ShowFree() {
   status.detail = Held() ? now_desk_.hold().text : last_;
   status.hold = now_desk_.shown_hold();
   status.on_duty = true;
+  if (!ailment_.empty() && Held()) {
+    status.detail += "; " + ailment_;
+  } else if (!ailment_.empty()) {
+    status.mode = exchange::AgentMode::kFault;
+    status.detail = ailment_;
+  }
   if (steady_clock::now() < stands_until_) {
     status.route = on_route_;
     status.place = place_;
   }
   presence_.Set(std::move(status));
+}
+
+// Nobody asks for frames, so nobody else notices.
+void OnDuty::NoteAilment(steady_clock::time_point now) {
+  std::string ailment = device_.Ailment();
+  if (ailment.empty()) {
+    ails_since_.reset();
+  } else if (!ails_since_) {
+    ails_since_ = now;
+  }
+  if (!ails_since_ || now - *ails_since_ < kAilsFor) ailment.clear();
+  if (ailment_.empty() && !ailment.empty()) spdlog::warn("the robot has failed: {}", ailment);
+  if (!ailment_.empty() && ailment.empty()) spdlog::info("over: {}", ailment_);
+  ailment_ = std::move(ailment);
 }
 
 void OnDuty::TellState(State state, const std::string& why) {
@@ -202,6 +230,8 @@ Result<void> OnDuty::Run() {
   spdlog::info("on duty as '{}'", options_.agent.value());
   while (!options_.stop()) {
     (void)exchange_.Take(kWait);
+    glances_.ShowIfWanted(device_);
+    NoteAilment(steady_clock::now());
     if (desk_.current()) {
       Work();
     } else {
@@ -249,6 +279,7 @@ void OnDuty::Follow(const mission::Task& task) {
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   follower.end_m = task.to_m;
+  follower.glances = &glances_;
   if (!options_.logs.empty()) {
     follower.diagnosis.log = options_.logs / fmt::format("{}-{}-{}.log", current.mission.id,
                                                          current.task + 1, current.lap + 1);
@@ -259,6 +290,8 @@ void OnDuty::Follow(const mission::Task& task) {
     return;
   }
   was_under_way_ = false;
+  ails_since_.reset();
+  ailment_.clear();
   following_ = true;
   const auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
   following_ = false;
@@ -271,7 +304,9 @@ ScoutOptions OnDuty::ScoutFor(const mission::Task& task) {
   ScoutOptions scout = options_.scout(task);
   scout.route = task.route.route;
   scout.tags = task.tags;
+  scout.glances = &glances_;
   scout.link.instance = presence_.status().instance;
+  scout.link.vitals = options_.vitals;
   scout.link.besides = [this](exchange::AgentStatus& status) {
     status.hold = now_desk_.shown_hold();
     status.on_duty = true;

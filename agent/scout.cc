@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/device/standstill.h"
+#include "agent/glances.h"
 #include "agent/going_on.h"
 #include "agent/scout_words.h"
 #include "agent/session/teach_session.h"
@@ -136,6 +137,9 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     now.features = step->features;
     now.drive_progress = device.drive_progress();
     link.Report(now);
+    if (options.glances != nullptr && options.glances->wanted()) {
+      options.glances->Show({.picture = observation->image});
+    }
     if (!result) break;
     const auto goes_on = Steer(device, hands);
     if (!goes_on) result = tl::unexpected(goes_on.error());

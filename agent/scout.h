@@ -15,6 +15,8 @@
 
 namespace trailcast::agent {
 
+class Glances;
+
 struct ScoutOptions {
   std::string route;  // name
   ScoutLinkOptions link;
@@ -23,6 +25,7 @@ struct ScoutOptions {
   bool review = false;                // no robot is to follow it before an operator activates it
   Unfinished unfinished = Unfinished::kKeep;
   vision::IntakeOptions intake = {};
+  Glances* glances = nullptr;  // for those who look through its camera; null: nobody does
 };
 
 // Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.

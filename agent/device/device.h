@@ -39,6 +39,14 @@ class RobotDevice {
   // A person drives it from now on, in whatever way, or no longer: what stands in its way is theirs
   // to see.
   virtual void ByHand(bool /*begins*/) {}
+  // For people who look through the camera of a robot that does not drive, from the thread that
+  // calls Next: what it sees now, without waiting. kUnavailable says why there is no picture.
+  [[nodiscard]] virtual Result<image::GrayImage> Look() {
+    return Fail(ErrorCode::kUnavailable, "its camera is looked through only while it drives");
+  }
+  // What of a robot has failed, of which nothing is asked now; one line for people, empty: nothing
+  // that is known.
+  [[nodiscard]] virtual std::string Ailment() { return {}; }
 
   // For people: "webcam 320x240", "recorded 160x120".
   [[nodiscard]] virtual std::string camera() const = 0;

@@ -54,6 +54,8 @@ class Ros2Device final : public RobotDevice {
   [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;
   void OnTrouble(const Trouble& tell) override;
   void ByHand(bool begins) override;
+  [[nodiscard]] Result<image::GrayImage> Look() override;
+  [[nodiscard]] std::string Ailment() override;
 
  private:
   struct State;

@@ -22,6 +22,8 @@ class SimulatedDevice final : public SimulatedRobot {
 
   [[nodiscard]] Result<std::optional<Observation>> Next() override;
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand& command) override;
+  // A frame's time passes.
+  [[nodiscard]] Result<image::GrayImage> Look() override;
   // The same as Next without a picture, for cameras that are slower than their base.
   [[nodiscard]] Observation NextBlind();
   // What a scanner above its axle sees where it is now.

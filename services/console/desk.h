@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -42,6 +44,7 @@ class Desk {
   // Asked at once beyond what stops robots: more are refused.
   static constexpr std::size_t kMostErrands = 16;
   static constexpr std::size_t kMostStops = 64;
+  static constexpr std::size_t kMostLooks = 8;  // robots
   // The state is told at most so often.
   static constexpr std::chrono::milliseconds kNewsEvery{200};
 
@@ -74,6 +77,9 @@ class Desk {
 
   // All that is measured, for Prometheus.
   [[nodiscard]] Result<http::MetricsText> Measure();
+  // What a robot's camera sees now; those who look through the same one at once share the picture.
+  // Null: it did not answer. kUnavailable: too many are looked through at once.
+  [[nodiscard]] Result<std::shared_ptr<const exchange::Glance>> Look(const AgentId& robot);
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1
@@ -91,6 +97,7 @@ class Desk {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Seen = Result<std::shared_ptr<const exchange::Glance>>;
 
   void Run();
   template <typename AnErrand>
@@ -98,6 +105,8 @@ class Desk {
                               std::chrono::milliseconds timeout);
   // False: it is one too many.
   [[nodiscard]] bool Take(std::shared_ptr<Errand> errand, bool is_stop);
+  // Not valid: it is one too many.
+  [[nodiscard]] std::shared_future<Seen> LookUnderWay(const AgentId& robot);
   void Begin();
   void Say(Clock::time_point now);
   void Hear(const exchange::Message& message, Clock::time_point now);
@@ -124,6 +133,7 @@ class Desk {
   std::deque<std::shared_ptr<Errand>> others_;
   std::size_t under_way_ = 0;  // of the others, those that wait included
   std::uint64_t refused_ = 0;
+  std::map<AgentId, std::shared_future<Seen>> looks_;
   std::uint64_t news_count_ = 0;
   std::shared_ptr<const News> news_;  // null while nobody looks
   int looking_ = 0;                   // who waits in See now

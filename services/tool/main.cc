@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "  trailcast fleet                        # robots that are heard, and how they are\n"
     "  trailcast send robot2 follow hall      # a robot on duty; 'missions' tells what became of "
     "it\n"
+    "  trailcast glance robot2                # what its camera sees, as a picture\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
@@ -46,6 +47,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddImportCommand(app, common),
                                 trailcast::tool::AddWhereCommand(app, common),
                                 trailcast::tool::AddFleetCommand(app, common),
+                                trailcast::tool::AddGlanceCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),
                                 trailcast::tool::AddRobotCommand(app, common)};

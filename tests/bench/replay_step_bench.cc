@@ -3,14 +3,17 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
 #include <opencv2/video/tracking.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "agent/diagnosis/glance_view.h"
 #include "agent/session/hand_over.h"
 #include "agent/session/replay_session.h"
 #include "agent/session/teach_session.h"
+#include "services/image/files.h"
 #include "services/replay/funnel_follower.h"
 #include "services/replay/path_follower.h"
 #include "services/teach/segment_recorder.h"
@@ -142,10 +145,11 @@ void SearchByPatternsAtAnyMagnification(benchmark::State& state) {
 }
 BENCHMARK(SearchByPatternsAtAnyMagnification)->Unit(benchmark::kMillisecond);
 
-// All that a follower does with a frame, on a route of so many metres: the first segment's features
-// and key views again and again, so that any of it might be the place.
-void WholeStep(benchmark::State& state, bool odometry) {
-  constexpr double kStep_m = 0.001;
+constexpr double kWholeStep_m = 0.001;
+
+// On a route of so many metres: the first segment's features and key views again and again, so that
+// any of it might be the place.
+agent::ReplaySession SessionOn(double length_m, bool odometry) {
   agent::TeachSession teach;
   std::vector<route::Segment> taught;
   for (unsigned i = 0; i < kFrames; ++i) {
@@ -159,17 +163,27 @@ void WholeStep(benchmark::State& state, bool odometry) {
   info.image_height_px = Frames().front().height;
   agent::ReplaySession session({}, info);
   double length = 0.0;
-  for (std::uint32_t i = 0; length < static_cast<double>(state.range(0)); ++i) {
+  for (std::uint32_t i = 0; length < length_m; ++i) {
     route::Segment segment = taught[i % taught.size()];
     segment.index = SegmentIndex(i);
     length += odometry ? segment.length_m : 0.3 * segment.duration_s;
-    if (!session.AddSegment(std::move(segment))) return state.SkipWithError("no such segment");
+    if (!session.AddSegment(std::move(segment))) std::abort();
   }
+  return session;
+}
+
+Result<agent::ReplayStep> Step(agent::ReplaySession& session, unsigned i, bool odometry) {
+  const auto pose =
+      odometry ? std::optional(motion::Pose2{kWholeStep_m * i, 0.0, 0.0}) : std::nullopt;
+  return session.Observe({FromSeconds(i / 30.0), Frames()[i % kFrames], pose});
+}
+
+// All that a follower does with a frame.
+void WholeStep(benchmark::State& state, bool odometry) {
+  agent::ReplaySession session = SessionOn(static_cast<double>(state.range(0)), odometry);
   unsigned i = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const auto pose = odometry ? std::optional(motion::Pose2{kStep_m * i, 0.0, 0.0}) : std::nullopt;
-    benchmark::DoNotOptimize(session.Observe({FromSeconds(i / 30.0), Frames()[i % kFrames], pose}));
-    ++i;
+    benchmark::DoNotOptimize(Step(session, i++, odometry));
   }
 }
 BENCHMARK_CAPTURE(WholeStep, WithOdometry, true)
@@ -182,6 +196,36 @@ BENCHMARK_CAPTURE(WholeStep, WithoutOdometry, false)
     ->Arg(1000)
     ->Arg(10'000)
     ->Unit(benchmark::kMillisecond);
+
+// What the control loop pays for a frame that somebody looks at.
+void HandOverAGlance(benchmark::State& state) {
+  agent::ReplaySession session = SessionOn(10.0, true);
+  // As the loop has it: the session looks at a frame that is still there.
+  const agent::Observation observation{FromSeconds(0.0), Frames()[0], motion::Pose2{}};
+  const auto step = session.Observe(observation);
+  for ([[maybe_unused]] auto _ : state) {
+    agent::GlanceFrame frame{*session.picture(), session.ViewFeatures(*step), step->sight.stored,
+                             step->turn_rad};
+    benchmark::DoNotOptimize(frame);
+  }
+  state.counters["features"] = static_cast<double>(session.ViewFeatures(*step).size());
+}
+BENCHMARK(HandOverAGlance)->Unit(benchmark::kMillisecond);
+
+// And a thread that gives way to it.
+void MakeAGlance(benchmark::State& state) {
+  agent::ReplaySession session = SessionOn(10.0, true);
+  const agent::Observation observation{FromSeconds(0.0), Frames()[0], motion::Pose2{}};
+  const auto step = session.Observe(observation);
+  const agent::GlanceFrame frame{*session.picture(), session.ViewFeatures(*step),
+                                 step->sight.stored, step->turn_rad};
+  std::size_t bytes = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    bytes = image::EncodeJpeg(agent::DrawGlance(frame), 70)->size();
+  }
+  state.counters["bytes"] = static_cast<double>(bytes);
+}
+BENCHMARK(MakeAGlance)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trailcast

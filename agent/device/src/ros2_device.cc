@@ -85,6 +85,11 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
     return Error{ErrorCode::kUnavailable,
                  fmt::format("no picture could be read for {:g} s: {}", waited_s, why_unreadable)};
   }
+  return Error{ErrorCode::kUnavailable,
+               fmt::format("the robot says nothing for {:g} s: {}", waited_s, Missing())};
+}
+
+std::string Ros2Device::State::Missing() const {
   Came came;
   came.pictures = newest.has_value();
   came.odometry = poses.has_odometry();
@@ -92,9 +97,17 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
     came.scan = obstacles->has_scanned();
     came.silent_range = obstacles->silent_range();
   }
-  return Error{ErrorCode::kUnavailable,
-               fmt::format("the robot says nothing for {:g} s: {}", waited_s,
-                           WhoIsMissing(run.topics, driver->peers(), came))};
+  return WhoIsMissing(run.topics, driver->peers(), came);
+}
+
+std::string Ros2Device::State::Ailment() const {
+  // Who stands in the way is no failure.
+  if (trouble && trouble->part != RobotWatch::Trouble::Part::kObstacle) {
+    return Failure(*trouble).message;
+  }
+  const bool all_came = last_stamp && (!has_odometry() || poses.has_odometry()) &&
+                        (!obstacles || obstacles->has_seen_all());
+  return all_came ? std::string() : Missing();
 }
 
 // Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.
@@ -245,6 +258,23 @@ std::optional<std::uint8_t> Ros2Device::battery_percent() const {
 void Ros2Device::ByHand(bool begins) {
   const std::lock_guard guard(state_->lock);
   state_->by_hand = begins;
+}
+
+Result<image::GrayImage> Ros2Device::Look() {
+  State& s = *state_;
+  std::unique_lock guard(s.lock);
+  if (std::string ailment = s.Ailment(); !ailment.empty() || !s.newest) {
+    if (ailment.empty()) ailment = "its next picture has not come yet";
+    return Fail(ErrorCode::kUnavailable, "{}", ailment);
+  }
+  const Ros2Picture picture = s.newest->picture;
+  guard.unlock();
+  return Gray(picture, s.run.topics.ImageTopic());
+}
+
+std::string Ros2Device::Ailment() {
+  const std::lock_guard guard(state_->lock);
+  return state_->Ailment();
 }
 
 void Ros2Device::OnTrouble(const Trouble& tell) { state_->tell = tell; }

@@ -71,6 +71,8 @@ struct Ros2Device::State {
   [[nodiscard]] bool ready(std::chrono::steady_clock::time_point now) const;
   [[nodiscard]] std::optional<Error> GiveUp(std::chrono::steady_clock::time_point now);
   [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
+  [[nodiscard]] std::string Missing() const;
+  [[nodiscard]] std::string Ailment() const;
   Result<std::optional<Ros2Frame>> Await(std::unique_lock<std::mutex>& guard);
   void Leave(const Error& damage);
   void ShareTrouble();

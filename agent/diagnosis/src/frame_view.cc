@@ -35,19 +35,11 @@ struct Enlarged {
   }
 };
 
-image::RgbImage Grey(const image::GrayImage& frame) {
-  image::RgbImage picture{frame.width, frame.height, {}};
-  picture.pixels.reserve(3 * frame.pixels.size());
-  for (const std::uint8_t grey : frame.pixels) picture.pixels.insert(picture.pixels.end(), 3, grey);
-  return picture;
-}
-
 void DrawFeatures(Canvas& canvas, const Enlarged& enlarged,
                   std::span<const replay::FeatureView> features) {
   for (const replay::FeatureView& feature : features) {
-    const bool rejected = feature.verdict == FeatureVerdict::kRejected;
-    const route::TrackedFeature& target = rejected ? feature.expected : feature.milestone;
-    canvas.Line({enlarged.At(feature.at), enlarged.At(target)}, VerdictColor(feature.verdict), 1.0);
+    canvas.Line({enlarged.At(feature.at), enlarged.At(TargetOf(feature))},
+                VerdictColor(feature.verdict), 1.0);
   }
   for (const replay::FeatureView& feature : features) {
     canvas.Disc(enlarged.At(feature.at), 4.0, VerdictColor(feature.verdict));
@@ -125,6 +117,17 @@ image::Color VerdictColor(FeatureVerdict verdict) {
   return {230, 40, 40};
 }
 
+const route::TrackedFeature& TargetOf(const replay::FeatureView& feature) {
+  return feature.verdict == FeatureVerdict::kRejected ? feature.expected : feature.milestone;
+}
+
+image::RgbImage InGrey(const image::GrayImage& frame) {
+  image::RgbImage picture{frame.width, frame.height, {}};
+  picture.pixels.reserve(3 * frame.pixels.size());
+  for (const std::uint8_t grey : frame.pixels) picture.pixels.insert(picture.pixels.end(), 3, grey);
+  return picture;
+}
+
 image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& step,
                               std::span<const replay::FeatureView> features) {
   Enlarged enlarged{frame.width, frame.height, 1};
@@ -132,7 +135,7 @@ image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& s
   const int width = enlarged.times * frame.width;
   const int height = enlarged.times * frame.height;
   Canvas canvas(width, height + kPanelHeight_px, kPanel);
-  canvas.Paste(Grey(frame), 0, 0, width, height);
+  canvas.Paste(InGrey(frame), 0, 0, width, height);
   DrawFeatures(canvas, enlarged, features);
   // What lies outside the picture (a milestone often does) shall not cross the text.
   canvas.FillBox({0.0, static_cast<double>(height)},

@@ -17,5 +17,8 @@ namespace trailcast::agent {
                                             std::span<const replay::FeatureView> features);
 
 [[nodiscard]] image::Color VerdictColor(replay::FeatureVerdict verdict);
+// Where a feature's line leads.
+[[nodiscard]] const route::TrackedFeature& TargetOf(const replay::FeatureView& feature);
+[[nodiscard]] image::RgbImage InGrey(const image::GrayImage& frame);
 
 }  // namespace trailcast::agent

@@ -125,6 +125,10 @@ void SimulatedDevice::ByHand(bool begins) {
   if (begins) s.operator_.emplace(s.path, *s.driver);
 }
 
+Result<image::GrayImage> SimulatedDevice::Look() {
+  return state_->Note(state_->robot->Step({})).image;
+}
+
 Observation SimulatedDevice::NextBlind() {
   State& s = *state_;
   if (s.operator_ && s.begun) s.command = s.operator_->Command(s.Pose());

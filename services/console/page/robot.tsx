@@ -1,6 +1,7 @@
 import { memo, useState } from 'react';
 import { tell, type Answer, type Order, type Robot, type RobotState } from './api';
 import { age } from './fleet';
+import { Glance } from './glance';
 import { useMay } from './me';
 import { Send } from './send';
 import { Strip } from './strip';
@@ -40,6 +41,7 @@ const labels: Record<Order, string> = {
 export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
+  const [looking, setLooking] = useState(false);
   const order = async (given: Order) => {
     setAnswer({ ok: true, text: `${labels[given]}: told …` });
     setAnswer(await tell(robot.name, given));
@@ -78,18 +80,20 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
           {' '}– <strong>{mission.state}</strong>
         </p>
       )}
-      {obeys && (
-        <div className="orders">
-          {others.map((each) => (
-            <button key={each} onClick={() => order(each)}>{labels[each]}</button>
-          ))}
-          {maySend && (['send', 'teach'] as const).map((each) => (
-            <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
-              {each === 'send' ? 'Send …' : 'Teach …'}
-            </button>
-          ))}
-        </div>
-      )}
+      <div className="orders">
+        {obeys && others.map((each) => (
+          <button key={each} onClick={() => order(each)}>{labels[each]}</button>
+        ))}
+        {obeys && maySend && (['send', 'teach'] as const).map((each) => (
+          <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
+            {each === 'send' ? 'Send …' : 'Teach …'}
+          </button>
+        ))}
+        {robot.state !== 'ended' && (
+          <button aria-expanded={looking} onClick={() => setLooking(!looking)}>Camera</button>
+        )}
+      </div>
+      {looking && robot.state !== 'ended' && <Glance robot={robot} />}
       {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
       {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
       {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={setAnswer} />}

@@ -5,6 +5,7 @@
 
 #include "services/base/unix_time.h"
 #include "services/console/src/errand.h"
+#include "services/console/src/look_errand.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/sending.h"
@@ -147,8 +148,8 @@ tl::unexpected<Error> TooMuch() {
 
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
-                    Topic::kRouteEdits, Topic::kDrives},
-          .read = {Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates,
+                    Topic::kRouteEdits, Topic::kDrives, Topic::kGlanceRequests},
+          .read = {Topic::kGlances, Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates,
                    Topic::kMissionReplies, Topic::kCatalogReplies}};
 }
 
@@ -238,10 +239,34 @@ Result<http::MetricsText> Desk::Measure() {
   return text;
 }
 
+Result<std::shared_ptr<const exchange::Glance>> Desk::Look(const AgentId& robot) {
+  const std::shared_future<Seen> future = LookUnderWay(robot);
+  if (!future.valid()) return TooMuch();
+  if (future.wait_for(LookErrand::kTimeout + kGrace) == std::future_status::ready) {
+    return future.get();
+  }
+  return Fail(ErrorCode::kUnavailable, "the console's link to the fleet hangs");
+}
+
+std::shared_future<Desk::Seen> Desk::LookUnderWay(const AgentId& robot) {
+  const std::scoped_lock lock(mutex_);
+  if (closed_) return {};
+  std::erase_if(looks_, [](const auto& look) {
+    return look.second.wait_for(milliseconds(0)) == std::future_status::ready;
+  });
+  if (const auto look = looks_.find(robot); look != looks_.end()) return look->second;
+  if (looks_.size() >= kMostLooks) return {};
+  auto errand = std::make_shared<LookErrand>(self_, robot);
+  std::shared_future<Seen> future = errand->Future().share();
+  others_.push_back(std::move(errand));
+  looks_.emplace(robot, future);
+  return future;
+}
+
 bool Desk::Take(std::shared_ptr<Errand> errand, bool is_stop) {
   const std::scoped_lock lock(mutex_);
   if (closed_) return false;
-  errand->is_stop = is_stop;
+  errand->counts = !is_stop;
   const bool too_many = is_stop ? stops_.size() >= kMostStops : under_way_ >= kMostErrands;
   if (too_many) {
     ++refused_;
@@ -324,7 +349,7 @@ void Desk::Say(Clock::time_point now) {
   errands_.erase(over, errands_.end());
   {
     const std::scoped_lock lock(mutex_);
-    for (const auto& errand : done) under_way_ -= errand->is_stop ? 0 : 1;
+    for (const auto& errand : done) under_way_ -= errand->counts ? 1 : 0;
   }
   // Who has its answer has room for the next question.
   for (const auto& errand : done) errand->Finish();

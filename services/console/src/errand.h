@@ -34,7 +34,7 @@ class Errand {
   using Time = std::chrono::steady_clock::time_point;
   Time began{};
   Time say_at{};
-  bool is_stop = false;
+  bool counts = false;  // among those of which only so many are under way
 };
 
 // One that brings back a `Reply`.

@@ -13,6 +13,7 @@
 #include "services/console/src/answers.h"
 #include "services/console/src/driving_api.h"
 #include "services/console/src/files.h"
+#include "services/console/src/glances_api.h"
 #include "services/console/src/history_api.h"
 #include "services/console/src/map_api.h"
 #include "services/console/src/routes_api.h"
@@ -51,10 +52,11 @@ std::string IdFor(const users::Who& who) {
   return who.name.empty() ? fleet::DrawMissionId() : who.name + "-" + fleet::DrawMissionId();
 }
 
-// A thread for each stream, and for each errand that waits for its answer; stops have enough left.
-// Where strangers come, too, one address has enough for a room of people, and leaves more.
+// A thread for each stream, for each errand that waits for its answer, and for each who waits
+// for a picture; stops have enough left. Where strangers come, too, one address has enough for a
+// room of people, and leaves more.
 http::Limits LimitsFor(const Access& access) {
-  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + 16;
+  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers + 16;
   if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
@@ -97,6 +99,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
+  ServeGlances(server_, desk_);
   access_.Serve(server_);
 }
 

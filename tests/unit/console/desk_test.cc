@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
+#include <latch>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
@@ -175,6 +177,44 @@ TEST_F(DeskTest, AServerSaysWhatItHasAndWhyItChangesNothing) {
   ASSERT_FALSE(why);
   EXPECT_EQ(why.error().code, ErrorCode::kConflict);
   EXPECT_THAT(why.error().message, HasSubstr("barn: there is none before it"));
+}
+
+TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {
+  constexpr int kLookers = 12;
+  std::latch all(kLookers);
+  std::vector<std::future<bool>> seen;
+  for (int i = 0; i < kLookers; ++i) {
+    seen.push_back(std::async(std::launch::async, [&] {
+      all.arrive_and_wait();
+      const auto glance = desk_.Look(AgentId("robot1"));
+      return glance && *glance && (*glance)->picture.size() == 3;
+    }));
+  }
+  int asked = 0;
+  const auto all_have_seen = [&] {
+    return std::all_of(seen.begin(), seen.end(), [](const std::future<bool>& one) {
+      return one.wait_for(milliseconds(0)) == std::future_status::ready;
+    });
+  };
+  while (!all_have_seen()) {
+    for (const exchange::Message& message : robot_->Take(milliseconds(10))) {
+      const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+      if (request == nullptr) continue;
+      ++asked;
+      ASSERT_TRUE(robot_->Publish(exchange::Glance{.agent = request->agent,
+                                                   .client = request->client,
+                                                   .request = request->request,
+                                                   .picture = {1, 2, 3}}));
+    }
+  }
+  for (auto& one : seen) EXPECT_TRUE(one.get());
+  EXPECT_LT(asked, kLookers);
+}
+
+TEST_F(DeskTest, ARobotThatShowsNothingIsWaitedForAndThenNot) {
+  const auto glance = desk_.Look(AgentId("robot1"));
+  ASSERT_TRUE(glance) << glance.error().message;
+  EXPECT_EQ(*glance, nullptr);
 }
 
 TEST_F(DeskTest, ClosedItLetsGoWhoWaits) {

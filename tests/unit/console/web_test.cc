@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -107,6 +108,42 @@ TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
     }
   }
   FAIL() << "the robot has heard nothing";
+}
+
+TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
+  std::atomic<bool> ends = false;
+  std::thread answering([&] {
+    bool blind = false;
+    while (!ends) {
+      for (const exchange::Message& message : robot->Take(milliseconds(10))) {
+        const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+        if (request == nullptr || request->agent != AgentId("robot1")) continue;
+        exchange::Glance glance{.agent = request->agent,
+                                .client = request->client,
+                                .request = request->request,
+                                .detail = "turns \xC3\xA9 left"};
+        if (!blind) glance.picture = {0xFF, 0xD8, 0x00};
+        blind = true;
+        (void)robot->Publish(glance);
+      }
+    }
+  });
+  const auto picture = Client().Get("/api/robots/robot1/glance");
+  const auto none = Client().Get("/api/robots/robot1/glance");
+  const auto silent = Client().Get("/api/robots/robot7/glance");
+  ends = true;
+  answering.join();
+  ASSERT_TRUE(picture && none && silent);
+  EXPECT_EQ(picture->status, 200);
+  EXPECT_EQ(picture->get_header_value("Content-Type"), "image/jpeg");
+  EXPECT_EQ(picture->get_header_value("Cache-Control"), "no-store");
+  EXPECT_EQ(picture->get_header_value("Trailcast-Seen"), "turns ?? left");
+  EXPECT_EQ(picture->body, std::string("\xFF\xD8\0", 3));
+  EXPECT_EQ(none->status, 404);
+  EXPECT_THAT(json::parse(none->body)["error"].get<std::string>(), HasSubstr("turns"));
+  EXPECT_EQ(silent->status, 504);
+  EXPECT_THAT(json::parse(silent->body)["error"].get<std::string>(), HasSubstr("robot7"));
 }
 
 TEST_F(WebTest, ANarrowAnswerTellsTheConsolesTime) {

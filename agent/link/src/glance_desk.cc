@@ -1,0 +1,55 @@
+#include "agent/link/glance_desk.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::agent {
+
+void GlanceDesk::Handle(const exchange::Message& message, Time now) {
+  const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+  if (request == nullptr || request->agent != self_) return;
+  Forget(now);
+  const auto before = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.request.client == request->client;
+  });
+  if (before != waiting_.end()) {
+    *before = {*request, now};
+  } else if (waiting_.size() < kMostClients) {
+    waiting_.push_back({*request, now});
+  }
+}
+
+// Whoever asked so long ago looks no more, or has asked anew.
+void GlanceDesk::Forget(Time now) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) { return now - waiting.since > kAskedFor; });
+  if (waiting_.empty()) asked_ = false;
+}
+
+bool GlanceDesk::Asks(Time now) {
+  Forget(now);
+  if (asked_ || waiting_.empty()) return false;
+  if (asked_at_ && now - *asked_at_ < kEvery) return false;
+  asked_ = true;
+  asked_at_ = now;
+  return true;
+}
+
+bool GlanceDesk::AskedInVain(Time now) const { return asked_ && now - *asked_at_ > kPatience; }
+
+std::optional<exchange::Glance> GlanceDesk::Give(CameraPicture picture, Time now) {
+  Forget(now);
+  if (!asked_) return std::nullopt;
+  asked_ = false;
+  const exchange::GlanceRequest request = waiting_.front().request;
+  waiting_.pop_front();
+  return exchange::Glance{.agent = self_,
+                          .client = request.client,
+                          .request = request.request,
+                          .picture = std::move(picture.jpeg),
+                          .detail = PlainText(picture.detail, exchange::kMaxLineBytes)};
+}
+
+}  // namespace trailcast::agent
