@@ -31,7 +31,7 @@ struct ScoutLinkOptions {
   // After a signal the process shall end soon.
   std::chrono::milliseconds delivery_timeout_when_stopped{3'000};
   std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
-  std::function<bool()> stop = [] { return false; };  // any thread
+  std::function<bool()> stop = [] { return false; };                           // any thread
   // Of an agent on duty: its process in the fleet, which has claimed the name (0: this link is all
   // there is), and what its statuses say besides, asked in the link's thread.
   std::uint64_t instance = 0;

@@ -154,7 +154,8 @@ TEST_F(TeachMissionTest, WhatAPersonDrivesFromAfarIsFollowedByAnother) {
   const Replied ended = Post("/api/robots/robot1/end");
   EXPECT_EQ(ended.status, 200) << ended.body.dump();
   ASSERT_TRUE(WaitForEnd("lesson", "arrived")) << Became("lesson") << agent_->output();
-  EXPECT_THAT(Became("lesson"), AllOf(HasSubstr("taught route 'yard'"), HasSubstr("a server has it")));
+  EXPECT_THAT(Became("lesson"),
+              AllOf(HasSubstr("taught route 'yard'"), HasSubstr("a server has it")));
   const json routes = Get("/api/routes?name=yard");
   ASSERT_EQ(routes["routes"].size(), 1U) << routes.dump();
   EXPECT_EQ(routes["routes"][0]["state"], "active");
