@@ -11,9 +11,10 @@
 
 namespace trailcast::image {
 
-// What files.h offers, done, but for writing JPEG (jpeg.cc). OpenCV's codecs bring two hundred libraries with them (GDAL, FFmpeg,
-// GStreamer), 240 MB, which a robot that drives has no use for. So they are in a library of their
-// own beside the programs, which files.cc loads when the first file is read or written.
+// What files.h offers, done, but for writing JPEG (jpeg.cc). OpenCV's codecs bring two hundred
+// libraries with them (GDAL, FFmpeg, GStreamer), 240 MB, which a robot that drives has no use for.
+// So they are in a library of their own beside the programs, which files.cc loads when the first
+// file is read or written.
 class Codecs {
  public:
   virtual ~Codecs() = default;
