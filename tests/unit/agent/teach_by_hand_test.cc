@@ -101,18 +101,20 @@ TEST_F(TeachByHandTest, WhatIsCancelledIsFollowedByNobodyAndOfferedToNobody) {
 
 TEST_F(TeachByHandTest, WhatAServerHasOfACancelledOneIsNotFollowed) {
   swarm_.StartServer();
-  auto until = steady_clock::time_point::max();
+  const auto listener = swarm_.Join({.write = {}, .read = {exchange::Topic::kReceipts}});
+  const auto gives_up = steady_clock::now() + std::chrono::seconds(60);
+  bool stored = false;
   device_.before_frame = [&, this](double along_m) {
     if (along_m < 2.5) return Drive(0.6);
-    if (Stored("server").segment_count > 0 || steady_clock::now() > until) {
-      hands_.Tell({.cancelled = true});
+    for (const exchange::Message& message : listener->Take(milliseconds(0))) {
+      const auto* receipt = std::get_if<exchange::Receipt>(&message);
+      stored |= receipt != nullptr && receipt->durable_prefix > 0;
     }
-    if (until == steady_clock::time_point::max()) {
-      until = steady_clock::now() + std::chrono::seconds(20);
-    }
+    if (stored || steady_clock::now() > gives_up) hands_.Tell({.cancelled = true});
   };
   const auto taught = Teach(true);
   swarm_.StopServer();
+  EXPECT_TRUE(stored);
   ASSERT_TRUE(taught) << taught.error().message;
   EXPECT_EQ(taught->end, Taught::End::kDiscarded);
   EXPECT_TRUE(Stored("server").cut_off);
