@@ -154,12 +154,12 @@ Result<void> WithRos2Wire(const Ros2Imu& imu, const UseSample& use) {
 }
 
 Result<void> WithRos2Wire(const Ros2Battery& battery, const UseSample& use) {
-  constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   std::array<char, 8> frame{"battery"};
   sensor_msgs_msg_dds__BatteryState_ wire{};
   wire.header.stamp = ToTime(battery.stamp);
   wire.header.frame_id = Text(frame);
-  wire.voltage = wire.temperature = wire.current = wire.design_capacity = kNotMeasured;
+  wire.voltage = wire.temperature = wire.current = wire.design_capacity = kUnknown;
   wire.charge = battery.charge_ah;
   wire.capacity = battery.capacity_ah;
   wire.percentage = battery.percentage;
