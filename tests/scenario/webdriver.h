@@ -87,11 +87,20 @@ class Browser {
     }
     return true;
   }
-  // As a person's click: where the element is, if nothing lies above it.
+  // As a person's click: where the element is, if nothing lies above it. Until then, and while it
+  // moves away under the pointer, it is tried again.
   [[nodiscard]] bool Click(const std::string& xpath) {
-    const std::string element = Find(xpath);
-    return !element.empty() &&
-           Ask("POST", session_ + "/element/" + element + "/click", Json::object()).is_null();
+    const auto gives_up = std::chrono::steady_clock::now() + Process::kBound;
+    do {
+      const std::string element = Find(xpath);
+      if (element.empty()) continue;
+      (void)Ask("POST", session_ + "/execute/sync",
+                {{"script", "arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})"},
+                 {"args", Json::array({{{kElement, element}}})}});
+      const Json none = Json::object();
+      if (Ask("POST", session_ + "/element/" + element + "/click", none).is_null()) return true;
+    } while (std::chrono::steady_clock::now() < gives_up);
+    return false;
   }
   [[nodiscard]] bool Type(const std::string& xpath, const std::string& keys) {
     const std::string element = Find(xpath);
@@ -112,6 +121,9 @@ class Browser {
   }
 
  private:
+  // As the standard calls an element in a script's arguments.
+  static constexpr const char* kElement = "element-6066-11e4-a52e-4f735466cecf";
+
   void DevTools(const std::string& command, const Json& parameters) {
     (void)Ask("POST", session_ + "/goog/cdp/execute", {{"cmd", command}, {"params", parameters}});
   }
