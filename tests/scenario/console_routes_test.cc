@@ -114,7 +114,7 @@ TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {
   const auto scout =
       RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}));
   ASSERT_EQ(scout.status, 0) << scout.output;
-  WriteWalk(folder_ / "later", 1, 640, 480, 60);
+  WriteWalk(folder_ / "later", 1, 160, 120, 60);
   const std::string picture =
       std::filesystem::directory_iterator(folder_ / "later")->path().string();
   Open("routes");
