@@ -84,7 +84,7 @@ TEST_F(TlsTest, WhoGreetsSlowlyOrNeverIsDoneWith) {
 // As over plain HTTP: a body without length, or an endless request, costs next to nothing.
 TEST_F(TlsTest, RequestsWithoutEndTakeNoMemory) {
   ASSERT_EQ(Hello(), 200);
-  const std::size_t before = test::ResidentBytes();
+  [[maybe_unused]] const std::size_t before = test::ResidentBytes();
   constexpr std::size_t kTooMuch = 200U << 20U;
   const auto send_for_ever = [&](const std::string& content_type) {
     auto client = Client();
@@ -104,8 +104,10 @@ TEST_F(TlsTest, RequestsWithoutEndTakeNoMemory) {
   auto endless = Client();
   (void)endless->Get("/" + std::string(16U << 20U, 'x'));
   EXPECT_EQ(Hello(), 200);
+#if !defined(__SANITIZE_ADDRESS__)  // it keeps what was freed
   // What this process's own clients hold counts, too.
   EXPECT_LT(test::ResidentBytes(), before + (64U << 20U));
+#endif
 }
 
 TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
