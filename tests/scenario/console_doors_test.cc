@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/secured_fleet.h"
 #include "tests/scenario/webdriver.h"
 #include "tests/support/self_signed.h"
@@ -24,7 +24,7 @@ using testing::Not;
 
 constexpr const char* kPassword = "correct horse";
 
-class ConsoleDoorsTest : public RobotsTest {
+class ConsoleDoorsTest : public ConsoleFleetTest {
  protected:
   // Of OpenSSL, which says farewell to a console that has hung up.
   void SetUp() override { std::signal(SIGPIPE, SIG_IGN); }
@@ -43,13 +43,6 @@ class ConsoleDoorsTest : public RobotsTest {
   void AddUser(const std::string& name, const std::string& role) {
     const Ended added = Users({"add", name, "--role", role});
     ASSERT_EQ(added.status, 0) << added.output;
-  }
-  void StartConsole(const Words& words) {
-    console_ = Start("trailcast-console", With({"--http-port", "0"}, words), "console");
-    const std::string said = "://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
   }
   void StartWithTls() {
     StartConsole({"--users", Path("users"), "--tls-certificate", files_.certificate.string(),
@@ -96,8 +89,6 @@ class ConsoleDoorsTest : public RobotsTest {
   }
 
   SelfSigned files_ = MakeSelfSigned(folder_ / "");
-  std::unique_ptr<Process> console_;
-  int port_ = 0;
 };
 
 TEST_F(ConsoleDoorsTest, EachMayWhatTheirRoleSays) {
@@ -255,10 +246,7 @@ class ConsoleWithKeysTest : public SecuredFleetTest {};
 TEST_F(ConsoleWithKeysTest, AnObserversConsoleShowsAndRefusesOrders) {
   const auto console =
       StartAs(observer_keys_, "trailcast-console", {"--http-port", "0"}, "console");
-  const std::string said = "http://localhost:";
-  ASSERT_TRUE(console->WaitForOutput(said)) << console->output();
-  const std::string output = console->output();
-  httplib::Client client("localhost", std::stoi(output.substr(output.find(said) + said.size())));
+  httplib::Client client("localhost", ConsolesPort(*console));
   client.set_read_timeout(20);
   EXPECT_EQ(client.Get("/api/state")->status, 200);
   const auto refused = client.Post("/api/all/stop", "{}", "application/json");
@@ -278,9 +266,6 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   const auto agent = Serve("robot1");
   ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
   StartConsole({"--users", Path("users")});
-  const std::filesystem::path shots =
-      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-  std::filesystem::create_directories(shots);
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   const auto log_in = [&](const std::string& user, const std::string& password) {
@@ -289,16 +274,16 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
            browser.Type("//input[@name='password']", password + enter);
   };
   browser.Look(390, 844);
-  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
   EXPECT_THAT(browser.Text(), Not(HasSubstr("robot1")));
   ASSERT_TRUE(log_in("anna", "wrong horse"));
   ASSERT_TRUE(browser.WaitForText("do not belong together")) << browser.Text();
-  browser.Screenshot(shots / "phone-log-in.png");
+  browser.Screenshot(Shot("phone-log-in"));
   browser.Look(1280, 800, true);
-  browser.Screenshot(shots / "desktop-log-in.png");
+  browser.Screenshot(Shot("desktop-log-in"));
   browser.Look(390, 844);
-  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
   ASSERT_TRUE(log_in("anna", kPassword));
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
@@ -306,7 +291,7 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   EXPECT_EQ(browser.Run("return document.cookie"), "") << "no script reads the session";
   ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));
   ASSERT_TRUE(browser.WaitForText("UTC: anna")) << browser.Text();
-  browser.Screenshot(shots / "phone-logged-in.png");
+  browser.Screenshot(Shot("phone-logged-in"));
 
   ASSERT_TRUE(browser.Click("//button[. = 'Log out']"));
   ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
@@ -314,9 +299,9 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
   EXPECT_THAT(browser.Text(), HasSubstr("You may look, and not tell robots anything"));
   EXPECT_EQ(browser.Run("return document.querySelectorAll('button.stop').length"), 0);
-  browser.Screenshot(shots / "phone-guest.png");
+  browser.Screenshot(Shot("phone-guest"));
   browser.Look(1280, 800);
-  browser.Screenshot(shots / "desktop-guest.png");
+  browser.Screenshot(Shot("desktop-guest"));
   // Who is removed is asked to log in, without doing anything.
   ASSERT_EQ(Users({"remove", "guest"}).status, 0);
   EXPECT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();

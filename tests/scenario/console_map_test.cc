@@ -1,13 +1,11 @@
 // The console's strip, shapes and site, in Chromium.
-#include <httplib.h>
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "services/image/files.h"
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/webdriver.h"
 
 namespace trailcast::test {
@@ -17,7 +15,7 @@ using nlohmann::json;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
 
-class ConsoleMapTest : public RobotsTest {
+class ConsoleMapTest : public ConsoleFleetTest {
  protected:
   // A floor of 8 by 4 m, its walls drawn.
   void DrawPlan() {
@@ -31,39 +29,6 @@ class ConsoleMapTest : public RobotsTest {
     }
     ASSERT_TRUE(image::WritePng(plan, folder_ / "site/plan.png"));
     std::ofstream(folder_ / "site/site.json") << R"({"metres_per_pixel": 0.05})";
-  }
-  void StartConsole() {
-    console_ = Start("trailcast-console", {"--http-port", "0", "--site", Path("site")}, "console");
-    const std::string said = "http://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
-    client_ = std::make_unique<httplib::Client>("localhost", port_);
-    client_->set_read_timeout(20);
-  }
-  json Get(const std::string& path) {
-    const auto got = client_->Get(path);
-    return got ? json::parse(got->body, nullptr, false) : json();
-  }
-  json Robot1() {
-    const json state = Get("/api/state");
-    if (!state.is_object()) return json::object();
-    for (const json& robot : state.value("robots", json::array())) {
-      if (robot["name"] == "robot1") return robot;
-    }
-    return json::object();
-  }
-  int Post(const std::string& path, const json& body = json::object()) {
-    const auto got = client_->Post(path, body.dump(), "application/json");
-    return got ? got->status : 0;
-  }
-  static bool WaitUntil(const std::function<bool()>& condition) {
-    const auto until = steady_clock::now() + Process::kBound;
-    while (!condition()) {
-      if (steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return true;
   }
   // Pixels from the left at which a robot is drawn; below 0: it is not.
   static double DrawnAt(Browser& browser, const std::string& of) {
@@ -80,13 +45,6 @@ class ConsoleMapTest : public RobotsTest {
       return from >= 0.0 && at > from + 3.0;
     });
   }
-
-  std::unique_ptr<Process> server_;
-  std::unique_ptr<Process> robot_;
-  std::unique_ptr<Process> agent_;
-  std::unique_ptr<Process> console_;
-  std::unique_ptr<httplib::Client> client_;
-  int port_ = 0;
 };
 
 TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
@@ -98,29 +56,26 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   robot_ = Robot("robot1", {});
   agent_ = Serve("robot1");
   ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
-  StartConsole();
-  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") == "free"; }));
-  const std::filesystem::path shots =
-      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-  std::filesystem::create_directories(shots);
+  StartConsole({"--site", Path("site")});
+  ASSERT_TRUE(WaitForState("free"));
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(1280, 800);
-  const std::string page = "http://localhost:" + std::to_string(port_) + "/";
-  browser.Open(page);
+  browser.Open(Page());
 
-  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall speed 0.25"}}), 200);
+  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall speed 0.25"}}).status,
+            200);
   ASSERT_TRUE(browser.WaitForText("On their way")) << browser.Text() << agent_->output();
   ASSERT_TRUE(WaitUntil([&] {
     return browser.Run("return document.querySelectorAll('.lines .cells').length") > json(0);
   })) << browser.Text()
       << console_->output();
   ASSERT_TRUE(Moves(browser, ".lines")) << browser.Text() << agent_->output();
-  ASSERT_EQ(Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}}), 200);
+  ASSERT_EQ(Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}}).status, 200);
   ASSERT_TRUE(browser.WaitForText("paused by console: somebody walks here")) << browser.Text();
-  browser.Screenshot(shots / "line.png");
+  browser.Screenshot(Shot("line"));
   browser.Look(390, 844, true);
-  browser.Screenshot(shots / "phone-line.png");
+  browser.Screenshot(Shot("phone-line"));
 
   const std::string hall = Robot1().value("route_id", "");
   const json shape = Get("/api/routes/" + hall + "/shape");
@@ -131,12 +86,12 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   ASSERT_TRUE(browser.Click("//nav//a[contains(., 'Map')]"));
   ASSERT_TRUE(browser.WaitForText("By wheels, not a map")) << browser.Text();
   ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".plan") > 0.0; })) << browser.Text();
-  browser.Screenshot(shots / "phone-shape.png");
+  browser.Screenshot(Shot("phone-shape"));
   browser.Look(1280, 800);
-  ASSERT_EQ(Post("/api/robots/robot1/resume"), 200);
+  ASSERT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(Moves(browser, ".plan")) << browser.Text() << agent_->output();
-  browser.Screenshot(shots / "shape.png");
-  ASSERT_EQ(Post("/api/robots/robot1/pause"), 200);
+  browser.Screenshot(Shot("shape"));
+  ASSERT_EQ(Post("/api/robots/robot1/pause").status, 200);
 
   // Put there with the keyboard; all of it is on the screen, which need not scroll.
   browser.Look(1280, 1500);
@@ -158,11 +113,11 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   EXPECT_NEAR(placed["y_m"].get<double>(), 2.1, 1e-6);
   EXPECT_NEAR(placed["heading_rad"].get<double>(), -0.0175, 1e-3);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "site/placements.json"));
-  ASSERT_EQ(Post("/api/robots/robot1/resume"), 200);
+  ASSERT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(Moves(browser, ".site")) << browser.Text() << agent_->output();
-  browser.Screenshot(shots / "site.png");
+  browser.Screenshot(Shot("site"));
   browser.Look(390, 844, true);
-  browser.Screenshot(shots / "phone-site.png");
+  browser.Screenshot(Shot("phone-site"));
 }
 
 }  // namespace

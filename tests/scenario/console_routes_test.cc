@@ -1,10 +1,8 @@
 // The console's pages about routes and what has been, in Chromium.
-#include <httplib.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/webdriver.h"
 #include "tests/support/walk_frames.h"
 
@@ -15,28 +13,18 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class ConsoleRoutesTest : public RobotsTest {
+class ConsoleRoutesTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
     server_ = Server();
-    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
-    const std::string said = "http://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
+    StartConsole();
     browser_ = std::make_unique<Browser>(folder_ / "");
     ASSERT_TRUE(browser_->runs()) << browser_->log();
     browser_->Look(390, 844);
   }
-  void Open(const std::string& page) {
-    browser_->Open("http://localhost:" + std::to_string(port_) + "/#" + page);
-  }
-  void Slide() {
-    std::string right;
-    for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";  // the right arrow
-    ASSERT_TRUE(browser_->Type("//input[@type='range']", right));
-  }
+  void Open(const std::string& page) { browser_->Open(Page() + "#" + page); }
+  void Slide() { ASSERT_TRUE(browser_->Type("//input[@type='range']", kSlide)); }
   // Of a picture that was chosen.
   bool WaitForAnswer() {
     const auto until = std::chrono::steady_clock::now() + Process::kBound;
@@ -48,22 +36,8 @@ class ConsoleRoutesTest : public RobotsTest {
     }
     return false;
   }
-  int Post(const std::string& path, const json& body) {
-    httplib::Client client("localhost", port_);
-    client.set_read_timeout(20);
-    const auto got = client.Post(path, body.dump(), "application/json");
-    return got ? got->status : 0;
-  }
-  static std::filesystem::path Shot(const std::string& name) {
-    const auto shots = std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-    std::filesystem::create_directories(shots);
-    return shots / (name + ".png");
-  }
 
-  std::unique_ptr<Process> server_;
-  std::unique_ptr<Process> console_;
   std::unique_ptr<Browser> browser_;
-  int port_ = 0;
 };
 
 TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
@@ -145,9 +119,10 @@ TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {
 
 TEST_F(ConsoleRoutesTest, APersonSeesWhoWasSentWhereAndWhoToldWhomWhat) {
   // The robot is out of reach: a server keeps what it is sent to do.
-  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall laps 2"}, {"id", "trip"}}),
+  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall laps 2"}, {"id", "trip"}})
+                .status,
             200);
-  EXPECT_EQ(Post("/api/robots/robot1/stop", {{"reason", "wet floor"}}), 504);
+  EXPECT_EQ(Post("/api/robots/robot1/stop", {{"reason", "wet floor"}}).status, 504);
   Open("history");
   ASSERT_TRUE(browser_->WaitForText("follow hall laps 2")) << browser_->Text();
   ASSERT_TRUE(browser_->Click("//button[contains(., 'follow hall')]"));

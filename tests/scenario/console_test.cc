@@ -1,11 +1,9 @@
 // The console: a fleet over HTTP, and in a browser.
-#include <httplib.h>
-
 #include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/webdriver.h"
 
 namespace trailcast::test {
@@ -17,7 +15,7 @@ using std::chrono::steady_clock;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class ConsoleTest : public RobotsTest {
+class ConsoleTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     Teach();
@@ -32,52 +30,6 @@ class ConsoleTest : public RobotsTest {
   bool Publish() {
     return RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status == 0;
   }
-  void StartConsole() {
-    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
-    const std::string said = "http://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
-    client_ = std::make_unique<httplib::Client>("localhost", port_);
-    client_->set_read_timeout(20);
-  }
-
-  json State() {
-    const auto got = client_->Get("/api/state");
-    return got ? json::parse(got->body, nullptr, false) : json();
-  }
-  json Robot1() {
-    for (const json& robot : State().value("robots", json::array())) {
-      if (robot["name"] == "robot1") return robot;
-    }
-    return json::object();
-  }
-  bool WaitUntil(const std::function<bool()>& condition) {
-    const auto until = steady_clock::now() + Process::kBound;
-    while (!condition()) {
-      if (steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return true;
-  }
-  bool WaitForState(const std::string& state) {
-    return WaitUntil([&] { return Robot1().value("state", "") == state; });
-  }
-  struct Replied {
-    int status = 0;
-    json body;
-  };
-  Replied Post(const std::string& path, const json& body = json::object()) {
-    const auto got = client_->Post(path, body.dump(), "application/json");
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
-  }
-
-  std::unique_ptr<Process> server_;
-  std::unique_ptr<Process> robot_;
-  std::unique_ptr<Process> agent_;
-  std::unique_ptr<Process> console_;
-  std::unique_ptr<httplib::Client> client_;
-  int port_ = 0;
 };
 
 TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
@@ -116,7 +68,7 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(WaitUntil([&] {
-    const auto got = client_->Get("/api/missions?robot=robot1");
+    const auto got = Client().Get("/api/missions?robot=robot1");
     return got && got->body.find("\"arrived\"") != std::string::npos;
   })) << State().dump(2)
       << agent_->output();
@@ -190,49 +142,44 @@ TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
 
 TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
-  const std::filesystem::path shots =
-      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-  std::filesystem::create_directories(shots);
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(390, 844);
-  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
   EXPECT_THAT(browser.Text(), HasSubstr("emergency stop"));
 
   ASSERT_TRUE(browser.Click("//button[contains(., 'Send')]"));
   ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
-  browser.Screenshot(shots / "phone-send.png");
+  browser.Screenshot(Shot("phone-send"));
   // A tap at the far end is no slide.
   (void)browser.Type("//input[@type='range']", "\xEE\x80\x90");  // End
   EXPECT_EQ(Robot1()["mission"], nullptr);
-  std::string right;
-  for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";  // the right arrow
-  ASSERT_TRUE(browser.Type("//input[@type='range']", right));
+  ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
   ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
-  browser.Screenshot(shots / "phone-driving.png");
+  browser.Screenshot(Shot("phone-driving"));
 
   ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));
   ASSERT_TRUE(browser.WaitForText("Stopped")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("stopped by console")) << browser.Text();
   EXPECT_TRUE(Stands("truth.csv"));
   EXPECT_LT(Along_m("truth.csv"), 4.3) << "of 4.5 m";
-  browser.Screenshot(shots / "phone-stopped.png");
+  browser.Screenshot(Shot("phone-stopped"));
   browser.Look(390, 844, true);
-  browser.Screenshot(shots / "phone-dark.png");
+  browser.Screenshot(Shot("phone-dark"));
   browser.Look(1280, 800);
-  browser.Screenshot(shots / "desktop.png");
+  browser.Screenshot(Shot("desktop"));
 
   agent_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
   EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
   browser.Look(1280, 800, true);
-  browser.Screenshot(shots / "desktop-silent.png");
+  browser.Screenshot(Shot("desktop-silent"));
   console_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("This page has lost its console")) << browser.Text();
   browser.Look(390, 844);
-  browser.Screenshot(shots / "phone-lost.png");
+  browser.Screenshot(Shot("phone-lost"));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // What robots' cameras see, over HTTP and in a browser: while somebody looks, and no longer.
-#include <httplib.h>
-
 #include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -8,7 +6,7 @@
 #include "services/dds/dds_exchange.h"
 #include "services/exchange/messages.h"
 #include "services/image/files.h"
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/webdriver.h"
 
 namespace trailcast::test {
@@ -21,44 +19,18 @@ using testing::HasSubstr;
 
 constexpr std::size_t kMostBytes = 12U << 10U;
 
-class GlanceTest : public RobotsTest {
+class GlanceTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     Teach();
     robot_ = Robot("robot1", {});
     agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
-    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
-    const std::string said = "http://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
-    client_ = std::make_unique<httplib::Client>("localhost", port_);
-    client_->set_read_timeout(20);
-  }
-
-  json Robot1() {
-    const auto got = client_->Get("/api/state");
-    const json state = got ? json::parse(got->body, nullptr, false) : json();
-    if (!state.is_object()) return json::object();
-    for (const json& robot : state.value("robots", json::array())) {
-      if (robot["name"] == "robot1") return robot;
-    }
-    return json::object();
-  }
-  static bool WaitUntil(const std::function<bool()>& condition) {
-    const auto until = steady_clock::now() + Process::kBound;
-    while (!condition()) {
-      if (steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(milliseconds(50));
-    }
-    return true;
+    StartConsole();
   }
   void Send(const std::string& orders) {
-    const auto sent = client_->Post("/api/robots/robot1/missions", json{{"orders", orders}}.dump(),
-                                    "application/json");
-    ASSERT_TRUE(sent);
-    ASSERT_EQ(sent->status, 200) << sent->body;
+    const Replied sent = Post("/api/robots/robot1/missions", {{"orders", orders}});
+    ASSERT_EQ(sent.status, 200) << sent.body.dump();
   }
   struct Seen {
     int status = 0;
@@ -66,7 +38,7 @@ class GlanceTest : public RobotsTest {
     std::string text;
   };
   Seen Look(const std::string& robot = "robot1") {
-    const auto got = client_->Get("/api/robots/" + robot + "/glance");
+    const auto got = Client().Get("/api/robots/" + robot + "/glance");
     if (!got) return {};
     return {got->status, got->body, got->get_header_value("Trailcast-Seen")};
   }
@@ -87,12 +59,6 @@ class GlanceTest : public RobotsTest {
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? *picture : image::RgbImage{};
   }
-
-  std::unique_ptr<Process> robot_;
-  std::unique_ptr<Process> agent_;
-  std::unique_ptr<Process> console_;
-  std::unique_ptr<httplib::Client> client_;
-  int port_ = 0;
 };
 
 TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
@@ -114,8 +80,7 @@ TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
   EXPECT_EQ(glance.status, 0) << glance.output;
   EXPECT_TRUE(image::ReadRgb(Path("seen.jpg")));
 
-  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") == "free"; }))
-      << Robot1().dump(2) << agent_->output();
+  ASSERT_TRUE(WaitForState("free")) << Robot1().dump(2) << agent_->output();
   EXPECT_EQ(Look("robot7").status, 504);
   robot_->Signal(SIGKILL);
   (void)End(*robot_);
@@ -125,7 +90,7 @@ TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
     return dead.status == 404;
   })) << dead.status;
   EXPECT_THAT(dead.body, HasSubstr("camera"));
-  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") == "fault"; }))
+  ASSERT_TRUE(WaitForState("fault"))
       << "nobody looks at its frames, and it says so all the same: " << Robot1().dump(2);
   EXPECT_THAT(Robot1().value("detail", ""), HasSubstr("camera"));
 }
@@ -147,8 +112,7 @@ TEST_F(GlanceTest, NothingIsSentWhileNobodyLooks) {
     return glances;
   };
   Send("follow hall");
-  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") == "driving"; }))
-      << Robot1().dump(2) << agent_->output();
+  ASSERT_TRUE(WaitForState("driving")) << Robot1().dump(2) << agent_->output();
   EXPECT_EQ(heard(milliseconds(1000)), 0U);
   (void)LookUntil("funnel lanes");  // and the topic is met
   EXPECT_TRUE(WaitUntil([&] {
@@ -161,13 +125,10 @@ TEST_F(GlanceTest, NothingIsSentWhileNobodyLooks) {
 
 TEST_F(GlanceTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
-  const std::filesystem::path shots =
-      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-  std::filesystem::create_directories(shots);
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(390, 844);
-  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
   const auto asked = [&] {
     const json count = browser.Run(
@@ -188,10 +149,10 @@ TEST_F(GlanceTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
       "const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;"
       "return new Set(data).size");
   EXPECT_GT(lit.is_number() ? lit.get<int>() : 0, 50) << "a picture has many shades";
-  browser.Screenshot(shots / "phone-camera.png");
+  browser.Screenshot(Shot("phone-camera"));
   browser.Look(1280, 800, true);
   ASSERT_TRUE(browser.WaitForText("in their funnel lanes"));
-  browser.Screenshot(shots / "desktop-camera.png");
+  browser.Screenshot(Shot("desktop-camera"));
 
   // Out of view, and closed, it asks no more.
   (void)browser.Run("document.body.style.paddingBottom = '9000px'; window.scrollTo(0, 8000)");

@@ -1,6 +1,4 @@
 // Robots on duty that teach: sent, driven by hand from afar, ended, followed by others.
-#include <httplib.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -8,7 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "tests/scenario/robots.h"
+#include "tests/scenario/console_fleet.h"
 #include "tests/scenario/webdriver.h"
 
 namespace trailcast::test {
@@ -21,43 +19,15 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class TeachMissionTest : public RobotsTest {
+class TeachMissionTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     server_ = Server();
     robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
     agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
-    console_ = Start("trailcast-console", {"--http-port", "0"}, "console");
-    const std::string said = "http://localhost:";
-    ASSERT_TRUE(console_->WaitForOutput(said)) << console_->output();
-    const std::string output = console_->output();
-    port_ = std::stoi(output.substr(output.find(said) + said.size()));
-    ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("state", "") == "free"; }));
-  }
-  json Get(const std::string& path) {
-    httplib::Client client("localhost", port_);
-    client.set_read_timeout(20);
-    const auto got = client.Get(path);
-    return got ? json::parse(got->body, nullptr, false) : json();
-  }
-  struct Replied {
-    int status = 0;
-    json body{};
-  };
-  Replied Post(const std::string& path, const json& body = json::object()) {
-    httplib::Client client("localhost", port_);
-    client.set_read_timeout(20);
-    const auto got = client.Post(path, body.dump(), "application/json");
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
-  }
-  json State(const std::string& name) {
-    const json state = Get("/api/state");
-    if (!state.is_object()) return json::object();
-    for (const json& robot : state["robots"]) {
-      if (robot["name"] == name) return robot;
-    }
-    return json::object();
+    StartConsole();
+    ASSERT_TRUE(WaitForState("free"));
   }
   // Of the mission of this name.
   std::string Became(const std::string& mission) {
@@ -69,19 +39,10 @@ class TeachMissionTest : public RobotsTest {
   bool WaitForEnd(const std::string& mission, const std::string& state) {
     return WaitUntil([&] { return Became(mission).starts_with(state); });
   }
-  bool WaitUntil(const std::function<bool()>& condition) {
-    const auto until = steady_clock::now() + Process::kBound;
-    while (!condition()) {
-      if (steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(milliseconds(20));
-    }
-    return true;
-  }
   void SendToTeach(const std::string& orders, const std::string& id) {
     const Replied sent = Post("/api/robots/robot1/missions", {{"orders", orders}, {"id", id}});
     ASSERT_EQ(sent.status, 200) << sent.body.dump();
-    ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("teaches", false); }))
-        << agent_->output();
+    ASSERT_TRUE(WaitUntil([&] { return Robot1().value("teaches", false); })) << agent_->output();
   }
   // A word as a person's page says one ten times a second.
   Replied Say(double linear_mps, double turn_radps = 0.0, const std::string& driver = "ann") {
@@ -127,11 +88,6 @@ class TeachMissionTest : public RobotsTest {
     return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
   }
 
-  std::unique_ptr<Process> server_;
-  std::unique_ptr<Process> robot_;
-  std::unique_ptr<Process> agent_;
-  std::unique_ptr<Process> console_;
-  int port_ = 0;
   int tools_ = 0;
   double longest_word_ms_ = 0.0;
 };
@@ -146,7 +102,7 @@ TEST_F(TeachMissionTest, WhatAPersonDrivesFromAfarIsFollowedByAnother) {
   RecordProperty("stood_after_s", std::to_string(took_s));
   RecordProperty("longest_word_ms", std::to_string(longest_word_ms_));
   EXPECT_LT(took_s, 1.5) << "0.3 s without a word, and a base's braking, on a busy machine";
-  EXPECT_TRUE(State("robot1").value("teaches", false)) << "it goes on";
+  EXPECT_TRUE(Robot1().value("teaches", false)) << "it goes on";
 
   ASSERT_TRUE(DriveTo(4.0)) << agent_->output();
   ASSERT_TRUE(Stands("truth.csv"));
@@ -178,8 +134,8 @@ TEST_F(TeachMissionTest, AHeldRobotStandsAndWhatIsCancelledIsFollowedByNobody) {
   ASSERT_TRUE(DriveTo(2.2)) << agent_->output();
   const Replied paused = Post("/api/robots/robot1/pause");
   EXPECT_EQ(paused.status, 200) << paused.body.dump();
-  ASSERT_TRUE(WaitUntil([&] { return State("robot1").value("state", "") == "paused"; }));
-  EXPECT_TRUE(State("robot1").value("teaches", false));
+  ASSERT_TRUE(WaitForState("paused"));
+  EXPECT_TRUE(Robot1().value("teaches", false));
   ASSERT_TRUE(Stands("truth.csv"));
   const double at_m = Along_m("truth.csv");
   for (int i = 0; i < 10; ++i) {
@@ -212,13 +168,10 @@ TEST_F(TeachMissionTest, AfterARestartTheTeachingHasFailedAndNothingMoves) {
 
 TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
-  const std::filesystem::path shots =
-      std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
-  std::filesystem::create_directories(shots);
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(390, 844);
-  browser.Open("http://localhost:" + std::to_string(port_) + "/");
+  browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
   ASSERT_TRUE(browser.Click("//button[contains(., 'Teach')]"));
   ASSERT_TRUE(browser.Type("//label[contains(., 'Name')]/input", "yard"));
@@ -226,10 +179,8 @@ TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {
   ASSERT_TRUE(browser.WaitForText("cannot be a tag")) << browser.Text();
   ASSERT_TRUE(browser.Type("//label[contains(., 'Tags')]/input", "\xEE\x80\x83\xEE\x80\x83"));
   ASSERT_TRUE(browser.WaitForText("Slide to have robot1 teach yard")) << browser.Text();
-  browser.Screenshot(shots / "phone-teach.png");
-  std::string right;
-  for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";  // the right arrow
-  ASSERT_TRUE(browser.Type("//input[@type='range']", right));
+  browser.Screenshot(Shot("phone-teach"));
+  ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
   ASSERT_TRUE(browser.WaitForText("Features in view")) << browser.Text() << agent_->output();
 
   ASSERT_TRUE(browser.Click("//div[@role='application']"));
@@ -237,9 +188,9 @@ TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {
     EXPECT_TRUE(browser.HoldKey("w", 1000));
     return Along_m("truth.csv") > 2.2;
   })) << browser.Text();
-  browser.Screenshot(shots / "phone-driving.png");
+  browser.Screenshot(Shot("phone-driving"));
   browser.Look(1280, 800, true);
-  browser.Screenshot(shots / "desktop-teaching.png");
+  browser.Screenshot(Shot("desktop-teaching"));
   EXPECT_TRUE(Stands("truth.csv")) << "the key is let go";
   ASSERT_TRUE(browser.Click("//button[contains(., 'End')]"));
   ASSERT_TRUE(browser.WaitForText("a server has it")) << browser.Text() << agent_->output();

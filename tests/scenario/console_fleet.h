@@ -1,0 +1,95 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/robots.h"
+
+namespace trailcast::test {
+
+// On which port a console that starts says to listen; 0, and a failure: it does not.
+inline int ConsolesPort(Process& console) {
+  const std::string said = "://localhost:";
+  const bool listens = console.WaitForOutput(said);
+  const std::string output = console.output();
+  EXPECT_TRUE(listens) << output;
+  return listens ? std::stoi(output.substr(output.find(said) + said.size())) : 0;
+}
+
+// Where a picture of the page goes, for people to look at.
+inline std::filesystem::path Shot(const std::string& name) {
+  const auto shots = std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
+  std::filesystem::create_directories(shots);
+  return shots / (name + ".png");
+}
+
+// Ten presses of the right arrow key, as good as a whole slide.
+inline const std::string kSlide = [] {
+  std::string right;
+  for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";
+  return right;
+}();
+
+// Robots, and a console over HTTP.
+class ConsoleFleetTest : public RobotsTest {
+ protected:
+  using json = nlohmann::json;
+
+  void StartConsole(const Words& words = {}) {
+    console_ = Start("trailcast-console", With({"--http-port", "0"}, words), "console");
+    port_ = ConsolesPort(*console_);
+    ASSERT_NE(port_, 0);
+  }
+  [[nodiscard]] std::string Page() const {
+    return "http://localhost:" + std::to_string(port_) + "/";
+  }
+  [[nodiscard]] httplib::Client Client() const {
+    httplib::Client client("localhost", port_);
+    client.set_read_timeout(20);
+    return client;
+  }
+  json Get(const std::string& path) {
+    const auto got = Client().Get(path);
+    return got ? json::parse(got->body, nullptr, false) : json();
+  }
+  struct Replied {
+    int status = 0;
+    json body{};
+  };
+  Replied Post(const std::string& path, const json& body = json::object()) {
+    const auto got = Client().Post(path, body.dump(), "application/json");
+    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+  }
+  json State() { return Get("/api/state"); }
+  json Robot1() {
+    const json state = State();
+    if (!state.is_object()) return json::object();
+    for (const json& robot : state.value("robots", json::array())) {
+      if (robot["name"] == "robot1") return robot;
+    }
+    return json::object();
+  }
+  static bool WaitUntil(const std::function<bool()>& condition) {
+    using std::chrono::steady_clock;
+    const auto until = steady_clock::now() + Process::kBound;
+    while (!condition()) {
+      if (steady_clock::now() > until) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return true;
+  }
+  bool WaitForState(const std::string& state) {
+    return WaitUntil([&] { return Robot1().value("state", "") == state; });
+  }
+
+  std::unique_ptr<Process> server_;
+  std::unique_ptr<Process> robot_;
+  std::unique_ptr<Process> agent_;
+  std::unique_ptr<Process> console_;
+  int port_ = 0;
+};
+
+}  // namespace trailcast::test
