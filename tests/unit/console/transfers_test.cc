@@ -9,13 +9,11 @@
 
 #include "services/archive/route_file.h"
 #include "services/archive/route_file_writer.h"
-#include "services/catalog/catalog.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
-#include "services/exchange/publish.h"
-#include "services/exchange/route_keeper.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 
@@ -35,24 +33,7 @@ class TransfersTest : public testing::Test {
     ASSERT_TRUE(store_->AppendSegments(taught.pieces));
     ASSERT_TRUE(store_->PutRoute(taught.info));
   }
-  void Serve() {
-    server_ = std::jthread([this](const std::stop_token& stop) {
-      const auto exchange = bus_.Open(exchange::ServerTopics());
-      const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
-      const auto answer = [this](const exchange::CatalogRequest& request) {
-        return catalog::Answer(request, AgentId("barn"), *store_);
-      };
-      auto keeper =
-          exchange::RouteKeeper::Open(AgentId("barn"), *store_, {.answer = answer}, integrity);
-      ASSERT_TRUE(keeper) << keeper.error().message;
-      while (!stop.stop_requested()) {
-        for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
-          (*keeper)->Handle(message, steady_clock::now());
-        }
-        (void)exchange::PublishAll(*exchange, (*keeper)->Tick(steady_clock::now()));
-      }
-    });
-  }
+  void Serve() { server_ = test::KeepRoutes(bus_, *store_); }
   std::string FileOf(const test::TaughtRoute& taught) {
     const auto path = folder_ / "given.trailcast";
     auto writer = RouteFileWriter::Create(path, taught.info, RouteFileWriter::Existing::kReplace);

@@ -19,6 +19,7 @@
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "services/store/route_store.h"
+#include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 
@@ -38,27 +39,7 @@ TaughtRoute AnotherTeaching(std::uint32_t segments) { return TeachSamples(segmen
 
 class RouteTransferTest : public testing::Test {
  protected:
-  // A server's loop on a thread of its own, until it is stopped.
-  void Serve() {
-    server_ = std::jthread([this](const std::stop_token& stop) {
-      const auto exchange = bus_.Open(exchange::ServerTopics());
-      const exchange::Integrity integrity{route::CheckDigest, route::ManifestDigest};
-      const auto answer = [this](const exchange::CatalogRequest& request) {
-        return catalog::Answer(request, AgentId("barn"), *store_);
-      };
-      auto keeper =
-          exchange::RouteKeeper::Open(AgentId("barn"), *store_, {.answer = answer}, integrity);
-      ASSERT_TRUE(keeper) << keeper.error().message;
-      while (!stop.stop_requested()) {
-        const auto messages = exchange->Take(milliseconds(5));
-        for (const exchange::Message& message : messages) {
-          (*keeper)->Handle(message, std::chrono::steady_clock::now());
-        }
-        // What is lost is asked for.
-        (void)exchange::PublishAll(*exchange, (*keeper)->Tick(std::chrono::steady_clock::now()));
-      }
-    });
-  }
+  void Serve() { server_ = test::KeepRoutes(bus_, *store_); }
   void StopServer() { server_ = {}; }
 
   // What the server's store holds from before.
