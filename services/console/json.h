@@ -1,20 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 
 #include "services/base/result.h"
 #include "services/console/driving.h"
-#include "services/mission/mission.h"
 #include "services/route/route_edit.h"
-#include "services/route/route_query.h"
 #include "services/users/guard.h"
 
 namespace trailcast::console {
 
-// Requests, as openapi.yaml has them. What is read may be anything: kInvalidArgument says what was
-// expected.
+// Bodies of requests, as openapi.yaml has them. What is read may be anything: kInvalidArgument says
+// what was expected.
 
 // {"reason": ".."}, or nothing at all.
 [[nodiscard]] Result<std::string> ReadReason(const std::string& body);
@@ -26,14 +23,6 @@ struct SendBody {
   bool goes_on = false;
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
-
-// What comes behind the question mark of an address, decoded.
-using Parameters = std::multimap<std::string, std::string>;
-// Of GET /api/routes.
-[[nodiscard]] Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters);
-// Of GET /api/missions and of GET /api/commands.
-[[nodiscard]] Result<mission::Query> ReadMissionQuery(const Parameters& parameters);
-[[nodiscard]] Result<mission::Query> ReadCommandQuery(const Parameters& parameters);
 
 // How `route`, by its name or id, is to be changed.
 [[nodiscard]] Result<route::RouteEdit> ReadRouteEdit(const std::string& route,

@@ -5,6 +5,7 @@
 
 #include "services/base/text.h"
 #include "services/console/json.h"
+#include "services/console/parameters.h"
 #include "services/console/site.h"
 #include "services/exchange/bounds.h"
 #include "tests/fuzz/fuzz.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "services/console/json.h"
+#include "services/console/parameters.h"
 #include "services/console/src/answers.h"
 #include "services/fleet/mission_client.h"
 

@@ -3,25 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <functional>
 #include <limits>
 #include <set>
 
-#include "services/base/number.h"
 #include "services/base/text.h"
+#include "services/console/parameters.h"
 #include "services/console/src/values.h"
+#include "services/console/src/words.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
-#include "services/route/query_words.h"
 
 namespace trailcast::console {
 namespace {
 
 constexpr std::uint32_t kLongestValid_s = 365U * 86400U;
-constexpr std::uint32_t kRoutesAPage = 50;
-constexpr std::uint32_t kMostRoutesAPage = 200;
-constexpr double kWithin_m = 50.0;
 
 Result<Json> ReadObject(const std::string& body, const std::set<std::string>& fields) {
   Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
@@ -52,160 +47,6 @@ Result<std::string> LineIn(const Json& json, const char* field) {
 Result<double> NumberIn(const Json& json, const char* field) {
   if (json.contains(field) && json[field].is_number()) return json[field].get<double>();
   return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a number", field);
-}
-
-// How a parameter that was given is read into a query.
-template <typename Query>
-using Readers = std::map<std::string, std::function<Result<void>(const std::string&, Query&)>>;
-
-template <typename Query, typename Number>
-auto NumberInto(Number Query::*field) {
-  return [field](const std::string& text, Query& query) -> Result<void> {
-    if (ReadNumber(text, query.*field)) return {};
-    return Fail(ErrorCode::kInvalidArgument, "is no number");
-  };
-}
-
-template <typename Query>
-auto TextInto(std::string Query::*field) {
-  return [field](const std::string& text, Query& query) -> Result<void> {
-    query.*field = text;
-    return {};
-  };
-}
-
-template <typename Query>
-auto NameInto(std::string Query::*field) {
-  return [field](const std::string& text, Query& query) -> Result<void> {
-    if (!IsValidName(text)) {
-      return Fail(ErrorCode::kInvalidArgument,
-                  "is to be a name of 1 to 64 letters, digits, '_', '.', '-'");
-    }
-    query.*field = text;
-    return {};
-  };
-}
-
-template <typename Query>
-auto LimitInto(std::uint32_t Query::*field, std::uint32_t most) {
-  return [field, most](const std::string& text, Query& query) -> Result<void> {
-    const auto limit = ParseNumber<std::uint32_t>(text);
-    if (!limit || *limit < 1 || *limit > most) {
-      return Fail(ErrorCode::kInvalidArgument, "is to be 1 to {}", most);
-    }
-    query.*field = *limit;
-    return {};
-  };
-}
-
-// Those of `several` may be given more than once.
-template <typename Query>
-Result<void> ReadParameters(const Parameters& parameters, const Readers<Query>& readers,
-                            const std::string& several, Query& query) {
-  for (const auto& [name, text] : parameters) {
-    if (text.empty()) continue;  // as a form sends what nobody filled in
-    const auto known = readers.find(name);
-    if (known == readers.end()) {
-      return Fail(ErrorCode::kInvalidArgument, "there is no parameter '{}'", PlainText(name, 64));
-    }
-    if (name != several && parameters.count(name) > 1) {
-      return Fail(ErrorCode::kInvalidArgument, "'{}' is given more than once", name);
-    }
-    if (auto read = known->second(text, query); !read) {
-      return Fail(ErrorCode::kInvalidArgument, "'{}': {}", name, read.error().message);
-    }
-  }
-  return {};
-}
-
-template <route::Place::Frame kFrame>
-Result<void> ReadNear(const std::string& text, route::RouteQuery& query) {
-  const auto place = route::ReadPlace(kFrame, text);
-  if (!place) return tl::unexpected(place.error());
-  query.near = {*place, kWithin_m};
-  return {};
-}
-
-template <typename Value>
-Result<Value> ReadWord(const std::map<std::string, Value>& words, const std::string& text) {
-  const auto word = words.find(text);
-  if (word != words.end()) return word->second;
-  std::string all;
-  for (const auto& [name, value] : words) all += (all.empty() ? "" : ", ") + name;
-  return Fail(ErrorCode::kInvalidArgument, "is to be one of {}", all);
-}
-
-Result<void> ReadTag(const std::string& text, route::RouteQuery& query) {
-  query.tags.push_back(text);
-  std::sort(query.tags.begin(), query.tags.end());
-  query.tags.erase(std::unique(query.tags.begin(), query.tags.end()), query.tags.end());
-  return {};
-}
-
-Result<void> ReadState(const std::string& text, route::RouteQuery& query) {
-  const auto word = ReadWord(route::StateWords(), text);
-  if (!word) return tl::unexpected(word.error());
-  query.state = word->state;
-  query.standing = word->standing;
-  return {};
-}
-
-Result<void> ReadSort(const std::string& text, route::RouteQuery& query) {
-  const auto word = ReadWord(route::OrderWords(), text);
-  if (!word) return tl::unexpected(word.error());
-  query.order = *word;
-  return {};
-}
-
-// With how near that is.
-struct PagedQuery : route::RouteQuery {
-  double within_m = kWithin_m;
-};
-
-const Readers<PagedQuery>& RouteParameters() {
-  using Query = PagedQuery;
-  static const Readers<Query> kAll{
-      {"name", TextInto<Query>(&Query::name)},
-      {"prefix", TextInto<Query>(&Query::name_prefix)},
-      {"tag", ReadTag},
-      {"scout", TextInto<Query>(&Query::scout)},
-      {"camera", TextInto<Query>(&Query::camera_prefix)},
-      {"min_length_m", NumberInto<Query, double>(&Query::min_length_m)},
-      {"max_length_m", NumberInto<Query, double>(&Query::max_length_m)},
-      {"taught_from_unix_ms", NumberInto<Query, std::int64_t>(&Query::taught_from_unix_ms)},
-      {"taught_until_unix_ms", NumberInto<Query, std::int64_t>(&Query::taught_until_unix_ms)},
-      {"state", ReadState},
-      {"near_site", ReadNear<route::Place::Frame::kSite>},
-      {"near_gps", ReadNear<route::Place::Frame::kWgs84>},
-      {"within_m", NumberInto<Query, double>(&Query::within_m)},
-      {"sort", ReadSort},
-      {"limit", LimitInto<Query>(&Query::page_size, kMostRoutesAPage)},
-      {"cursor", TextInto<Query>(&Query::cursor)}};
-  return kAll;
-}
-
-Readers<mission::Query> RecordParameters() {
-  using mission::Query;
-  return {{"robot", NameInto<Query>(&Query::agent)},
-          {"route", NameInto<Query>(&Query::route)},
-          {"by", NameInto<Query>(&Query::client)},
-          {"from_unix_ms", NumberInto<Query, std::int64_t>(&Query::from_unix_ms)},
-          {"until_unix_ms", NumberInto<Query, std::int64_t>(&Query::until_unix_ms)},
-          {"limit", LimitInto<Query>(&Query::page_size, exchange::kMaxMissionsPerReply)},
-          {"before", NumberInto<Query, std::uint64_t>(&Query::before)}};
-}
-
-Result<void> ReadMissionState(const std::string& text, mission::Query& query) {
-  std::string all;
-  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
-    const std::string word = mission::ToString(static_cast<mission::State>(i));
-    if (text == word) {
-      query.states |= 1U << i;
-      return {};
-    }
-    all += (all.empty() ? "" : ", ") + word;
-  }
-  return Fail(ErrorCode::kInvalidArgument, "is to be one of {}", all);
 }
 
 const std::map<std::string, route::EditAction>& EditWords() {
@@ -309,42 +150,6 @@ Result<Driving::Word> ReadDrive(const std::string& body) {
                        .said_ms = (*json)["said_ms"].get<std::uint64_t>()};
 }
 
-Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters) {
-  PagedQuery query;
-  query.page_size = kRoutesAPage;
-  if (auto read = ReadParameters(parameters, RouteParameters(), "tag", query); !read) {
-    return tl::unexpected(read.error());
-  }
-  if (query.near) query.near->radius_m = query.within_m;
-  if (auto possible = exchange::CheckQuery(query); !possible) {
-    return tl::unexpected(possible.error());
-  }
-  return query;
-}
-
-Result<mission::Query> ReadMissionQuery(const Parameters& parameters) {
-  static const Readers<mission::Query> kAll = [] {
-    Readers<mission::Query> readers = RecordParameters();
-    readers.emplace("mission", NameInto<mission::Query>(&mission::Query::id));
-    readers.emplace("state", ReadMissionState);
-    return readers;
-  }();
-  mission::Query query;
-  if (auto read = ReadParameters(parameters, kAll, "state", query); !read) {
-    return tl::unexpected(read.error());
-  }
-  return query;
-}
-
-Result<mission::Query> ReadCommandQuery(const Parameters& parameters) {
-  static const Readers<mission::Query> kAll = RecordParameters();
-  mission::Query query;
-  if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
-    return tl::unexpected(read.error());
-  }
-  return query;
-}
-
 Result<route::RouteEdit> ReadRouteEdit(const std::string& route, const std::string& body) {
   const auto json = ReadObject(body, {"action", "revision", "text", "tags"});
   if (!json) return tl::unexpected(json.error());
@@ -410,13 +215,9 @@ Result<route::RouteKey> ReadFetch(const std::string& body) {
     return Fail(ErrorCode::kInvalidArgument, "'route' is to be a route's id, of {} digits",
                 kIdDigits);
   }
-  std::uint64_t number = 0;
-  const char* const end = teaching->data() + teaching->size();
-  const auto [stop, error] = std::from_chars(teaching->data(), end, number, 16);
-  if (error != std::errc{} || stop != end) {
-    return Fail(ErrorCode::kInvalidArgument, "'teaching' is to be a hexadecimal number");
-  }
-  return route::RouteKey{RouteId(*route), TeachingId(number)};
+  const auto number = ReadTeaching(*teaching);
+  if (!number) return Wrap(number.error(), "'teaching'");
+  return route::RouteKey{RouteId(*route), *number};
 }
 
 std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <optional>
 
+#include "services/console/parameters.h"
 #include "services/console/src/answers.h"
-#include "services/route/bounds.h"
 
 namespace trailcast::console {
 namespace {
@@ -19,21 +18,12 @@ using httplib::Response;
 constexpr std::chrono::milliseconds kLook{2000};
 constexpr const char* kId = "([0-9a-f]{32})";
 
-std::optional<TeachingId> ReadTeaching(const std::string& text) {
-  std::uint64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [read_to, error] = std::from_chars(text.data(), end, value, 16);
-  if (error != std::errc() || read_to != end || value == 0 || value > route::kMaxTeaching) {
-    return std::nullopt;
-  }
-  return TeachingId(value);
-}
-
 void Draw(Atlas& atlas, const Request& request, Response& response) {
   std::optional<TeachingId> teaching;
   if (request.has_param("teaching")) {
-    teaching = ReadTeaching(request.get_param_value("teaching"));
-    if (!teaching) return Refuse(response, 400, "teaching is to be a number in hexadecimal");
+    const auto read = ReadTeaching(request.get_param_value("teaching"));
+    if (!read) return Refuse(response, 400, "'teaching': " + read.error().message);
+    teaching = *read;
   }
   const auto found = atlas.Find(RouteId(request.matches[1]), teaching, kLook);
   if (!found) return Refuse(response, found.error());

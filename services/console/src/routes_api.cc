@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "services/console/json.h"
+#include "services/console/parameters.h"
 #include "services/console/src/answers.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/program/json.h"

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/console/parameters.h"
+
 namespace trailcast::console {
 namespace {
 

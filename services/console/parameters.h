@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "services/base/ids.h"
+#include "services/base/result.h"
+#include "services/mission/mission.h"
+#include "services/route/route_query.h"
+
+namespace trailcast::console {
+
+// Parameters of requests, as openapi.yaml has them. What is read may be anything: kInvalidArgument
+// says what was expected.
+
+// What comes behind the question mark of an address, decoded.
+using Parameters = std::multimap<std::string, std::string>;
+// Of GET /api/routes.
+[[nodiscard]] Result<route::RouteQuery> ReadRouteQuery(const Parameters& parameters);
+// Of GET /api/missions and of GET /api/commands.
+[[nodiscard]] Result<mission::Query> ReadMissionQuery(const Parameters& parameters);
+[[nodiscard]] Result<mission::Query> ReadCommandQuery(const Parameters& parameters);
+
+// Of which teaching, in hexadecimal digits.
+[[nodiscard]] Result<TeachingId> ReadTeaching(const std::string& text);
+
+}  // namespace trailcast::console
