@@ -7,6 +7,9 @@
 
 namespace trailcast::fleet {
 
+// What a robot does: "driving".
+[[nodiscard]] const char* ToText(exchange::AgentMode mode);
+
 // What robots say of themselves. No I/O, no clock: everything that is heard goes to Hear.
 class RobotsThere {
  public:

@@ -16,6 +16,8 @@ enum class Weakness {
   kBare,       // too few features to steer by
 };
 
+[[nodiscard]] const char* NameOf(Weakness why);  // "bland"
+
 // A stretch of a route, in metres from its beginning, or, where it was taught without odometry, in
 // seconds of teaching in motion.
 struct WeakPlace {

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <variant>
 
@@ -20,11 +19,6 @@ namespace {
 using exchange::AgentMode;
 using exchange::AgentRole;
 using exchange::AgentStatus;
-
-// Coarse, so that noise is no news.
-double Rounded(double value, double parts) {
-  return std::isfinite(value) ? std::round(value * parts) / parts : 0.0;
-}
 
 // What an operator's word would change.
 Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_mission) {

@@ -1,5 +1,7 @@
 #include "services/console/src/robot_state.h"
 
+#include "services/fleet/robots_there.h"
+
 namespace trailcast::console {
 
 using exchange::AgentHold;
@@ -12,23 +14,8 @@ const char* RobotState(const exchange::AgentStatus& status, bool silent, bool on
   const bool held = !drives && status.mode != AgentMode::kStopped;
   if (held && status.hold == AgentHold::kStopped) return "stopped";
   if (held && status.hold == AgentHold::kPaused) return "paused";
-  switch (status.mode) {
-    case AgentMode::kStarting:
-      return "starting";
-    case AgentMode::kWaiting:
-      return status.on_duty && !on_mission && status.segments == 0 ? "free" : "waiting";
-    case AgentMode::kTeaching:
-      return "teaching";
-    case AgentMode::kReplaying:
-      return "driving";
-    case AgentMode::kArrived:
-      return "arrived";
-    case AgentMode::kStopped:
-      return "ended";
-    case AgentMode::kFault:
-      return "fault";
-  }
-  return "waiting";
+  const bool free = status.mode == AgentMode::kWaiting && status.on_duty && !on_mission;
+  return free && status.segments == 0 ? "free" : fleet::ToText(status.mode);
 }
 
 const char* ToText(AgentRole role) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "services/console/src/shape.h"
@@ -8,20 +7,6 @@
 
 namespace trailcast::console {
 namespace {
-
-const char* NameOf(view::Weakness why) {
-  switch (why) {
-    case view::Weakness::kBland:
-      return "bland";
-    case view::Weakness::kUnrelated:
-      return "unrelated";
-    case view::Weakness::kBare:
-      break;
-  }
-  return "bare";
-}
-
-double Rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
 Json CellsValue(const std::vector<ShapeCell>& cells) {
   Json begin = Json::array();

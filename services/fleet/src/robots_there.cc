@@ -15,27 +15,7 @@ using exchange::AgentHold;
 using exchange::AgentMode;
 using exchange::AgentStatus;
 
-const char* ToText(AgentMode mode) {
-  switch (mode) {
-    case AgentMode::kStarting:
-      return "starting";
-    case AgentMode::kWaiting:
-      return "waiting";
-    case AgentMode::kTeaching:
-      return "teaching";
-    case AgentMode::kReplaying:
-      return "driving";
-    case AgentMode::kArrived:
-      return "arrived";
-    case AgentMode::kStopped:
-      return "ended";
-    case AgentMode::kFault:
-      return "fault";
-  }
-  return "waiting";
-}
-
-const char* ToText(AgentHold hold) {
+const char* HoldText(AgentHold hold) {
   switch (hold) {
     case AgentHold::kNone:
       return "none";
@@ -50,7 +30,7 @@ const char* ToText(AgentHold hold) {
 std::string DoingOf(const AgentStatus& status) {
   return status.hold == AgentHold::kNone || status.mode == AgentMode::kReplaying
              ? ToText(status.mode)
-             : ToText(status.hold);
+             : HoldText(status.hold);
 }
 
 std::string Percent(std::optional<std::uint8_t> value) {
@@ -75,13 +55,33 @@ std::string JsonOf(const AgentStatus& status) {
       "{{\"robot\": {}, \"mode\": \"{}\", \"hold\": \"{}\", \"on_duty\": {}, \"route\": {}, "
       "\"progress\": {:.3f}, \"speed_mps\": {:.3f}, \"place\": {}, \"battery_percent\": {}, "
       "\"link_percent\": {}, \"software\": {}, \"detail\": {}}}",
-      program::JsonText(status.agent.value()), ToText(status.mode), ToText(status.hold),
+      program::JsonText(status.agent.value()), ToText(status.mode), HoldText(status.hold),
       status.on_duty, program::JsonText(status.route), status.progress, status.speed_mps, place,
       JsonOf(status.battery_percent), JsonOf(status.link_percent),
       program::JsonText(status.software), program::JsonText(status.detail));
 }
 
 }  // namespace
+
+const char* ToText(AgentMode mode) {
+  switch (mode) {
+    case AgentMode::kStarting:
+      return "starting";
+    case AgentMode::kWaiting:
+      return "waiting";
+    case AgentMode::kTeaching:
+      return "teaching";
+    case AgentMode::kReplaying:
+      return "driving";
+    case AgentMode::kArrived:
+      return "arrived";
+    case AgentMode::kStopped:
+      return "ended";
+    case AgentMode::kFault:
+      return "fault";
+  }
+  return "waiting";
+}
 
 void RobotsThere::Hear(const exchange::Message& message) {
   if (const auto* status = std::get_if<AgentStatus>(&message)) {

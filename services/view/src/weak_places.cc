@@ -22,6 +22,18 @@ constexpr double kSamePlace = 1e-3;  // a robot that turned on the spot
 
 }  // namespace
 
+const char* NameOf(Weakness why) {
+  switch (why) {
+    case Weakness::kBland:
+      return "bland";
+    case Weakness::kUnrelated:
+      return "unrelated";
+    case Weakness::kBare:
+      break;
+  }
+  return "bare";
+}
+
 void WeakPlaceFinder::AddView(double at, const route::KeyView& view, int fewest_in_common) {
   View next{at, Tabulate(view.features, width_px_)};
   const double before = last_ ? 0.5 * (last_->at + at) : 0.0;

@@ -11,18 +11,6 @@
 namespace trailcast::fleet {
 namespace {
 
-const char* NameOf(view::Weakness why) {
-  switch (why) {
-    case view::Weakness::kBland:
-      return "bland";
-    case view::Weakness::kUnrelated:
-      return "unrelated";
-    case view::Weakness::kBare:
-      break;
-  }
-  return "bare";
-}
-
 std::string Explain(const view::WeakPlace& place) {
   switch (place.why) {
     case view::Weakness::kBland:
