@@ -99,6 +99,7 @@ class Desk {
   using Clock = std::chrono::steady_clock;
   using Seen = Result<std::shared_ptr<const exchange::Glance>>;
 
+  [[nodiscard]] Result<exchange::MissionReply> AskHistory(exchange::MissionRequest request);
   void Run();
   template <typename AnErrand>
   [[nodiscard]] auto CarryOut(std::shared_ptr<AnErrand> errand, bool is_stop,

@@ -134,10 +134,12 @@ class MeasureErrand final : public ErrandFor<http::MetricsText> {
   FleetState& state_;
 };
 
-template <typename Reply>
-Result<Reply> Await(std::future<Result<Reply>> future, milliseconds timeout) {
-  if (future.wait_for(timeout + kGrace) == std::future_status::ready) return future.get();
-  return Fail(ErrorCode::kUnavailable, "the console's link to the fleet hangs");
+// `future`: of a result; shared or not.
+template <typename Future>
+auto Await(Future future, milliseconds timeout) {
+  using Outcome = std::remove_cvref_t<decltype(future.get())>;
+  if (future.wait_for(timeout + kGrace) == std::future_status::ready) return Outcome(future.get());
+  return Outcome(Fail(ErrorCode::kUnavailable, "the console's link to the fleet hangs"));
 }
 
 tl::unexpected<Error> TooMuch() {
@@ -201,17 +203,18 @@ Result<mission::Report> Desk::Send(mission::Mission mission) {
 }
 
 Result<exchange::MissionReply> Desk::Missions(const mission::Query& query) {
-  const exchange::MissionRequest request{
-      .client = self_, .request = fleet::DrawNumber(), .query = query};
-  return CarryOut(std::make_shared<MissionQuestion>(request, options_.reply_within), false,
-                  options_.reply_within);
+  return AskHistory({.query = query});
 }
 
 Result<exchange::MissionReply> Desk::Commands(const mission::Query& query) {
-  const exchange::MissionRequest request{
-      .client = self_, .request = fleet::DrawNumber(), .commands = true, .query = query};
-  return CarryOut(std::make_shared<MissionQuestion>(request, options_.reply_within), false,
-                  options_.reply_within);
+  return AskHistory({.commands = true, .query = query});
+}
+
+Result<exchange::MissionReply> Desk::AskHistory(exchange::MissionRequest request) {
+  request.client = self_;
+  request.request = fleet::DrawNumber();
+  return CarryOut(std::make_shared<MissionQuestion>(std::move(request), options_.reply_within),
+                  false, options_.reply_within);
 }
 
 Result<exchange::CatalogReply> Desk::Routes(const route::RouteQuery& query) {
@@ -228,10 +231,7 @@ Result<exchange::CatalogReply> Desk::Edit(const route::RouteEdit& edit) {
 }
 
 Result<http::MetricsText> Desk::Measure() {
-  auto errand = std::make_shared<MeasureErrand>(state_);
-  auto future = errand->Future();
-  if (!Take(std::move(errand), false)) return TooMuch();
-  auto text = Await(std::move(future), milliseconds(0));
+  auto text = CarryOut(std::make_shared<MeasureErrand>(state_), false, milliseconds(0));
   if (!text) return text;
   const std::scoped_lock lock(mutex_);
   text->Add("console_requests_refused_total", "counter",
@@ -241,11 +241,7 @@ Result<http::MetricsText> Desk::Measure() {
 
 Result<std::shared_ptr<const exchange::Glance>> Desk::Look(const AgentId& robot) {
   const std::shared_future<Seen> future = LookUnderWay(robot);
-  if (!future.valid()) return TooMuch();
-  if (future.wait_for(LookErrand::kTimeout + kGrace) == std::future_status::ready) {
-    return future.get();
-  }
-  return Fail(ErrorCode::kUnavailable, "the console's link to the fleet hangs");
+  return future.valid() ? Await(future, LookErrand::kTimeout) : TooMuch();
 }
 
 std::shared_future<Desk::Seen> Desk::LookUnderWay(const AgentId& robot) {
