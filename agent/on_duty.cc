@@ -72,6 +72,7 @@ class OnDuty {
   void Say(exchange::RouteExchange& to);
   void SawStatus(const exchange::AgentStatus& status);
   void ShowFree();
+  void AddDuty(exchange::AgentStatus& status) const;
   void NoteAilment(steady_clock::time_point now);
   void TellNews();
   [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
@@ -151,9 +152,8 @@ void OnDuty::TellNews() {
 void OnDuty::ShowFree() {
   exchange::AgentStatus status;
   status.mode = exchange::AgentMode::kWaiting;
-  status.detail = Held() ? now_desk_.hold().text : last_;
-  status.hold = now_desk_.shown_hold();
-  status.on_duty = true;
+  status.detail = last_;
+  AddDuty(status);
   if (!ailment_.empty() && Held()) {
     status.detail += "; " + ailment_;
   } else if (!ailment_.empty()) {
@@ -165,6 +165,13 @@ void OnDuty::ShowFree() {
     status.place = place_;
   }
   presence_.Set(std::move(status));
+}
+
+// Whatever the robot does is told with how operators hold it.
+void OnDuty::AddDuty(exchange::AgentStatus& status) const {
+  status.hold = now_desk_.shown_hold();
+  status.on_duty = true;
+  if (Held()) status.detail = now_desk_.hold().text;
 }
 
 // Nobody asks for frames, so nobody else notices.
@@ -307,11 +314,7 @@ ScoutOptions OnDuty::ScoutFor(const mission::Task& task) {
   scout.glances = &glances_;
   scout.link.instance = presence_.status().instance;
   scout.link.vitals = options_.vitals;
-  scout.link.besides = [this](exchange::AgentStatus& status) {
-    status.hold = now_desk_.shown_hold();
-    status.on_duty = true;
-    if (Held()) status.detail = now_desk_.hold().text;
-  };
+  scout.link.besides = [this](exchange::AgentStatus& status) { AddDuty(status); };
   return scout;
 }
 
@@ -362,9 +365,8 @@ void OnDuty::Deliver() {
   ScoutLinkOptions link = ScoutFor({}).link;
   link.besides = [this](exchange::AgentStatus& status) {
     status.mode = exchange::AgentMode::kWaiting;
-    status.hold = now_desk_.shown_hold();
-    status.on_duty = true;
-    status.detail = Held() ? now_desk_.hold().text : "free; a server is given what it has taught";
+    status.detail = "free; a server is given what it has taught";
+    AddDuty(status);
   };
   delivering_ = true;
   const auto delivered = DeliverBacklog(link, *std::move(store), exchange_.Visit());
