@@ -9,8 +9,6 @@ namespace trailcast::agent {
 namespace {
 
 using image::Canvas;
-using image::Color;
-using image::PixelPoint;
 using replay::FeatureVerdict;
 
 constexpr int kLeastWidth_px = 640;
@@ -18,34 +16,6 @@ constexpr int kPanelHeight_px = 96;
 constexpr double kTextHeight_px = 11.0;
 constexpr double kLine_px = 22.0;
 constexpr double kMargin_px = 10.0;
-constexpr Color kPanel{24, 24, 24};
-constexpr Color kInk{235, 235, 235};
-
-// Turns of this size fill half the bar under the picture.
-constexpr double kFullTurn_rad = 0.3;
-
-// From pixels about the frame's centre to the enlarged picture.
-struct Enlarged {
-  int width = 0;
-  int height = 0;
-  int times = 1;
-
-  [[nodiscard]] PixelPoint At(const route::TrackedFeature& feature) const {
-    return {(feature.u_px + 0.5 * width) * times, (feature.v_px + 0.5 * height) * times};
-  }
-};
-
-void DrawFeatures(Canvas& canvas, const Enlarged& enlarged,
-                  std::span<const replay::FeatureView> features) {
-  for (const replay::FeatureView& feature : features) {
-    canvas.Line({enlarged.At(feature.at), enlarged.At(TargetOf(feature))},
-                VerdictColor(feature.verdict), 1.0);
-  }
-  for (const replay::FeatureView& feature : features) {
-    canvas.Disc(enlarged.At(feature.at), 4.0, VerdictColor(feature.verdict));
-  }
-}
-
 // From the middle to the side that is asked for.
 void DrawTurn(Canvas& canvas, double turn_rad, double y) {
   const double half = 0.5 * canvas.picture().width;
@@ -69,11 +39,8 @@ void DrawLegend(Canvas& canvas, const ReplayStep& step,
                              Entry{"ask left", FeatureVerdict::kAsksLeft},
                              Entry{"ask right", FeatureVerdict::kAsksRight},
                              Entry{"rejected", FeatureVerdict::kRejected}}) {
-    const auto count = std::count_if(features.begin(), features.end(), [&](const auto& feature) {
-      return feature.verdict == entry.verdict;
-    });
     canvas.Disc({x + 4.0, baseline - 0.5 * kTextHeight_px}, 4.0, VerdictColor(entry.verdict));
-    const std::string text = fmt::format("{} {}", count, entry.text);
+    const std::string text = fmt::format("{} {}", CountOf(features, entry.verdict), entry.text);
     canvas.Text(text, {x + 14.0, baseline}, kTextHeight_px, kInk);
     x += Canvas::TextWidth(text, kTextHeight_px) + 26.0;
   }
@@ -103,6 +70,19 @@ std::string Turn(const ReplayStep& step) {
 
 }  // namespace
 
+void DrawLines(Canvas& canvas, const Scaled& scaled,
+               std::span<const replay::FeatureView> features) {
+  for (const replay::FeatureView& feature : features) {
+    canvas.Line({scaled.At(feature.at), scaled.At(TargetOf(feature))},
+                VerdictColor(feature.verdict), 1.0);
+  }
+}
+
+std::ptrdiff_t CountOf(std::span<const replay::FeatureView> features, FeatureVerdict verdict) {
+  return std::count_if(features.begin(), features.end(),
+                       [&](const auto& feature) { return feature.verdict == verdict; });
+}
+
 image::Color VerdictColor(FeatureVerdict verdict) {
   switch (verdict) {
     case FeatureVerdict::kInside:
@@ -130,13 +110,17 @@ image::RgbImage InGrey(const image::GrayImage& frame) {
 
 image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& step,
                               std::span<const replay::FeatureView> features) {
-  Enlarged enlarged{frame.width, frame.height, 1};
-  while (enlarged.times * frame.width < kLeastWidth_px) ++enlarged.times;
-  const int width = enlarged.times * frame.width;
-  const int height = enlarged.times * frame.height;
+  int times = 1;
+  while (times * frame.width < kLeastWidth_px) ++times;
+  const int width = times * frame.width;
+  const int height = times * frame.height;
   Canvas canvas(width, height + kPanelHeight_px, kPanel);
   canvas.Paste(InGrey(frame), 0, 0, width, height);
-  DrawFeatures(canvas, enlarged, features);
+  const Scaled enlarged{frame, static_cast<double>(times)};
+  DrawLines(canvas, enlarged, features);
+  for (const replay::FeatureView& feature : features) {
+    canvas.Disc(enlarged.At(feature.at), 4.0, VerdictColor(feature.verdict));
+  }
   // What lies outside the picture (a milestone often does) shall not cross the text.
   canvas.FillBox({0.0, static_cast<double>(height)},
                  {static_cast<double>(width), static_cast<double>(height + kPanelHeight_px)},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "agent/session/replay_session.h"
@@ -16,6 +17,28 @@ namespace trailcast::agent {
 [[nodiscard]] image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& step,
                                             std::span<const replay::FeatureView> features);
 
+// What this and other drawings of a frame share.
+inline constexpr image::Color kPanel{24, 24, 24};
+inline constexpr image::Color kInk{235, 235, 235};
+// A turn of this size fills half the bar below.
+inline constexpr double kFullTurn_rad = 0.3;
+
+// From pixels about the frame's centre to a picture so many times as large.
+struct Scaled {
+  const image::GrayImage& frame;
+  double times = 1.0;
+
+  [[nodiscard]] image::PixelPoint At(const route::TrackedFeature& feature) const {
+    return {(feature.u_px + 0.5 * frame.width) * times,
+            (feature.v_px + 0.5 * frame.height) * times};
+  }
+};
+
+// Each feature's line, in its verdict's colour.
+void DrawLines(image::Canvas& canvas, const Scaled& scaled,
+               std::span<const replay::FeatureView> features);
+[[nodiscard]] std::ptrdiff_t CountOf(std::span<const replay::FeatureView> features,
+                                     replay::FeatureVerdict verdict);
 [[nodiscard]] image::Color VerdictColor(replay::FeatureVerdict verdict);
 // Where a feature's line leads.
 [[nodiscard]] const route::TrackedFeature& TargetOf(const replay::FeatureView& feature);

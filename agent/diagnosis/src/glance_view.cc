@@ -19,21 +19,6 @@ using replay::FeatureVerdict;
 constexpr int kMostWidth_px = 320;
 constexpr int kStrip_px = 16;
 constexpr double kMark_px = 3.5;
-constexpr Color kStrip{24, 24, 24};
-constexpr Color kInk{235, 235, 235};
-// A turn of this size fills half the strip.
-constexpr double kFullTurn_rad = 0.3;
-
-// From pixels about the frame's centre to the picture's.
-struct Scaled {
-  const image::GrayImage& frame;
-  double times = 1.0;
-
-  [[nodiscard]] PixelPoint At(const route::TrackedFeature& feature) const {
-    return {(feature.u_px + 0.5 * frame.width) * times,
-            (feature.v_px + 0.5 * frame.height) * times};
-  }
-};
 
 void DrawMark(Canvas& canvas, PixelPoint at, FeatureVerdict verdict) {
   const Color color = VerdictColor(verdict);
@@ -53,21 +38,11 @@ void DrawMark(Canvas& canvas, PixelPoint at, FeatureVerdict verdict) {
   }
 }
 
-void DrawFeatures(Canvas& canvas, const Scaled& scaled, const GlanceFrame& frame) {
-  for (const replay::FeatureView& feature : frame.features) {
-    canvas.Line({scaled.At(feature.at), scaled.At(TargetOf(feature))},
-                VerdictColor(feature.verdict), 1.0);
-  }
-  for (const replay::FeatureView& feature : frame.features) {
-    DrawMark(canvas, scaled.At(feature.at), feature.verdict);
-  }
-}
-
 void DrawTurn(Canvas& canvas, double turn_rad, int top) {
   const double width = canvas.picture().width;
   const double y = top + 0.5 * kStrip_px;
   canvas.FillBox({0.0, static_cast<double>(top)}, {width, static_cast<double>(top + kStrip_px)},
-                 kStrip);
+                 kPanel);
   canvas.Line({{0.5 * width, y - 5.0}, {0.5 * width, y + 5.0}}, kInk, 1.0);
   const double share = std::clamp(turn_rad / kFullTurn_rad, -1.0, 1.0);
   const double tip = (0.5 + 0.48 * share) * width;
@@ -86,20 +61,19 @@ image::RgbImage DrawGlance(const GlanceFrame& frame) {
   const Scaled scaled{picture, std::min(1.0, static_cast<double>(kMostWidth_px) / picture.width)};
   const int width = std::max(1, static_cast<int>(std::lround(scaled.times * picture.width)));
   const int height = std::max(1, static_cast<int>(std::lround(scaled.times * picture.height)));
-  Canvas canvas(width, height + (frame.turn_rad ? kStrip_px : 0), kStrip);
+  Canvas canvas(width, height + (frame.turn_rad ? kStrip_px : 0), kPanel);
   canvas.Paste(InGrey(picture), 0, 0, width, height);
-  DrawFeatures(canvas, scaled, frame);
+  DrawLines(canvas, scaled, frame.features);
+  for (const replay::FeatureView& feature : frame.features) {
+    DrawMark(canvas, scaled.At(feature.at), feature.verdict);
+  }
   if (frame.turn_rad) DrawTurn(canvas, *frame.turn_rad, height);
   return canvas.picture();
 }
 
 std::string GlanceText(const GlanceFrame& frame) {
   if (!frame.turn_rad) return "no turn is asked for";
-  const auto count = [&](FeatureVerdict verdict) {
-    return std::count_if(
-        frame.features.begin(), frame.features.end(),
-        [&](const replay::FeatureView& feature) { return feature.verdict == verdict; });
-  };
+  const auto count = [&](FeatureVerdict verdict) { return CountOf(frame.features, verdict); };
   std::string text = fmt::format("turns {:.1f} degrees {}", Degrees(std::abs(*frame.turn_rad)),
                                  *frame.turn_rad > 0.0 ? "right" : "left");
   if (frame.stored == 0) return text;
