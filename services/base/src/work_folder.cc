@@ -10,7 +10,7 @@ namespace trailcast {
 Result<WorkFolder> WorkFolder::Make() {
   std::error_code error;
   const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
-  std::string pattern = ((error ? "/tmp" : parent) / "trailcast-demo-XXXXXX").string();
+  std::string pattern = ((error ? "/tmp" : parent) / "trailcast-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {
     return Fail(ErrorCode::kUnavailable, "cannot make a temporary folder {}: {}", pattern,
                 std::generic_category().message(errno));
