@@ -81,6 +81,7 @@ TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {
   EXPECT_EQ(Tool({"pause", "robot1"}).status, 0);
   ASSERT_TRUE(agent_->WaitForOutput("trip of operator")) << agent_->output();
   ASSERT_TRUE(agent_->WaitForOutput("paused: paused by operator")) << agent_->output();
+  ASSERT_TRUE(Stands("truth.csv"));
   agent_->Signal(SIGKILL);
   (void)End(*agent_);
   const double at_m = Along_m("truth.csv");
