@@ -14,6 +14,10 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
+    {"GET", "/", std::nullopt},
+    {"GET", "/page.js", std::nullopt},
+    {"GET", "/page.css", std::nullopt},
+    {"GET", "/icon.svg", std::nullopt},
     {"GET", "/api/openapi.yaml", std::nullopt},
     {"POST", "/api/log-in", std::nullopt},
     {"POST", "/api/log-out", std::nullopt},
@@ -74,8 +78,9 @@ Right RightTo(const std::string& method, const std::string& path) {
       return {.is_known = true, .needs = row.needs};
     }
   }
-  // The page itself is no secret.
-  return {.is_known = method == "GET" && !path.starts_with("/api/")};
+  if (method == "GET" && !path.starts_with("/api/"))
+    return {.is_known = true, .needs = Role::kLook};
+  return {};
 }
 
 }  // namespace trailcast::console

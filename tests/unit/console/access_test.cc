@@ -102,8 +102,8 @@ class AccessTest : public testing::Test {
 TEST_F(AccessTest, WhoIsNotLoggedInSeesThePageAlone) {
   EXPECT_EQ(Get("/").status, 200);
   EXPECT_EQ(Get("/page.js").status, 200);
-  for (const char* path :
-       {"/api/state", "/api/events", "/api/missions", "/api/me", "/api/none", "/metrics"}) {
+  for (const char* path : {"/api/state", "/api/events", "/api/missions", "/api/me", "/api/none",
+                           "/metrics", "/none"}) {
     EXPECT_EQ(Get(path).status, 401) << path;
   }
   const Got refused = Post("/api/all/stop");
@@ -245,13 +245,22 @@ TEST(Rights, AreGivenByTheTableAlone) {
   EXPECT_EQ(RightTo("GET", "/api/site").needs, Role::kLook);
   EXPECT_EQ(RightTo("PUT", "/api/site/placements/ab").needs, Role::kOperate);
   EXPECT_EQ(RightTo("GET", "/metrics").needs, Role::kLook);
-  EXPECT_TRUE(RightTo("GET", "/").is_known);
   EXPECT_FALSE(RightTo("POST", "/").is_known);
   for (const char* path : {"/api/robots//stop", "/api/robots/robot1/stop/", "/api/robots/a/b/stop",
                            "/api/robots/robot1", "/api/robots/robot1/dance", "/api/", "/api"}) {
     EXPECT_FALSE(RightTo("POST", path).is_known) << path;
   }
   EXPECT_FALSE(RightTo("DELETE", "/api/state").is_known);
+}
+
+TEST(Rights, ThePagesOwnFilesAloneAreForAnybody) {
+  for (const File& file : Files()) {
+    const Right right = RightTo("GET", file.path);
+    EXPECT_TRUE(right.is_known && !right.needs) << file.path;
+  }
+  for (const char* path : {"/plan.png", "/page.js/more", "/index.html", "//", ""}) {
+    EXPECT_EQ(RightTo("GET", path).needs, Role::kLook) << path;
+  }
 }
 
 // "/api/robots/{robot}/{order}:" and the methods below it. A path with {order} stands for each.
