@@ -21,7 +21,7 @@ struct StateParts {
   std::map<std::string, std::string> robots{};  // by name
   std::string servers = "[]";
   std::string routes = "[]";
-  std::string missions = "[]";
+  std::string missions = "null";  // until it is known whether there are any
 
   bool operator==(const StateParts&) const = default;
 };
@@ -55,8 +55,10 @@ class FleetState {
   // Who has fallen silent meanwhile, and which routes robots are on.
   void Tick(Time now);
   [[nodiscard]] bool Teaches(const AgentId& robot) const;
-  // A robot tells of a mission whose orders are not known here.
-  [[nodiscard]] bool lacks_orders() const { return lacks_orders_; }
+  // Servers were asked for the last missions: that there are none is known from their answer.
+  void AskedForMissions(std::uint64_t request) { asked_for_missions_ = request; }
+  // No server has answered that yet, or a robot tells of a mission whose orders are not known here.
+  [[nodiscard]] bool lacks_missions() const { return lacks_orders_ || !missions_told_; }
   // Routes that robots are on and of which more is to be asked now.
   [[nodiscard]] std::vector<RouteId> TakeLackingRoutes(Time now);
 
@@ -100,6 +102,8 @@ class FleetState {
   std::map<mission::State, std::uint64_t> became_;  // how often missions were seen to
   std::map<route::RouteKey, Route> routes_;
   bool lacks_orders_ = false;
+  bool missions_told_ = false;
+  std::optional<std::uint64_t> asked_for_missions_{};
 };
 
 }  // namespace trailcast::console

@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ConsoleRoutesTest : public ConsoleFleetTest {
  protected:
@@ -39,6 +40,28 @@ class ConsoleRoutesTest : public ConsoleFleetTest {
 
   std::unique_ptr<Browser> browser_;
 };
+
+TEST_F(ConsoleRoutesTest, WhatIsNotKnownYetIsNotSaidToBeAbsent) {
+  server_->Signal(SIGSTOP);
+  Open("fleet");
+  ASSERT_TRUE(browser_->WaitForText("Asks route servers what robots were sent"))
+      << browser_->Text();
+  EXPECT_THAT(browser_->Text(), Not(HasSubstr("No robot was sent")));
+  ASSERT_TRUE(browser_->WaitForText("No robot is heard")) << browser_->Text();
+  server_->Signal(SIGCONT);
+  ASSERT_TRUE(browser_->WaitForText("No robot was sent anywhere yet")) << browser_->Text();
+
+  browser_->Block({"*/api/routes*"});
+  Open("map");
+  ASSERT_TRUE(browser_->WaitForText("Other routes are not listed")) << browser_->Text();
+  browser_->Block({"*/api/me"});
+  browser_->Open("about:blank");
+  Open("fleet");
+  ASSERT_TRUE(browser_->WaitForText("The console does not answer. This page asks again"))
+      << browser_->Text();
+  browser_->Block({});
+  ASSERT_TRUE(browser_->WaitForText("No robot was sent anywhere yet")) << browser_->Text();
+}
 
 TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   for (int revision = 1; revision <= 2; ++revision) {  // the first one is followed, until ..
@@ -107,7 +130,7 @@ TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {
   ASSERT_TRUE(browser_->WaitForText("Commands")) << browser_->Text();
   Open("routes");
   ASSERT_TRUE(browser_->WaitForText("1 of 1")) << browser_->Text();
-  EXPECT_THAT(browser_->Text(), testing::Not(HasSubstr(found)));
+  EXPECT_THAT(browser_->Text(), Not(HasSubstr(found)));
   (void)browser_->Run(
       "const canvas = document.createElement('canvas'); canvas.width = canvas.height = 64;"
       "canvas.toBlob((blob) => { const files = new DataTransfer();"

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/process.h"
 
@@ -71,6 +72,11 @@ class Browser {
         "Emulation.setEmulatedMedia",
         {{"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
   }
+  // From now on, what is asked for at such addresses ('*' is anything) does not come.
+  void Block(const std::vector<std::string>& addresses) {
+    DevTools("Network.enable", Json::object());
+    DevTools("Network.setBlockedURLs", {{"urls", addresses}});
+  }
   // What a script returns.
   Json Run(const std::string& script) {
     return Ask("POST", session_ + "/execute/sync", {{"script", script}, {"args", Json::array()}});
@@ -102,10 +108,15 @@ class Browser {
     } while (std::chrono::steady_clock::now() < gives_up);
     return false;
   }
+  // Once the element is there.
   [[nodiscard]] bool Type(const std::string& xpath, const std::string& keys) {
-    const std::string element = Find(xpath);
-    return !element.empty() &&
-           Ask("POST", session_ + "/element/" + element + "/value", {{"text", keys}}).is_null();
+    const auto gives_up = std::chrono::steady_clock::now() + Process::kBound;
+    std::string element;
+    while ((element = Find(xpath)).empty()) {
+      if (std::chrono::steady_clock::now() > gives_up) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return Ask("POST", session_ + "/element/" + element + "/value", {{"text", keys}}).is_null();
   }
   // Whatever has the focus sees the key go down, and up again after so long.
   [[nodiscard]] bool HoldKey(const std::string& key, int ms) {

@@ -77,7 +77,7 @@ export type Fleet = {
   robots: Robot[];
   servers: Server[];
   routes: Route[];
-  missions: Mission[];
+  missions: Mission[] | null;  // not known yet
 };
 
 // What has changed of it: robots by name, the rest as a whole where it is there.

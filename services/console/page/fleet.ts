@@ -4,9 +4,12 @@ import { askWhoIAm } from './me';
 
 // The console speaks every five seconds at least.
 const kLost_ms = 12000;
+// Who is not heard so long after the first word of a console, which may just have started, is not there.
+const kSettles_ms = 4000;
 
 export type View = {
   fleet: Fleet | null;
+  settled: boolean;  // what it does not tell of is not there
   lost: boolean;   // this page hears nothing of the console
   now_ms: number;  // by the console's clock
   heard_ms: number;
@@ -26,6 +29,7 @@ export function useFleet(): View {
   const [fleet, setFleet] = useState<Fleet | null>(null);
   const [offset_ms, setOffset] = useState(0);
   const [heard_ms, setHeard] = useState(Date.now());
+  const [told_ms, setTold] = useState(0);
   const [open, setOpen] = useState(true);
   const [now_ms, setNow] = useState(Date.now());
 
@@ -42,6 +46,7 @@ export function useFleet(): View {
       source.addEventListener('state', (event) => {
         const state = JSON.parse((event as MessageEvent).data) as Fleet;
         setFleet(state);
+        setTold(Date.now());
         heard(state.now_unix_ms);
       });
       source.addEventListener('change', (event) => {
@@ -69,7 +74,8 @@ export function useFleet(): View {
   }, []);
 
   const lost = !open || now_ms - heard_ms > kLost_ms;
-  return { fleet, lost, now_ms: now_ms + offset_ms, heard_ms: heard_ms + offset_ms };
+  const settled = fleet !== null && now_ms - told_ms > kSettles_ms;
+  return { fleet, settled, lost, now_ms: now_ms + offset_ms, heard_ms: heard_ms + offset_ms };
 }
 
 export function age(ms: number): string {

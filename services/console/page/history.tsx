@@ -38,7 +38,9 @@ function Filters({ ofMissions, onSearch }: { ofMissions: boolean; onSearch: (sea
 }
 
 // Page after page of what a server keeps, the newest first.
-function useRecords<Page extends { next: number }, Each>(path: string, search: Search, list: (page: Page) => Each[]) {
+function useRecords<Page extends { next: number }, Each>(
+  path: string, search: Search, list: (page: Page) => Each[], none = 'There is none.',
+) {
   const [records, setRecords] = useState<Each[]>([]);
   const [last, setLast] = useState<Page | string | null>(null);
   const [before, setBefore] = useState(0);
@@ -57,7 +59,7 @@ function useRecords<Page extends { next: number }, Each>(path: string, search: S
   useEffect(() => setBefore(0), [search]);
   const told = last === null ? 'Asks …'
     : typeof last === 'string' ? `⚠ ${last}`
-    : records.length === 0 ? 'There is none.' : '';
+    : records.length === 0 ? none : '';
   const next = last !== null && typeof last !== 'string' ? last.next : 0;
   return {
     records,
@@ -82,7 +84,7 @@ function Life({ mission }: { mission: Mission }) {
     until_unix_ms: String(Math.max(mission.changed_unix_ms, mission.sent_unix_ms) + 1000),
     limit: '100',
   });
-  const { records, told, more } = useRecords('/api/commands', search, commandsOf);
+  const { records, told, more } = useRecords('/api/commands', search, commandsOf, 'It was told nothing meanwhile.');
   const over = ['arrived', 'failed', 'cancelled', 'refused', 'expired'].includes(mission.state);
   const happened = [
     { unix_ms: mission.sent_unix_ms, text: `Sent by ${mission.sent_by || 'somebody'}: ${mission.orders || '(orders not told)'}` },
@@ -100,7 +102,7 @@ function Life({ mission }: { mission: Mission }) {
           <li key={i}><time>{at(each.unix_ms)}</time> {each.text}</li>
         ))}
       </ol>
-      {records.length === 0 ? told : null}{more}
+      {told}{more}
     </div>
   );
 }

@@ -1,4 +1,4 @@
-import { useRef, useState, type FormEvent, type ReactNode } from 'react';
+import { useEffect, useRef, useState, type FormEvent, type ReactNode } from 'react';
 import { askWhoIAm, setMe, useMe } from './me';
 
 function LogIn() {
@@ -44,10 +44,27 @@ function LogIn() {
   );
 }
 
+const kAgain_ms = 2000;
+
 // What only those see who are let in.
 export function Doors({ children }: { children: ReactNode }) {
   const me = useMe();
-  if (me === null) return null;
+  const [why, setWhy] = useState('');
+  const [asks, setAsks] = useState(0);
+  useEffect(() => {
+    if (me !== null) return;
+    let timer: number | undefined;
+    let over = false;
+    askWhoIAm().then((problem) => {
+      setWhy(problem);
+      if (!over) timer = window.setTimeout(() => setAsks(asks + 1), kAgain_ms);
+    });
+    return () => {
+      over = true;
+      window.clearTimeout(timer);
+    };
+  }, [me, asks]);
+  if (me === null) return <p className="banner" role="alert" hidden={!why}>⚠ {why} This page asks again.</p>;
   return me === 'out' ? <LogIn /> : <>{children}</>;
 }
 

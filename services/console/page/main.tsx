@@ -31,14 +31,15 @@ function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   );
 }
 
-function Robots({ fleet, now_ms }: { fleet: Fleet | null; now_ms: number }) {
+function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: boolean; now_ms: number }) {
   const robots = fleet?.robots ?? [];
   return (
     <>
       <Attention robots={robots} now_ms={now_ms} />
       <Lines robots={robots} />
       <section aria-label="Robots" className="robots">
-        {fleet && robots.length === 0 && (
+        {!settled && robots.length === 0 && <p className="note">Listens for robots …</p>}
+        {settled && robots.length === 0 && (
           <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
         )}
         {robots.map((robot) => (
@@ -47,14 +48,14 @@ function Robots({ fleet, now_ms }: { fleet: Fleet | null; now_ms: number }) {
       </section>
       <section aria-label="Missions">
         <h2>Missions</h2>
-        <Missions missions={fleet?.missions ?? []} now_ms={now_ms} />
+        <Missions missions={fleet?.missions ?? null} now_ms={now_ms} />
       </section>
     </>
   );
 }
 
 function Page() {
-  const { fleet, lost, now_ms, heard_ms } = useFleet();
+  const { fleet, settled, lost, now_ms, heard_ms } = useFleet();
   const [answer, setAnswer] = useState<Answer | null>(null);
   const { page, open } = usePage();
   const mayOperate = useMay('operate');
@@ -76,21 +77,27 @@ function Page() {
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
       <OnlyLooks />
-      {lost && (
+      {lost && !fleet && (
+        <p className="banner" role="alert">
+          ⚠ The console tells this page nothing: it does not answer, or too many pages look already.
+          This one asks again, and Stop may not reach the robots.
+        </p>
+      )}
+      {lost && fleet && (
         <p className="banner" role="alert">
           ⚠ This page has lost its console. What it shows is from {age(now_ms - heard_ms)} ago, and
           Stop does not reach the robots.
         </p>
       )}
-      {fleet && !lost && !servers.some((server) => server.heard) && (
+      {settled && !lost && !servers.some((server) => server.heard) && (
         <p className="banner" role="alert">
           ⚠ No route server is heard: no routes to choose from, nothing is kept, and only robots in
           direct reach hear this console.
         </p>
       )}
       <main>
-        {page === 'fleet' && <Robots fleet={fleet} now_ms={now_ms} />}
-        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} />}
+        {page === 'fleet' && <Robots fleet={fleet} settled={settled} now_ms={now_ms} />}
+        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} settled={settled} />}
         {page === 'routes' && <Routes open={open} />}
         {page === 'history' && <History open={open} now_ms={now_ms} />}
       </main>

@@ -127,12 +127,15 @@ export function RoutePicker({ label, live, chosen, onChoose }: {
   onChoose: (route: Route) => void;
 }) {
   const [found, setFound] = useState<Route[]>([]);
+  const [why, setWhy] = useState('');
   const [prefix, setPrefix] = useState('');
   useEffect(() => {
     let over = false;
     const timer = window.setTimeout(async () => {
       const page = await get<{ routes: Route[] }>('/api/routes', { prefix, state: 'active', sort: 'name', limit: '30' });
-      if (!over && typeof page !== 'string') setFound(page.routes);
+      if (over) return;
+      setWhy(typeof page === 'string' ? page : '');
+      if (typeof page !== 'string') setFound(page.routes);
     }, prefix ? 300 : 0);
     return () => {
       over = true;
@@ -156,11 +159,12 @@ export function RoutePicker({ label, live, chosen, onChoose }: {
       <label>Find others by the beginning of a name
         <input type="search" value={prefix} maxLength={64} autoComplete="off" onChange={(event) => setPrefix(event.target.value.trim())} />
       </label>
+      {why && <p className="answer bad" role="status">⚠ Other routes are not listed: {why}</p>}
     </>
   );
 }
 
-function ShapeView({ robots, live }: { robots: Robot[]; live: Route[] }) {
+function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; settled: boolean }) {
   const [chosen, setChosen] = useState<Route | null>(null);
   const [measure, setMeasure] = useState<Measure>('features');
   const route = chosen ?? live[0] ?? null;
@@ -179,7 +183,7 @@ function ShapeView({ robots, live }: { robots: Robot[]; live: Route[] }) {
           </select>
         </label>
       </div>
-      {!route && <p className="note">No robot is on a route: choose one.</p>}
+      {!route && <p className="note">{settled ? 'No robot is on a route: choose one.' : 'Listens for robots …'}</p>}
       {route && error && <p className="note">The shape of {route.name} is not there: {error}.</p>}
       {route && !shape && !error && <p className="note">Fetching the shape of {route.name}: {Math.round(100 * fetched)} %</p>}
       {route && shape?.unit === 's' && <p className="note">{route.name} was taught without odometry: it has no shape.</p>}
@@ -210,7 +214,7 @@ function ShapeView({ robots, live }: { robots: Robot[]; live: Route[] }) {
 const layers = { shape: 'Shape of a route', site: 'Site' };
 type Layer = keyof typeof layers;
 
-export function MapPage({ robots, routes }: { robots: Robot[]; routes: Route[] }) {
+export function MapPage({ robots, routes, settled }: { robots: Robot[]; routes: Route[]; settled: boolean }) {
   const [layer, setLayer] = useState<Layer>('shape');
   return (
     <section className="map" aria-label="Map">
@@ -222,7 +226,7 @@ export function MapPage({ robots, routes }: { robots: Robot[]; routes: Route[] }
           </label>
         ))}
       </div>
-      {layer === 'shape' ? <ShapeView robots={robots} live={routes} /> : <SiteView robots={robots} live={routes} />}
+      {layer === 'shape' ? <ShapeView robots={robots} live={routes} settled={settled} /> : <SiteView robots={robots} live={routes} />}
     </section>
   );
 }

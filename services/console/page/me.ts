@@ -1,4 +1,4 @@
-import { useEffect, useSyncExternalStore } from 'react';
+import { useSyncExternalStore } from 'react';
 
 // Who looks at this page, and what the console lets them do.
 export type Me = {
@@ -20,14 +20,17 @@ export function setMe(now: Known) {
   listeners.forEach((listener) => listener());
 }
 
-// What the console says now; as before where it does not answer.
-export async function askWhoIAm() {
+// What the console says now; as before where it does not answer, and why not.
+export async function askWhoIAm(): Promise<string> {
   try {
     const reply = await fetch('/api/me');
+    const said = await reply.json();
     if (reply.status === 401) setMe('out');
-    if (reply.ok) setMe(await reply.json());
+    else if (!reply.ok) return said.error;
+    else setMe(said);
+    return '';
   } catch {
-    // The page says that it has lost its console.
+    return 'The console does not answer.';
   }
 }
 
@@ -37,11 +40,7 @@ function listen(listener: () => void) {
 }
 
 export function useMe(): Known {
-  const me = useSyncExternalStore(listen, () => known);
-  useEffect(() => {
-    if (known === null) askWhoIAm();
-  }, []);
-  return me;
+  return useSyncExternalStore(listen, () => known);
 }
 
 export function useMay(role: Me['role']): boolean {

@@ -1,7 +1,8 @@
 import type { Mission } from './api';
 import { age } from './fleet';
 
-export function Missions({ missions, now_ms }: { missions: Mission[]; now_ms: number }) {
+export function Missions({ missions, now_ms }: { missions: Mission[] | null; now_ms: number }) {
+  if (missions === null) return <p className="note">Asks route servers what robots were sent to do …</p>;
   if (missions.length === 0) return <p className="note">No robot was sent anywhere yet.</p>;
   return (
     <table>

@@ -39,7 +39,7 @@ export function Send({ robot, onAnswer }: {
   onAnswer: (answer: Answer | null) => void;
 }) {
   const [prefix, setPrefix] = useState('');
-  const [found, setFound] = useState<RoutePage | string | null>(null);
+  const [found, setFound] = useState<{ of: string; page: RoutePage | string } | null>(null);
   const [chosen, setChosen] = useState('');
   const [laps, setLaps] = useState(1);
   const [speed, setSpeed] = useState('1');
@@ -48,7 +48,7 @@ export function Send({ robot, onAnswer }: {
     let still = true;
     const timer = window.setTimeout(async () => {
       const page = await get<RoutePage>('/api/routes', { prefix, state: 'active', sort: 'name', limit: '50' });
-      if (still) setFound(page);
+      if (still) setFound({ of: prefix, page });
     }, prefix ? 250 : 0);
     return () => {
       still = false;
@@ -56,9 +56,10 @@ export function Send({ robot, onAnswer }: {
     };
   }, [prefix]);
   if (found === null) return <p className="note">Asks for routes …</p>;
-  const why = typeof found === 'string' ? found : '';
-  const routes = typeof found === 'string' ? [] : found.routes;
-  const total = typeof found === 'string' ? 0 : found.total;
+  const { of, page } = found;
+  const why = of !== prefix ? 'Asks …' : typeof page === 'string' ? `⚠ ${page}` : '';
+  const routes = typeof page === 'string' ? [] : page.routes;
+  const total = typeof page === 'string' ? 0 : page.total;
   const route = routes.find((each) => each.route === chosen) ?? routes[0];
   if (!route && !prefix) return <p className="note">{why || 'No route is known: teach one.'}</p>;
   const sameName = route && routes.filter((each) => each.name === route.name).length > 1;

@@ -21,15 +21,16 @@ function byItsPlace(route: Route, origin: Origin | null): Placement | null {
   return { x_m: x, y_m: y, heading_rad: 0, scale: 1 };
 }
 
-function usePlanSize(site: Site | null): { width: number; height: number } | null {
+function usePlanSize(site: Site | null, onMissing: () => void): { width: number; height: number } | null {
   const [size, setSize] = useState<{ width: number; height: number } | null>(null);
   const perPixel = site?.plan?.metres_per_pixel ?? 0;
   useEffect(() => {
     if (perPixel <= 0) return;
     const picture = new Image();
     picture.onload = () => setSize({ width: picture.naturalWidth * perPixel, height: picture.naturalHeight * perPixel });
+    picture.onerror = onMissing;
     picture.src = '/api/site/plan';
-    return () => { picture.onload = null; };
+    return () => { picture.onload = picture.onerror = null; };
   }, [perPixel]);
   return size;
 }
@@ -152,7 +153,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
   const [zoom, setZoom] = useState(1);
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [boxes, setBoxes] = useState<Record<string, Box>>({});
-  const plan = usePlanSize(site);
+  const plan = usePlanSize(site, () => setAnswer({ ok: false, text: 'The floor plan does not load.' }));
   const mayPlace = useMay('operate') && site?.kept;
 
   useEffect(() => {
@@ -166,6 +167,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
       const add = async (query: Record<string, string>) => {
         const page = await get<{ routes: Route[] }>('/api/routes', query);
         if (typeof page !== 'string') found.push(...page.routes);
+        else if (!over) setAnswer({ ok: false, text: `Some routes are not shown: ${page}` });
       };
       const near = { within_m: kSite_m, state: 'active', limit: String(kMostRoutes) };
       await add({ ...near, near_site: '0,0' });

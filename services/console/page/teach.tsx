@@ -176,7 +176,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
     <section className="lesson" aria-label={`${robot.name} teaches ${robot.route}`}>
       <dl>
         <div><dt>Route</dt><dd>{robot.route}</dd></div>
-        <div><dt>Taught</dt><dd>{(robot.along_m ?? 0).toFixed(1)} m</dd></div>
+        <div><dt>Taught</dt><dd>{robot.along_m === null ? '–' : `${robot.along_m.toFixed(1)} m`}</dd></div>
         <div><dt>Segments</dt><dd>{robot.segments}</dd></div>
         <div><dt>Features in view</dt><dd>{robot.features}</dd></div>
       </dl>

@@ -369,8 +369,10 @@ void Desk::AskServers(Clock::time_point now) {
   ask_at_ = now + options_.ask_every;
   mission::Query latest;
   latest.page_size = static_cast<std::uint32_t>(FleetState::kMissionsShown);
+  const std::uint64_t request = fleet::DrawNumber();
+  state_.AskedForMissions(request);
   (void)exchange_->Publish(
-      exchange::MissionRequest{.client = self_, .request = fleet::DrawNumber(), .query = latest});
+      exchange::MissionRequest{.client = self_, .request = request, .query = latest});
 }
 
 void Desk::ShowNews(Clock::time_point now) {
@@ -382,7 +384,7 @@ void Desk::ShowNews(Clock::time_point now) {
   }
   show_at_ = now + kNewsEvery;
   state_.Tick(now);
-  if (state_.lacks_orders()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
+  if (state_.lacks_missions()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
   AskServers(now);
   for (const RouteId& route : state_.TakeLackingRoutes(now)) {
     route::RouteQuery revisions;

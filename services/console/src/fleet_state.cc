@@ -76,6 +76,7 @@ void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
 
 void FleetState::On(const exchange::MissionReply& reply) {
   lacks_orders_ = false;
+  if (reply.request == asked_for_missions_ && reply.error.empty()) missions_told_ = true;
   // The newest first, and the newest is to stay longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
     const MissionName name{record->mission.agent, record->mission.id};
@@ -218,6 +219,7 @@ bool FleetState::Teaches(const AgentId& robot) const {
 }
 
 std::string FleetState::MissionsJson() const {
+  if (missions_.size() == 0 && !missions_told_) return "null";
   std::vector<const mission::Record*> newest;
   for (const auto& [name, record] : missions_) newest.push_back(&record);
   std::stable_sort(newest.begin(), newest.end(), [](const auto* one, const auto* other) {

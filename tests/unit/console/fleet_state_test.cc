@@ -149,10 +149,11 @@ TEST_F(FleetStateTest, NothingChangesWhileARobotSaysTheSame) {
 TEST_F(FleetStateTest, AMissionIsWhatTheRobotSaidLastWithOrdersFromWhoKnowsThem) {
   Hear(Status("robot1", AgentMode::kReplaying));
   Hear(Report("trip", 3, State::kUnderWay));
-  EXPECT_TRUE(state_.lacks_orders());
   EXPECT_EQ(Robot()["mission"]["orders"], "");
+  state_.AskedForMissions(0);
+  EXPECT_TRUE(state_.lacks_missions());
   Hear(Kept(Report("trip", 2, State::kFetching), 500));
-  EXPECT_FALSE(state_.lacks_orders());
+  EXPECT_FALSE(state_.lacks_missions());
   EXPECT_EQ(Robot()["mission"]["state"], "under way") << "the newer";
   EXPECT_EQ(Robot()["mission"]["orders"], "follow hall");
   EXPECT_EQ(Robot()["orders"], json({"pause", "cancel", "stop"}));
@@ -163,6 +164,23 @@ TEST_F(FleetStateTest, AMissionIsWhatTheRobotSaidLastWithOrdersFromWhoKnowsThem)
   Hear(Kept(Report("next", 1, State::kAccepted), 600));
   EXPECT_EQ(Robot()["needs_person"], false);
   EXPECT_EQ(Shown()["missions"][0]["mission"], "next") << "the newest first";
+}
+
+TEST_F(FleetStateTest, ThatThereAreNoMissionsIsKnownOnlyFromAServer) {
+  EXPECT_EQ(Shown()["missions"], nullptr);
+  state_.AskedForMissions(17);
+  exchange::MissionReply reply{.client = AgentId("desk"), .request = 16};
+  Hear(reply);
+  EXPECT_EQ(Shown()["missions"], nullptr) << "of another question";
+  reply.request = 17;
+  reply.error = "its disk is full";
+  Hear(reply);
+  EXPECT_TRUE(state_.lacks_missions());
+  EXPECT_EQ(Shown()["missions"], nullptr);
+  reply.error.clear();
+  Hear(reply);
+  EXPECT_FALSE(state_.lacks_missions());
+  EXPECT_EQ(Shown()["missions"], json::array());
 }
 
 TEST_F(FleetStateTest, SilentInTheMiddleOfAMissionNeedsAPerson) {
