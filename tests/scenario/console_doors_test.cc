@@ -1,17 +1,13 @@
 // Who may use the console: users over TLS, and those who are none.
-#include <httplib.h>
 #include <sys/stat.h>
 
 #include <atomic>
-#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "tests/scenario/console_fleet.h"
+#include "tests/scenario/console_users.h"
 #include "tests/scenario/secured_fleet.h"
-#include "tests/scenario/webdriver.h"
-#include "tests/support/self_signed.h"
 
 namespace trailcast::test {
 namespace {
@@ -22,73 +18,14 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kPassword = "correct horse";
-
-class ConsoleDoorsTest : public ConsoleFleetTest {
+class ConsoleDoorsTest : public ConsoleUsersTest {
  protected:
-  // Of OpenSSL, which says farewell to a console that has hung up.
-  void SetUp() override { std::signal(SIGPIPE, SIG_IGN); }
-
-  Words UsersWords(const Words& words) const {
-    return With(With({"users"}, words), {"--users", Path("users")});
-  }
-  // `input`: what comes on its standard input.
-  Ended Users(const Words& words, const std::string& input = kPassword) {
-    std::string line = "printf '%s\\n' \"$0\" | \"$@\"";
-    Words argv{"/bin/sh", "-c", line, input,
-               std::string(TRAILCAST_BINARY_DIR) + "/trailcast-console"};
-    Process process(With(std::move(argv), UsersWords(words)), Path("users.log"));
-    return End(process);
-  }
-  void AddUser(const std::string& name, const std::string& role) {
-    const Ended added = Users({"add", name, "--role", role});
-    ASSERT_EQ(added.status, 0) << added.output;
-  }
-  void StartWithTls() {
-    StartConsole({"--users", Path("users"), "--tls-certificate", files_.certificate.string(),
-                  "--tls-key", files_.key.string()});
-  }
-  std::unique_ptr<httplib::SSLClient> Client() {
-    auto client = std::make_unique<httplib::SSLClient>("localhost", port_);
-    client->set_ca_cert_path(files_.certificate.c_str());
-    client->enable_server_certificate_verification(true);
-    client->set_connection_timeout(20);
-    client->set_read_timeout(30);
-    return client;
-  }
-  struct Replied {
-    int status = 0;
-    json body{};
-    std::string cookie{};
-  };
-  static Replied Of(const httplib::Result& got) {
-    if (!got) return {};
-    const std::string set = got->get_header_value("Set-Cookie");
-    return {got->status, json::parse(got->body, nullptr, false), set.substr(0, set.find(';'))};
-  }
-  Replied Get(const std::string& path, const httplib::Headers& headers = {}) {
-    return Of(Client()->Get(path, headers));
-  }
-  Replied Post(const std::string& path, const httplib::Headers& headers = {},
-               const json& body = json::object()) {
-    return Of(Client()->Post(path, headers, body.dump(), "application/json"));
-  }
-  Replied LogIn(const std::string& user, const std::string& password) {
-    return Post("/api/log-in", {}, {{"user", user}, {"password", password}});
-  }
-  // As its page has them, logged in.
-  httplib::Headers As(const std::string& user) {
-    return {{"Cookie", LogIn(user, kPassword).cookie},
-            {"Origin", "https://localhost:" + std::to_string(port_)}};
-  }
   std::size_t ConsolesBytes() {
     std::ifstream statm("/proc/" + std::to_string(console_->pid()) + "/statm");
     std::size_t pages = 0;
     statm >> pages >> pages;
     return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   }
-
-  SelfSigned files_ = MakeSelfSigned(folder_ / "");
 };
 
 TEST_F(ConsoleDoorsTest, EachMayWhatTheirRoleSays) {
@@ -268,24 +205,18 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   StartConsole({"--users", Path("users")});
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
-  const auto log_in = [&](const std::string& user, const std::string& password) {
-    const std::string enter = "\xEE\x80\x87";
-    return browser.Type("//input[@name='user']", user) &&
-           browser.Type("//input[@name='password']", password + enter);
-  };
   browser.Look(390, 844);
   browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
   EXPECT_THAT(browser.Text(), Not(HasSubstr("robot1")));
-  ASSERT_TRUE(log_in("anna", "wrong horse"));
+  ASSERT_TRUE(LogInPage(browser, "anna", "wrong horse"));
   ASSERT_TRUE(browser.WaitForText("do not belong together")) << browser.Text();
   browser.Screenshot(Shot("phone-log-in"));
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-log-in"));
   browser.Look(390, 844);
   browser.Open(Page());
-  ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
-  ASSERT_TRUE(log_in("anna", kPassword));
+  ASSERT_TRUE(LogInPage(browser, "anna"));
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("anna")) << browser.Text();
   EXPECT_EQ(browser.Run("return document.cookie"), "") << "no script reads the session";
@@ -294,8 +225,7 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   browser.Screenshot(Shot("phone-logged-in"));
 
   ASSERT_TRUE(browser.Click("//button[. = 'Log out']"));
-  ASSERT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
-  ASSERT_TRUE(log_in("guest", kPassword));
+  ASSERT_TRUE(LogInPage(browser, "guest"));
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
   EXPECT_THAT(browser.Text(), HasSubstr("You may look, and not tell robots anything"));
   EXPECT_EQ(browser.Run("return document.querySelectorAll('button.stop').length"), 0);

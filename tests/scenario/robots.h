@@ -68,11 +68,11 @@ class RobotsTest : public ProgramsTest {
                       Drives(robot)),
                  log);
   }
-  // Route 'hall', into this store.
-  void Teach(const std::string& store = "routes.db", const std::string& path = kPath) {
+  void Teach(const std::string& store = "routes.db", const std::string& path = kPath,
+             const std::string& route = "hall") {
     const auto robot = Robot("scout", {"--scout", "--lockstep"}, path);
     const auto scout =
-        RunAgent(With(With({"teach", "--route", "hall", "--store", Path(store)}, Drives("scout")),
+        RunAgent(With(With({"teach", "--route", route, "--store", Path(store)}, Drives("scout")),
                       {"--lockstep", "--end-when-still", "1"}));
     ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
   }

@@ -45,11 +45,12 @@ class Browser {
                     "--disable-sync",
                     "--disable-dev-shm-usage",
                     "--user-data-dir=" + profile};
-    const Json made =
-        Ask("POST", "/session",
-            {{"capabilities",
-              {{"alwaysMatch",
-                {{"browserName", "chrome"}, {"goog:chromeOptions", {{"args", args}}}}}}}});
+    const Json made = Ask("POST", "/session",
+                          {{"capabilities",
+                            {{"alwaysMatch",
+                              {{"browserName", "chrome"},
+                               {"acceptInsecureCerts", true},  // tests sign their own
+                               {"goog:chromeOptions", {{"args", args}}}}}}}});
     if (made.contains("sessionId")) session_ = "/session/" + made["sessionId"].get<std::string>();
   }
   ~Browser() {
