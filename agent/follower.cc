@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/comfort.h"
+#include "agent/device/ear_for_trouble.h"
 #include "agent/device/standstill.h"
 #include "agent/glances.h"
 #include "agent/progress_watch.h"
@@ -165,7 +166,7 @@ Result<bool> Loop::WaitForFeed() {
 
 Result<void> Loop::Run() {
   const Standstill standstill(device_);
-  device_.OnTrouble([this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
+  const EarForTrouble ear(device_, [this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
   while (true) {
     if (options_.link.stop()) {
       End("STOPPED", "stopped by a signal");
