@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "agent/device/ear_for_trouble.h"
 #include "agent/device/standstill.h"
 #include "agent/glances.h"
 #include "agent/going_on.h"
@@ -121,6 +122,10 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   teach.recorder.first_index = link.first_index();
   TeachSession session(teach);
   TeachingNow now;
+  const EarForTrouble ear(device, [&](const RobotDevice::Halt& halt) {
+    now.stands = halt.what;
+    link.Report(now);
+  });
   std::optional<Observation> observation = std::move(first);
   Result<void> result;
   while (result && observation && !options.link.stop()) {

@@ -32,12 +32,12 @@ class RobotDevice {
     bool fault = true;  // something of the robot has failed; otherwise it waits
   };
   // Whom Next tells, from its own thread, that the robot had to be stopped, and that it may drive
-  // again. Devices that never have to wait for their robot do not call it.
+  // again (EarForTrouble). Devices that never have to wait for their robot do not call it.
   using Trouble = std::function<void(const Halt& halt)>;
   virtual void OnTrouble(const Trouble& /*tell*/) {}
 
-  // A person drives it from now on, in whatever way, or no longer: what stands in its way is theirs
-  // to see.
+  // A person drives it from now on, in whatever way, or no longer. Frames then come also while it
+  // stands before something, so that it can be driven away from there.
   virtual void ByHand(bool /*begins*/) {}
   // For people who look through the camera of a robot that does not drive, from the thread that
   // calls Next: what it sees now, without waiting. kUnavailable says why there is no picture.

@@ -40,8 +40,9 @@ class ObstacleWatch {
   [[nodiscard]] bool Reaches(Time time) const;
 
   // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
-  // looks: the same bend, slower, or nothing, for which the robot then waits. Backwards, where none
-  // of them looks, no faster than kUnseen_mps.
+  // looks: the same bend, slower, or nothing, for which the robot then waits; asked to go another
+  // way meanwhile, which is free, it goes at once. Backwards, where none of them looks, no faster
+  // than kUnseen_mps.
   [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& wanted);
   static constexpr double kUnseen_mps = 0.15;
   // It is to drive backwards, and none of them looks there.
@@ -56,7 +57,8 @@ class ObstacleWatch {
   };
   void Note(Time now);
   [[nodiscard]] bool RangeLooksBack() const;
-  [[nodiscard]] bool Clear() const;
+  [[nodiscard]] bool Clear(const motion::VelocityCommand& way) const;
+  [[nodiscard]] bool LeadsAway() const;
   [[nodiscard]] motion::VelocityCommand Slowed(const motion::VelocityCommand& command,
                                                double way_m) const;
   [[nodiscard]] std::string Text(const motion::InTheWay& met) const;
@@ -70,6 +72,7 @@ class ObstacleWatch {
   std::vector<std::optional<Look>> ranges_;
   std::vector<Eigen::Vector2d> points_;  // of them all
   motion::VelocityCommand wanted_;
+  motion::VelocityCommand stopped_;  // the way on which it met what it waits for
   std::optional<std::string> waits_;
   std::optional<Time> clear_since_;
 };

@@ -40,7 +40,8 @@ struct Ros2Run {
 // A ROS 2 robot over DDS, without ROS. A thread of its own hears the robot, and tells it to stand
 // within a moment of sensor_timeout when something fails (RobotWatch), or when the loop that
 // drives it hangs; Next then waits for what failed to come back, at most `patience`. Something in
-// the way (ObstacleWatch) is no failure: for that Next waits until it is gone.
+// the way (ObstacleWatch) is no failure: for that Next waits until it is gone; of a robot that is
+// driven by hand it only tells.
 class Ros2Device final : public RobotDevice {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Device>> Open(const Ros2Run& run);

@@ -22,6 +22,7 @@ struct TeachingNow {
   std::optional<double> drive_progress;
   double speed_mps = 0.0;
   int features = 0;
+  std::string stands;  // why the robot had to be stopped, one line for people; empty: it was not
 };
 
 struct ScoutLinkOptions {

@@ -62,10 +62,12 @@ class RobotsTest : public ProgramsTest {
   // Half as fast as it could: a tool that starts late on a busy machine finds it on its way.
   static constexpr const char* kUnhurried_mps = "0.25";
   // A robot's agent, on duty; the store has its routes.
-  std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty") {
-    return Agent(With({"serve", "--store", Path("routes.db"), "--name", robot, "--max-speed",
-                       kUnhurried_mps, "--battery-topic", "battery_state"},
-                      Drives(robot)),
+  std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty",
+                                 const Words& more = {}) {
+    return Agent(With(With({"serve", "--store", Path("routes.db"), "--name", robot, "--max-speed",
+                            kUnhurried_mps, "--battery-topic", "battery_state"},
+                           Drives(robot)),
+                      more),
                  log);
   }
   void Teach(const std::string& store = "routes.db", const std::string& path = kPath,

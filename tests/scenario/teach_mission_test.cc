@@ -23,8 +23,8 @@ class TeachMissionTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     server_ = Server();
-    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
-    agent_ = Serve("robot1");
+    robot_ = Robot("robot1", With({"--sim-truth", Path("truth.csv")}, stands_there_));
+    agent_ = Serve("robot1", "duty", senses_);
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
     StartConsole();
     ASSERT_TRUE(WaitForState("free"));
@@ -84,10 +84,17 @@ class TeachMissionTest : public ConsoleFleetTest {
     }
     return since_s;
   }
+  // For the last half second of its truth.
+  bool Stood() {
+    const auto rows = Truth();
+    return !rows.empty() && rows.back()[0] - StoodSince_s() > 0.5;
+  }
   Ended Tool(const Words& words) {
     return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
   }
 
+  Words stands_there_;  // options of the robot
+  Words senses_;        // of its agent
   int tools_ = 0;
   double longest_word_ms_ = 0.0;
 };
@@ -164,6 +171,41 @@ TEST_F(TeachMissionTest, AfterARestartTheTeachingHasFailedAndNothingMoves) {
   EXPECT_THAT(Became("lesson"), HasSubstr("has started again in the middle"));
   EXPECT_NEAR(Along_m("truth.csv"), at_m, 0.02);
   EXPECT_TRUE(Get("/api/routes?name=yard&state=active")["routes"].empty());
+}
+
+// A pillar on its way, and a scanner that sees it.
+class TeachBeforeAPillarTest : public TeachMissionTest {
+ protected:
+  TeachBeforeAPillarTest() {
+    stands_there_ = {"--obstacle", "3,1.5,0.2@0"};
+    senses_ = {"--scan-topic", "scan", "--robot-width", "0.4"};
+  }
+};
+
+TEST_F(TeachBeforeAPillarTest, WhoIsDrivenByHandStandsBeforeItAndIsDrivenAway) {
+  SendToTeach("teach yard", "lesson");
+  const auto says = [&] { return Robot1().value("detail", ""); };
+  // A word in time, whatever came of the one before.
+  const auto drive_until = [&](double linear_mps, double turn_radps, const auto& done) {
+    return WaitUntil([&] {
+      EXPECT_EQ(Say(linear_mps, turn_radps).status, 200);
+      std::this_thread::sleep_for(milliseconds(60));
+      return done();
+    });
+  };
+  ASSERT_TRUE(drive_until(
+      0.4, 0.0, [&] { return says().starts_with("something stands 0.") && Stood(); }))
+      << says() << agent_->output();
+  const double stood_m = Along_m("truth.csv");
+  // Its front is 0.2 m ahead of its axle, the pillar's near side at 2.8 m.
+  EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
+  EXPECT_GT(stood_m, 2.8 - 0.2 - 0.5);
+  EXPECT_TRUE(Robot1().value("teaches", false));
+  ASSERT_TRUE(drive_until(-0.2, 0.0,
+                          [&] { return Along_m("truth.csv") < stood_m - 0.2 && says().empty(); }))
+      << says() << agent_->output();
+  EXPECT_EQ(Tool({"cancel", "robot1"}).status, 0);
+  EXPECT_TRUE(WaitForEnd("lesson", "cancelled")) << Became("lesson");
 }
 
 TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {

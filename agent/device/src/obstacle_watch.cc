@@ -82,7 +82,7 @@ void ObstacleWatch::Note(Time now) {
     if (look) points_.insert(points_.end(), look->points.begin(), look->points.end());
   }
   if (!waits_) return;
-  if (!Clear()) {
+  if (!Clear(wanted_)) {
     clear_since_.reset();
     return;
   }
@@ -90,9 +90,14 @@ void ObstacleWatch::Note(Time now) {
   if (now - *clear_since_ >= kClearFor) waits_.reset();
 }
 
-bool ObstacleWatch::Clear() const {
-  const auto met = motion::FirstMet(points_, outline_, wanted_);
+bool ObstacleWatch::Clear(const motion::VelocityCommand& way) const {
+  const auto met = motion::FirstMet(points_, outline_, way);
   return !met || met->way_m > options_.gap_m + kFurther_m;
+}
+
+// From what still stands there.
+bool ObstacleWatch::LeadsAway() const {
+  return wanted_ != motion::VelocityCommand{} && Clear(wanted_) && !Clear(stopped_);
 }
 
 // So that it still can stand before what it meets in so far.
@@ -108,6 +113,7 @@ motion::VelocityCommand ObstacleWatch::Slowed(const motion::VelocityCommand& com
 
 motion::VelocityCommand ObstacleWatch::Want(const motion::VelocityCommand& wanted) {
   wanted_ = wanted;
+  if (waits_ && LeadsAway()) waits_.reset();
   if (waits_) return {};
   motion::VelocityCommand command = wanted;
   if (backs_unseen() && wanted.linear_mps < -kUnseen_mps) {
@@ -119,6 +125,7 @@ motion::VelocityCommand ObstacleWatch::Want(const motion::VelocityCommand& wante
   const motion::VelocityCommand slowed = Slowed(command, met->way_m);
   if (slowed == motion::VelocityCommand{}) {
     waits_ = Text(*met);
+    stopped_ = command;
     clear_since_.reset();
   }
   return slowed;

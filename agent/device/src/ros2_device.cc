@@ -110,13 +110,21 @@ std::string Ros2Device::State::Ailment() const {
   return all_came ? std::string() : Missing();
 }
 
+// Why it stands against what it was told.
+RobotDevice::Halt Ros2Device::State::Halted() const {
+  if (trouble) {
+    return {Failure(*trouble).message, trouble->part != RobotWatch::Trouble::Part::kObstacle};
+  }
+  if (by_hand && obstacles && obstacles->waits()) return {*obstacles->waits(), false};
+  return {};
+}
+
 // Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.
 void Ros2Device::State::ShareTrouble() {
   if (!trouble && watch.base_stands_since()) return;
-  const bool waits = trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle;
-  const Halt now{trouble ? Failure(*trouble).message : std::string(), !waits};
+  const Halt now = Halted();
   if (now.what == shared.what) return;
-  if (waits) {
+  if (!now.what.empty() && !now.fault) {
     spdlog::info("WAITING: {}", now.what);
   } else if (!now.what.empty()) {
     spdlog::warn("the robot is stopped; {}", now.what);

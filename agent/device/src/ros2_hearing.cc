@@ -106,7 +106,7 @@ void Ros2Device::State::KeepRange(const dds::Ros2Range& range, steady_clock::tim
 
 // Somebody may step in the way between two pictures.
 void Ros2Device::State::SlowDown() {
-  if (by_hand || told == motion::VelocityCommand{}) return;
+  if (told == motion::VelocityCommand{}) return;
   const motion::VelocityCommand slower = obstacles->Want(told);
   if (!obstacles->waits() && slower != told) (void)Say(slower);
 }
@@ -117,14 +117,15 @@ void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   if (!trouble && drove && driver->peers().bases == 0) {
     trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
   }
-  if (!trouble && obstacles && !by_hand && obstacles->waits()) {
+  const bool waits = obstacles && obstacles->waits();
+  if (!trouble && waits && !by_hand) {
     trouble = {RobotWatch::Trouble::Part::kObstacle, *obstacles->waits()};
   }
   if (run.lockstep && trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
     AnswerByStanding();
   }
   const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
-  if (!trouble && !stale) return;
+  if (!trouble && !stale && !waits) return;
   if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
   // What cannot be handed over is said again, too.
   if (now <= stop_said_until) (void)Tell({});
@@ -175,7 +176,7 @@ motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand&
 
 motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand& wanted) {
   const motion::VelocityCommand shaped = Shaped(wanted);
-  if (!obstacles || by_hand) return shaped;
+  if (!obstacles) return shaped;
   const motion::VelocityCommand allowed = obstacles->Want(shaped);
   if (obstacles->backs_unseen() && !backs_unseen) {
     spdlog::warn(

@@ -69,6 +69,7 @@ struct Ros2Device::State {
 
   // The driving thread's, with the lock.
   [[nodiscard]] bool ready(std::chrono::steady_clock::time_point now) const;
+  [[nodiscard]] Halt Halted() const;
   [[nodiscard]] std::optional<Error> GiveUp(std::chrono::steady_clock::time_point now);
   [[nodiscard]] Error Failure(const RobotWatch::Trouble& trouble) const;
   [[nodiscard]] std::string Missing() const;
@@ -88,7 +89,7 @@ struct Ros2Device::State {
   bool ending = false;
   RobotWatch watch;
   std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
-  bool by_hand = false;                    // they do not count
+  bool by_hand = false;                    // Next does not wait for the way to be free
   bool backs_unseen = false;               // it is told to
   SensedPoses poses;
   bool odometry_stands = false;        // it comes, with stamps that do not advance

@@ -266,7 +266,9 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
   status.speed_mps = driving ? latest_.speed_mps : 0.0;
   status.features = driving ? static_cast<std::uint32_t>(std::max(0, latest_.features)) : 0U;
   status.backlog = static_cast<std::uint32_t>(outbox_.unreceipted());
-  status.detail = PlainText(told_refusal_.value_or(detail), exchange::kMaxLineBytes);
+  const bool stands = driving && !latest_.stands.empty();
+  status.detail =
+      PlainText(stands ? latest_.stands : told_refusal_.value_or(detail), exchange::kMaxLineBytes);
   status.held = held_revisions_;
   options_.besides(status);
   presence_->Set(std::move(status));

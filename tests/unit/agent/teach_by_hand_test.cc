@@ -20,6 +20,8 @@ using testing::HasSubstr;
 class Driven : public test::DrivenDevice {
  public:
   std::function<void(double)> before_frame = [](double) {};
+  Trouble tell;
+  void OnTrouble(const Trouble& whom) override { tell = whom; }
   Result<std::optional<Observation>> Next() override {
     before_frame(along_m);
     return DrivenDevice::Next();
@@ -138,6 +140,38 @@ TEST_F(TeachByHandTest, TheRobotStandsWhenItsDriverFallsSilentAndTeachingGoesOn)
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
   EXPECT_GT(at_m, 1.0);
+}
+
+TEST_F(TeachByHandTest, WhoDrivesItIsToldWhatStandsInItsWay) {
+  const std::string what = "something stands 0.3 m ahead, in the way: the robot waits";
+  const auto listener = swarm_.Join(exchange::OperatorTopics());
+  const auto gives_up = steady_clock::now() + std::chrono::seconds(60);
+  const auto told = [&](const std::string& detail) {
+    for (const exchange::Message& message : listener->Take(milliseconds(0))) {
+      const auto* status = std::get_if<exchange::AgentStatus>(&message);
+      if (status != nullptr && status->mode == exchange::AgentMode::kTeaching &&
+          status->detail == detail) {
+        return true;
+      }
+    }
+    return false;
+  };
+  enum class Seen { kNothing, kWaits, kGoesOn } seen = Seen::kNothing;
+  device_.before_frame = [&](double along_m) {
+    if (along_m < 1.0) return Drive(0.6);
+    if (seen == Seen::kNothing) {
+      device_.tell({what, false});
+      if (told(what)) seen = Seen::kWaits;
+    } else if (seen == Seen::kWaits) {
+      device_.tell({});
+      if (told("")) seen = Seen::kGoesOn;
+    }
+    if (seen == Seen::kGoesOn || steady_clock::now() > gives_up) hands_.Tell({.ended = true});
+  };
+  const auto taught = Teach(false);
+  ASSERT_TRUE(taught) << taught.error().message;
+  EXPECT_EQ(seen, Seen::kGoesOn);
+  device_.tell({what, false});  // to nobody any more
 }
 
 TEST_F(TeachByHandTest, WhoDrivesItWithoutThisProgramIsLetBe) {

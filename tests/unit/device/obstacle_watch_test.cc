@@ -131,6 +131,25 @@ TEST_F(ObstacleWatchTest, WaitsForWhatIsBesideItOnlyWhereItWouldTurnIntoThat) {
   EXPECT_THAT(*watch_.waits(), HasSubstr("0.0 m ahead, 0.3 m to the left"));
 }
 
+TEST_F(ObstacleWatchTest, AskedToGoAnotherWayItGoesAtOnceWhereThatIsFree) {
+  const motion::VelocityCommand aside{0.0, 0.5};
+  const motion::VelocityCommand back{-0.2, 0.0};
+  for (const motion::VelocityCommand& away : {aside, back}) {
+    See(Eigen::Vector2d(0.5, 0.0));
+    EXPECT_EQ(watch_.Want(kAhead), kStand);
+    EXPECT_EQ(watch_.Want(away), away);
+    EXPECT_FALSE(watch_.waits());
+    EXPECT_EQ(watch_.Want(kAhead), kStand) << "it is still there";
+    SeeFor(milliseconds(1500), std::nullopt);
+    EXPECT_EQ(watch_.Want(kAhead), kAhead);
+  }
+  See(Eigen::Vector2d(0.5, 0.0));
+  EXPECT_EQ(watch_.Want(kAhead), kStand);
+  EXPECT_EQ(watch_.Want({0.4, 0.02}), kStand) << "no other way";
+  EXPECT_EQ(watch_.Want(kStand), kStand);
+  EXPECT_TRUE(watch_.waits()) << "until its next look";
+}
+
 TEST_F(ObstacleWatchTest, WhoWantsToStandWaitsForNothing) {
   See(Eigen::Vector2d(0.3, 0.0));
   std::ignore = watch_.Want(kStand);

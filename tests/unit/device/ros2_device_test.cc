@@ -385,15 +385,48 @@ TEST_F(Ros2DeviceTest, StandsBeforeWhatItScansAndGoesOnWhenThatIsGone) {
   EXPECT_TRUE(DrivesAhead());
 }
 
-TEST_F(Ros2DeviceTest, DrivenByHandItDoesNotWaitBeforeWhatItScans) {
+TEST_F(Ros2DeviceTest, DrivenByHandItStandsBeforeWhatItScansAndIsDrivenAwayFromThere) {
+  run_.patience = milliseconds(2500);
   OpenWithAScanner();
   device_->ByHand(true);
-  SayScan(0.55F);
-  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  const auto seen = SayAllUntil(next, 0.55F);
-  ASSERT_TRUE(seen) << seen.error().message;
-  ASSERT_TRUE(device_->Drive(kAhead));
-  EXPECT_TRUE(Told(kAhead));
+  // Frames come all the while, each with what its driver says.
+  const auto drive = [this](const motion::VelocityCommand& word, std::optional<float> range_m) {
+    auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+    const auto seen = SayAllUntil(next, range_m);
+    ASSERT_TRUE(seen) << seen.error().message;
+    ASSERT_TRUE(device_->Drive(word));
+  };
+  const auto drive_until = [&](const motion::VelocityCommand& word, std::optional<float> range_m,
+                               const auto& wanted) {
+    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    while (steady_clock::now() < deadline) {
+      drive(word, range_m);
+      const auto heard = robot_->Take(milliseconds(5));
+      if (heard && wanted(heard->velocity)) return true;
+    }
+    return false;
+  };
+  const motion::VelocityCommand straight{0.4, 0.0};
+  const auto ahead = [&](const motion::VelocityCommand& told) { return told == straight; };
+  const auto stands = [](const motion::VelocityCommand& told) { return told == kStand; };
+  ASSERT_TRUE(drive_until(straight, std::nullopt, ahead));
+  ASSERT_TRUE(drive_until(straight, 0.55F, stands));
+  for (int frame = 0; frame < 20; ++frame) {
+    drive(straight, 0.55F);
+    const auto heard = robot_->Take(milliseconds(0));
+    EXPECT_TRUE(!heard || stands(heard->velocity));
+  }
+  ASSERT_FALSE(told_.empty());
+  EXPECT_EQ(told_.back().what, "something stands 0.3 m ahead, in the way: the robot waits");
+  EXPECT_FALSE(told_.back().fault);
+  ASSERT_TRUE(
+      drive_until({-0.1, 0.0}, 0.55F, [](const auto& told) { return told.linear_mps < 0; }));
+  ASSERT_TRUE(drive_until(straight, 0.55F, stands)) << "and ahead once more";
+  ASSERT_TRUE(
+      drive_until({0.0, 0.5}, 0.55F, [](const auto& told) { return told.angular_radps > 0; }));
+  ASSERT_TRUE(drive_until(straight, 0.55F, stands));
+  ASSERT_TRUE(drive_until(straight, std::nullopt, ahead)) << "it is gone";
+  EXPECT_EQ(told_.back().what, "");
 }
 
 TEST_F(Ros2DeviceTest, SlowsDownByAScanThatComesBetweenTwoPictures) {
