@@ -151,13 +151,16 @@ tl::unexpected<Error> TooMuch() {
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
                     Topic::kRouteEdits, Topic::kDrives, Topic::kGlanceRequests},
-          .read = {Topic::kGlances, Topic::kAgents, Topic::kNowAnswers, Topic::kMissionStates,
-                   Topic::kMissionReplies, Topic::kCatalogReplies}};
+          .read = {Topic::kGlances, Topic::kNowAnswers, Topic::kMissionStates,
+                   Topic::kMissionReplies, Topic::kCatalogReplies},
+          // Said again all the time: to confirm each would cost the radio as much again.
+          .overhear = {Topic::kAgents}};
 }
 
 exchange::TopicUse LookingTopics() {
   return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests},
-          .read = {Topic::kAgents, Topic::kMissionReplies, Topic::kCatalogReplies}};
+          .read = {Topic::kMissionReplies, Topic::kCatalogReplies},
+          .overhear = {Topic::kAgents}};
 }
 
 Desk::Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
