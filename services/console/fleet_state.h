@@ -18,7 +18,9 @@ namespace trailcast::console {
 // The members of the object that openapi.yaml calls State, but for its time, each as JSON without
 // line breaks.
 struct StateParts {
-  std::map<std::string, std::string> robots{};  // by name
+  // A robot's members by name; all robots have the same ones, in the same order.
+  using Members = std::vector<std::pair<std::string, std::string>>;
+  std::map<std::string, Members> robots{};  // by name
   std::string servers = "[]";
   std::string routes = "[]";
   std::string missions = "null";  // until it is known whether there are any
@@ -93,7 +95,8 @@ class FleetState {
   void On(const exchange::CatalogReply& reply);
   [[nodiscard]] Latest LatestMissions() const;
   [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
-  [[nodiscard]] std::string RobotJson(const Agent& agent, const mission::Record* latest) const;
+  [[nodiscard]] StateParts::Members MembersOf(const Agent& agent,
+                                              const mission::Record* latest) const;
   [[nodiscard]] std::string MissionsJson() const;
 
   AgentId self_;

@@ -176,6 +176,13 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-silent"));
+  browser.Open("about:blank");
+  EXPECT_TRUE(WaitUntil([&] {
+    const auto metrics = Client().Get("/metrics");
+    return metrics && metrics->body.find("\ntrailcast_console_streams 0\n") != std::string::npos;
+  })) << "a page that was left is told nothing";
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
   console_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("This page has lost its console")) << browser.Text();
   browser.Look(390, 844);

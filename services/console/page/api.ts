@@ -80,8 +80,12 @@ export type Fleet = {
   missions: Mission[] | null;  // not known yet
 };
 
-// What has changed of it: robots by name, the rest as a whole where it is there.
-export type Change = Partial<Fleet> & { now_unix_ms: number; robots: Robot[]; gone: string[] };
+// What has changed of it: of robots by name, of one that is new all; the rest as a whole where it is there.
+export type Change = Partial<Omit<Fleet, 'robots'>> & {
+  now_unix_ms: number;
+  robots: (Partial<Robot> & { name: string })[];
+  gone: string[];
+};
 
 // Of a search, with who holds each and how many of its segments its server has lost.
 export type FoundRoute = Route & { held_by: string[]; segments_lost: number };

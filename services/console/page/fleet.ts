@@ -1,11 +1,14 @@
 import { useEffect, useState } from 'react';
-import type { Change, Fleet } from './api';
+import type { Change, Fleet, Robot } from './api';
 import { askWhoIAm } from './me';
 
 // The console speaks every five seconds at least.
 const kLost_ms = 12000;
 // Who is not heard so long after the first word of a console, which may just have started, is not there.
 const kSettles_ms = 4000;
+// A page that nobody sees is told nothing after so long.
+const kUnseen_ms = 60000;
+const kVisits_ms = 600000;
 
 export type View = {
   fleet: Fleet | null;
@@ -20,7 +23,7 @@ function changed(fleet: Fleet | null, { gone, robots, ...rest }: Change): Fleet 
   if (!fleet) return null;
   const byName = new Map(fleet.robots.map((robot) => [robot.name, robot]));
   for (const name of gone) byName.delete(name);
-  for (const robot of robots) byName.set(robot.name, robot);
+  for (const robot of robots) byName.set(robot.name, { ...byName.get(robot.name), ...robot } as Robot);
   const sorted = [...byName.values()].sort((one, other) => (one.name < other.name ? -1 : 1));
   return { ...fleet, ...rest, robots: sorted };
 }
@@ -36,6 +39,7 @@ export function useFleet(): View {
   useEffect(() => {
     let source: EventSource | null = null;
     let again: number | undefined;
+    let leave: number | undefined;
     const heard = (console_ms: number) => {
       setOpen(true);
       setHeard(Date.now());
@@ -64,12 +68,36 @@ export function useFleet(): View {
         if (source?.readyState === EventSource.CLOSED) again = window.setTimeout(connect, 2000);
       };
     };
-    connect();
-    const clock = window.setInterval(() => setNow(Date.now()), 1000);
-    return () => {
+    const disconnect = () => {
       source?.close();
+      source = null;
       window.clearTimeout(again);
+      window.clearTimeout(leave);
+    };
+    const look = () => {
+      window.clearTimeout(leave);
+      if (document.hidden) {
+        leave = window.setTimeout(disconnect, kUnseen_ms);
+      } else if (!source) {
+        setHeard(Date.now());
+        connect();
+      }
+    };
+    look();
+    document.addEventListener('visibilitychange', look);
+    // Browsers keep pages that one has left, to come back to, and what they hear with them.
+    window.addEventListener('pagehide', disconnect);
+    window.addEventListener('pageshow', look);
+    const clock = window.setInterval(() => setNow(Date.now()), 1000);
+    // One that is not seen for hours stays logged in.
+    const visits = window.setInterval(() => { if (!source) askWhoIAm(); }, kVisits_ms);
+    return () => {
+      disconnect();
+      document.removeEventListener('visibilitychange', look);
+      window.removeEventListener('pagehide', disconnect);
+      window.removeEventListener('pageshow', look);
       window.clearInterval(clock);
+      window.clearInterval(visits);
     };
   }, []);
 

@@ -1,6 +1,6 @@
 #include "services/console/fleet_state.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -35,6 +35,23 @@ Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_missi
   if (has_mission) orders.push_back("cancel");
   if (state != "ended") orders.push_back("stop");
   return orders;
+}
+
+std::string Object(const StateParts::Members& members) {
+  std::string text;
+  for (const auto& [name, value] : members) {
+    text += fmt::format("{}\"{}\":{}", text.empty() ? '{' : ',', name, value);
+  }
+  return text + "}";
+}
+
+// With the name, which is the first and stays.
+StateParts::Members Changed(const StateParts::Members& from, const StateParts::Members& to) {
+  StateParts::Members changed{to.front()};
+  for (std::size_t i = 1; i < to.size(); ++i) {
+    if (from[i] != to[i]) changed.push_back(to[i]);
+  }
+  return changed;
 }
 
 }  // namespace
@@ -160,7 +177,7 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   return standing;
 }
 
-std::string FleetState::RobotJson(const Agent& agent, const mission::Record* latest) const {
+StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Record* latest) const {
   using console::Json;
   const AgentStatus& status = agent.status;
   const auto [state, needs_person, mission] = StandingOf(agent, latest);
@@ -207,10 +224,10 @@ std::string FleetState::RobotJson(const Agent& agent, const mission::Record* lat
       robot["length_m"] = Rounded(route->second.info->length_m, 100.0);
     }
   }
-  std::string text = Text(robot);
-  text.pop_back();
-  return text + ",\"mission\":" + (mission == nullptr ? "null" : fleet::MissionJson(*mission)) +
-         "}";
+  StateParts::Members members;
+  for (const auto& [name, value] : robot.items()) members.emplace_back(name, Text(value));
+  members.emplace_back("mission", mission == nullptr ? "null" : fleet::MissionJson(*mission));
+  return members;
 }
 
 bool FleetState::Teaches(const AgentId& robot) const {
@@ -247,7 +264,7 @@ StateParts FleetState::Parts() const {
     } else if (agent.status.role != AgentRole::kOperator) {
       const auto mission = latest.find(name);
       parts.robots[name.value()] =
-          RobotJson(agent, mission == latest.end() ? nullptr : mission->second);
+          MembersOf(agent, mission == latest.end() ? nullptr : mission->second);
     }
   }
   Json listed = Json::array();
@@ -264,7 +281,7 @@ StateParts FleetState::Parts() const {
 
 std::string WholeJson(const StateParts& parts, std::int64_t now_unix_ms) {
   std::vector<std::string> robots;
-  for (const auto& [name, robot] : parts.robots) robots.push_back(robot);
+  for (const auto& [name, members] : parts.robots) robots.push_back(Object(members));
   return fmt::format(
       "{{\"now_unix_ms\":{},\"robots\":{},\"servers\":{},\"routes\":{},\"missions\":{}}}",
       now_unix_ms, program::JsonList(robots), parts.servers, parts.routes, parts.missions);
@@ -275,7 +292,11 @@ std::string ChangeJson(const StateParts& from, const StateParts& parts, std::int
   std::vector<std::string> gone;
   for (const auto& [name, robot] : parts.robots) {
     const auto known = from.robots.find(name);
-    if (known == from.robots.end() || known->second != robot) robots.push_back(robot);
+    if (known == from.robots.end()) {
+      robots.push_back(Object(robot));
+    } else if (known->second != robot) {
+      robots.push_back(Object(Changed(known->second, robot)));
+    }
   }
   for (const auto& [name, robot] : from.robots) {
     if (!parts.robots.contains(name)) gone.push_back(program::JsonText(name));

@@ -249,7 +249,11 @@ TEST_F(FleetStateTest, AChangeIsWhatIsOtherThanBefore) {
   const json change = json::parse(ChangeJson(before, state_.Parts(), 5));
   ASSERT_EQ(change["robots"].size(), 2U) << change;
   EXPECT_EQ(change["robots"][0]["mission"]["mission"], "trip");
+  EXPECT_EQ(change["robots"][1]["name"], "robot2");
   EXPECT_EQ(change["robots"][1]["state"], "paused");
+  EXPECT_FALSE(change["robots"][1].contains("role")) << "of a robot what is other, too";
+  const json whole = json::parse(ChangeJson(StateParts{}, before, 5));
+  EXPECT_EQ(whole["robots"], json::parse(WholeJson(before, 5))["robots"]) << "of new ones all";
   EXPECT_EQ(change["missions"].size(), 1U);
   EXPECT_FALSE(change.contains("servers"));
   EXPECT_EQ(json::parse(ChangeJson(before, StateParts{}, 5))["gone"], json({"robot1", "robot2"}));
