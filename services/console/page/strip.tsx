@@ -92,8 +92,8 @@ export function how(robot: Robot, at: number | null, unit: string): string {
   return `${where}${robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}${sure}`;
 }
 
-// A route as a metro line, with the robots upon it.
-export function Line({ robots }: { robots: Robot[] }) {
+// A route as a metro line, with the robots upon it. Drawn anew only when one of them has changed.
+const Line = memo(function Line({ robots }: { robots: Robot[] }) {
   const ref = useRef<HTMLDivElement>(null);
   const { seen, width } = useOnScreen(ref);
   const on = robots.find((robot) => robot.route_id) ?? robots[0];
@@ -125,7 +125,7 @@ export function Line({ robots }: { robots: Robot[] }) {
       )}
     </div>
   );
-}
+}, (one, other) => one.robots.length === other.robots.length && one.robots.every((robot, i) => robot === other.robots[i]));
 
 // On a robot's card.
 export function Strip({ robot }: { robot: Robot }) {
