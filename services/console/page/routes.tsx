@@ -1,4 +1,4 @@
-import { useEffect, useState, type FormEvent } from 'react';
+import { useEffect, useRef, useState, type ChangeEvent, type FormEvent } from 'react';
 import { get, type FoundRoute, type RoutePage } from './api';
 import { Finder } from './finder';
 import { age } from './fleet';
@@ -6,9 +6,19 @@ import { Revisions } from './revisions';
 
 type Search = Record<string, string>;
 
+const kTyped_ms = 250;
+
 function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
+  const soon = useRef<number>();
+  useEffect(() => () => window.clearTimeout(soon.current), []);
+  // What cannot be half a word is searched for as it is typed.
+  const changes = ({ target: { form } }: ChangeEvent<HTMLInputElement | HTMLSelectElement>) => {
+    window.clearTimeout(soon.current);
+    soon.current = window.setTimeout(() => form?.requestSubmit(), kTyped_ms);
+  };
   const submit = (event: FormEvent<HTMLFormElement>) => {
     event.preventDefault();
+    window.clearTimeout(soon.current);
     const search: Search = {};
     for (const [name, value] of new FormData(event.currentTarget)) search[name] = String(value).trim();
     const { place, frame, ...rest } = search;
@@ -16,16 +26,16 @@ function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
   };
   return (
     <form className="filters" role="search" onSubmit={submit}>
-      <label>Name begins with<input name="prefix" type="search" autoComplete="off" /></label>
+      <label>Name begins with<input name="prefix" type="search" autoComplete="off" onChange={changes} /></label>
       <label>Tag<input name="tag" autoComplete="off" /></label>
       <label>State
-        <select name="state" defaultValue="">
+        <select name="state" defaultValue="" onChange={changes}>
           <option value="">any</option>
           <option>active</option><option>staged</option><option>retired</option><option>teaching</option>
         </select>
       </label>
       <label>Sort
-        <select name="sort" defaultValue="newest">
+        <select name="sort" defaultValue="newest" onChange={changes}>
           <option>newest</option><option>oldest</option><option>name</option><option>longest</option><option>shortest</option>
         </select>
       </label>
@@ -75,12 +85,12 @@ function Listing() {
     get<RoutePage>('/api/routes', { ...search, cursor }).then((reply) => {
       if (!still) return;
       setPage(reply);
-      if (typeof reply !== 'string') setRoutes((had) => (cursor ? [...had, ...reply.routes] : reply.routes));
+      const found = typeof reply === 'string' ? [] : reply.routes;
+      setRoutes((had) => (cursor ? [...had, ...found] : found));
     });
     return () => { still = false; };
   }, [search, cursor]);
   const start = (wanted: Search) => {
-    setRoutes([]);
     setPage(null);
     setCursor('');
     setSearch(wanted);
