@@ -65,11 +65,11 @@ class Browser {
   void Open(const std::string& url) { (void)Ask("POST", session_ + "/url", {{"url", url}}); }
   // As a screen of this size shows it; `dark` as the person's preference.
   void Look(int width_px, int height_px, bool dark = false) {
-    DevTools("Emulation.setDeviceMetricsOverride", {{"width", width_px},
-                                                    {"height", height_px},
-                                                    {"deviceScaleFactor", 1},
-                                                    {"mobile", width_px < 600}});
-    DevTools(
+    (void)DevTools("Emulation.setDeviceMetricsOverride", {{"width", width_px},
+                                                          {"height", height_px},
+                                                          {"deviceScaleFactor", 1},
+                                                          {"mobile", width_px < 600}});
+    (void)DevTools(
         "Emulation.setEmulatedMedia",
         {{"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
   }
@@ -132,13 +132,15 @@ class Browser {
     std::ofstream(file, std::ios::binary) << Decoded(shot.get<std::string>());
   }
 
+  // A command of the DevTools protocol.
+  Json DevTools(const std::string& command, const Json& parameters = Json::object()) {
+    return Ask("POST", session_ + "/goog/cdp/execute", {{"cmd", command}, {"params", parameters}});
+  }
+
  private:
   // As the standard calls an element in a script's arguments.
   static constexpr const char* kElement = "element-6066-11e4-a52e-4f735466cecf";
 
-  void DevTools(const std::string& command, const Json& parameters) {
-    (void)Ask("POST", session_ + "/goog/cdp/execute", {{"cmd", command}, {"params", parameters}});
-  }
   std::string Find(const std::string& xpath) {
     const Json found = Ask("POST", session_ + "/element", {{"using", "xpath"}, {"value", xpath}});
     if (!found.is_object() || found.contains("error")) return "";
