@@ -2,11 +2,11 @@
 
 #include <httplib.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <map>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -17,13 +17,14 @@
 
 namespace trailcast::http {
 
+class Guests;
 class Stream;
 
 struct Limits {
   std::size_t threads = 2;
   std::size_t waiting = 32;  // connections beyond those that a thread has
   std::size_t body_bytes = 0;
-  std::size_t of_one_address = 0;  // connections that a thread has; 0: any number
+  std::size_t of_one_address = 0;  // connections of one address, or IPv6 network; 0: any number
 };
 
 // A request that may bring more, and take longer, than others.
@@ -41,7 +42,8 @@ struct Refusal {
 };
 
 // cpp-httplib's server, on threads of its own, for clients that may be anybody: one request a
-// connection, bounded in bytes and time. What it serves is told to it before it listens.
+// connection, bounded in bytes and time; who says nothing gives way to who does. What it serves is
+// told to it before it listens.
 class Server final : public httplib::Server {
  public:
   using Judge = std::function<std::optional<Refusal>(const httplib::Request&)>;
@@ -65,23 +67,21 @@ class Server final : public httplib::Server {
   [[nodiscard]] int port() const { return port_; }
 
  private:
-  bool process_and_close_socket(socket_t socket) override;
-  bool Answer(socket_t socket);
-  bool AnswerNow(socket_t socket);
-  bool AnswerNow(Stream& stream);
+  void Accept();
+  void Answer(int socket, const std::function<void()>& on_request);
+  void Answer(Stream& stream, const std::function<void()>& on_request);
   [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;
   [[nodiscard]] std::optional<Refusal> JudgeBody(const httplib::Request& request) const;
 
-  const std::size_t body_bytes_;
+  const Limits limits_;
   std::vector<Allowance> allowances_;
   Judge judge_;
   Refuse refuse_;
   std::optional<Tls> tls_;
-  const std::size_t of_one_address_;
-  std::mutex mutex_;                                 // guards the next
-  std::map<std::string, std::size_t> answered_now_;  // by address
   int port_ = 0;
-  std::thread thread_;
+  std::unique_ptr<Guests> guests_;
+  std::atomic<bool> over_{false};
+  std::thread thread_;  // accepts connections
 };
 
 }  // namespace trailcast::http

@@ -52,7 +52,7 @@ class Guard {
     return Open(file, std::move(complain), Parts{});
   }
 
-  // A session's token. `address`: where the user is, as AddressKey has it.
+  // A session's token. `address`: where the user is, an IPv6 one's network alone.
   [[nodiscard]] std::variant<std::string, Turned> LogIn(const std::string& name,
                                                         const std::string& password,
                                                         const std::string& address);
@@ -78,8 +78,5 @@ class Guard {
   bool hashes_ = false;
   std::condition_variable hashed_;
 };
-
-// An IPv4 address as it is; of an IPv6 address the network, since who has one has 2^64.
-[[nodiscard]] std::string AddressKey(const std::string& address);
 
 }  // namespace trailcast::users

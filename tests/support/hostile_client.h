@@ -15,11 +15,17 @@ namespace trailcast::test {
 // A connection to a port of this machine, as nobody's HTTP library would have it.
 class RawConnection {
  public:
-  explicit RawConnection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  // `from`: one of this machine's addresses.
+  explicit RawConnection(int port, const std::string& from = "127.0.0.1")
+      : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    EXPECT_EQ(inet_pton(AF_INET, from.c_str(), &own.sin_addr), 1);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof(own)), 0);
     constexpr timeval kBound{.tv_sec = 20, .tv_usec = 0};
     setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &kBound, sizeof(kBound));
     setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kBound, sizeof(kBound));

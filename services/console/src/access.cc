@@ -10,6 +10,7 @@
 #include "services/console/json.h"
 #include "services/console/rights.h"
 #include "services/console/src/answers.h"
+#include "services/http/address.h"
 
 namespace trailcast::console {
 namespace {
@@ -121,7 +122,7 @@ std::optional<users::Who> Access::Known(const Request& request) const {
 std::string Access::Session(const Request& request) const { return CookieIn(request, cookie_); }
 
 std::string Access::AddressOf(const Request& request) const {
-  if (!entry_.behind_proxy) return users::AddressKey(request.remote_addr);
+  if (!entry_.behind_proxy) return http::AddressKey(request.remote_addr);
   // The last one is what the proxy has seen; those before it anybody may have written.
   const std::size_t headers = request.get_header_value_count("X-Forwarded-For");
   const std::string header =
@@ -129,7 +130,7 @@ std::string Access::AddressOf(const Request& request) const {
   const std::size_t comma = header.rfind(',');
   const std::string last = comma == std::string::npos ? header : header.substr(comma + 1);
   const std::size_t from = last.find_first_not_of(' ');
-  return users::AddressKey(from == std::string::npos ? "" : last.substr(from));
+  return http::AddressKey(from == std::string::npos ? "" : last.substr(from));
 }
 
 void Access::LogIn(const Request& request, Response& response) {

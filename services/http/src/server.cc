@@ -1,25 +1,31 @@
 #include "services/http/server.h"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <utility>
 
 #include "services/base/number.h"
+#include "services/http/address.h"
+#include "services/http/src/guests.h"
 #include "services/http/src/stream.h"
 #include "services/http/src/tls_stream.h"
-#include "services/http/src/workers.h"
 
 namespace trailcast::http {
 namespace {
 
-std::string AddressOf(socket_t socket) {
+constexpr int kBacklog = 512;
+
+std::string AddressOf(int socket) {
   std::string address;
   int port = 0;
   Stream(socket).get_remote_ip_and_port(address, port);
-  return address;
+  return AddressKey(address);
 }
 
 void RefuseInText(const Refusal& refusal, httplib::Response& response) {
@@ -29,12 +35,8 @@ void RefuseInText(const Refusal& refusal, httplib::Response& response) {
 
 }  // namespace
 
-Server::Server(const Limits& limits)
-    : body_bytes_(limits.body_bytes),
-      refuse_(RefuseInText),
-      of_one_address_(limits.of_one_address) {
-  new_task_queue = [limits] { return new Workers(limits.threads, limits.waiting); };
-  set_payload_max_length(body_bytes_);
+Server::Server(const Limits& limits) : limits_(limits), refuse_(RefuseInText) {
+  set_payload_max_length(limits_.body_bytes);
   // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
   set_socket_options([](socket_t socket) {
     const int yes = 1;
@@ -50,8 +52,9 @@ Server::Server(const Limits& limits)
 }
 
 Server::~Server() {
-  stop();
+  over_ = true;
   if (thread_.joinable()) thread_.join();
+  if (svr_sock_ != INVALID_SOCKET) (void)close(svr_sock_);
 }
 
 void Server::JudgeBy(Judge judge, Refuse refuse) {
@@ -61,7 +64,7 @@ void Server::JudgeBy(Judge judge, Refuse refuse) {
 
 void Server::Allow(Allowance allowance) {
   allowances_.push_back(std::move(allowance));
-  std::size_t most = body_bytes_;
+  std::size_t most = limits_.body_bytes;
   for (const Allowance& each : allowances_) most = std::max(most, each.body_bytes);
   set_payload_max_length(most);
 }
@@ -83,10 +86,10 @@ std::optional<Refusal> Server::JudgeBody(const httplib::Request& request) const 
   }
   const Allowance* allowance = AllowanceOf(request);
   if (!request.has_header("Content-Length")) {
-    if (allowance == nullptr || allowance->body_bytes <= body_bytes_) return std::nullopt;
+    if (allowance == nullptr || allowance->body_bytes <= limits_.body_bytes) return std::nullopt;
     return Refusal{411, "a body has to come with its length"};
   }
-  const std::size_t most = allowance == nullptr ? body_bytes_ : allowance->body_bytes;
+  const std::size_t most = allowance == nullptr ? limits_.body_bytes : allowance->body_bytes;
   const auto bytes = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
   if (bytes && *bytes <= most) return std::nullopt;
   return Refusal{413, fmt::format("the body may have {} bytes at most", most)};
@@ -104,52 +107,51 @@ Result<void> Server::Listen(const std::string& host, int port) {
                 "machine's?",
                 host, port);
   }
-  thread_ = std::thread([this] { listen_after_bind(); });
-  // Stopped before it runs, it would run for ever.
-  while (!is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  // cpp-httplib listens with room for five: others would come again a second later.
+  (void)::listen(svr_sock_, kBacklog);
+  (void)fcntl(svr_sock_, F_SETFL, fcntl(svr_sock_, F_GETFL) | O_NONBLOCK);
+  guests_ = std::make_unique<Guests>(limits_, [this](Guests::Guest& guest) {
+    Answer(guest.socket, [&] { guests_->LetStay(guest); });
+  });
+  thread_ = std::thread([this] { Accept(); });
   return {};
 }
 
-bool Server::process_and_close_socket(socket_t socket) {
-  const bool answered = Answer(socket);
-  (void)shutdown(socket, SHUT_RDWR);
-  (void)close(socket);
-  return answered;
-}
-
-// One address does not take all threads.
-bool Server::Answer(socket_t socket) {
-  if (of_one_address_ == 0) return AnswerNow(socket);
-  const std::string address = AddressOf(socket);
-  {
-    const std::scoped_lock lock(mutex_);
-    std::size_t& now = answered_now_[address];
-    if (now >= of_one_address_) return false;
-    ++now;
+void Server::Accept() {
+  constexpr int kLook_ms = 100;
+  while (!over_) {
+    pollfd waited{.fd = svr_sock_, .events = POLLIN, .revents = 0};
+    const bool comes = poll(&waited, 1, kLook_ms) > 0;
+    guests_->MakeRoom();
+    if (!comes) continue;
+    const int socket = accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
+    if (socket >= 0) {
+      guests_->Take(socket, AddressOf(socket));
+    } else if (errno == EMFILE || errno == ENFILE) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(kLook_ms));
+    }
   }
-  const bool answered = AnswerNow(socket);
-  const std::scoped_lock lock(mutex_);
-  if (--answered_now_[address] == 0) answered_now_.erase(address);
-  return answered;
 }
 
-bool Server::AnswerNow(socket_t socket) {
+void Server::Answer(int socket, const std::function<void()>& on_request) {
   if (!tls_) {
     Stream stream(socket);
-    return AnswerNow(stream);
+    return Answer(stream, on_request);
   }
   TlsStream stream(socket, tls_->Context().get());
-  return stream.Greet() && AnswerNow(stream);
+  if (stream.Greet()) Answer(stream, on_request);
 }
 
-bool Server::AnswerNow(Stream& stream) {
+// `on_request`: called when it is read, but for its body.
+void Server::Answer(Stream& stream, const std::function<void()>& on_request) {
   bool closed = false;
-  return process_request(stream, /*close_connection=*/true, closed,
-                         [&](const httplib::Request& request) {
-                           const Allowance* allowance = AllowanceOf(request);
-                           if (allowance == nullptr || JudgeBody(request)) return;
-                           stream.Allow(allowance->body_bytes, allowance->patience);
-                         });
+  (void)process_request(stream, /*close_connection=*/true, closed,
+                        [&](const httplib::Request& request) {
+                          on_request();
+                          const Allowance* allowance = AllowanceOf(request);
+                          if (allowance == nullptr || JudgeBody(request)) return;
+                          stream.Allow(allowance->body_bytes, allowance->patience);
+                        });
 }
 
 }  // namespace trailcast::http

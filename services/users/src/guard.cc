@@ -1,6 +1,5 @@
 #include "services/users/guard.h"
 
-#include <arpa/inet.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -115,17 +114,6 @@ std::optional<Who> Guard::WhoseToken(const std::string& token) {
     if (user.token == digest) return Who{.name = name, .role = user.role};
   }
   return std::nullopt;
-}
-
-std::string AddressKey(const std::string& address) {
-  in6_addr six{};
-  if (inet_pton(AF_INET6, address.c_str(), &six) != 1) return address;
-  // An IPv4 address in an IPv6 one.
-  if (IN6_IS_ADDR_V4MAPPED(&six)) return address.substr(address.rfind(':') + 1);
-  constexpr std::size_t kNetworkBytes = 8;
-  std::fill(std::begin(six.s6_addr) + kNetworkBytes, std::end(six.s6_addr), std::uint8_t{0});
-  char text[INET6_ADDRSTRLEN] = {};
-  return inet_ntop(AF_INET6, &six, text, sizeof(text));
 }
 
 }  // namespace trailcast::users

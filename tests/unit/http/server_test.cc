@@ -125,7 +125,7 @@ TEST_F(HttpServerTest, ABodyOfUnknownLengthIsRefused) {
   EXPECT_THAT(client.Receive(), HasSubstr(" 411 "));
 }
 
-// Who connects and says nothing has its thread for five seconds, and the rest waits its turn.
+// Who connects and says nothing has its thread for a second where others wait.
 TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
   std::vector<std::unique_ptr<RawConnection>> silent;
   for (int i = 0; i < 6; ++i) silent.push_back(std::make_unique<RawConnection>(server_.port()));
@@ -158,6 +158,25 @@ TEST_F(HttpServerTest, OneAddressDoesNotTakeAllThreads) {
     status = again ? again->status : 0;
   }
   EXPECT_EQ(status, 200) << "who went makes room";
+}
+
+TEST(HttpServer, WhoSaysWhatTheyWantIsAnsweredBesideManyAddressesThatSayNothing) {
+  Server shared({.threads = 4, .waiting = 2, .of_one_address = 3});
+  shared.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content("hello", "text/plain");
+  });
+  ASSERT_TRUE(shared.Listen("127.0.0.1", 0));
+  std::vector<std::unique_ptr<RawConnection>> silent;
+  for (int i = 0; i < 30; ++i) {
+    const std::string address = "127.0.1." + std::to_string(1 + i % 3);
+    silent.push_back(std::make_unique<RawConnection>(shared.port(), address));
+  }
+  for (int i = 0; i < 10; ++i) {
+    const auto hello = httplib::Client("127.0.0.1", shared.port()).Get("/hello");
+    ASSERT_TRUE(hello) << httplib::to_string(hello.error());
+    EXPECT_EQ(hello->body, "hello");
+    silent.push_back(std::make_unique<RawConnection>(shared.port(), "127.0.1.1"));
+  }
 }
 
 TEST_F(HttpServerTest, APortThatIsTakenIsRefused) {

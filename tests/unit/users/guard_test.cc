@@ -196,13 +196,5 @@ TEST(Guard, HashesForItself) {
   EXPECT_TRUE(std::holds_alternative<Turned>(guard->LogIn("anna", "wrong horse", "desk")));
 }
 
-TEST(AddressKey, OfIPv6TheNetworkCounts) {
-  EXPECT_EQ(AddressKey("192.0.2.1"), "192.0.2.1");
-  EXPECT_EQ(AddressKey("::ffff:192.0.2.1"), "192.0.2.1");
-  EXPECT_EQ(AddressKey("2001:db8:1:2:3:4:5:6"), AddressKey("2001:db8:1:2::9"));
-  EXPECT_NE(AddressKey("2001:db8:1:2::9"), AddressKey("2001:db8:1:3::9"));
-  EXPECT_EQ(AddressKey("anything"), "anything");
-}
-
 }  // namespace
 }  // namespace trailcast::users
