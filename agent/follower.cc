@@ -59,7 +59,7 @@ class Loop {
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
   [[nodiscard]] bool PassedEnd() const;  // where it was to end before the route does
-  void ShowGlance(const Observation& observation, const ReplayStep& step);
+  void ShowGlance(const ReplayStep& step);
   void ShowWaiting();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
@@ -221,9 +221,10 @@ Result<bool> Loop::Step(const Observation& observation) {
   auto step = Decide(observation);
   const double cpu_ms = CpuMs() - before_ms;
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
+  if (!looked_) session_->Pass(observation);
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
-  ShowGlance(observation, *step);
+  ShowGlance(*step);
   if (observation.unknown.distance_m > 0.0) {
     diagnosis_.Note("odometry", fmt::format("jumped: {:.2f} m may have been driven meanwhile",
                                             observation.unknown.distance_m));
@@ -254,16 +255,14 @@ bool Loop::PassedEnd() const {
 }
 
 // After the command: who looks delays no more than the next frame, by the time of a copy.
-void Loop::ShowGlance(const Observation& observation, const ReplayStep& step) {
+void Loop::ShowGlance(const ReplayStep& step) {
   if (options_.glances == nullptr || !options_.glances->wanted()) return;
   GlanceFrame frame;
+  frame.picture = *session_->picture();
   if (looked_) {
-    frame.picture = *session_->picture();
     frame.features = session_->ViewFeatures(step);
     frame.stored = step.sight.stored;
     frame.turn_rad = step.turn_rad;
-  } else {
-    frame.picture = observation.image;
   }
   options_.glances->Show(std::move(frame));
 }

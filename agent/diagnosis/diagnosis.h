@@ -33,7 +33,7 @@ class Diagnosis {
   [[nodiscard]] static Result<Diagnosis> Open(const DiagnosisOptions& options);
 
   void Begin(const RunFacts& facts);
-  // After each Observe, while the frame that `session` was given is there.
+  // After each Observe or Pass, while the frame that `session` was given is there.
   void Add(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
   void Note(const std::string& what, const std::string& text);
   [[nodiscard]] Result<void> End(const std::string& state, const std::string& reason);

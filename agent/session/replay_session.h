@@ -38,10 +38,14 @@ class ReplaySession {
   // told why. Error: odometry that appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
 
-  // What the last Observe looked at: its frame as the intake makes it. Valid until the next, and as
-  // long as that frame is; nullptr before the first.
+  // A frame that a robot which stands need not look at, for those who look on.
+  void Pass(const Observation& observation);
+
+  // The last frame that was observed, or passed, as the intake makes it. Valid until the next, and
+  // as long as that frame is; nullptr before the first.
   [[nodiscard]] const image::GrayImage* picture() const;
-  // The features as of `step`, the last one that Observe returned: for those who draw them.
+  // The features as of `step`, the last one that Observe returned: for those who draw them. None in
+  // a frame that was passed.
   [[nodiscard]] std::vector<replay::FeatureView> ViewFeatures(const ReplayStep& step) const;
 
  private:

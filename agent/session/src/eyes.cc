@@ -50,4 +50,8 @@ Result<Seen> Eyes::See(const Observation& observation) {
   return seen;
 }
 
+const image::GrayImage* Eyes::Pass(const Observation& observation) {
+  return check_.Check(observation) ? &intake_.Take(observation.image) : &observation.image;
+}
+
 }  // namespace trailcast::agent

@@ -35,6 +35,9 @@ class Eyes {
   // Errors: those of FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
 
+  // The same frame without a look; valid as Seen::frame.
+  [[nodiscard]] const image::GrayImage* Pass(const Observation& observation);
+
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
   [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
   [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }

@@ -64,6 +64,7 @@ struct ReplaySession::State {
   double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
   double without_picture_s = 0.0;
   const image::GrayImage* picture = nullptr;
+  bool passed = false;  // it was not looked at
   ReplayStep last;
 };
 
@@ -164,6 +165,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
   s.NoteTime(observation.stamp);
   s.picture = &observation.image;
+  s.passed = false;
   auto seen = s.eyes.See(observation);
   if (!seen) {
     if (seen.error().code != ErrorCode::kInvalidArgument) return tl::unexpected(seen.error());
@@ -184,11 +186,16 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   return s.last;
 }
 
+void ReplaySession::Pass(const Observation& observation) {
+  state_->picture = state_->eyes.Pass(observation);
+  state_->passed = true;
+}
+
 const image::GrayImage* ReplaySession::picture() const { return state_->picture; }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
   const replay::Follower* follower = state_->by_features.follower();
-  if (follower == nullptr) return {};
+  if (follower == nullptr || state_->passed) return {};
   return replay::ViewFeatures(*follower, state_->eyes.tracker().Current(), step.decision.roll_rad);
 }
 

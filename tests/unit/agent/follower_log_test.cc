@@ -1,11 +1,15 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <map>
 
 #include "agent/diagnosis/run_log_reader.h"
 #include "agent/follower.h"
+#include "services/image/files.h"
 #include "tests/unit/agent/swarm.h"
 
 namespace trailcast::agent {
@@ -26,6 +30,8 @@ class FollowerLogTest : public testing::Test {
     FollowerOptions options = swarm_.FollowerNamed("robot");
     options.diagnosis = diagnosis_;
     options.diagnosis.log = folder_ / name_;
+    options.link.now_desk = hold_;
+    options.session.intake.roll_deg = roll_deg_;
     const auto outcome = swarm_.Replay(device, options, false);
     EXPECT_TRUE(outcome && outcome->diagnosed);
     frames_ = outcome->log.frames();
@@ -34,6 +40,8 @@ class FollowerLogTest : public testing::Test {
     return *log;
   }
   std::string name_ = "run.log";
+  NowDesk* hold_ = nullptr;
+  double roll_deg_ = 0.0;
   std::size_t frames_ = 0;
   DiagnosisOptions diagnosis_;
   test::TempDir folder_;
@@ -113,6 +121,50 @@ TEST_F(FollowerLogTest, DrawsEveryTenthFrame) {
     ++pictures;
   }
   EXPECT_EQ(pictures, (frames_ + 9) / 10);
+}
+
+// By how much two pictures differ, where the first is enlarged to the second.
+double Unlike(const image::GrayImage& picture, const image::GrayImage& enlarged) {
+  const int times = enlarged.width / picture.width;
+  double sum = 0.0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int large = (times * y + times / 2) * enlarged.width + times * x + times / 2;
+      sum += std::abs(picture.pixels[static_cast<std::size_t>(y * picture.width + x)] -
+                      enlarged.pixels[static_cast<std::size_t>(large)]);
+    }
+  }
+  return sum;
+}
+
+// Its camera hangs upside down.
+class HangingDevice : public WalkDevice {
+ public:
+  using WalkDevice::WalkDevice;
+  Result<std::optional<Observation>> Next() override {
+    auto seen = WalkDevice::Next();
+    if (seen && *seen) std::reverse((*seen)->image.pixels.begin(), (*seen)->image.pixels.end());
+    return seen;
+  }
+};
+
+TEST_F(FollowerLogTest, OfARobotThatIsHeldItDrawsTheFramesThatNobodyLooksAt) {
+  NowDesk desk(AgentId("robot"), {});
+  desk.Pause("somebody walks here");
+  hold_ = &desk;
+  roll_deg_ = 180.0;
+  diagnosis_.view = folder_ / "view";
+  HangingDevice device(80);
+  const RunLog log = Follow(device);
+  ASSERT_EQ(log.frames.size(), 80U);
+  EXPECT_EQ(log.frames.back().linear_mps, 0.0);
+  for (const int frame : {40, 60, 79}) {
+    const auto drawn = image::ReadGray(diagnosis_.view / fmt::format("{:06}.png", frame));
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    std::map<double, int> by_likeness;
+    for (int i = 0; i < 80; ++i) by_likeness.emplace(Unlike(test::WalkFrame(i), *drawn), i);
+    EXPECT_EQ(by_likeness.begin()->second, frame);
+  }
 }
 
 TEST_F(FollowerLogTest, ARobotThatFindsNoRouteLeavesALogThatSaysWhy) {
