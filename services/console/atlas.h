@@ -33,7 +33,7 @@ class Atlas {
   // What failed is tried again, and which revision is active asked again, no sooner.
   static constexpr std::chrono::seconds kAskAgain{5};
 
-  // `join`: with AtlasTopics. A server is to reply within the time.
+  // `join`: with fleet::ExporterTopics. A server is to reply within the time.
   explicit Atlas(Join join, std::chrono::milliseconds reply_within = std::chrono::seconds(5));
   ~Atlas();
   Atlas(const Atlas&) = delete;
@@ -82,8 +82,5 @@ class Atlas {
 
   std::thread thread_;
 };
-
-// What it reads and writes.
-[[nodiscard]] exchange::TopicUse AtlasTopics();
 
 }  // namespace trailcast::console

@@ -13,6 +13,7 @@
 #include "services/console/users_command.h"
 #include "services/console/web.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/program/command_line.h"
 #include "services/program/open_exchange.h"
 #include "services/program/stop_signal.h"
@@ -109,8 +110,9 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
       common, commands ? console::ConsoleTopics() : console::LookingTopics());
   if (!peer) return program::Complain(app, peer.error());
   console::Desk desk(peer->self, std::move(peer->exchange));
-  console::Atlas atlas(
-      [&] { return trailcast::fleet::JoinAsOperator(common, console::AtlasTopics(), 1); });
+  console::Atlas atlas([&] {
+    return trailcast::fleet::JoinAsOperator(common, trailcast::fleet::ExporterTopics(), 1);
+  });
   std::unique_ptr<console::Site> site;
   if (!options.site.empty()) {
     auto opened = console::Site::Open(options.site);

@@ -71,7 +71,7 @@ Result<Exported> FromStore(const ExportOptions& options) {
 }
 
 Result<Exported> FromServer(const program::CommonOptions& common, const ExportOptions& options) {
-  auto peer = fleet::JoinAsOperator(common, exchange::FollowerTopics());
+  auto peer = fleet::JoinAsOperator(common, fleet::ExporterTopics());
   if (!peer) return tl::unexpected(peer.error());
   fleet::TransferWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);

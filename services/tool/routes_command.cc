@@ -8,6 +8,7 @@
 #include "services/exchange/bounds.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/catalog_client.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/fleet/routes/transfer.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
@@ -118,7 +119,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesO
     return program::Complain(app, possible.error());
   }
   auto peer = fleet::JoinAsOperator(
-      common, options.looked_into ? exchange::FollowerTopics() : exchange::ObserverTopics());
+      common, options.looked_into ? fleet::ExporterTopics() : exchange::ObserverTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply =

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "tests/scenario/console_users.h"
-#include "tests/scenario/secured_fleet.h"
 
 namespace trailcast::test {
 namespace {
@@ -176,21 +175,6 @@ TEST_F(ConsoleDoorsTest, UsersAreAddedListedAndRemoved) {
   StartWithTls();
   EXPECT_EQ(LogIn("anna", kPassword).status, 401);
   EXPECT_EQ(LogIn("anna", "another horse").status, 200);
-}
-
-class ConsoleWithKeysTest : public SecuredFleetTest {};
-
-TEST_F(ConsoleWithKeysTest, AnObserversConsoleShowsAndRefusesOrders) {
-  const auto console =
-      StartAs(observer_keys_, "trailcast-console", {"--http-port", "0"}, "console");
-  httplib::Client client("localhost", ConsolesPort(*console));
-  client.set_read_timeout(20);
-  EXPECT_EQ(client.Get("/api/state")->status, 200);
-  const auto refused = client.Post("/api/all/stop", "{}", "application/json");
-  ASSERT_TRUE(refused);
-  EXPECT_EQ(refused->status, 403);
-  EXPECT_THAT(refused->body, HasSubstr("has the keys of 'guest'"));
-  EXPECT_EQ(json::parse(client.Get("/api/me")->body)["role"], "look");
 }
 
 TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {

@@ -15,18 +15,11 @@
 namespace trailcast::console {
 namespace {
 
-using exchange::Topic;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kIdle{200};
 
 }  // namespace
-
-exchange::TopicUse AtlasTopics() {
-  return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests},
-          .read = {Topic::kCatalogReplies},
-          .listen = {Topic::kSegments}};
-}
 
 Atlas::Atlas(Join join, milliseconds reply_within)
     : join_(std::move(join)), reply_within_(reply_within), thread_([this] { Run(); }) {}
@@ -111,7 +104,7 @@ void Atlas::Run() {
       if (joined) {
         peer = std::move(*joined);
       } else {
-        shape = tl::unexpected(joined.error());
+        shape = Fail(ErrorCode::kUnavailable, "{}", joined.error().message);
       }
     }
     if (peer) shape = Survey(*peer, *wanted);
@@ -172,7 +165,7 @@ Result<std::shared_ptr<const std::string>> Atlas::Survey(fleet::OperatorPeer& pe
                                                sheet->fetched = segments / info->segment_count;
                                              return {};
                                            });
-  (void)peer.exchange->Listen(Topic::kSegments, {});
+  (void)peer.exchange->Listen(exchange::Topic::kSegments, {});
   if (!fetched) return tl::unexpected(fetched.error());
   auto body = std::make_shared<const std::string>(ShapeBody(info->key, maker.Shape()));
   if (!wanted.second) {

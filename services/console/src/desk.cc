@@ -158,8 +158,8 @@ exchange::TopicUse ConsoleTopics() {
 }
 
 exchange::TopicUse LookingTopics() {
-  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests},
-          .read = {Topic::kMissionReplies, Topic::kCatalogReplies},
+  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kGlanceRequests},
+          .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kGlances},
           .overhear = {Topic::kAgents}};
 }
 

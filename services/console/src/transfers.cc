@@ -96,7 +96,7 @@ Result<std::string> Transfers::FetchTo(Job& job, const route::RouteInfo& info,
   auto writer = archive::RouteFileWriter::Create(job.path, info,
                                                  archive::RouteFileWriter::Existing::kReplace);
   if (!writer) return tl::unexpected(writer.error());
-  auto peer = join_(exchange::FollowerTopics());
+  auto peer = join_(fleet::ExporterTopics());
   if (!peer) return tl::unexpected(peer.error());
   const auto bytes = fleet::ExportFromServer(*peer, info, std::move(*writer), watch);
   if (!bytes) return tl::unexpected(bytes.error());

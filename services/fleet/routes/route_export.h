@@ -7,6 +7,7 @@
 #include "services/archive/route_file_writer.h"
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/route_exchange.h"
 #include "services/exchange/route_finder.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/transfer.h"
@@ -23,13 +24,16 @@ namespace trailcast::fleet {
                                                        const exchange::RevisionChoice& which,
                                                        const std::string& holder);
 
+// What an operator's programs use who fetch routes.
+[[nodiscard]] exchange::TopicUse ExporterTopics();
+
 // Give all the route's segments to `writer`, which was made for it. Return the file's size.
 [[nodiscard]] Result<std::uint64_t> ExportFromStore(store::RouteStore& store,
                                                     const route::RouteInfo& info,
                                                     archive::RouteFileWriter writer);
-// All the route's segments, in order, each to `take`, whose errors end it. `peer` has a follower's
-// topics. kUnavailable when nothing new has come for the watch's timeout, or it was stopped;
-// kCorrupt when what servers hold is not what was announced.
+// All the route's segments, in order, each to `take`, whose errors end it. `peer` has
+// ExporterTopics. kUnavailable when nothing new has come for the watch's timeout, or it was
+// stopped; kCorrupt when what servers hold is not what was announced.
 [[nodiscard]] Result<void> FetchInOrder(
     OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
     const std::function<Result<void>(const route::SegmentPiece&)>& take);

@@ -13,6 +13,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/exchange/publish.h"
 #include "services/exchange/route_keeper.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "tests/support/taught_route.h"
@@ -57,7 +58,7 @@ class AtlasTest : public testing::Test {
   }
   Result<fleet::OperatorPeer> Join() {
     ++joined_;
-    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
   }
 
   test::TempDir folder_;

@@ -11,6 +11,7 @@
 #include "route_server/metrics.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
 
 namespace trailcast::console {
@@ -131,7 +132,7 @@ class MetricsPageTest : public testing::Test {
              Desk::Options{.answer_within = std::chrono::milliseconds(200),
                            .reply_within = std::chrono::milliseconds(200)}};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
   }};
   std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}).value();
 };

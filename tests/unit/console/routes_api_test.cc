@@ -11,6 +11,7 @@
 #include "services/catalog/editing.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/image/files.h"
 #include "services/store/route_store.h"
 #include "tests/support/taught_route.h"
@@ -131,7 +132,7 @@ class RoutesApiTest : public testing::Test {
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
              Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(5000)}};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
   }};
   std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}).value();
 };

@@ -11,6 +11,7 @@
 #include "services/archive/route_file_writer.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "tests/support/keeper_thread.h"
@@ -77,7 +78,7 @@ class TransfersTest : public testing::Test {
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
              Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(5000)}};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
   }};
   std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}, {},
                                         [this](const exchange::TopicUse& use) {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
 #include "tests/support/hostile_client.h"
 #include "tests/support/temp_dir.h"
@@ -31,10 +32,11 @@ class WebTest : public testing::Test {
   exchange::InProcessBus bus_;
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics()),
              Desk::Options{.answer_within = milliseconds(200), .reply_within = milliseconds(200)}};
-  Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-                 return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
-               },
-               milliseconds(200)};
+  Atlas atlas_{
+      [this]() -> Result<fleet::OperatorPeer> {
+        return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
+      },
+      milliseconds(200)};
   std::unique_ptr<Web> web_ =
       Web::Open(desk_, atlas_, nullptr, "localhost", 0, {"desk.site"}).value();
 };

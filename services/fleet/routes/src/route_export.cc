@@ -92,6 +92,13 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
       chosen->name, chosen->revision.value(), chosen->segment_count);
 }
 
+exchange::TopicUse ExporterTopics() {
+  using exchange::Topic;
+  return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests},
+          .read = {Topic::kCatalogReplies},
+          .listen = {Topic::kSegments}};
+}
+
 Result<std::uint64_t> ExportFromStore(store::RouteStore& store, const route::RouteInfo& info,
                                       archive::RouteFileWriter writer) {
   for (std::uint32_t i = 0; i < info.segment_count; ++i) {

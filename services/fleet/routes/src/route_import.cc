@@ -155,10 +155,9 @@ tl::unexpected<Error> FellSilent(const route::RouteInfo& info, const Delivery& d
 
 exchange::TopicUse ImporterTopics() {
   using exchange::Topic;
-  exchange::TopicUse use = exchange::ScoutTopics();
-  use.write.insert(use.write.end(), {Topic::kSegmentRequests, Topic::kCatalogRequests});
-  use.read.insert(use.read.end(), {Topic::kRoutes, Topic::kCatalogReplies});
-  return use;
+  return {
+      .write = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests},
+      .read = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies}};
 }
 
 Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteStore& store,
