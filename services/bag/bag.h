@@ -45,11 +45,15 @@ class Bag {
   // In the order of their names. Two types under one name are two topics.
   [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
 
-  // From now on Next gives that topic's messages, from the first.
-  void Begin(const Topic& topic);
+  // From now on Next gives that topic's messages, from the first that was recorded then or later;
+  // what lies before is not unpacked.
+  void Begin(const Topic& topic, std::chrono::nanoseconds from = {});
   // In the order in which they were recorded; nothing at the end. An error: a file that cannot be
   // read any more.
   [[nodiscard]] Result<std::optional<Message>> Next();
+
+  // When the last message of all was recorded.
+  [[nodiscard]] std::chrono::nanoseconds last_at() const;
 
   // What was found damaged so far, a line each: file, place, what. At most kMostDamage of them.
   [[nodiscard]] const std::vector<std::string>& damage() const { return damage_; }

@@ -167,9 +167,15 @@ void Bag::Collect() {
   });
 }
 
-void Bag::Begin(const Topic& topic) {
+void Bag::Begin(const Topic& topic, std::chrono::nanoseconds from) {
   current_ = 0;
-  for (Part& part : parts_) part.file->Begin(topic);
+  for (Part& part : parts_) part.file->Begin(topic, from);
+}
+
+std::chrono::nanoseconds Bag::last_at() const {
+  std::chrono::nanoseconds last{};
+  for (const Part& part : parts_) last = std::max(last, part.contents.last_at);
+  return last;
 }
 
 Result<std::optional<Message>> Bag::Next() {

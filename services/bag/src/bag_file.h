@@ -12,7 +12,8 @@ namespace trailcast::bag {
 // What a file says of itself, or what was counted in it.
 struct Contents {
   std::vector<Topic> topics;
-  std::chrono::nanoseconds first_at{};  // when its first message was recorded
+  std::chrono::nanoseconds first_at{};  // when its first message was recorded,
+  std::chrono::nanoseconds last_at{};   // and its last
 };
 
 // One file of a recording.
@@ -23,7 +24,7 @@ class BagFile {
   BagFile& operator=(const BagFile&) = delete;
 
   [[nodiscard]] virtual Result<Contents> Survey(const Bag::Tell& tell) = 0;
-  virtual void Begin(const Topic& topic) = 0;
+  virtual void Begin(const Topic& topic, std::chrono::nanoseconds from) = 0;
   [[nodiscard]] virtual Result<std::optional<Message>> Next() = 0;
 
   // What was found damaged since the last time.

@@ -136,24 +136,28 @@ Result<Contents> Db3File::Survey(const Bag::Tell&) {
     all.insert(id);
   }
   std::optional<std::int64_t> first_ns;
+  std::int64_t last_ns = 0;
   try {
     Select("id, topic_id, timestamp", all);
     while (Step()) {
       ++topics_[rows_->getColumn(1).getInt64()].messages;
       const std::int64_t at_ns = rows_->getColumn(2).getInt64();
       first_ns = std::min(first_ns.value_or(at_ns), at_ns);
+      last_ns = std::max(last_ns, at_ns);
     }
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(Unreadable(db_->getFilename(), exception.what()));
   }
   Contents contents;
   contents.first_at = std::chrono::nanoseconds(first_ns.value_or(0));
+  contents.last_at = std::chrono::nanoseconds(last_ns);
   for (const auto& [id, topic] : topics_) contents.topics.push_back(topic);
   return contents;
 }
 
-void Db3File::Begin(const Topic& topic) {
+void Db3File::Begin(const Topic& topic, std::chrono::nanoseconds from) {
   rows_.reset();
+  from_ns_ = from.count();
   wanted_.clear();
   for (const auto& [id, one] : topics_) {
     if (one.name == topic.name && one.type == topic.type) wanted_.insert(id);
@@ -177,6 +181,7 @@ Result<std::optional<Message>> Db3File::Next() {
   try {
     if (!rows_) Select("id, timestamp, data", wanted_);
     while (Step()) {
+      if (rows_->getColumn(1).getInt64() < from_ns_) continue;
       const SQLite::Column data = rows_->getColumn(2);
       const auto* begin = static_cast<const std::uint8_t*>(data.getBlob());
       const auto message = Unpacked({begin, static_cast<std::size_t>(data.getBytes())});

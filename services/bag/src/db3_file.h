@@ -23,7 +23,7 @@ class Db3File final : public BagFile {
                                                  std::span<const std::uint8_t> beginning);
 
   [[nodiscard]] Result<Contents> Survey(const Bag::Tell& tell) override;
-  void Begin(const Topic& topic) override;
+  void Begin(const Topic& topic, std::chrono::nanoseconds from) override;
   [[nodiscard]] Result<std::optional<Message>> Next() override;
 
  private:
@@ -39,6 +39,7 @@ class Db3File final : public BagFile {
   std::unique_ptr<SQLite::Database> db_;
   std::map<std::int64_t, Topic> topics_;  // by their ids
   std::set<std::int64_t> wanted_;         // of them
+  std::int64_t from_ns_ = 0;
   std::unique_ptr<SQLite::Statement> rows_;
   std::int64_t last_id_ = 0;
   std::int64_t jump_ = 1;  // over rows that cannot be read

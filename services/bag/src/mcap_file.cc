@@ -89,27 +89,31 @@ std::optional<Contents> McapFile::ReadSummary() {
   if (!left.empty() || !statistics || channels.empty()) return std::nullopt;
   for (const auto& count : statistics->counts) channels.Count(count.channel, count.messages);
   channels_ = channels;
-  return Contents{channels.Topics(), Time(statistics->message_start_ns)};
+  return Contents{channels.Topics(), Time(statistics->message_start_ns),
+                  Time(statistics->message_end_ns)};
 }
 
 Result<Contents> McapFile::Survey(const Bag::Tell& tell) {
   if (auto contents = ReadSummary()) return *contents;
   tell(fmt::format("{} has no list of contents (was it cut off?): reading all of it",
                    file_.string()));
-  Begin({});
+  Begin({}, {});
   std::optional<std::chrono::nanoseconds> first;
+  std::chrono::nanoseconds last{};
   while (true) {
     const auto message = NextOf(&McapFile::IsAny);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     channels_.Count((*message)->channel, 1);
     if (!first) first = Time((*message)->log_time_ns);
+    last = std::max(last, Time((*message)->log_time_ns));
   }
-  return Contents{channels_.Topics(), first.value_or(std::chrono::nanoseconds(0))};
+  return Contents{channels_.Topics(), first.value_or(std::chrono::nanoseconds(0)), last};
 }
 
-void McapFile::Begin(const Topic& topic) {
+void McapFile::Begin(const Topic& topic, std::chrono::nanoseconds from) {
   topic_ = topic;
+  from_ns_ = static_cast<std::uint64_t>(std::max<std::int64_t>(from.count(), 0));
   at_ = kMcapMagic.size();
   ended_ = false;
   in_chunk_ = {};
@@ -117,7 +121,18 @@ void McapFile::Begin(const Topic& topic) {
 
 bool McapFile::IsOfTopic(const McapMessage& message) const {
   const Topic* topic = channels_.Find(message.channel);
-  return topic != nullptr && topic->name == topic_.name && topic->type == topic_.type;
+  return topic != nullptr && topic->name == topic_.name && topic->type == topic_.type &&
+         message.log_time_ns >= from_ns_;
+}
+
+// By what the chunk's head says of the times of its messages.
+bool McapFile::EndsBefore(std::uint64_t chunk_at) {
+  if (from_ns_ == 0) return false;
+  const auto times = ReadAt(chunk_at, 2 * sizeof(std::uint64_t));
+  if (!times) return false;
+  ByteReader reader(*times);
+  (void)reader.Take<std::uint64_t>();  // of the first message
+  return reader.Take<std::uint64_t>() < from_ns_;
 }
 
 std::optional<RecordHead> McapFile::ReadHead() {
@@ -185,6 +200,7 @@ Result<bool> McapFile::ReadRecord() {
       !cut_off && (head->opcode == Opcode::kMessage || head->opcode == Opcode::kSchema ||
                    head->opcode == Opcode::kChannel);
   if (!chunk && !whole) return true;
+  if (chunk && EndsBefore(record_ + kRecordHeadBytes)) return true;
   if (length > (chunk ? kMostChunkBytes : kMostMessageBytes)) {
     NoteDamageAt(fmt::format("a record of {} bytes, left out", length));
     return true;

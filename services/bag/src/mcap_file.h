@@ -17,7 +17,7 @@ class McapFile final : public BagFile {
   [[nodiscard]] static Result<std::unique_ptr<McapFile>> Open(const std::filesystem::path& file);
 
   [[nodiscard]] Result<Contents> Survey(const Bag::Tell& tell) override;
-  void Begin(const Topic& topic) override;
+  void Begin(const Topic& topic, std::chrono::nanoseconds from) override;
   [[nodiscard]] Result<std::optional<Message>> Next() override;
 
  private:
@@ -26,6 +26,7 @@ class McapFile final : public BagFile {
 
   using Wanted = bool (McapFile::*)(const McapMessage& message) const;
   [[nodiscard]] Result<std::optional<McapMessage>> NextOf(Wanted wanted);
+  [[nodiscard]] bool EndsBefore(std::uint64_t chunk_at);
   [[nodiscard]] bool IsOfTopic(const McapMessage& message) const;
   [[nodiscard]] bool IsAny(const McapMessage&) const { return true; }
 
@@ -45,6 +46,7 @@ class McapFile final : public BagFile {
   bool ended_ = false;
   McapChannels channels_;
   Topic topic_;
+  std::uint64_t from_ns_ = 0;
   Bytes chunk_;                             // records: a chunk's, decompressed, or a single one
   std::span<const std::uint8_t> in_chunk_;  // those left
 };

@@ -67,7 +67,7 @@ std::optional<McapStatistics> ParseStatistics(std::span<const std::uint8_t> cont
   // Numbers of messages, schemas, channels, attachments, metadata, chunks.
   (void)reader.TakeBytes(8 + 2 + 4 + 4 + 4 + 4);
   statistics.message_start_ns = reader.Take<std::uint64_t>();
-  (void)reader.Take<std::uint64_t>();  // the last message's time
+  statistics.message_end_ns = reader.Take<std::uint64_t>();
   ByteReader counts(reader.TakeBytes(reader.Take<std::uint32_t>()));
   while (!counts.left().empty() && !counts.failed()) {
     McapStatistics::Count& count = statistics.counts.emplace_back();

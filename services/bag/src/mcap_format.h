@@ -61,6 +61,7 @@ struct McapChunk {
 
 struct McapStatistics {
   std::uint64_t message_start_ns = 0;
+  std::uint64_t message_end_ns = 0;
   struct Count {
     std::uint16_t channel = 0;
     std::uint64_t messages = 0;

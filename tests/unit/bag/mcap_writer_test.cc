@@ -53,6 +53,33 @@ TEST(McapWriter, AFileWithoutMessagesHasAnEnd) {
   EXPECT_TRUE(bag->damage().empty());
 }
 
+TEST(McapWriter, ItIsReadFromATimeOn) {
+  const test::TempDir folder;
+  McapWriter writer(Compression::kZstd, "");
+  const auto channel = writer.AddChannel(0, "/a", "");
+  for (int i = 0; i < 10; ++i) {
+    writer.Put(channel, milliseconds(i), Bytes(10, static_cast<std::uint8_t>(i)));
+    if (i % 3 == 2) writer.EndChunk();
+  }
+  const Bytes whole_chunks = writer.TakeBytes();
+  writer.End();
+  const Bytes ended = Append(whole_chunks, writer.TakeBytes());
+  test::WriteBytes(folder / "a.mcap", ended);
+  test::WriteBytes(folder / "cut.mcap", whole_chunks);
+
+  const auto bag = OpenBag(folder / "a.mcap");
+  ASSERT_TRUE(bag);
+  EXPECT_EQ(bag->last_at(), milliseconds(9));
+  bag->Begin(bag->topics()[0], milliseconds(4));
+  const auto message = bag->Next();
+  ASSERT_TRUE(message && *message);
+  EXPECT_EQ((*message)->logged_at, milliseconds(4)) << "from within a chunk";
+  bag->Begin(bag->topics()[0], milliseconds(10));
+  EXPECT_FALSE(*bag->Next());
+  EXPECT_EQ(ReadAll(*bag, "/a").size(), 10U) << "and from the first again";
+  EXPECT_EQ(OpenBag(folder / "cut.mcap")->last_at(), milliseconds(8));
+}
+
 TEST(McapWriter, ChunksEndByThemselves) {
   McapWriter writer(Compression::kNone, "");
   const auto channel = writer.AddChannel(0, "/a", "");
