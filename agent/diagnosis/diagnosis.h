@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "agent/diagnosis/run_log.h"
 #include "agent/diagnosis/run_log_file.h"
 #include "agent/diagnosis/run_recorder.h"
 
@@ -18,6 +20,10 @@ struct DiagnosisOptions {
   int view_every = 1;          // frames
   // Nothing drives: rather wait for a slow disk than leave frames out of a log as MCAP.
   bool patient = false;
+  double picture_every_s = 0.0;  // of a log as MCAP; 0: each frame's
+  // Then a log has no more frames, and says so; 0: any number.
+  std::uint64_t most_log_bytes = 0;
+  Fields header{};  // of the log, besides what is known of the run
 };
 
 // What a replay tells of itself while it runs: a log, and pictures of what it saw. A disk that
@@ -42,6 +48,7 @@ class Diagnosis {
   explicit Diagnosis(DiagnosisOptions options);
   [[nodiscard]] Result<void> OpenLog();
   void Log(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
+  [[nodiscard]] bool HasRoom();
   void Draw(const ReplaySession& session, const ReplayStep& step);
 
   DiagnosisOptions options_;
@@ -49,6 +56,7 @@ class Diagnosis {
   std::unique_ptr<RunMcapFile> mcap_;  // as MCAP
   RunRecorder recorder_;
   bool begun_ = false;
+  bool full_ = false;
   int frames_ = 0;
   Result<void> view_result_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -33,6 +34,8 @@ class RunLogFile {
   [[nodiscard]] bool TryPut(Make&& make) { return waiting_.TryPut(std::move(make)); }
   // What was put is not to wait for its quarter of a second.
   void Hurry() { bell_.Ring(); }
+  // Written so far.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_.load(); }
   // A text; where the disk does not keep up, the file says how many were dropped.
   void Put(std::string text);
   // Everything is written, `last` behind it; the error says what was not.
@@ -50,6 +53,7 @@ class RunLogFile {
   std::size_t dropped_ = 0;  // since the last one that found room
   Bell bell_;
   std::atomic<bool> ending_{false};
+  std::atomic<std::uint64_t> bytes_{0};
   bool failed_ = false;  // the thread's until it has ended
   std::thread thread_;
 };

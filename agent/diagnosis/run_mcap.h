@@ -28,7 +28,8 @@ struct RunMoment {
 // idl/run_log.proto their messages. No disk, no clock, no thread.
 class RunMcap {
  public:
-  RunMcap();
+  // Seconds between the pictures that are kept; 0: all of them.
+  explicit RunMcap(double picture_every_s = 0.0);
   void Add(const RunMoment& moment);
   void End();
   // What has been made since the last time: a second at once.
@@ -43,6 +44,7 @@ class RunMcap {
   void PutPose(const motion::Pose2& pose);
   void PutPath();
 
+  const double picture_every_s_;
   bag::McapWriter writer_;
   Channel picture_;
   Channel features_;
@@ -53,6 +55,7 @@ class RunMcap {
   Channel text_;
   SensorTime at_{0};
   std::optional<SensorTime> chunk_began_;
+  std::optional<SensorTime> pictured_at_;
   std::string early_text_;  // before the first frame
   // The way so far: not a pose a frame, but one each spacing_m_, which grows with the way.
   std::vector<motion::Pose2> way_;

@@ -2,18 +2,11 @@
 
 #include <vector>
 
+#include "services/replay/feature_verdict.h"
 #include "services/replay/follower.h"
 #include "services/route/tracked_feature.h"
 
 namespace trailcast::replay {
-
-// What the paper's funnel says of one feature, whichever method follows.
-enum class FeatureVerdict {
-  kInside,     // the funnel lane: content
-  kAsksRight,  // for a turn to the right
-  kAsksLeft,
-  kRejected,  // too far from where it should be: the method does not believe it
-};
 
 // One feature for those who look over the robot's shoulder; all in the follower's pixels.
 struct FeatureView {

@@ -16,9 +16,8 @@ Diagnosis& Diagnosis::operator=(Diagnosis&&) noexcept = default;
 
 Result<void> Diagnosis::OpenLog() {
   if (options_.log.extension() == ".mcap") {
-    return RunMcapFile::Create(options_.log).map([this](std::unique_ptr<RunMcapFile> file) {
-      mcap_ = std::move(file);
-    });
+    return RunMcapFile::Create(options_.log, options_.picture_every_s)
+        .map([this](std::unique_ptr<RunMcapFile> file) { mcap_ = std::move(file); });
   }
   return RunLogFile::Create(options_.log).map([this](std::unique_ptr<RunLogFile> file) {
     file_ = std::move(file);
@@ -40,7 +39,9 @@ Result<Diagnosis> Diagnosis::Open(const DiagnosisOptions& options) {
 }
 
 void Diagnosis::Begin(const RunFacts& facts) {
-  std::string text = FirstLine() + HeaderText(RunRecorder::Begin(facts));
+  Fields header = RunRecorder::Begin(facts);
+  for (const auto& [key, value] : options_.header.all()) header.Add(key, value);
+  std::string text = FirstLine() + HeaderText(header);
   if (file_) file_->Put(std::move(text));
   if (mcap_) mcap_->Put({.text = std::move(text)}, options_.patient);
   begun_ = true;
@@ -52,8 +53,20 @@ void Diagnosis::Add(const RunFrame& seen, const ReplaySession& session, const Re
   ++frames_;
 }
 
+bool Diagnosis::HasRoom() {
+  const std::uint64_t bytes = file_ ? file_->bytes() : mcap_->bytes();
+  if (full_ || options_.most_log_bytes == 0 || bytes < options_.most_log_bytes) return !full_;
+  full_ = true;
+  std::string text = fmt::format("# dropped all later frames: the log may have {:.1f} MB\n",
+                                 static_cast<double>(options_.most_log_bytes) / 1e6);
+  if (file_) file_->Put(std::move(text));
+  if (mcap_) mcap_->Put({.text = std::move(text)}, options_.patient);
+  return false;
+}
+
 void Diagnosis::Log(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step) {
   RecordedFrame recorded = recorder_.Add(seen, step);
+  if (!HasRoom()) return;
   std::string text = RowText(recorded.row);
   for (const RunEvent& event : recorded.events) text += EventText(event);
   if (file_) file_->Put(std::move(text));
@@ -77,7 +90,7 @@ void Diagnosis::Draw(const ReplaySession& session, const ReplayStep& step) {
 }
 
 void Diagnosis::Note(const std::string& what, const std::string& text) {
-  if (!begun_) return;
+  if (!begun_ || full_) return;
   const RunEvent event = recorder_.Note(what, text);
   if (file_) file_->Put(EventText(event));
   if (mcap_) mcap_->Put({.text = EventText(event), .events = {event}}, options_.patient);

@@ -83,20 +83,6 @@ std::ptrdiff_t CountOf(std::span<const replay::FeatureView> features, FeatureVer
                        [&](const auto& feature) { return feature.verdict == verdict; });
 }
 
-image::Color VerdictColor(FeatureVerdict verdict) {
-  switch (verdict) {
-    case FeatureVerdict::kInside:
-      return {0, 200, 120};
-    case FeatureVerdict::kAsksRight:
-      return {255, 150, 0};
-    case FeatureVerdict::kAsksLeft:
-      return {70, 170, 255};
-    case FeatureVerdict::kRejected:
-      break;
-  }
-  return {230, 40, 40};
-}
-
 const route::TrackedFeature& TargetOf(const replay::FeatureView& feature) {
   return feature.verdict == FeatureVerdict::kRejected ? feature.expected : feature.milestone;
 }

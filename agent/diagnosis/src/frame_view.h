@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "agent/diagnosis/src/verdict_color.h"
 #include "agent/session/replay_session.h"
 #include "services/image/canvas.h"
 #include "services/image/image.h"
@@ -39,7 +40,6 @@ void DrawLines(image::Canvas& canvas, const Scaled& scaled,
                std::span<const replay::FeatureView> features);
 [[nodiscard]] std::ptrdiff_t CountOf(std::span<const replay::FeatureView> features,
                                      replay::FeatureVerdict verdict);
-[[nodiscard]] image::Color VerdictColor(replay::FeatureVerdict verdict);
 // Where a feature's line leads.
 [[nodiscard]] const route::TrackedFeature& TargetOf(const replay::FeatureView& feature);
 [[nodiscard]] image::RgbImage InGrey(const image::GrayImage& frame);

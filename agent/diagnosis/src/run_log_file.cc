@@ -36,6 +36,7 @@ void RunLogFile::Put(std::string text) {
 }
 
 void RunLogFile::WriteText(const std::string& text) {
+  bytes_ += text.size();
   failed_ = failed_ || std::fwrite(text.data(), 1, text.size(), stream_) != text.size();
 }
 

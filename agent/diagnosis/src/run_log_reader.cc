@@ -8,8 +8,6 @@ namespace trailcast::agent {
 namespace {
 
 constexpr std::size_t kDamageKept = 20;
-// A day at 30 frames a second fits: a larger file is not read into memory whatever it says.
-constexpr std::size_t kMostLines = 5'000'000;
 
 struct Line {
   std::string text;
@@ -38,6 +36,8 @@ std::optional<Line> NextLine(std::istream& stream) {
 
 class Reader {
  public:
+  explicit Reader(const ReadLimits& limits) : limits_(limits) {}
+
   void Take(std::size_t number, const Line& line) {
     Result<void> taken;
     if (line.too_long) {
@@ -89,28 +89,31 @@ class Reader {
     if (!event) return tl::unexpected(event.error());
     if (event->what == "end") {
       log_.ending = std::move(*event);
+    } else if (log_.events.size() >= limits_.events) {
+      return Fail(ErrorCode::kCorrupt, "more events than are read");
     } else {
       log_.events.push_back(std::move(*event));
     }
     return {};
   }
 
+  const ReadLimits& limits_;
   RunLog log_;
   std::vector<std::string> columns_;
 };
 
 }  // namespace
 
-Result<RunLog> ReadRunLog(std::istream& stream) {
+Result<RunLog> ReadRunLog(std::istream& stream, const ReadLimits& limits) {
   const auto first = NextLine(stream);
   if (auto checked = CheckFirstLine(first ? first->text : ""); !checked) {
     return tl::unexpected(checked.error());
   }
-  Reader reader;
+  Reader reader(limits);
   std::size_t number = 1;
   while (const auto line = NextLine(stream)) {
     ++number;
-    if (number > kMostLines) {
+    if (number > limits.lines) {
       reader.Note(number, "more lines than are read: the rest is left out");
       break;
     }

@@ -20,10 +20,11 @@ constexpr std::size_t kPosesAPath = 16;
 
 }  // namespace
 
-RunMcap::RunMcap()
-    : writer_(bag::Compression::kZstd, ""),
-      picture_(AddTopic("/camera/image", "foxglove.CompressedImage")),
-      features_(AddTopic("/camera/features", "foxglove.ImageAnnotations")),
+RunMcap::RunMcap(double picture_every_s)
+    : picture_every_s_(picture_every_s),
+      writer_(bag::Compression::kZstd, ""),
+      picture_(AddTopic(kPicturesTopic, "foxglove.CompressedImage")),
+      features_(AddTopic(kFeaturesTopic, "foxglove.ImageAnnotations")),
       pose_(AddTopic("/odometry/pose", "foxglove.PoseInFrame")),
       path_(AddTopic("/odometry/path", "foxglove.PosesInFrame")),
       states_(AddTopic("/replay/states", "foxglove.Log")),
@@ -41,9 +42,13 @@ void RunMcap::Put(Channel channel, const std::string& message) {
 }
 
 void RunMcap::PutPicture(const RunMoment& moment) {
-  const auto jpeg = image::EncodeJpeg(moment.picture, kJpegQuality);
-  if (!jpeg) return;
-  Put(picture_, PictureMessage(at_, *jpeg));
+  const bool due = !pictured_at_ || std::abs(Seconds(at_ - *pictured_at_)) >= picture_every_s_;
+  if (due) {
+    const auto jpeg = image::EncodeJpeg(moment.picture, kJpegQuality);
+    if (!jpeg) return;
+    Put(picture_, PictureMessage(at_, *jpeg));
+    pictured_at_ = at_;
+  }
   Put(features_,
       FeaturesMessage(at_, moment.features, moment.picture.width, moment.picture.height));
 }

@@ -4,8 +4,6 @@
 
 #include <thread>
 
-#include "services/image/files.h"
-
 namespace trailcast::agent {
 namespace {
 
@@ -17,11 +15,11 @@ std::string AsText(const bag::Bytes& bytes) { return {bytes.begin(), bytes.end()
 
 }  // namespace
 
-Result<std::unique_ptr<RunMcapFile>> RunMcapFile::Create(const std::filesystem::path& file) {
-  if (auto can = image::CanDecode(); !can) return Wrap(can.error(), file.string());
+Result<std::unique_ptr<RunMcapFile>> RunMcapFile::Create(const std::filesystem::path& file,
+                                                         double picture_every_s) {
   auto opened = RunLogFile::Create(file, kMostWaiting);
   if (!opened) return tl::unexpected(opened.error());
-  return std::unique_ptr<RunMcapFile>(new RunMcapFile(std::move(*opened)));
+  return std::unique_ptr<RunMcapFile>(new RunMcapFile(std::move(*opened), picture_every_s));
 }
 
 void RunMcapFile::Put(RunMoment moment, bool patient) {

@@ -10,9 +10,10 @@ namespace trailcast::agent {
 // A replay's log as MCAP in a file, made and written by a thread of its own.
 class RunMcapFile {
  public:
-  // Errors: the file cannot be made, or this installation encodes no pictures.
+  // The error: the file cannot be made.
   [[nodiscard]] static Result<std::unique_ptr<RunMcapFile>> Create(
-      const std::filesystem::path& file);
+      const std::filesystem::path& file, double picture_every_s);
+  [[nodiscard]] std::uint64_t bytes() const { return file_->bytes(); }
 
   // Where making or writing does not keep up, this waits, or, unless `patient`, frames are dropped;
   // the log says how many.
@@ -21,7 +22,8 @@ class RunMcapFile {
   [[nodiscard]] Result<void> Close(const RunMoment& last);
 
  private:
-  explicit RunMcapFile(std::unique_ptr<RunLogFile> file) : file_(std::move(file)) {}
+  RunMcapFile(std::unique_ptr<RunLogFile> file, double picture_every_s)
+      : mcap_(picture_every_s), file_(std::move(file)) {}
 
   RunMcap mcap_;  // the file's thread's
   std::unique_ptr<RunLogFile> file_;

@@ -4,6 +4,7 @@
 
 #include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/src/frame_view.h"
+#include "agent/diagnosis/src/protobuf_reader.h"
 #include "agent/diagnosis/src/protobuf_writer.h"
 
 namespace trailcast::agent {
@@ -125,18 +126,21 @@ std::string TextMessage(std::string_view text) {
 }
 
 std::optional<std::string_view> ReadTextMessage(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kMostVarintBytes = 5;
-  if (bytes.empty() || bytes[0] != (kTextField << 3U | 2U)) return std::nullopt;
-  std::uint64_t size = 0;
-  for (std::size_t i = 0; i < kMostVarintBytes && 1 + i < bytes.size(); ++i) {
-    const std::uint8_t byte = bytes[1 + i];
-    size |= std::uint64_t{byte & 0x7FU} << (7U * i);
-    if ((byte & 0x80U) != 0) continue;
-    const auto text = bytes.subspan(2 + i);
-    if (size != text.size()) return std::nullopt;
-    return std::string_view(reinterpret_cast<const char*>(text.data()), text.size());
-  }
-  return std::nullopt;
+  ProtobufReader reader(bytes);
+  const auto text = reader.Next();
+  if (!text || text->number != kTextField || text->bytes.data() == nullptr) return std::nullopt;
+  if (text->bytes.data() + text->bytes.size() != bytes.data() + bytes.size()) return std::nullopt;
+  return std::string_view(reinterpret_cast<const char*>(text->bytes.data()), text->bytes.size());
+}
+
+bool IsMcap(std::istream& stream) {
+  constexpr std::string_view kBegins = "\x89MCAP";
+  std::string beginning(kBegins.size(), '\0');
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  const bool is = stream && beginning == kBegins;
+  stream.clear();
+  stream.seekg(0);
+  return is;
 }
 
 }  // namespace trailcast::agent

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,8 @@ namespace trailcast::agent {
 
 // Where the log as text is in a log as MCAP.
 inline constexpr const char* kRunLogTopic = "/replay/log";
+inline constexpr const char* kPicturesTopic = "/camera/image";
+inline constexpr const char* kFeaturesTopic = "/camera/features";
 
 // The messages of idl/viewers.proto and idl/run_log.proto, as bytes.
 [[nodiscard]] std::string PictureMessage(SensorTime at, std::span<const std::uint8_t> jpeg);
@@ -31,5 +34,8 @@ inline constexpr const char* kRunLogTopic = "/replay/log";
 
 // Nothing: bytes that are no such message.
 [[nodiscard]] std::optional<std::string_view> ReadTextMessage(std::span<const std::uint8_t> bytes);
+
+// Whether that is how it begins; the stream is at its beginning again.
+[[nodiscard]] bool IsMcap(std::istream& stream);
 
 }  // namespace trailcast::agent

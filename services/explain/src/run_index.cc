@@ -21,10 +21,12 @@ std::vector<Stay> StaysOf(const RunLog& log) {
   }
   for (const RunEvent& event : log.events) {
     if (event.what != "hand-over" && event.what != "recovered") continue;
-    const auto stay = std::find_if(stays.begin(), stays.end(), [&](const Stay& each) {
-      return log.frames[each.end - 1].frame >= event.frame &&
-             event.fields.Number("segment") == each.segment;
+    const auto segment = event.fields.Number("segment");
+    const auto first = std::partition_point(stays.begin(), stays.end(), [&](const Stay& each) {
+      return log.frames[each.end - 1].frame < event.frame;
     });
+    const auto stay =
+        std::find_if(first, stays.end(), [&](const Stay& each) { return segment == each.segment; });
     if (stay != stays.end() && stay->begun == nullptr) stay->begun = &event;
   }
   return stays;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "agent/diagnosis/run_log_format.h"
@@ -17,6 +18,8 @@ using agent::FrameRow;
 using agent::RunLog;
 
 constexpr std::size_t kMostIncidents = 14;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kFewDamaged = 3;
 constexpr std::size_t kWidth = 110;  // of a line, in characters
 
 std::string Known(const RunLog& log, const std::string& key) {
@@ -35,10 +38,10 @@ std::string HowFar(const RunLog& log) {
 }
 
 // The weightiest, in the order in which they happened.
-std::vector<Incident> Shortened(std::vector<Incident> incidents) {
+std::vector<Incident> Shortened(std::vector<Incident> incidents, std::size_t most) {
   std::stable_sort(incidents.begin(), incidents.end(),
                    [](const Incident& a, const Incident& b) { return a.weight > b.weight; });
-  incidents.resize(std::min(incidents.size(), kMostIncidents));
+  incidents.resize(std::min(incidents.size(), most));
   std::stable_sort(incidents.begin(), incidents.end(),
                    [](const Incident& a, const Incident& b) { return a.first < b.first; });
   return incidents;
@@ -59,8 +62,7 @@ std::string Wrapped(const std::string& place, const std::string& text) {
   return lines + "\n";
 }
 
-std::string Tell(const RunLog& log, const Incident& incident) {
-  const FrameRow& first = log.frames[incident.first];
+Happening Tell(const RunLog& log, const Incident& incident) {
   std::string text = incident.text;
   if (incident.times > 1) {
     const FrameRow& last = log.frames[incident.last];
@@ -68,36 +70,31 @@ std::string Tell(const RunLog& log, const Incident& incident) {
                                             : fmt::format("frame {}", last.frame);
     text += fmt::format(" [{} times until {}]", incident.times, until);
   }
-  return Wrapped(fmt::format("  {}", PlaceText(first)), text);
+  return {incident.first, incident.last, PlaceText(log.frames[incident.first]), std::move(text)};
 }
 
-std::string WhatHappened(const RunLog& log, bool all) {
-  const std::vector<Incident> found = FindIncidents(log);
-  if (found.empty()) return "Nothing to tell: it was sure of the path all the way.\n";
-  const std::vector<Incident> told = all ? found : Shortened(found);
-  std::string text = "What happened\n";
-  for (const Incident& incident : told) text += Tell(log, incident);
-  if (told.size() < found.size()) {
-    text += fmt::format("  and {} lesser things: --all\n", found.size() - told.size());
-  }
-  return text;
-}
-
-std::string WhatIsMissing(const RunLog& log, bool all) {
-  std::string text;
+std::vector<std::string> WhatIsMissing(const RunLog& log, std::size_t most) {
+  std::vector<std::string> lines;
   if (!log.ending) {
-    text += "The log breaks off: the program was killed, or is still running.\n";
+    lines.emplace_back("The log breaks off: the program was killed, or is still running.");
   }
   if (const auto dropped = log.header.Find("dropped")) {
-    text += fmt::format("The log has gaps: dropped {}.\n", *dropped);
+    lines.push_back(fmt::format("The log has gaps: dropped {}.", *dropped));
   }
-  if (log.damaged_lines == 0) return text;
-  text +=
-      fmt::format("{} of the log's lines cannot be read and are left out:\n", log.damaged_lines);
-  const std::size_t told = std::min<std::size_t>(all ? log.damage.size() : 3, log.damage.size());
-  for (std::size_t i = 0; i < told; ++i) {
-    text += fmt::format("  line {}: {}\n", log.damage[i].line, log.damage[i].what);
+  if (log.damaged_lines == 0) return lines;
+  lines.push_back(
+      fmt::format("{} of the log's lines cannot be read and are left out:", log.damaged_lines));
+  for (std::size_t i = 0; i < std::min(most, log.damage.size()); ++i) {
+    lines.push_back(fmt::format("  line {}: {}", log.damage[i].line, log.damage[i].what));
   }
+  return lines;
+}
+
+std::string WhatHappened(const Story& story) {
+  if (story.happened.empty()) return "Nothing to tell: it was sure of the path all the way.\n";
+  std::string text = "What happened\n";
+  for (const Happening& each : story.happened) text += Wrapped("  " + each.where, each.text);
+  if (story.lesser > 0) text += fmt::format("  and {} lesser things: --all\n", story.lesser);
   return text;
 }
 
@@ -130,12 +127,30 @@ std::string Outcome(const RunLog& log) {
   return fmt::format("unknown; last seen {}", ToString(log.frames.back().phase));
 }
 
+Story MakeStory(const RunLog& log, std::size_t most_happenings) {
+  const bool all = most_happenings == kAll;
+  Story story{.who = WhoFollowedWhat(log),
+              .outcome = Outcome(log),
+              .how_far = HowFar(log),
+              .missing = WhatIsMissing(log, all ? kAll : kFewDamaged),
+              .happened = {},
+              .figures = RunFigures(log)};
+  if (log.frames.empty()) return story;
+  std::vector<Incident> found = FindIncidents(log);
+  const std::size_t count = found.size();
+  if (!all) found = Shortened(std::move(found), most_happenings);
+  for (const Incident& incident : found) story.happened.push_back(Tell(log, incident));
+  story.lesser = count - found.size();
+  return story;
+}
+
 std::string TellStory(const RunLog& log, bool all) {
-  std::string text = fmt::format("{}\n{}\n{}\n", WhoFollowedWhat(log), Outcome(log), HowFar(log));
-  text += WhatIsMissing(log, all);
+  const Story story = MakeStory(log, all ? kAll : kMostIncidents);
+  std::string text = fmt::format("{}\n{}\n{}\n", story.who, story.outcome, story.how_far);
+  for (const std::string& line : story.missing) text += line + "\n";
   if (log.frames.empty()) return text;
-  text += fmt::format("\n{}\nIn figures\n", WhatHappened(log, all));
-  for (const std::string& line : RunFigures(log)) text += fmt::format("  {}\n", line);
+  text += fmt::format("\n{}\nIn figures\n", WhatHappened(story));
+  for (const std::string& line : story.figures) text += fmt::format("  {}\n", line);
   if (all) text += fmt::format("\n{}", Events(log));
   return text;
 }

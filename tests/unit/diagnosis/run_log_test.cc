@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/run_log_reader.h"
 #include "tests/support/sample_run.h"
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::agent {
 namespace {
@@ -156,6 +158,42 @@ TEST(RunLog, EndlessDamageIsCountedAndNotKept) {
   const auto log = Read(text);
   EXPECT_EQ(log->damaged_lines, 1000U);
   EXPECT_LT(log->damage.size(), 100U);
+}
+
+TEST(RunLog, NoMoreIsReadThanTheLimitsSay) {
+  test::SampleRun run;
+  run.HandOver(0, 20).HandOver(1, 20).HandOver(2, 20).Frames(50);
+  std::istringstream stream(run.text());
+  const auto log = ReadRunLog(stream, {.lines = 40, .events = 2});
+  ASSERT_TRUE(log);
+  EXPECT_LT(log->frames.size(), 40U);
+  EXPECT_EQ(log->events.size(), 2U);
+  EXPECT_THAT(log->damage.back().what, HasSubstr("more lines than are read"));
+}
+
+TEST(RunLog, ItsEndsAreReadByThemselves) {
+  const test::TempDir folder;
+  test::SampleRun run;
+  run.HandOver(0, 20).Frames(3000).End("ARRIVED", "there");
+  std::ofstream(folder / "run.log") << run.text();
+  const auto ends = ReadRunEnds(folder / "run.log");
+  ASSERT_TRUE(ends) << ends.error().message;
+  EXPECT_EQ(ends->header.Find("route"), "hall");
+  EXPECT_EQ(ends->frames.front().frame, 0);
+  EXPECT_EQ(ends->frames.back().frame, 3000);
+  EXPECT_LT(ends->frames.size(), 2000U) << "of a longer log";
+  ASSERT_TRUE(ends->ending);
+  EXPECT_EQ(ends->ending->text, "there");
+
+  run = test::SampleRun();
+  run.HandOver(0, 20).Frames(30);
+  std::ofstream(folder / "short.log") << run.text();
+  const auto brief = ReadRunEnds(folder / "short.log");
+  ASSERT_TRUE(brief);
+  EXPECT_EQ(brief->frames.size(), 31U);
+  EXPECT_FALSE(brief->ending);
+  std::ofstream(folder / "other.log") << "2026 something else";
+  EXPECT_FALSE(ReadRunEnds(folder / "other.log"));
 }
 
 TEST(RunLog, ANewerVersionsExtraColumnIsPassedOver) {

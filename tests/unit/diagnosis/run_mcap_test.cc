@@ -13,6 +13,7 @@
 
 #include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/run_log_reader.h"
+#include "agent/diagnosis/run_pictures.h"
 #include "idl/run_log_description.h"
 #include "services/bag/bag.h"
 #include "services/image/files.h"
@@ -162,6 +163,62 @@ TEST_F(RunMcapTest, OfARunThatWasKilledAllButTheLastSecondIsThere) {
   ASSERT_TRUE(log) << log.error().message;
   EXPECT_GE(log->frames.size(), 40U);
   EXPECT_FALSE(log->ending);
+}
+
+TEST_F(RunMcapTest, WhatWasSeenInAFrameIsFoundByItsTime) {
+  RunMcap mcap(0.5);
+  for (int i = 0; i < 40; ++i) mcap.Add(FrameAt(milliseconds(100 * i), i));
+  mcap.End();
+  Write(mcap.TakeBytes());
+  auto pictures = RunPictures::Open(File());
+  ASSERT_TRUE(pictures) << pictures.error().message;
+  const double began_s = 1'700'000'000.0;
+  const auto features = (*pictures)->FeaturesAt(began_s + 2.3);
+  ASSERT_TRUE(features);
+  EXPECT_THAT(*features, ElementsAre(SeenFeature{.u_px = 90.0,
+                                                 .v_px = 40.0,
+                                                 .to_u_px = 110.0,
+                                                 .to_v_px = 20.0,
+                                                 .verdict = replay::FeatureVerdict::kAsksRight}));
+  const auto picture = (*pictures)->PictureUntil(began_s + 2.3);
+  ASSERT_TRUE(picture && *picture);
+  EXPECT_NEAR((*picture)->t_s - began_s, 2.0, 1e-3) << "the last until then";
+  EXPECT_TRUE(image::DecodeGray((*picture)->jpeg, "it"));
+  EXPECT_TRUE((*pictures)->FeaturesAt(began_s + 2.25)->empty()) << "there was no frame";
+  EXPECT_FALSE(*(*pictures)->PictureUntil(began_s - 1.0));
+  EXPECT_FALSE(*(*pictures)->PictureUntil(began_s + 60.0)) << "that was elsewhere";
+  EXPECT_FALSE(*(*pictures)->PictureUntil(-1e300));
+}
+
+TEST_F(RunMcapTest, WhatHasNoPicturesSaysSo) {
+  Write({'#', ' ', 't', 'e', 'x', 't'});
+  const auto pictures = RunPictures::Open(File());
+  ASSERT_FALSE(pictures);
+  EXPECT_THAT(pictures.error().message, HasSubstr("no pictures"));
+}
+
+TEST_F(RunMcapTest, OfALongLogOnlyTheEndsAreReadForAList) {
+  Fields header;
+  header.Add("route", "hall");
+  RunMcap mcap;
+  mcap.Add({.text = FirstLine() + HeaderText(header)});
+  for (int i = 0; i < 5000; ++i) {
+    RunMoment moment = FrameAt(milliseconds(100 * i), i);
+    moment.picture = {};
+    mcap.Add(moment);
+  }
+  const RunEvent end{4999, 0.0, "end", {}, "there"};
+  mcap.Add({.text = EventText(end), .events = {end}});
+  mcap.End();
+  Write(mcap.TakeBytes());
+  const auto ends = ReadRunEnds(File());
+  ASSERT_TRUE(ends) << ends.error().message;
+  EXPECT_EQ(ends->header.Find("route"), "hall");
+  EXPECT_EQ(ends->frames.front().frame, 0);
+  EXPECT_EQ(ends->frames.back().frame, 4999);
+  EXPECT_LT(ends->frames.size(), 1000U);
+  ASSERT_TRUE(ends->ending);
+  EXPECT_EQ(ends->ending->text, "there");
 }
 
 TEST_F(RunMcapTest, TheWayOfALongDriveStaysShort) {

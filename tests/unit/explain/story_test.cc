@@ -176,5 +176,39 @@ TEST(Story, ARunWithoutAFrameHasOnlyItsEnd) {
               AllOf(HasSubstr("FAILED: no server answered"), HasSubstr("no frame was looked at")));
 }
 
+TEST(Story, ItsPiecesAreWhatIsTold) {
+  SampleRun run;
+  run.HandOver(0, 8).Frames(30).Phase(Phase::kBlind, "nothing in view").Frames(10);
+  const Story story = MakeStory(run.Log(), 1);
+  ASSERT_EQ(story.happened.size(), 1U);
+  EXPECT_EQ(story.happened[0].first, 31U);
+  EXPECT_EQ(story.happened[0].last, 40U);
+  EXPECT_THAT(story.happened[0].text, HasSubstr("blind"));
+  EXPECT_GE(story.lesser, 1U);
+  EXPECT_THAT(story.missing, testing::ElementsAre(HasSubstr("breaks off")));
+}
+
+TEST(FrameWords, SayWhatTheRobotWasAt) {
+  SampleRun run;
+  run.HandOver(0, 8).Frames(30);
+  run.row().turn_rad = -0.1;
+  run.row().rejected = 3;
+  run.row().rejected_by_px = 12.0;
+  run.Phase(Phase::kBlind, "nothing in view").Frames(10);
+  const auto log = run.Log();
+  const auto text = [&](std::size_t row, const std::string& about) {
+    std::string all;
+    for (const Said& said : TellFrame(log, row)) all += said.about == about ? said.text : "";
+    return all;
+  };
+  EXPECT_EQ(text(35, "Mode"), "blind since frame 31: nothing in view");
+  EXPECT_EQ(text(35, "Turn"), "5.7 degrees left, at 0.40 m/s");
+  EXPECT_EQ(text(35, "Features"), "25 of 30 followed, 25 agree with the route, 3 do not, by 12 px");
+  EXPECT_EQ(text(35, "Beside"), "0.02 m left of the path, +- 0.01 m");
+  EXPECT_THAT(text(0, "Event"), HasSubstr("hand-over segment=0 found=8"));
+  EXPECT_EQ(text(1, "Event"), "");
+  EXPECT_EQ(text(1, "Mode"), "sure");
+}
+
 }  // namespace
 }  // namespace trailcast::explain

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "agent/diagnosis/seen_features.h"
+#include "services/bag/bag.h"
+#include "services/base/result.h"
+
+namespace trailcast::agent {
+
+// What a replay's log as MCAP has of frames beside its text, found by their times. One thread at a
+// time.
+class RunPictures {
+ public:
+  // The largest that is handed out.
+  static constexpr std::size_t kMostPictureBytes = 4U << 20U;
+
+  // Errors: no MCAP, or one without pictures and features.
+  [[nodiscard]] static Result<std::unique_ptr<RunPictures>> Open(const std::filesystem::path& file);
+
+  // Of the frame of that time; none: the log has none of it.
+  [[nodiscard]] Result<std::vector<SeenFeature>> FeaturesAt(double t_s);
+  struct Picture {
+    double t_s = 0.0;  // of its frame
+    std::vector<std::uint8_t> jpeg;
+  };
+  // The last until then.
+  [[nodiscard]] Result<std::optional<Picture>> PictureUntil(double t_s);
+
+ private:
+  explicit RunPictures(std::unique_ptr<bag::Bag> bag);
+  [[nodiscard]] Result<std::optional<bag::Message>> NextUntil(std::chrono::nanoseconds until);
+
+  std::unique_ptr<bag::Bag> bag_;
+  const bag::Topic* pictures_ = nullptr;
+  const bag::Topic* features_ = nullptr;
+};
+
+}  // namespace trailcast::agent
