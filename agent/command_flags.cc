@@ -164,10 +164,25 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
 
 void AddServeOptions(CLI::App& command, ServeCommand& serve) {
   command
-      .add_option("--logs", serve.logs,
-                  "Folder for a log of each route that it follows, for 'trailcast explain': "
-                  "MISSION-TASK-LAP.log")
-      ->check(CLI::ExistingDirectory);
+      .add_option("--logs", serve.logs.folder,
+                  "Folder for a log of each route that it follows, MISSION-TASK-LAP.mcap, for "
+                  "'trailcast explain' and the console's history; made if missing")
+      ->check(!CLI::ExistingFile);
+  CLI::Option* logs = command.get_option("--logs");
+  command
+      .add_option("--logs-mb", serve.logs_mb,
+                  "Megabytes that the logs may have: the oldest make room; one of them has a "
+                  "quarter at most")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str()
+      ->needs(logs);
+  command
+      .add_option("--logs-pictures", serve.logs.picture_every_s,
+                  "Seconds from picture to picture in them; 0: logs as text, with no pictures and "
+                  "not where features are")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str()
+      ->needs(logs);
   AddFollowing(command, serve.replay);
   SimulatedRun& simulated = serve.replay.device.simulated;
   command

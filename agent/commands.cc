@@ -151,6 +151,7 @@ OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeComman
   duty.missions_file = BesideStore(options, "missions");
   duty.stop_file = BesideStore(options, "stop");
   duty.logs = serve.logs;
+  duty.logs.most_bytes = static_cast<std::uint64_t>(1e6 * serve.logs_mb);
   duty.follower = [&](const mission::Task& task) {
     ReplayCommand replay = serve.replay;
     replay.speed_factor = task.speed_factor;

@@ -7,6 +7,7 @@
 
 #include "agent/device/device_options.h"
 #include "agent/follower.h"
+#include "agent/run_logs.h"
 #include "agent/scout.h"
 #include "agent/session/look_around.h"
 #include "services/program/command_line.h"
@@ -60,7 +61,8 @@ struct ReplayCommand {
 
 struct ServeCommand {
   ReplayCommand replay;  // how it follows what it is sent along
-  std::filesystem::path logs;
+  RunLogsOptions logs;
+  double logs_mb = 500.0;
 };
 
 // Flags of the program and of its commands, which fill the structs.

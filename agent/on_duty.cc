@@ -287,9 +287,10 @@ void OnDuty::Follow(const mission::Task& task) {
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   follower.end_m = task.to_m;
   follower.glances = &glances_;
-  if (!options_.logs.empty()) {
-    follower.diagnosis.log = options_.logs / fmt::format("{}-{}-{}.log", current.mission.id,
-                                                         current.task + 1, current.lap + 1);
+  if (!options_.logs.folder.empty()) {
+    auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
+    if (log) follower.diagnosis = *std::move(log);
+    if (!log) spdlog::warn("{}", log.error().message);
   }
   auto store = options_.open_store();
   if (!store) {

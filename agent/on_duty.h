@@ -7,6 +7,7 @@
 
 #include "agent/device/device.h"
 #include "agent/follower.h"
+#include "agent/run_logs.h"
 #include "agent/scout.h"
 #include "services/exchange/route_exchange.h"
 #include "services/mission/orders.h"
@@ -19,7 +20,7 @@ struct OnDutyOptions {
   AgentId agent;
   std::filesystem::path missions_file;  // what it is sent to do is kept here,
   std::filesystem::path stop_file;      // and here that an operator has stopped it; empty: nowhere
-  std::filesystem::path logs;           // folder for the log of each following; empty: none
+  RunLogsOptions logs;                  // of each following
   // How it follows the route of a task; name, place, part and pace of the task are set here.
   std::function<FollowerOptions(const mission::Task&)> follower;
   // How it teaches that of a task; name and tags of the task are set here.

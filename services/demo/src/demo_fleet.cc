@@ -12,6 +12,7 @@ namespace {
 
 constexpr auto kEndBound = std::chrono::milliseconds(5000);
 constexpr std::size_t kLogLines = 8;
+constexpr const char* kLogs = "logs";  // of what robots on duty follow
 // A follower waits for the route from the moment it starts until the scout has driven two metres;
 // one on duty may be faster than the scout that teaches it.
 constexpr const char* kWait_s = "120";
@@ -70,7 +71,7 @@ std::vector<std::string> AgentWords(const std::string& program, const DemoRobot&
       add({"replay", "--route", robot.route, "--wait-for-route"});
       break;
     case Task::kOnDuty:
-      add({"serve"});
+      add({"serve", "--logs", (folder / kLogs / robot.name).string()});
       break;
   }
   add({"--sim", kDemoWorld, "--camera", robot.camera_word, "--seed", std::to_string(robot.seed),
@@ -154,11 +155,15 @@ Result<DemoFleet> DemoFleet::Start(const std::filesystem::path& programs,
 Result<void> DemoFleet::StartConsole(const std::filesystem::path& programs,
                                      const std::filesystem::path& folder,
                                      const program::CommonOptions& network, int port) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder / kLogs, failed);
+  if (failed) return Fail(ErrorCode::kUnavailable, "cannot make {}", (folder / kLogs).string());
   std::vector<std::string> words{(programs / "trailcast-console").string()};
   program::CommonOptions everybody = network;
   everybody.discovery = "mesh";  // as is usual for it
   for (std::string& word : NetworkWords(everybody, "console")) words.push_back(std::move(word));
-  words.insert(words.end(), {"--http-port", std::to_string(port)});
+  words.insert(words.end(),
+               {"--http-port", std::to_string(port), "--logs", (folder / kLogs).string()});
   auto console = ChildProcess::Start(words, folder / "console.log");
   if (!console) return tl::unexpected(console.error());
   console_.push_back(std::move(*console));

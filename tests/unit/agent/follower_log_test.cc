@@ -85,6 +85,20 @@ TEST_F(FollowerLogTest, AsMcapItTellsTheSame) {
   EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
 }
 
+TEST_F(FollowerLogTest, ALogThatIsFullSaysSoAndHowItEnded) {
+  name_ = "run.mcap";
+  diagnosis_.patient = true;  // fewer frames may wait to be written than it has
+  diagnosis_.most_log_bytes = 1;
+  diagnosis_.header.Add("mission", "m1");
+  WalkDevice device(220);
+  const RunLog log = Follow(device);
+  EXPECT_EQ(log.header.Find("mission"), "m1");
+  EXPECT_LT(log.frames.size(), frames_);
+  EXPECT_THAT(log.header.Find("dropped").value_or(""), HasSubstr("all later frames"));
+  ASSERT_TRUE(log.ending);
+  EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
+}
+
 TEST_F(FollowerLogTest, ProgressNeverRunsAheadByASegment) {
   WalkDevice device(220);
   const RunLog log = Follow(device);
