@@ -9,6 +9,7 @@
 
 #include "services/console/atlas.h"
 #include "services/console/desk.h"
+#include "services/console/runs.h"
 #include "services/console/site.h"
 #include "services/console/users_command.h"
 #include "services/console/web.h"
@@ -42,6 +43,7 @@ struct WebOptions {
   std::string tls_key;
   bool behind_proxy = false;
   std::filesystem::path site;
+  std::filesystem::path logs;
 };
 
 bool IsLoopback(const std::string& host) {
@@ -119,6 +121,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
     if (!opened) return program::Complain(app, opened.error());
     site = *std::move(opened);
   }
+  console::Runs runs(options.logs);
   std::set<std::string> names;
   for (const std::string& name : options.names) names.insert(trailcast::http::Lower(name));
   const char* scheme = entry->tls ? "https" : "http";
@@ -127,7 +130,8 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
       desk, atlas, site.get(), options.host, options.port, std::move(names), *std::move(entry),
       [&](const trailcast::exchange::TopicUse& use) {
         return trailcast::fleet::JoinAsOperator(common, use, 2 + couriers++ % 98);
-      });
+      },
+      &runs);
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
                (*web)->port());
@@ -136,6 +140,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   }
   desk.Close();
   atlas.Close();
+  runs.Close();
   return program::kExitOk;
 }
 
@@ -178,6 +183,11 @@ int Run(int argc, char** argv) {
          "Folder with the site's floor plan (plan.png or plan.jpg, and site.json) and where "
          "routes lie upon it, which people say on the page and is kept there")
       ->envname("TRAILCAST_SITE");
+  app.add_option("--logs", options.logs,
+                 "Folder, and folders in it, where the logs of robots' runs lie ('trailcast-agent "
+                 "serve --logs'), as they are mounted or copied there; opened in the history")
+      ->check(CLI::ExistingDirectory)
+      ->envname("TRAILCAST_LOGS");
   const console::UsersCommand users(app);
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   return users.asked_for() ? users.Run() : Serve(app, common, options);

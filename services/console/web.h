@@ -19,6 +19,8 @@
 
 namespace trailcast::console {
 
+class Runs;
+
 // The page and openapi.yaml's API over HTTP.
 class Web {
  public:
@@ -26,18 +28,20 @@ class Web {
   static constexpr int kMostStreams = 16;
   static constexpr std::chrono::seconds kAliveEvery{5};
 
-  // `desk`, `atlas` and `site`, which may be null, outlive this. Port 0: any that is free; `names`:
-  // by which this host is known besides localhost, in lower case; `join`: how files of routes get
-  // into the fleet, without which none are carried. kUnavailable when it cannot be listened on.
+  // `desk`, `atlas`, `site` and `runs`, both of which may be null, outlive this. Port 0: any that
+  // is free; `names`: by which this host is known besides localhost, in lower case; `join`: how
+  // files of routes get into the fleet, without which none are carried. kUnavailable when it cannot
+  // be listened on.
   [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, Atlas& atlas, Site* site,
                                                          const std::string& host, int port,
                                                          std::set<std::string> names,
                                                          Entry entry = {},
-                                                         Transfers::Join join = {});
+                                                         Transfers::Join join = {},
+                                                         Runs* runs = nullptr);
   [[nodiscard]] int port() const { return server_.port(); }
 
  private:
-  Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join);
+  Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs);
   void ServeFiles();
   void ServeState();
   void ServeOrders();

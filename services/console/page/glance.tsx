@@ -65,7 +65,7 @@ function pull(robot: string, canvas: HTMLCanvasElement, tell: (look: Look) => vo
 }
 
 // The colours and shapes of the picture's marks.
-const marks = [
+export const marks = [
   { label: 'in its funnel lane', colour: '#00c878', shape: 'M8 4a4 4 0 1 0 0.01 0z' },
   { label: 'asks for left', colour: '#46aaff', shape: 'M3 8 13 3v10z' },
   { label: 'asks for right', colour: '#ff9600', shape: 'M13 8 3 3v10z' },

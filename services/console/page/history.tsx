@@ -1,6 +1,8 @@
 import { useEffect, useState, type FormEvent } from 'react';
 import { get, type Command, type CommandPage, type Mission, type MissionPage } from './api';
 import { age } from './fleet';
+import { RunPage } from './run';
+import { RunList, RunsOf } from './run-list';
 
 type Search = Record<string, string>;
 
@@ -103,6 +105,7 @@ function Life({ mission }: { mission: Mission }) {
         ))}
       </ol>
       {told}{more}
+      <RunsOf mission={mission.mission} />
     </div>
   );
 }
@@ -178,15 +181,19 @@ function CommandHistory({ now_ms }: { now_ms: number }) {
 }
 
 export function History({ open, now_ms }: { open: string; now_ms: number }) {
-  const commands = open === 'commands';
+  const kind = open === 'commands' || open === 'runs' ? open : 'missions';
+  if (open.startsWith('run-')) return <RunPage key={open} id={open.slice('run-'.length)} />;
   return (
     <section aria-label="History" className="history">
       <h2>History</h2>
       <nav className="kinds" aria-label="Of what">
-        <a href="#history" aria-current={commands ? undefined : 'page'}>Missions</a>
-        <a href="#history/commands" aria-current={commands ? 'page' : undefined}>Commands</a>
+        <a href="#history" aria-current={kind === 'missions' ? 'page' : undefined}>Missions</a>
+        <a href="#history/commands" aria-current={kind === 'commands' ? 'page' : undefined}>Commands</a>
+        <a href="#history/runs" aria-current={kind === 'runs' ? 'page' : undefined}>Runs</a>
       </nav>
-      {commands ? <CommandHistory now_ms={now_ms} /> : <MissionHistory now_ms={now_ms} />}
+      {kind === 'missions' && <MissionHistory now_ms={now_ms} />}
+      {kind === 'commands' && <CommandHistory now_ms={now_ms} />}
+      {kind === 'runs' && <RunList now_ms={now_ms} />}
     </section>
   );
 }

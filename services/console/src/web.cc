@@ -10,6 +10,7 @@
 #include "services/base/text.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
+#include "services/console/runs.h"
 #include "services/console/src/answers.h"
 #include "services/console/src/driving_api.h"
 #include "services/console/src/files.h"
@@ -17,6 +18,7 @@
 #include "services/console/src/history_api.h"
 #include "services/console/src/map_api.h"
 #include "services/console/src/routes_api.h"
+#include "services/console/src/runs_api.h"
 #include "services/console/src/transfers_api.h"
 #include "services/console/src/where_api.h"
 #include "services/exchange/bounds.h"
@@ -56,14 +58,15 @@ std::string IdFor(const users::Who& who) {
 // for a picture; stops have enough left. Where strangers come, too, one address has enough for a
 // room of people, and leaves more.
 http::Limits LimitsFor(const Access& access) {
-  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers + 16;
+  constexpr std::size_t kOwn =
+      Web::kMostStreams + Desk::kMostErrands + kMostLookers + Runs::kMostWaiting + 16;
   if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
 
 }  // namespace
 
-Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join)
+Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
     : desk_(desk), access_(std::move(entry)), server_(LimitsFor(access_)) {
   httplib::Headers headers{
       {"Content-Security-Policy",
@@ -100,16 +103,17 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
   ServeGlances(server_, desk_);
+  if (runs != nullptr) ServeRuns(server_, desk_, *runs);
   access_.Serve(server_);
 }
 
 Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
                                        const std::string& host, int port,
                                        std::set<std::string> names, Entry entry,
-                                       Transfers::Join join) {
+                                       Transfers::Join join, Runs* runs) {
   const bool asks = entry.guard != nullptr;
   const auto tls = entry.tls;
-  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry), std::move(join)));
+  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry), std::move(join), runs));
   web->door_ = {.port = port, .names = std::move(names), .encrypted = tls.has_value()};
   web->door_.any_name = asks && web->door_.names.empty();
   if (tls) web->server_.Speak(*tls);

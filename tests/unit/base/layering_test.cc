@@ -56,7 +56,7 @@ const std::map<std::string, Rooms> kMayInclude{
     {"services/console",
      {"services/archive", "services/base", "services/exchange", "services/fleet", "services/http",
       "services/image", "services/mission", "services/program", "services/route", "services/users",
-      "services/view"}},
+      "services/view", "services/replay", "services/explain", "agent/diagnosis"}},
     {"services/plot", {"services/base", "services/image"}},
     {"agent/session",
      {"services/base", "services/motion", "services/image", "services/route", "services/view",

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "services/console/desk.h"
+#include "services/console/runs.h"
+#include "services/http/server.h"
+
+namespace trailcast::console {
+
+// /api/runs: the logs of runs. All of them outlive the server.
+void ServeRuns(http::Server& server, Desk& desk, Runs& runs);
+
+}  // namespace trailcast::console
