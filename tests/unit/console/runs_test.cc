@@ -11,6 +11,7 @@
 #include "agent/diagnosis/run_mcap.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
 #include "tests/support/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
@@ -86,7 +87,7 @@ class RunsTest : public testing::Test {
   exchange::InProcessBus bus_;
   Desk desk_{AgentId("desk"), bus_.Open(ConsoleTopics())};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
-    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(AtlasTopics())};
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
   }};
   std::unique_ptr<Runs> runs_;
   std::unique_ptr<Web> web_;
