@@ -54,6 +54,9 @@ function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: bool
   );
 }
 
+// Of the time that lists tell.
+const kStep_ms = 10000;
+
 function Page() {
   const { fleet, settled, lost, now_ms, heard_ms } = useFleet();
   const [answer, setAnswer] = useState<Answer | null>(null);
@@ -98,7 +101,7 @@ function Page() {
       <main>
         {page === 'fleet' && <Robots fleet={fleet} settled={settled} now_ms={now_ms} />}
         {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} settled={settled} />}
-        {page === 'routes' && <Routes open={open} />}
+        {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
         {page === 'history' && <History open={open} now_ms={now_ms} />}
       </main>
       <footer>

@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState, type ChangeEvent, type FormEvent } from 'react';
+import { memo, useEffect, useRef, useState, type ChangeEvent, type FormEvent } from 'react';
 import { get, type FoundRoute, type RoutePage } from './api';
 import { Finder } from './finder';
 import { age } from './fleet';
@@ -7,6 +7,8 @@ import { Revisions } from './revisions';
 type Search = Record<string, string>;
 
 const kTyped_ms = 250;
+// Of what is listed page after page the last ones are shown.
+const kMostRows = 500;
 
 function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
   const soon = useRef<number>();
@@ -59,7 +61,7 @@ function Filters({ onSearch }: { onSearch: (search: Search) => void }) {
   );
 }
 
-function Line({ route }: { route: FoundRoute }) {
+const Line = memo(function Line({ route, now_ms }: { route: FoundRoute; now_ms: number }) {
   return (
     <tr className={route.state.replace(/ /g, '-')}>
       <td data-label="Route"><a href={`#routes/${route.route}`}>{route.name}</a></td>
@@ -67,17 +69,17 @@ function Line({ route }: { route: FoundRoute }) {
       <td data-label="State"><strong>{route.state}</strong></td>
       <td data-label="Length">{route.length_m > 0 ? `${route.length_m.toFixed(1)} m` : '–'}</td>
       <td data-label="Taught" title={new Date(route.taught_unix_ms).toLocaleString()}>
-        {age(Date.now() - route.taught_unix_ms)} ago by {route.scout}
+        {age(now_ms - route.taught_unix_ms)} ago by {route.scout}
       </td>
       <td data-label="Tags">{route.tags.join(', ')}</td>
       <td data-label="What">{route.description}</td>
     </tr>
   );
-}
+});
 
-function Listing() {
+function Listing({ now_ms }: { now_ms: number }) {
   const [search, setSearch] = useState<Search>({});
-  const [routes, setRoutes] = useState<FoundRoute[]>([]);
+  const [{ routes, listed }, setRoutes] = useState<{ routes: FoundRoute[]; listed: number }>({ routes: [], listed: 0 });
   const [page, setPage] = useState<RoutePage | string | null>(null);
   const [cursor, setCursor] = useState('');
   useEffect(() => {
@@ -86,7 +88,9 @@ function Listing() {
       if (!still) return;
       setPage(reply);
       const found = typeof reply === 'string' ? [] : reply.routes;
-      setRoutes((had) => (cursor ? [...had, ...found] : found));
+      setRoutes((had) => (cursor
+        ? { routes: [...had.routes, ...found].slice(-kMostRows), listed: had.listed + found.length }
+        : { routes: found, listed: found.length }));
     });
     return () => { still = false; };
   }, [search, cursor]);
@@ -98,7 +102,7 @@ function Listing() {
   const told = typeof page === 'string' ? `⚠ ${page}`
     : page === null ? 'Asks …'
     : page.total === 0 ? 'No route is so.'
-    : `${routes.length} of ${page.total}`;
+    : `${listed > routes.length ? `${listed - routes.length + 1} to ` : ''}${listed} of ${page.total}`;
   return (
     <>
       <Filters onSearch={start} />
@@ -108,7 +112,7 @@ function Listing() {
           <thead>
             <tr><th>Route</th><th>Revision</th><th>State</th><th>Length</th><th>Taught</th><th>Tags</th><th>What</th></tr>
           </thead>
-          <tbody>{routes.map((each) => <Line key={each.route + each.teaching} route={each} />)}</tbody>
+          <tbody>{routes.map((each) => <Line key={each.route + each.teaching} route={each} now_ms={now_ms} />)}</tbody>
         </table>
       )}
       {page !== null && typeof page !== 'string' && page.next && (
@@ -118,10 +122,11 @@ function Listing() {
   );
 }
 
-export function Routes({ open }: { open: string }) {
+// What happens to robots meanwhile is nothing to it: drawn anew as often as `now_ms` is another.
+export const Routes = memo(function Routes({ open, now_ms }: { open: string; now_ms: number }) {
   return (
     <section aria-label="Routes" className="routes">
-      {open ? <Revisions key={open} route={open} /> : <><h2>Routes</h2><Finder /><Listing /></>}
+      {open ? <Revisions key={open} route={open} /> : <><h2>Routes</h2><Finder /><Listing now_ms={now_ms} /></>}
     </section>
   );
-}
+});
