@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   CLI::App* play = app.add_subcommand("play", "Robots on their ways, until a signal");
   play->add_option("--robots", fleet.robots)->check(CLI::Range(1, 1000));
   play->add_option("--network-interface", fleet.network_interface);
-  play->add_option("--times", fleet.times, "As fast as such a fleet");
+  play->add_flag("--still", fleet.still, "They tell the same again and again");
 
   bench::ConsoleOptions console;
   CLI::App* look = app.add_subcommand("look", "Looks at that fleet");

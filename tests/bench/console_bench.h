@@ -22,7 +22,7 @@ namespace trailcast::bench {
 struct PlayedFleetOptions {
   std::uint32_t robots = 100;
   std::string network_interface = "eth0";
-  double times = 1.0;  // as fast as a fleet of this size speaks
+  bool still = false;  // they tell the same again and again
 };
 // Until a signal: robots on duty on their ways, a member of the fleet each. Each says how it is as
 // often as in a fleet of this size, has come further each time, and takes what missions it is sent.

@@ -98,9 +98,8 @@ Result<void> PlayFleet(const PlayedFleetOptions& options) {
   const std::chrono::duration<double> each = program::Presence::kForEachAgent;
   for (std::uint64_t turn = 0; !program::StopSignal::requested(); ++turn) {
     const auto told = each * static_cast<double>(turn);
-    robots[turn % robots.size()].Speak(told.count());
-    const auto due =
-        began + std::chrono::duration_cast<steady_clock::duration>(told / options.times);
+    robots[turn % robots.size()].Speak(options.still ? 0.0 : told.count());
+    const auto due = began + std::chrono::duration_cast<steady_clock::duration>(told);
     std::this_thread::sleep_until(due);
   }
   return {};
