@@ -66,7 +66,7 @@ void AddTerrainOptions(CLI::App& command, ReplayCommand& replay) {
 }
 
 // How a route is followed, whichever it is.
-void AddFollowing(CLI::App& command, ReplayCommand& replay) {
+void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
   command
       .add_option("--method", replay.method,
                   "The project's best, the 2009 method as printed, or its first version of 2006")
@@ -86,7 +86,7 @@ void AddFollowing(CLI::App& command, ReplayCommand& replay) {
                   "would give up, turns on the spot to find it again, by odometry and the default "
                   "method; cars and recordings do not. 0: it stands")
       ->check(CLI::Range(0.0, 180.0));
-  AddDeviceOptions(command, replay.device, false);
+  AddDeviceOptions(command, replay.device, use);
   AddTerrainOptions(command, replay);
 }
 
@@ -128,7 +128,7 @@ void AddTeachOptions(CLI::App& command, TeachCommand& teach) {
       ->check(CLI::IsMember(UnfinishedNames()))
       ->capture_default_str();
   AddDeliveryTimeout(command, teach);
-  AddDeviceOptions(command, teach.device, true);
+  AddDeviceOptions(command, teach.device, DeviceUse::kTeach);
 }
 
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
@@ -159,7 +159,7 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
       ->check(CLI::IsMember({"left", "beginning", "anywhere"}))
       ->capture_default_str();
   command.add_flag("--from-start", replay.from_start, "The same as --start beginning");
-  AddFollowing(command, replay);
+  AddFollowing(command, replay, DeviceUse::kReplay);
 }
 
 void AddServeOptions(CLI::App& command, ServeCommand& serve) {
@@ -183,7 +183,7 @@ void AddServeOptions(CLI::App& command, ServeCommand& serve) {
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str()
       ->needs(logs);
-  AddFollowing(command, serve.replay);
+  AddFollowing(command, serve.replay, DeviceUse::kOnDuty);
   SimulatedRun& simulated = serve.replay.device.simulated;
   command
       .add_flag(

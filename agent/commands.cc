@@ -172,10 +172,6 @@ OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeComman
 }  // namespace
 
 Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
-  if (serve.replay.device.is_recorded()) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "a recording cannot be sent anywhere: on duty are robots, --ros2 or --sim");
-  }
   DeviceOptions robot = serve.replay.device;
   robot.simulated.in_real_time = true;  // as who sends it, pauses it and looks on
   auto opened = OpenDevice(robot, options.common);

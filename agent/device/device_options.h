@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,9 +34,11 @@ struct DeviceOptions {
   [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }
 };
 
+enum class DeviceUse : std::uint8_t { kTeach, kReplay, kOnDuty };
+
 // Flags of `command`; one of --frames, --bag, --sim and --ros2 is required. The scout's differ: a
-// simulated one is told a speed, a real one when its drive is over.
-void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout);
+// simulated one is told a speed, a real one when its drive is over. On duty are no recordings.
+void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use);
 
 // Those of them for a simulated robot. Returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);

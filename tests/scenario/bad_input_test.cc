@@ -9,6 +9,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class BadInputTest : public ProgramsTest {
  protected:
@@ -80,6 +81,21 @@ TEST_F(BadInputTest, NeitherFramesNorASimulatedWorldNorARobot) {
   const auto run = RunAgent({"teach", "--route", "hall", "--store", Path("a.db")});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("--frames, --bag, --sim or --ros2"));
+}
+
+TEST_F(BadInputTest, WhoIsOnDutyIsOfferedNoRecording) {
+  const auto help = RunAgent({"serve", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.output, AllOf(HasSubstr("--sim"), HasSubstr("--ros2"), HasSubstr("--logs")));
+  for (const char* option : {"--frames", "--bag", "--odometry", "--rate", "--frame-times"}) {
+    EXPECT_THAT(help.output, Not(HasSubstr(std::string("\n  ") + option)));
+    const auto run = RunAgent({"serve", "--store", Path("a.db"), option, "x"});
+    EXPECT_EQ(run.status, 2) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(option));
+  }
+  const auto run = RunAgent({"serve", "--store", Path("a.db")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, AllOf(HasSubstr("--sim or --ros2"), Not(HasSubstr("--frames"))));
 }
 
 TEST_F(BadInputTest, ANameThatIsNone) {

@@ -63,15 +63,20 @@ void CheckObstacleOptions(const CLI::App& command, const dds::Ros2Options& topic
 }
 
 // The topics' options are also a recording's, which finds its own where nothing is said.
-void ShareTopics(CLI::App& command, DeviceOptions& options, CLI::Option* ros2) {
+void ShareTopics(CLI::App& command, CLI::Option* ros2) {
   for (const char* name : {"--image-topic", "--odom-topic"}) {
     command.get_option(name)->remove_needs(ros2);
   }
-  command.callback([&command, &options] {
+}
+
+// What is asked of them together, once all have been read.
+void CheckTogether(CLI::App& command, DeviceOptions& options, DeviceUse use) {
+  command.callback([&command, &options, use] {
     const bool image = command.count("--image-topic") > 0;
     const bool odometry = command.count("--odom-topic") > 0;
     if (!options.is_recorded() && !options.is_simulated() && options.ros2.topics.robot.empty()) {
-      throw CLI::RequiredError("--frames, --bag, --sim or --ros2");
+      throw CLI::RequiredError(use == DeviceUse::kOnDuty ? "--sim or --ros2"
+                                                         : "--frames, --bag, --sim or --ros2");
     }
     if ((image || odometry) && options.bag.bag.empty() && options.ros2.topics.robot.empty()) {
       throw CLI::RequiresError(image ? "--image-topic" : "--odom-topic", "--ros2 or --bag");
@@ -395,11 +400,19 @@ void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
       ->group("Camera");
 }
 
-void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
-  auto* frames = AddRecordedOptions(command, options.recorded);
+void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use) {
+  const bool scout = use == DeviceUse::kTeach;
+  CLI::Option* frames =
+      use == DeviceUse::kOnDuty ? nullptr : AddRecordedOptions(command, options.recorded);
   auto* world = AddSimulatedOptions(command, options, scout);
   auto* ros2 = AddRos2Options(command, options, scout);
-  auto* bag = AddBagOption(command, options.bag, frames);
+  ros2->excludes(world);
+  if (frames != nullptr) {
+    auto* bag = AddBagOption(command, options.bag, frames);
+    world->excludes(frames)->excludes(bag);
+    ros2->excludes(frames)->excludes(bag);
+    ShareTopics(command, ros2);
+  }
   AddCameraRoll(command, options.intake);
   if (!scout) {
     command
@@ -409,9 +422,7 @@ void AddDeviceOptions(CLI::App& command, DeviceOptions& options, bool scout) {
         ->check(CameraAheadRange())
         ->group("Camera");
   }
-  world->excludes(frames)->excludes(bag);
-  ros2->excludes(frames)->excludes(bag)->excludes(world);
-  ShareTopics(command, options, ros2);
+  CheckTogether(command, options, use);
 }
 
 Result<void> OpenedDevice::TruthWritten() const {
