@@ -81,6 +81,8 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   ASSERT_TRUE(browser_->WaitForText("Segments")) << browser_->Text();
   EXPECT_THAT(browser_->Text(),
               AllOf(HasSubstr("Camera"), HasSubstr("scout"), HasSubstr("Roll back")));
+  ASSERT_TRUE(browser_->Click("//th[contains(., 'Ground')]/button"));
+  ASSERT_TRUE(browser_->WaitForText("slope not known")) << browser_->Text();
   browser_->Screenshot(Shot("phone-revisions"));
 
   ASSERT_TRUE(browser_->Click("(//button[contains(., 'Activate')])[1]"));

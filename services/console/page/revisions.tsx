@@ -1,6 +1,7 @@
 import { useCallback, useEffect, useState, type ReactNode } from 'react';
 import { editRoute, get, type Answer, type FoundRoute, type RoutePage, type RouteAction } from './api';
 import { age } from './fleet';
+import { Ground } from './ground';
 import { useMay } from './me';
 import { Slide } from './send';
 import { Download } from './transfers';
@@ -52,6 +53,7 @@ export function Revisions({ route }: { route: string }) {
   const [page, setPage] = useState<RoutePage | string | null>(null);
   const [asked, setAsked] = useState<Asked | null>(null);
   const [answer, setAnswer] = useState<Answer | null>(null);
+  const [ground, setGround] = useState(false);
   const mayAdminister = useMay('administer');
   const look = useCallback(async () => {
     setPage(await get<RoutePage>('/api/routes', { name: route, sort: 'newest', limit: '200' }));
@@ -97,6 +99,15 @@ export function Revisions({ route }: { route: string }) {
                 {revisions.map((each) => <td key={each.teaching} className={each.state === 'active' ? 'active' : ''}>{show(each)}</td>)}
               </tr>
             ))}
+            <tr>
+              <th scope="row">
+                Ground{' '}
+                {!ground && <button onClick={() => setGround(true)}>Show</button>}
+              </th>
+              {revisions.map((each) => (
+                <td key={each.teaching} className={each.state === 'active' ? 'active' : ''}>{ground && <Ground route={each} />}</td>
+              ))}
+            </tr>
             <tr>
               <th scope="row">Do</th>
               {revisions.map((each) => (

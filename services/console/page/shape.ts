@@ -15,6 +15,7 @@ export type Shape = {
     roughness: (string | null)[];
     slope_rad: (number | null)[];
   };
+  terrain: { shares: Record<string, number> | null; up_rad: number | null; down_rad: number | null };
   points: { along: number[]; x_m: number[]; y_m: number[] };
   closing: { gap_m: number; turn_rad: number } | null;
   weak_places: { begin: number; end: number; why: string; features: number }[];
@@ -119,7 +120,7 @@ export function useOnScreen(ref: RefObject<Element>): { seen: boolean; width: nu
 export type Measure = 'features' | 'roughness';
 export const classes: Record<Measure, string[]> = {
   features: ['under 5 a metre', '5 to 15', '15 to 30', '30 and more'],
-  roughness: ['smooth', 'uneven', 'rough', 'very rough'],
+  roughness: ['smooth', 'uneven', 'rough', 'very-rough'],
 };
 export const kUnknown = -1;
 

@@ -167,6 +167,8 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
   const id = useId();
   const held = robot.state === 'paused' || robot.state === 'stopped';
   const drives = stick.ahead !== 0 || stick.left !== 0;
+  // Why it stands although it is driven.
+  const told = trouble || (drives && !held ? robot.detail : '');
   const end = async (order: 'end' | 'cancel') => {
     hold(kCentre);
     onAnswer({ ok: true, text: order === 'end' ? 'End: told …' : 'Discard: told …' });
@@ -196,7 +198,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
               <option value="0.8">0.8 m/s</option>
             </select>
           </label>
-          <p className="answer bad" role="status">{trouble && `⚠ ${trouble}`}</p>
+          <p className="answer bad" role="status">{told && `⚠ ${told}`}</p>
         </div>
       </div>
       <div className="orders">

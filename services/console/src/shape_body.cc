@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "services/console/src/shape.h"
@@ -23,6 +27,30 @@ Json CellsValue(const std::vector<ShapeCell>& cells) {
           {"features", std::move(features)},
           {"roughness", std::move(roughness)},
           {"slope_rad", std::move(slope_rad)}};
+}
+
+// How much of the way is how rough, and how steep it gets; null where nobody felt it.
+Json TerrainValue(const RouteShape& shape) {
+  Json rough = Json::object();
+  std::optional<double> up_rad;
+  std::optional<double> down_rad;
+  std::map<route::Roughness, double> extents;
+  for (const ShapeCell& cell : shape.cells) {
+    if (cell.roughness) extents[*cell.roughness] += cell.end - cell.begin;
+    if (!cell.slope_rad) continue;
+    up_rad = std::max(up_rad.value_or(0.0), *cell.slope_rad);
+    down_rad = std::max(down_rad.value_or(0.0), -*cell.slope_rad);
+  }
+  for (const auto& [roughness, extent] : extents) {
+    const double share = shape.length > 0.0 ? extent / shape.length : 1.0;
+    rough[std::string(route::NameOf(roughness))] = Rounded(share, 1000.0);
+  }
+  const auto steep = [](std::optional<double> slope_rad) {
+    return slope_rad ? Json(Rounded(*slope_rad, 1000.0)) : Json(nullptr);
+  };
+  return {{"shares", extents.empty() ? Json(nullptr) : std::move(rough)},
+          {"up_rad", steep(up_rad)},
+          {"down_rad", steep(down_rad)}};
 }
 
 Json PointsValue(const std::vector<ShapePoint>& points) {
@@ -59,6 +87,7 @@ std::string ShapeBody(const route::RouteKey& key, const RouteShape& shape) {
                {"segments", shape.segments},
                {"segments_a_cell", shape.segments_a_cell},
                {"cells", CellsValue(shape.cells)},
+               {"terrain", TerrainValue(shape)},
                {"points", PointsValue(shape.points)},
                {"closing", std::move(closing)},
                {"weak_places", std::move(weak)}});

@@ -83,6 +83,20 @@ TEST(RouteShape, ACellSaysWhatIsSeenAndFeltThere) {
   EXPECT_EQ(shape.cells[1].slope_rad, 0.1);
 }
 
+TEST(RouteShape, TellsTheGroundAlongAllOfIt) {
+  const json unknown = json::parse(ShapeBody({}, ShapeOf({Arc(0, 2.0, 0.0)})))["terrain"];
+  EXPECT_EQ(unknown, (json{{"shares", nullptr}, {"up_rad", nullptr}, {"down_rad", nullptr}}));
+  route::Segment smooth = Arc(0, 2.0, 0.0);
+  smooth.terrain = {.vertical_mps2 = 0.1, .slope_rad = -0.05};
+  route::Segment worst = Arc(1, 1.0, 0.0);
+  worst.terrain = {.vertical_mps2 = 3.0, .slope_rad = 0.1};
+  const json felt =
+      json::parse(ShapeBody({}, ShapeOf({smooth, worst, Arc(2, 1.0, 0.0)})))["terrain"];
+  EXPECT_EQ(felt["shares"], (json{{"smooth", 0.5}, {"very-rough", 0.25}}));
+  EXPECT_EQ(felt["up_rad"], 0.1);
+  EXPECT_EQ(felt["down_rad"], 0.05);
+}
+
 TEST(RouteShape, ALongRouteIsDrawnInAsManyPartsAsAreSeen) {
   ShapeMaker maker(320);
   constexpr std::uint32_t kSegments = 5000;
