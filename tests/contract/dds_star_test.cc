@@ -117,6 +117,55 @@ TEST_F(DdsStarTest, WhoIsInAMeshHearsAllAndIsHeardByAll) {
   }));
 }
 
+// Words of who drives, and what a camera sees, no server passes on.
+TEST_F(DdsStarTest, WhoIsInAMeshDrivesARobotOfAStarAndSeesThroughItsCamera) {
+  const auto open = [this](Discovery discovery, const std::string& name,
+                           const exchange::TopicUse& use) {
+    DdsOptions options = Options(discovery);
+    options.self = AgentId(name);
+    return OpenDdsExchange(options, use).value();
+  };
+  exchange::TopicUse desk = exchange::DriverTopics();
+  desk.write.push_back(exchange::Topic::kGlanceRequests);
+  desk.read.push_back(exchange::Topic::kGlances);
+  exchange::TopicUse duty = exchange::OnDutyTopics();
+  duty.read.push_back(exchange::Topic::kDrives);
+  const auto server = Server();
+  const auto starred = Agent(Discovery::kStar, "other");
+  const auto robot = open(Discovery::kStar, "robot", duty);
+  const auto meshed_desk = open(Discovery::kMesh, "meshed", desk);
+  const auto starred_desk = open(Discovery::kStar, "starred", desk);
+  std::uint64_t words = 0;
+  Names drivers;
+  Names lookers;
+  Names seen_by;
+  const auto say = [&](RouteExchange& from, const std::string& name) {
+    (void)from.Publish(exchange::DriveCommand{AgentId("robot"), AgentId(name), 0.3, 0.0, ++words});
+    (void)from.Publish(exchange::GlanceRequest{AgentId("robot"), AgentId(name), words});
+    for (const Message& message : from.Take(milliseconds(5))) {
+      const auto* glance = std::get_if<exchange::Glance>(&message);
+      if (glance != nullptr && !glance->picture.empty()) seen_by.insert(name);
+    }
+  };
+  EXPECT_TRUE(Until({server.get(), starred.get()}, [&] {
+    say(*meshed_desk, "meshed");
+    say(*starred_desk, "starred");
+    for (const Message& message : robot->Take(milliseconds(5))) {
+      if (const auto* word = std::get_if<exchange::DriveCommand>(&message)) {
+        drivers.insert(word->client.value());
+      } else if (const auto* request = std::get_if<exchange::GlanceRequest>(&message)) {
+        lookers.insert(request->client.value());
+        (void)robot->Publish(exchange::Glance{
+            request->agent, request->client, request->request, {0xFF, 0xD8}, "seen"});
+      }
+    }
+    return !drivers.empty() && !seen_by.empty() && starred->hears() == Names{"server"};
+  }));
+  EXPECT_EQ(drivers, Names{"meshed"});
+  EXPECT_EQ(lookers, Names{"meshed"});
+  EXPECT_EQ(seen_by, Names{"meshed"});
+}
+
 TEST_F(DdsStarTest, AServerThatStartsAnewIsFoundAndServersFindEachOther) {
   auto server = Server();
   const auto agent = Agent(Discovery::kStar, "agent");
