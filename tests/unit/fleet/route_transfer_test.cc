@@ -73,7 +73,7 @@ class RouteTransferTest : public testing::Test {
     return ImportToServer(file, peer, watch);
   }
   Result<std::uint64_t> Export(const route::RouteInfo& info, const TransferWatch& watch) {
-    OperatorPeer peer{AgentId("operator-2"), bus_.Open(exchange::FollowerTopics())};
+    OperatorPeer peer{AgentId("operator-2"), bus_.Open(ExporterTopics())};
     return ExportFromServer(peer, info, Writer("fetched.trailcast", info), watch);
   }
 
@@ -205,7 +205,7 @@ TEST_F(RouteTransferTest, AServerThatFallsSilentIsTold) {
       }
     }
   });
-  const auto imported = Import(FileOf(TeachSamples(2)), milliseconds(300));
+  const auto imported = Import(FileOf(TeachSamples(2)), milliseconds(3000));
   ASSERT_FALSE(imported);
   EXPECT_EQ(imported.error().code, ErrorCode::kUnavailable);
   EXPECT_THAT(imported.error().message, HasSubstr("confirmed 0 of 2 segments"));
