@@ -36,8 +36,12 @@ class Bag {
   using Tell = std::function<void(const std::string& what)>;
 
   // kNotFound, kInvalidArgument: there is no such recording, or none of these formats.
+  // `most_growth`: of an MCAP's chunks no more is unpacked, each time it is read, than that many
+  // times its size and kFreeBytes; what more there is counts as damage. Nothing: any amount.
   [[nodiscard]] static Result<std::unique_ptr<Bag>> Open(
-      const std::filesystem::path& file_or_folder, const Tell& tell);
+      const std::filesystem::path& file_or_folder, const Tell& tell,
+      std::optional<std::uint64_t> most_growth = std::nullopt);
+  static constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20U;
   ~Bag();
   Bag(const Bag&) = delete;
   Bag& operator=(const Bag&) = delete;
@@ -66,7 +70,8 @@ class Bag {
   Result<std::filesystem::path> CutToPages(Part& part, const std::filesystem::path& plain,
                                            const Tell& tell);
   static Result<std::filesystem::path> InScratch(Part& part, const std::filesystem::path& name);
-  Result<void> Add(const std::filesystem::path& file, const Tell& tell);
+  Result<void> Add(const std::filesystem::path& file, const Tell& tell,
+                   std::optional<std::uint64_t> most_growth);
   void Collect();
   void NoteDamage(Part& part);
 

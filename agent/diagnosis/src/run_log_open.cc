@@ -18,7 +18,8 @@ constexpr std::chrono::seconds kEnd{2};
 class McapText {
  public:
   static Result<McapText> Open(const std::filesystem::path& file) {
-    auto bag = bag::Bag::Open(file, [](const std::string&) {});
+    auto bag = bag::Bag::Open(
+        file, [](const std::string&) {}, kMostGrowth);
     if (!bag) return tl::unexpected(bag.error());
     const auto& topics = (*bag)->topics();
     const auto log = std::find_if(topics.begin(), topics.end(), [](const bag::Topic& topic) {

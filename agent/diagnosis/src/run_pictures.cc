@@ -36,7 +36,8 @@ Result<std::unique_ptr<RunPictures>> RunPictures::Open(const std::filesystem::pa
   if (!IsMcap(stream)) {
     return Fail(ErrorCode::kInvalidArgument, "a log as text has no pictures");
   }
-  auto bag = bag::Bag::Open(file, [](const std::string&) {});
+  auto bag = bag::Bag::Open(
+      file, [](const std::string&) {}, kMostGrowth);
   if (!bag) return tl::unexpected(bag.error());
   std::unique_ptr<RunPictures> pictures(new RunPictures(std::move(*bag)));
   if (pictures->pictures_ == nullptr && pictures->features_ == nullptr) {

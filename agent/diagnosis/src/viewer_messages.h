@@ -18,6 +18,8 @@ namespace trailcast::agent {
 inline constexpr const char* kRunLogTopic = "/replay/log";
 inline constexpr const char* kPicturesTopic = "/camera/image";
 inline constexpr const char* kFeaturesTopic = "/camera/features";
+// Text packs to a tenth or so: what unpacks to more than this was made to keep its readers busy.
+inline constexpr std::uint64_t kMostGrowth = 32;
 
 // The messages of idl/viewers.proto and idl/run_log.proto, as bytes.
 [[nodiscard]] std::string PictureMessage(SensorTime at, std::span<const std::uint8_t> jpeg);

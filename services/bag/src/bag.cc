@@ -74,7 +74,8 @@ struct Bag::Part {
 Bag::Bag() = default;
 Bag::~Bag() = default;
 
-Result<std::unique_ptr<Bag>> Bag::Open(const fs::path& file_or_folder, const Tell& tell) {
+Result<std::unique_ptr<Bag>> Bag::Open(const fs::path& file_or_folder, const Tell& tell,
+                                       std::optional<std::uint64_t> most_growth) {
   const auto parts = FindParts(file_or_folder);
   if (!parts) return tl::unexpected(parts.error());
   std::unique_ptr<Bag> bag(new Bag());
@@ -82,7 +83,8 @@ Result<std::unique_ptr<Bag>> Bag::Open(const fs::path& file_or_folder, const Tel
     bag->damage_.push_back(name + ": listed in metadata.yaml, but not there");
   }
   for (const fs::path& file : parts->files) {
-    if (auto added = bag->Add(file, tell); !added) return tl::unexpected(added.error());
+    auto added = bag->Add(file, tell, most_growth);
+    if (!added) return tl::unexpected(added.error());
   }
   std::stable_sort(bag->parts_.begin(), bag->parts_.end(), [](const Part& a, const Part& b) {
     return a.contents.first_at < b.contents.first_at;
@@ -132,7 +134,8 @@ Result<fs::path> Bag::InScratch(Part& part, const fs::path& name) {
   return *part.scratch / name.string();
 }
 
-Result<void> Bag::Add(const fs::path& file, const Tell& tell) {
+Result<void> Bag::Add(const fs::path& file, const Tell& tell,
+                      std::optional<std::uint64_t> most_growth) {
   Part part{file, {}, nullptr, {}};
   auto plain = Unpack(part, tell);
   if (plain) plain = CutToPages(part, *plain, tell);
@@ -140,6 +143,7 @@ Result<void> Bag::Add(const fs::path& file, const Tell& tell) {
   auto opened = OpenFile(*plain);
   if (!opened) return tl::unexpected(opened.error());
   part.file = std::move(*opened);
+  part.file->Bound(most_growth);
   auto contents = part.file->Survey(tell);
   if (!contents) return tl::unexpected(contents.error());
   part.contents = std::move(*contents);

@@ -116,6 +116,7 @@ void McapFile::Begin(const Topic& topic, std::chrono::nanoseconds from) {
   from_ns_ = static_cast<std::uint64_t>(std::max<std::int64_t>(from.count(), 0));
   at_ = kMcapMagic.size();
   ended_ = false;
+  unpacked_ = 0;
   in_chunk_ = {};
 }
 
@@ -170,6 +171,12 @@ void McapFile::OpenChunk(std::span<const std::uint8_t> content, bool cut_off) {
   if (!compression) {
     NoteDamageAt(fmt::format("a chunk compressed by '{}': expected lz4, zstd or nothing",
                              chunk->compression.substr(0, 20)));
+    return;
+  }
+  unpacked_ += chunk->uncompressed_bytes;
+  if (!MayUnpack(unpacked_, size_)) {
+    NoteDamageAt("all that is packed here is far too much: the rest is left out");
+    ended_ = true;
     return;
   }
   Decompressed records = Decompress(*compression, chunk->records, chunk->uncompressed_bytes);

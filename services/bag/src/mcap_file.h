@@ -44,6 +44,7 @@ class McapFile final : public BagFile {
   std::uint64_t at_ = kMcapMagic.size();  // of the next record
   std::uint64_t record_ = 0;              // of the one that is read
   bool ended_ = false;
+  std::uint64_t unpacked_ = 0;  // bytes, since it began
   McapChannels channels_;
   Topic topic_;
   std::uint64_t from_ns_ = 0;

@@ -54,6 +54,30 @@ TEST(Bag, GivesOneTopicsMessagesAsOftenAsWanted) {
   ExpectRecorded(*bag, 30);
 }
 
+TEST(Bag, FarMoreThanAFileIsLargeIsNotUnpackedOfOneThatIsBounded) {
+  const test::TempDir folder;
+  const fs::path file = folder / "bomb.mcap";
+  constexpr std::uint64_t kGrowth = 2;
+  constexpr std::size_t kMessage = std::size_t{1} << 20U;
+  constexpr std::size_t kMessages = 100;
+  {
+    test::McapBagWriter writer(file, Compression::kZstd);
+    for (std::size_t i = 0; i < kMessages; ++i) {
+      writer.Put("/odom", kOdom, milliseconds(i), Bytes(kMessage, 0));
+    }
+  }
+  const auto bag = Bag::Open(
+      file, [](const std::string&) {}, kGrowth);
+  ASSERT_TRUE(bag);
+  for (int i = 0; i < 2; ++i) {  // each time it is read
+    const std::size_t bytes = ReadAll(**bag, "/odom").size() * kMessage;
+    EXPECT_LE(bytes, Bag::kFreeBytes + kGrowth * fs::file_size(file));
+    EXPECT_GT(bytes, Bag::kFreeBytes / 2);
+  }
+  EXPECT_THAT((*bag)->damage().front(), HasSubstr("far too much"));
+  EXPECT_EQ(ReadAll(*OpenBag(file), "/odom").size(), kMessages);
+}
+
 class McapCompressions : public testing::TestWithParam<Compression> {};
 
 TEST_P(McapCompressions, AreRead) {
