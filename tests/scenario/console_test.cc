@@ -35,7 +35,7 @@ class ConsoleTest : public ConsoleFleetTest {
 TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   ASSERT_TRUE(WaitForState("free")) << State().dump(2) << console_->output();
   EXPECT_EQ(State()["routes"], json::array()) << "no robot is on one";
-  EXPECT_EQ(State()["servers"][0]["heard"], true);
+  EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == true; }));
   EXPECT_TRUE(WaitUntil([&] { return Robot1()["battery_percent"] > 90; })) << Robot1();
   EXPECT_NE(Robot1()["software"], "");
 
