@@ -193,8 +193,8 @@ TEST_F(TeachBeforeAPillarTest, WhoIsDrivenByHandStandsBeforeItAndIsDrivenAway) {
       return done();
     });
   };
-  ASSERT_TRUE(drive_until(
-      0.4, 0.0, [&] { return says().starts_with("something stands 0.") && Stood(); }))
+  ASSERT_TRUE(
+      drive_until(0.4, 0.0, [&] { return says().starts_with("something stands 0.") && Stood(); }))
       << says() << agent_->output();
   const double stood_m = Along_m("truth.csv");
   // Its front is 0.2 m ahead of its axle, the pillar's near side at 2.8 m.
