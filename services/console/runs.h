@@ -132,7 +132,7 @@ class Runs {
   };
   struct Kept {
     RunFile file;
-    std::filesystem::path path;
+    std::filesystem::path path{};  // of an uploaded one; empty: it is in the folder
   };
 
   void Run();
@@ -142,9 +142,9 @@ class Runs {
   void LookAt(std::unique_lock<std::mutex>& lock, const std::string& id);
   void Read(std::unique_lock<std::mutex>& lock, const std::string& id);
   [[nodiscard]] std::string NextToLookAt() const;
-  [[nodiscard]] std::optional<RunFile> FileOf(const std::string& id) const;
+  [[nodiscard]] std::optional<Kept> FileOf(const std::string& id) const;
   [[nodiscard]] const Opened* Held(const RunFile& file);
-  [[nodiscard]] Result<OpenFile> OpenLog(const RunFile& file);
+  [[nodiscard]] Result<OpenFile> OpenLog(const Kept& kept) const;
   void Keep(Opened opened);
 
   const std::optional<RunFolder> folder_;

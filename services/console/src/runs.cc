@@ -161,7 +161,7 @@ std::string Runs::NextToLookAt() const {
 void Runs::LookAt(std::unique_lock<std::mutex>& lock, const std::string& id) {
   const RunFile file = entries_.at(id).file;
   lock.unlock();
-  const auto opened = OpenLog(file);
+  const auto opened = OpenLog({file});
   std::optional<RunSummary> summary;
   if (opened) {
     if (const auto log = agent::ReadRunEnds(opened->path())) summary = Summarise(*log);
@@ -173,37 +173,33 @@ void Runs::LookAt(std::unique_lock<std::mutex>& lock, const std::string& id) {
   entry->second.summary = std::move(summary);
 }
 
-Result<OpenFile> Runs::OpenLog(const RunFile& file) {
-  std::string path;
-  {
-    const std::scoped_lock lock(mutex_);
-    for (const Kept& each : uploads_) {
-      if (each.file.id == file.id) path = each.path;
-    }
-  }
-  if (path.empty()) return folder_->Open(file);
-  OpenFile opened(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  return opened;
+// An uploaded one may have made room for others meanwhile.
+Result<OpenFile> Runs::OpenLog(const Kept& kept) const {
+  if (kept.path.empty()) return folder_->Open(kept.file);
+  const int descriptor = ::open(kept.path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return Fail(ErrorCode::kNotFound, "this log is there no more");
+  return OpenFile(descriptor);
 }
 
 void Runs::Read(std::unique_lock<std::mutex>& lock, const std::string& id) {
-  const auto file = FileOf(id);
-  if (!file) {
+  const auto kept = FileOf(id);
+  if (!kept) {
     wanted_.pop_front();
     return;
   }
   lock.unlock();
-  Opened read{*file, Fail(ErrorCode::kNotFound, "this log is there no more"), Clock::now()};
-  if (const auto opened = OpenLog(*file)) {
+  const RunFile& file = kept->file;
+  Opened read{file, Fail(ErrorCode::kNotFound, "this log is there no more"), Clock::now()};
+  if (const auto opened = OpenLog(*kept)) {
     auto log = agent::ReadRunLog(
         opened->path(), {.lines = kMostRows, .events = kMostEvents, .text_bytes = kMostTextBytes});
     if (log) {
       // A log without them is one all the same.
       auto pictures = agent::RunPictures::Open(opened->path());
-      read.run = std::make_shared<const OpenedRun>(*file, *std::move(log),
+      read.run = std::make_shared<const OpenedRun>(file, *std::move(log),
                                                    pictures ? *std::move(pictures) : nullptr);
     } else {
-      read.run = tl::unexpected(InWords(log.error(), opened->path(), file->name));
+      read.run = tl::unexpected(InWords(log.error(), opened->path(), file.name));
     }
   }
   lock.lock();
@@ -224,12 +220,12 @@ void Runs::Keep(Opened opened) {
   }
 }
 
-std::optional<RunFile> Runs::FileOf(const std::string& id) const {
+std::optional<Runs::Kept> Runs::FileOf(const std::string& id) const {
   for (const Kept& each : uploads_) {
-    if (each.file.id == id) return each.file;
+    if (each.file.id == id) return each;
   }
   const auto entry = entries_.find(id);
-  return entry == entries_.end() ? std::nullopt : std::optional(entry->second.file);
+  return entry == entries_.end() ? std::nullopt : std::optional(Kept{entry->second.file});
 }
 
 // Null: it is not read, or has grown meanwhile.
@@ -251,12 +247,12 @@ Result<std::shared_ptr<const OpenedRun>> Runs::Find(const std::string& id, milli
   ++waiting_;
   const std::shared_ptr<void> leave(nullptr, [this](void*) { --waiting_; });
   while (!closed_) {
-    const auto file = FileOf(id);
-    if (!file && (!folder_ || scanned_at_)) {
+    const auto kept = FileOf(id);
+    if (!kept && (!folder_ || scanned_at_)) {
       return Fail(ErrorCode::kNotFound, "there is no such run, or its log is there no more");
     }
-    if (file) {
-      if (const Opened* held = Held(*file)) return held->run;
+    if (kept) {
+      if (const Opened* held = Held(kept->file)) return held->run;
       if (std::find(wanted_.begin(), wanted_.end(), id) == wanted_.end()) {
         if (wanted_.size() >= kMostWanted) {
           return Fail(ErrorCode::kUnavailable, "too many logs wait to be read: try again");
