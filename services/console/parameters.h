@@ -5,6 +5,7 @@
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
+#include "services/console/runs_query.h"
 #include "services/mission/mission.h"
 #include "services/route/route_query.h"
 
@@ -20,6 +21,9 @@ using Parameters = std::multimap<std::string, std::string>;
 // Of GET /api/missions and of GET /api/commands.
 [[nodiscard]] Result<mission::Query> ReadMissionQuery(const Parameters& parameters);
 [[nodiscard]] Result<mission::Query> ReadCommandQuery(const Parameters& parameters);
+
+// Of GET /api/runs.
+[[nodiscard]] Result<RunsQuery> ReadRunsQuery(const Parameters& parameters);
 
 // Of which teaching, in hexadecimal digits.
 [[nodiscard]] Result<TeachingId> ReadTeaching(const std::string& text);

@@ -18,6 +18,7 @@
 #include "services/base/result.h"
 #include "services/base/work_folder.h"
 #include "services/console/run_folder.h"
+#include "services/console/runs_query.h"
 #include "services/explain/story.h"
 
 namespace trailcast::console {
@@ -81,12 +82,6 @@ class Runs {
   Runs(const Runs&) = delete;
   Runs& operator=(const Runs&) = delete;
 
-  struct Query {
-    std::string robot{};
-    std::string route{};
-    std::string mission{};
-    std::size_t skip = 0;
-  };
   struct Listed {
     RunFile file;
     RunSummary summary;
@@ -98,7 +93,7 @@ class Runs {
     std::size_t unread = 0;    // files that are not looked at yet
   };
   // Waits for all to be looked at, up to `most`. kConflict: there is no folder.
-  [[nodiscard]] Result<Page> List(const Query& query, std::chrono::milliseconds most);
+  [[nodiscard]] Result<Page> List(const RunsQuery& query, std::chrono::milliseconds most);
 
   // Waits for it, up to `most`; null: it is not read yet. kNotFound; kUnavailable: too many wait to
   // be read; another error: it cannot be read, and why.

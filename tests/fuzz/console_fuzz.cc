@@ -85,6 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         .client = AgentId("desk"), .request = 1, .query = *query};
     Require(exchange::CheckBounds(request).has_value(), "a question may be published");
   }
+  (void)console::ReadRunsQuery(parameters);
   (void)console::ErrorBody(body);
   if (const auto users = users::ParseUsers(body)) {
     const auto again = users::ParseUsers(users::TextOf(*users));

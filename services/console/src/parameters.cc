@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint32_t kRoutesAPage = 50;
 constexpr std::uint32_t kMostRoutesAPage = 200;
 constexpr double kWithin_m = 50.0;
+constexpr std::size_t kMostNameBytes = 128;
 
 // How a parameter that was given is read into a query.
 template <typename Query>
@@ -45,6 +46,16 @@ auto NameInto(std::string Query::*field) {
       return Fail(ErrorCode::kInvalidArgument,
                   "is to be a name of 1 to 64 letters, digits, '_', '.', '-'");
     }
+    query.*field = text;
+    return {};
+  };
+}
+
+// A name as a log has it, which may be anybody's.
+template <typename Query>
+auto LoggedNameInto(std::string Query::*field) {
+  return [field](const std::string& text, Query& query) -> Result<void> {
+    if (text.size() > kMostNameBytes) return Fail(ErrorCode::kInvalidArgument, "is too long");
     query.*field = text;
     return {};
   };
@@ -195,6 +206,19 @@ Result<mission::Query> ReadMissionQuery(const Parameters& parameters) {
 Result<mission::Query> ReadCommandQuery(const Parameters& parameters) {
   static const Readers<mission::Query> kAll = RecordParameters();
   mission::Query query;
+  if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  return query;
+}
+
+Result<RunsQuery> ReadRunsQuery(const Parameters& parameters) {
+  using Query = RunsQuery;
+  static const Readers<Query> kAll{{"robot", LoggedNameInto<Query>(&Query::robot)},
+                                   {"route", LoggedNameInto<Query>(&Query::route)},
+                                   {"mission", LoggedNameInto<Query>(&Query::mission)},
+                                   {"skip", NumberInto<Query, std::size_t>(&Query::skip)}};
+  Query query;
   if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
     return tl::unexpected(read.error());
   }

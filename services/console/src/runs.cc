@@ -266,7 +266,7 @@ Result<std::shared_ptr<const OpenedRun>> Runs::Find(const std::string& id, milli
   return nullptr;
 }
 
-Result<Runs::Page> Runs::List(const Query& query, milliseconds most) {
+Result<Runs::Page> Runs::List(const RunsQuery& query, milliseconds most) {
   if (!folder_) {
     return Fail(ErrorCode::kConflict,
                 "this console has no logs of runs: start it with --logs FOLDER, or drop one here");

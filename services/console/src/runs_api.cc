@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "services/base/number.h"
-#include "services/base/text.h"
+#include "services/console/parameters.h"
 #include "services/console/src/answers.h"
 #include "services/console/src/run_body.h"
 
@@ -19,24 +19,13 @@ using httplib::Response;
 // Then whoever asks is told that it is read, and asks again.
 constexpr std::chrono::milliseconds kLook{2000};
 constexpr std::chrono::minutes kPatience{10};
-constexpr std::size_t kMostNameBytes = 128;
 constexpr const char* kRun = "/api/runs/([0-9a-f]{16})";
 constexpr const char* kFrame = "/api/runs/([0-9a-f]{16})/frames/([0-9]{1,9})";
 
 void List(Runs& runs, const Request& request, Response& response) {
-  Runs::Query query;
-  for (const auto& [name, text] : request.params) {
-    if (text.empty()) continue;
-    if (name == "robot" || name == "route" || name == "mission") {
-      if (text.size() > kMostNameBytes) return Refuse(response, 400, "'" + name + "': is too long");
-      (name == "robot" ? query.robot : name == "route" ? query.route : query.mission) = text;
-    } else if (name == "skip") {
-      if (!ReadNumber(text, query.skip)) return Refuse(response, 400, "'skip': is no number");
-    } else {
-      return Refuse(response, 400, "there is no parameter '" + PlainText(name, 64) + "'");
-    }
-  }
-  const auto page = runs.List(query, kLook);
+  const auto query = ReadRunsQuery(request.params);
+  if (!query) return Refuse(response, query.error());
+  const auto page = runs.List(*query, kLook);
   if (!page) return Refuse(response, page.error());
   Answer(response, 200, RunsBody(*page));
 }
