@@ -1,5 +1,5 @@
 import { useEffect, useState } from 'react';
-import { marks } from './glance';
+import { marks, MarksLegend } from './glance';
 import type { Frame, Seen, Verdict } from './runs';
 
 const words: Verdict[] = ['inside', 'left', 'right', 'rejected'];
@@ -78,16 +78,7 @@ export function FramePicture({ run, frame, seen, row }: { run: string; frame: Fr
           : seen?.features.length ? 'The log has no picture of this frame. ' : 'The log does not say where features were. '}
         {(seen?.features.length ?? 0) > 0 && 'Lines lead to where a feature will be at the milestone; of a rejected one, to where it should be.'}
       </figcaption>
-      {(seen?.features.length ?? 0) > 0 && (
-        <ul aria-label="Marks in the picture">
-          {marks.map((mark) => (
-            <li key={mark.label}>
-              <svg viewBox="0 0 16 16" aria-hidden="true"><path d={mark.shape} fill={mark.colour} stroke={mark.colour} strokeWidth="2" /></svg>
-              {mark.label}
-            </li>
-          ))}
-        </ul>
-      )}
+      {(seen?.features.length ?? 0) > 0 && <MarksLegend />}
     </figure>
   );
 }

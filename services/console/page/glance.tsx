@@ -72,6 +72,21 @@ export const marks = [
   { label: 'rejected', colour: '#e62828', shape: 'M3 3 13 13M13 3 3 13' },
 ];
 
+export function MarksLegend() {
+  return (
+    <ul aria-label="Marks in the picture">
+      {marks.map((mark) => (
+        <li key={mark.label}>
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d={mark.shape} fill={mark.colour} stroke={mark.colour} strokeWidth="2" />
+          </svg>
+          {mark.label}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
 function beside(robot: Robot): string | null {
   if (robot.left_m === null || robot.left_sigma_m === null) return null;
   return `${Math.abs(robot.left_m).toFixed(2)} m ${robot.left_m < 0 ? 'right' : 'left'} of the path, ± ${robot.left_sigma_m.toFixed(2)} m`;
@@ -99,18 +114,7 @@ export function Glance({ robot }: { robot: Robot }) {
         )}
         {place !== null && <><dt>Beside</dt><dd>{place}</dd></>}
       </dl>
-      {look.text.includes('features') && (
-        <ul aria-label="Marks in the picture">
-          {marks.map((mark) => (
-            <li key={mark.label}>
-              <svg viewBox="0 0 16 16" aria-hidden="true">
-                <path d={mark.shape} fill={mark.colour} stroke={mark.colour} strokeWidth="2" />
-              </svg>
-              {mark.label}
-            </li>
-          ))}
-        </ul>
-      )}
+      {look.text.includes('features') && <MarksLegend />}
     </figure>
   );
 }
