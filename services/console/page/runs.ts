@@ -68,6 +68,9 @@ export type Seen = {
 type Reading = { reading: true };
 const isReading = (reply: object): reply is Reading => 'reading' in reply;
 
+// Where many wait already, the console answers at once.
+const kAgain_ms = 300;
+
 // Null while its log is read.
 export function useRun(id: string, axis: Axis): Run | string | null {
   const [run, setRun] = useState<Run | string | null>(null);
@@ -78,6 +81,7 @@ export function useRun(id: string, axis: Axis): Run | string | null {
         const reply = await get<Run | Reading>(`/api/runs/${id}`, { along: axis });
         if (!still) return;
         if (typeof reply === 'string' || !isReading(reply)) return setRun(reply);
+        await new Promise((again) => window.setTimeout(again, kAgain_ms));
       }
     };
     void ask();
