@@ -24,6 +24,7 @@ struct Command {
 [[nodiscard]] Command AddFleetCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddGlanceCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddJointsCommand(CLI::App& parent);
 [[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
 // send, missions.

@@ -33,6 +33,7 @@ const std::map<std::string, Rooms> kMayInclude{
     {"services/replay", {"services/base", "services/motion", "services/route"}},
     {"services/view", {"services/base", "services/route"}},
     {"services/belief", {"services/base"}},
+    {"services/joints", {"services/base", "services/route", "services/view"}},
     {"services/mission", {"services/base", "services/route"}},
     {"services/store", {"services/base", "services/route", "services/mission"}},
     {"services/exchange",
@@ -93,8 +94,8 @@ const std::map<std::string, Rooms> kMayInclude{
       "services/view",     "services/mission", "services/vision",  "services/store",
       "services/exchange", "services/archive", "services/catalog", "services/security",
       "services/sim",      "services/program", "services/plot",    "services/explain",
-      "services/trial",    "services/demo",    "agent/session",    "agent/diagnosis",
-      "agent/device",      "agent/simulated"}},
+      "services/trial",    "services/demo",    "services/joints",  "agent/session",
+      "agent/diagnosis",   "agent/device",     "agent/simulated"}},
 };
 
 // The rooms where each third-party library may be used, by the beginning of its headers' names; "*"

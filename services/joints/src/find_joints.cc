@@ -1,0 +1,288 @@
+#include "services/joints/find_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace trailcast::joints {
+namespace {
+
+// Two views that have something in common.
+struct Alike {
+  std::size_t a = 0;  // positions
+  std::size_t b = 0;
+  double at_a = 0.0;
+  double at_b = 0.0;  // where on B things look as large as in A's view, once that is known
+  int agreed = 0;
+  double log_scale = 0.0;  // of B's picture to A's
+  double shift_u = 0.0;    // half widths
+  double turned = 0.0;     // B's taught heading less A's
+  double worth = 0.0;
+};
+
+Alike Describe(const RouteViews& a, std::size_t i, const RouteViews& b, std::size_t j,
+               const view::Comparison& comparison) {
+  const RouteViews::View& one = a.views()[i];
+  const RouteViews::View& other = b.views()[j];
+  return {i,
+          j,
+          one.along,
+          other.along,
+          comparison.agreed(),
+          std::log(comparison.scale),
+          comparison.shift_u,
+          other.heading - one.heading,
+          0.0};
+}
+
+std::vector<Alike> FindAlike(const RouteViews& a, const RouteViews& b,
+                             const JointOptions& options) {
+  std::vector<Alike> found;
+  for (std::size_t i = 0; i < a.views().size(); ++i) {
+    if (a.views()[i].reverse) continue;
+    for (std::size_t j = 0; j < b.views().size(); ++j) {
+      if (b.views()[j].reverse) continue;
+      const auto comparison =
+          view::Compare(a.views()[i].table, b.views()[j].table, options.comparison);
+      if (comparison.agreed() < options.least_agreed) continue;
+      found.push_back(Describe(a, i, b, j, comparison));
+    }
+  }
+  return found;
+}
+
+// The same of one route and itself: later views, once those in between have shown something else.
+std::vector<Alike> FindAlike(const RouteViews& route, const JointOptions& options) {
+  constexpr int kLeft = 2;  // views in a row
+  std::vector<Alike> found;
+  for (std::size_t i = 0; i < route.views().size(); ++i) {
+    if (route.views()[i].reverse) continue;
+    int unlike = 0;
+    for (std::size_t j = i + 1; j < route.views().size(); ++j) {
+      if (route.views()[j].reverse) continue;
+      const auto comparison =
+          view::Compare(route.views()[i].table, route.views()[j].table, options.comparison);
+      const bool alike = comparison.agreed() >= options.least_agreed;
+      if (unlike < kLeft) {
+        unlike = alike ? 0 : unlike + 1;
+      } else if (alike) {
+        found.push_back(Describe(route, i, route, j, comparison));
+      }
+    }
+  }
+  return found;
+}
+
+// How much larger B's camera shows things. Turns tell; else what the views say that have most in
+// common, for those are of about one place.
+double LogMagnification(std::span<const Alike> alike, int least_agreed) {
+  constexpr double kSigma = 0.08;
+  double best = 0.0;
+  double most = 0.0;
+  for (const Alike& candidate : alike) {
+    double sum = 0.0;
+    for (const Alike& each : alike) {
+      const double off = (each.log_scale - candidate.log_scale) / kSigma;
+      const double weight = each.agreed - least_agreed + 1;
+      sum += weight * weight * std::exp(-0.5 * off * off);
+    }
+    if (sum > most) {
+      most = sum;
+      best = candidate.log_scale;
+    }
+  }
+  return best;
+}
+
+double LogMagnification(const RouteViews& a, const RouteViews& b, std::span<const Alike> alike,
+                        int least_agreed) {
+  const auto turning_a = a.half_widths_a_radian();
+  const auto turning_b = b.half_widths_a_radian();
+  if (turning_a && turning_b) return std::log(*turning_b / *turning_a);
+  return LogMagnification(alike, least_agreed);
+}
+
+class Finder {
+ public:
+  Finder(std::vector<Alike> alike, const RouteViews& a, const RouteViews& b, bool same_camera,
+         const JointOptions& options)
+      : alike_(std::move(alike)),
+        metric_(a.metric() && b.metric()),
+        loop_(&a == &b),
+        b_(b),
+        options_(options) {
+    if (!same_camera) log_magnification_ = LogMagnification(a, b, alike_, options_.least_agreed);
+    for (Alike& each : alike_) {
+      const double off = each.log_scale - log_magnification_;
+      each.at_b -= Moved(off, 0.5 * (a.views()[each.a].growth + b.views()[each.b].growth));
+      const double sigmas = off / options_.log_scale_sigma;
+      each.worth = (each.agreed - options_.least_agreed + 1) * std::exp(-0.5 * sigmas * sigmas);
+    }
+  }
+
+  std::vector<Joint> All() {
+    std::vector<Joint> joints;
+    while (joints.size() < options_.most_joints) {
+      const std::vector<std::size_t> chain = BestChain();
+      if (chain.empty()) break;
+      if (Evidence(chain) < options_.least_evidence) break;
+      if (chain.size() >= options_.least_views) {
+        const Joint joint = JointOf(chain);
+        if (!loop_ || ComesBack(joint)) joints.push_back(joint);
+      }
+      TakeOut(chain);
+    }
+    return joints;
+  }
+
+ private:
+  // How much further along a view is in which things look so much larger. Where they hardly grow on
+  // the way, how large they look says little of the place.
+  [[nodiscard]] double Moved(double log_scale, double growth) const {
+    if (growth <= 0.0) return 0.0;
+    const double sigma = metric_ ? options_.off_sigma_m : options_.off_sigma_s;
+    const double untold = options_.log_scale_noise / (growth * sigma);
+    return std::clamp(log_scale / growth / (1.0 + untold * untold), -2.0 * sigma, 2.0 * sigma);
+  }
+
+  // Not just a stretch along which things change slowly.
+  [[nodiscard]] bool ComesBack(const Joint& joint) const {
+    return joint.at_b - joint.at_a >=
+           std::max(options_.least_loop, std::min(joint.length(), options_.sure_loop));
+  }
+
+  [[nodiscard]] bool Follows(const Alike& before, const Alike& after) const {
+    if (after.a <= before.a || after.b <= before.b) return false;
+    const double way_a = after.at_a - before.at_a;
+    const double way_b = after.at_b - before.at_b;
+    if (way_b < 0.0) return false;
+    if (after.a - before.a > options_.most_passed_over + 1 && way_a > options_.most_apart) {
+      return false;
+    }
+    if (after.b - before.b > options_.most_passed_over + 1 && way_b > options_.most_apart) {
+      return false;
+    }
+    const double longer = std::max(way_a, way_b);
+    if (metric_) {
+      return std::abs(way_a - way_b) <= options_.slack_m + options_.slack_share * longer;
+    }
+    return longer <= options_.most_pace * std::min(way_a, way_b) + 1.0;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> BestChain() const {
+    constexpr auto kNone = std::numeric_limits<std::size_t>::max();
+    std::vector<double> sums(alike_.size());
+    std::vector<std::size_t> befores(alike_.size(), kNone);
+    std::size_t best = kNone;
+    for (std::size_t i = 0; i < alike_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (sums[j] <= sums[i] || !Follows(alike_[j], alike_[i])) continue;
+        sums[i] = sums[j];
+        befores[i] = j;
+      }
+      sums[i] += alike_[i].worth;
+      if (best == kNone || sums[i] > sums[best]) best = i;
+    }
+    std::vector<std::size_t> chain;
+    for (std::size_t i = best; i != kNone; i = befores[i]) chain.push_back(i);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
+  [[nodiscard]] double Evidence(std::span<const std::size_t> chain) const {
+    double sum = 0.0;
+    for (const std::size_t i : chain) sum += alike_[i].worth;
+    return sum;
+  }
+
+  // All that says the same as the chain does, or would say it twice.
+  void TakeOut(std::span<const std::size_t> chain) {
+    const Alike first = alike_[chain.front()];
+    const Alike last = alike_[chain.back()];
+    const double near = options_.most_apart;
+    std::erase_if(alike_, [&](const Alike& each) {
+      return each.at_a >= first.at_a - near && each.at_a <= last.at_a + near &&
+             each.at_b >= first.at_b - near && each.at_b <= last.at_b + near;
+    });
+  }
+
+  [[nodiscard]] Joint JointOf(std::span<const std::size_t> chain) const {
+    Joint joint;
+    joint.views = static_cast<int>(chain.size());
+    joint.evidence = Evidence(chain);
+    joint.confidence = 1.0 - std::exp2(-joint.evidence / options_.least_evidence);
+    joint.log_scale = log_magnification_;
+    for (const std::size_t i : chain) joint.features += alike_[i].agreed;
+    std::tie(joint.at_a, joint.at_b) = PlacesAt(chain, alike_[chain.front()]);
+    std::tie(joint.end_a, joint.end_b) = PlacesAt(chain, alike_[chain.back()]);
+    joint.end_a = std::max(joint.at_a, joint.end_a);
+    joint.end_b = std::max(joint.at_b, joint.end_b);
+    SetHeading(chain, joint);
+    return joint;
+  }
+
+  // Where both are at this pair of the chain; on neither beyond its ends.
+  [[nodiscard]] std::pair<double, double> PlacesAt(std::span<const std::size_t> chain,
+                                                   const Alike& pair) const {
+    // The pace is not known without odometry: the pair alone.
+    if (!metric_) return {pair.at_a, std::clamp(pair.at_b, b_.begin(), b_.end())};
+    constexpr double kNear_m = 4.0;
+    std::vector<Weighed> offsets;
+    for (const std::size_t i : chain) {
+      if (std::abs(alike_[i].at_a - pair.at_a) > kNear_m) continue;
+      offsets.push_back({alike_[i].at_b - alike_[i].at_a, alike_[i].worth});
+    }
+    const double offset = *Median(std::move(offsets));
+    const double at_b = std::clamp(pair.at_a + offset, b_.begin(), b_.end());
+    return {at_b - offset, at_b};
+  }
+
+  void SetHeading(std::span<const std::size_t> chain, Joint& joint) const {
+    constexpr double kHalfWidthsARadian = 1.73;  // of a camera of 60 degrees
+    const auto told = b_.half_widths_a_radian();
+    joint.heading_scaled = told.has_value();
+    const double half_widths = told.value_or(kHalfWidthsARadian);
+    std::vector<Weighed> headings;
+    for (const std::size_t i : chain) {
+      const Alike& each = alike_[i];
+      const double turned_since = HeadingOfB(each.at_b) - b_.views()[each.b].heading;
+      headings.push_back({each.shift_u / half_widths + turned_since, each.worth});
+    }
+    joint.heading_rad = *Median(std::move(headings));
+  }
+
+  [[nodiscard]] double HeadingOfB(double along) const {
+    const auto& views = b_.views();
+    const auto after = std::find_if(views.begin(), views.end(),
+                                    [&](const auto& view) { return view.along > along; });
+    if (after == views.begin()) return views.front().heading;
+    if (after == views.end()) return views.back().heading;
+    const auto before = std::prev(after);
+    const double share = (along - before->along) / (after->along - before->along);
+    return before->heading + share * (after->heading - before->heading);
+  }
+
+  std::vector<Alike> alike_;  // by A's views, then B's
+  bool metric_;
+  bool loop_;
+  const RouteViews& b_;
+  JointOptions options_;
+  double log_magnification_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<Joint> FindJoints(const RouteViews& a, const RouteViews& b, bool same_camera,
+                              const JointOptions& options) {
+  return Finder(FindAlike(a, b, options), a, b, same_camera, options).All();
+}
+
+std::vector<Joint> FindLoops(const RouteViews& route, const JointOptions& options) {
+  return Finder(FindAlike(route, options), route, route, true, options).All();
+}
+
+}  // namespace trailcast::joints

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/joints/find_joints.h"
+#include "services/route/route.h"
+
+namespace trailcast::tool {
+
+// A route as joints are looked for in it.
+struct JoinableRoute {
+  route::RouteInfo info;
+  joints::RouteViews views;
+};
+
+struct FoundJoint {
+  std::size_t a = 0;  // positions among the routes; the same for a route that comes back
+  std::size_t b = 0;
+  joints::Joint joint;
+};
+
+// Of every two of `routes` and of each with itself; if `only_first`, of the first with each.
+[[nodiscard]] std::vector<FoundJoint> FindAllJoints(const std::vector<JoinableRoute>& routes,
+                                                    bool only_first);
+
+// "hall@12.0 office@0.4 for 5.3 m, agreed by 43 features, 0.97 sure, 3 degrees to the left", a line
+// a joint. Routes of one name are called by their ids; places on those taught without odometry are
+// in seconds of teaching: "hall@12.0s".
+[[nodiscard]] std::string JointsText(const std::vector<JoinableRoute>& routes,
+                                     const std::vector<FoundJoint>& found);
+// For programs: one object.
+[[nodiscard]] std::string JointsJson(const std::vector<JoinableRoute>& routes,
+                                     const std::vector<FoundJoint>& found);
+
+}  // namespace trailcast::tool
