@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+
+namespace trailcast::network {
+
+// Metres along a route, by whatever its caller tells routes apart.
+struct Place {
+  std::string route{};
+  double along_m = 0.0;
+  bool operator==(const Place&) const = default;
+};
+
+// How the route that a joint leads to lies there, seen from the one that it leaves: in that one's
+// direction, to the left of it, and counter-clockwise.
+struct Lie {
+  double ahead_m = 0.0;
+  double left_m = 0.0;
+  double turn_rad = 0.0;
+  bool operator==(const Lie&) const = default;
+};
+
+// Where a robot may change over from one route to another, or to another part of the same: the end
+// of a ring to its beginning.
+struct Joint {
+  Place from{};
+  Place to{};
+  bool both = false;         // and back
+  std::optional<Lie> lie{};  // where it is known
+  bool operator==(const Joint&) const = default;
+};
+
+// What holds on a part of a route, whose ends are no part of it: one may arrive where a closed
+// stretch begins, and set out where it ends.
+struct Condition {
+  std::string route{};
+  double from_m = 0.0;
+  double to_m = 0.0;  // beyond the route's end: up to it
+  bool closed = false;
+  double speed = 1.0;  // at most so many times the taught speed; above 0
+  double cost = 1.0;   // a metre counts as so many; above 0
+  bool operator==(const Condition&) const = default;
+};
+
+struct Route {
+  std::string id{};    // as places have it
+  std::string name{};  // for people
+  double length_m = 0.0;
+};
+
+// A part of a route, driven as it was taught.
+struct Stretch {
+  std::string route{};
+  double from_m = 0.0;
+  double to_m = 0.0;   // above from_m
+  double speed = 1.0;  // times the taught speed
+  bool operator==(const Stretch&) const = default;
+};
+
+struct Way {
+  std::vector<Stretch> stretches{};  // none: it is there already
+  double length_m = 0.0;
+};
+
+// Routes, which are driven in the direction in which they were taught, and how they are joined.
+// What is asked does not change it.
+class Network {
+ public:
+  // Changing over counts as so many metres: of ways of about one length that with fewer joints.
+  static constexpr double kChangeCosts_m = 1.0;
+
+  // Conditions on routes that are not there count for nothing. kInvalidArgument: a joint at a place
+  // that is not there, or two routes with one id.
+  [[nodiscard]] static Result<Network> Build(std::vector<Route> routes,
+                                             const std::vector<Joint>& joints,
+                                             std::span<const Condition> conditions);
+
+  // The one that costs least: metres, times their cost, divided by what is left of their speed.
+  // kNotFound in words for people: no such route or place, no way, or one that is closed, and
+  // where.
+  [[nodiscard]] Result<Way> ShortestWay(const Place& from, const Place& to) const;
+
+  [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }
+
+ private:
+  using Index = std::uint32_t;
+  // Where a joint or condition begins or ends, and the route besides.
+  struct Node {
+    Index route = 0;
+    double along_m = 0.0;
+    // Up to the next node, if that is of the same route: all of it is alike.
+    bool closed = false;
+    double speed = 1.0;
+    double cost = 1.0;  // of a metre
+    auto operator<=>(const Node& other) const = default;
+  };
+  // Of the node of that number; apart from it, since a search looks at all of these.
+  struct Exits {
+    double ahead = 0.0;    // what it costs to the route's next node; infinite at its last
+    Index first_leap = 0;  // of leaps_: where joints lead from here, up to the next node's first
+  };
+  struct Spot {
+    Index route = 0;
+    double along_m = 0.0;
+  };
+  // From where to where one drives before each change, and in the end.
+  struct Drive {
+    Index route = 0;
+    double from_m = 0.0;
+    double to_m = 0.0;
+  };
+
+  [[nodiscard]] Result<Spot> Find(const Place& place) const;
+  void PlaceNodes(const std::vector<Joint>& joints, std::span<const Condition> conditions);
+  void Weigh(std::span<const Condition> conditions);
+  void Link(const std::vector<Joint>& joints);
+  [[nodiscard]] Index NodeAt(const Spot& spot) const;  // the last at or before it
+  // Of a part of what is ahead of a node.
+  [[nodiscard]] double Costs(Index node, double from_m, double to_m) const;
+  struct Found {
+    double cost = 0.0;  // infinite: there is no way
+    std::vector<Drive> drives{};
+  };
+  [[nodiscard]] Found Search(const Spot& from, const Spot& to) const;
+  [[nodiscard]] Way WayOf(const std::vector<Drive>& drives) const;
+  [[nodiscard]] std::string ClosedOn(const std::vector<Drive>& drives) const;
+  [[nodiscard]] std::string Text(const Spot& spot) const;
+
+  std::vector<Route> routes_;
+  std::map<std::string, Index, std::less<>> by_id_;
+  std::vector<Node> nodes_;   // by route, then along it; a route's first and last are its ends
+  std::vector<Exits> exits_;  // and one beyond the last
+  std::vector<Index> leaps_;  // nodes
+};
+
+}  // namespace trailcast::network

@@ -1,0 +1,250 @@
+#include "services/network/network.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace trailcast::network {
+namespace {
+
+// A robot that has arrived may say that it stands a little beyond the end.
+constexpr double kBeyondEnd_m = 0.5;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// What is closed is searched last, so that one search tells what way there is, and what bars it.
+// Above what any way costs.
+constexpr double kClosedCosts = 1e15;
+
+}  // namespace
+
+Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Joint>& joints,
+                               std::span<const Condition> conditions) {
+  Network network;
+  network.routes_ = std::move(routes);
+  for (Index i = 0; i < network.routes_.size(); ++i) {
+    if (!network.by_id_.emplace(network.routes_[i].id, i).second) {
+      return Fail(ErrorCode::kInvalidArgument, "two routes with the id {}", network.routes_[i].id);
+    }
+  }
+  for (const Joint& joint : joints) {
+    for (const Place* place : {&joint.from, &joint.to}) {
+      if (const auto found = network.Find(*place); !found) {
+        return Fail(ErrorCode::kInvalidArgument, "a joint: {}", found.error().message);
+      }
+    }
+  }
+  network.PlaceNodes(joints, conditions);
+  network.Weigh(conditions);
+  network.Link(joints);
+  return network;
+}
+
+Result<Network::Spot> Network::Find(const Place& place) const {
+  const auto at = by_id_.find(place.route);
+  if (at == by_id_.end()) {
+    return Fail(ErrorCode::kNotFound, "there is no route '{}' in the network", place.route);
+  }
+  const Route& route = routes_[at->second];
+  if (!(place.along_m >= 0.0 && place.along_m <= route.length_m + kBeyondEnd_m)) {
+    return Fail(ErrorCode::kNotFound, "route '{}' is {:.1f} m long: there is no {:g} m on it",
+                route.name, route.length_m, place.along_m);
+  }
+  return Spot{at->second, std::min(place.along_m, route.length_m)};
+}
+
+void Network::PlaceNodes(const std::vector<Joint>& joints, std::span<const Condition> conditions) {
+  const auto add = [this](const Spot& spot) {
+    nodes_.push_back({.route = spot.route, .along_m = spot.along_m});
+  };
+  for (Index i = 0; i < routes_.size(); ++i) {
+    add({i, 0.0});
+    add({i, routes_[i].length_m});
+  }
+  for (const Joint& joint : joints) {
+    add(*Find(joint.from));
+    add(*Find(joint.to));
+  }
+  for (const Condition& condition : conditions) {
+    const auto at = by_id_.find(condition.route);
+    if (at == by_id_.end()) continue;
+    const double end_m = routes_[at->second].length_m;
+    add({at->second, std::clamp(condition.from_m, 0.0, end_m)});
+    add({at->second, std::clamp(condition.to_m, 0.0, end_m)});
+  }
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+}
+
+void Network::Weigh(std::span<const Condition> conditions) {
+  for (const Condition& condition : conditions) {
+    const auto at = by_id_.find(condition.route);
+    if (at == by_id_.end()) continue;
+    const double end_m = routes_[at->second].length_m;
+    const Index last = NodeAt({at->second, std::clamp(condition.to_m, 0.0, end_m)});
+    for (Index i = NodeAt({at->second, std::clamp(condition.from_m, 0.0, end_m)}); i < last; ++i) {
+      nodes_[i].closed |= condition.closed;
+      nodes_[i].speed = std::min(nodes_[i].speed, condition.speed);
+      nodes_[i].cost *= condition.cost;
+    }
+  }
+}
+
+void Network::Link(const std::vector<Joint>& joints) {
+  std::vector<std::pair<Index, Index>> links;
+  for (const Joint& joint : joints) {
+    const Index from = NodeAt(*Find(joint.from));
+    const Index to = NodeAt(*Find(joint.to));
+    links.emplace_back(from, to);
+    if (joint.both) links.emplace_back(to, from);
+  }
+  std::sort(links.begin(), links.end());
+  for (const auto& [from, to] : links) leaps_.push_back(to);
+  auto next = links.cbegin();
+  for (Index i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    next = std::lower_bound(next, links.cend(), std::pair(i, Index{0}));
+    const bool is_last = i + 1 == nodes_.size() || nodes_[i + 1].route != node.route;
+    exits_.push_back({.ahead = is_last ? kNever : Costs(i, node.along_m, nodes_[i + 1].along_m),
+                      .first_leap = static_cast<Index>(next - links.cbegin())});
+  }
+  exits_.push_back({.first_leap = static_cast<Index>(leaps_.size())});
+}
+
+Network::Index Network::NodeAt(const Spot& spot) const {
+  const auto after = std::upper_bound(
+      nodes_.begin(), nodes_.end(), spot, [](const Spot& sought, const Node& node) {
+        return std::pair(sought.route, sought.along_m) < std::pair(node.route, node.along_m);
+      });
+  return static_cast<Index>(after - nodes_.begin()) - 1;
+}
+
+double Network::Costs(Index node, double from_m, double to_m) const {
+  if (to_m <= from_m) return 0.0;
+  const Node& of = nodes_[node];
+  return (of.closed ? kClosedCosts : 0.0) + (to_m - from_m) * of.cost / of.speed;
+}
+
+// Dijkstra's, from node to node; that of the goal is left on the way to it.
+Network::Found Network::Search(const Spot& from, const Spot& to) const {
+  constexpr Index kNone = std::numeric_limits<Index>::max();
+  struct Reached {
+    double cost = kNever;
+    Index before = kNone;  // the node before it
+    bool leapt = false;    // over a joint
+  };
+  std::vector<Reached> reached(nodes_.size());
+  using Due = std::pair<double, Index>;
+  std::priority_queue<Due, std::vector<Due>, std::greater<>> due;
+  const auto reach = [&](Index node, double cost, Index before, bool leapt) {
+    if (!(cost < reached[node].cost)) return;
+    reached[node] = {cost, before, leapt};
+    due.emplace(cost, node);
+  };
+
+  const Index goal = NodeAt(to);
+  const Index begin = NodeAt(from);
+  double best = kNever;
+  if (begin == goal && from.along_m <= to.along_m) best = Costs(begin, from.along_m, to.along_m);
+  bool over_goal = false;
+  if (nodes_[begin].along_m >= from.along_m) {
+    reach(begin, 0.0, kNone, false);
+  } else {
+    reach(begin + 1, Costs(begin, from.along_m, nodes_[begin + 1].along_m), kNone, false);
+  }
+  while (!due.empty() && due.top().first < best) {
+    const auto [cost, node] = due.top();
+    due.pop();
+    if (cost > reached[node].cost) continue;
+    if (node == goal) {
+      const double all = cost + Costs(node, nodes_[node].along_m, to.along_m);
+      if (all < best) {
+        best = all;
+        over_goal = true;
+      }
+    }
+    const Exits& exits = exits_[node];
+    if (exits.ahead < kNever) reach(node + 1, cost + exits.ahead, node, false);
+    for (Index i = exits.first_leap; i < exits_[node + 1].first_leap; ++i) {
+      reach(leaps_[i], cost + kChangeCosts_m, node, true);
+    }
+  }
+  if (!over_goal) {
+    return {.cost = best, .drives = {{from.route, from.along_m, to.along_m}}};
+  }
+  std::vector<Drive> drives{{to.route, nodes_[goal].along_m, to.along_m}};
+  for (Index node = goal; reached[node].before != kNone; node = reached[node].before) {
+    const Node& before = nodes_[reached[node].before];
+    if (reached[node].leapt) {
+      drives.push_back({before.route, before.along_m, before.along_m});
+    } else {
+      drives.back().from_m = before.along_m;
+    }
+  }
+  drives.back().from_m = from.along_m;
+  std::reverse(drives.begin(), drives.end());
+  return {.cost = best, .drives = std::move(drives)};
+}
+
+Way Network::WayOf(const std::vector<Drive>& drives) const {
+  Way way;
+  for (const Drive& drive : drives) {
+    bool goes_on = false;
+    double at_m = drive.from_m;
+    for (Index i = NodeAt({drive.route, drive.from_m}); at_m < drive.to_m; ++i) {
+      const double end_m = std::min(nodes_[i + 1].along_m, drive.to_m);
+      if (goes_on && way.stretches.back().speed == nodes_[i].speed) {
+        way.stretches.back().to_m = end_m;
+      } else {
+        way.stretches.push_back({routes_[drive.route].id, at_m, end_m, nodes_[i].speed});
+        goes_on = true;
+      }
+      at_m = end_m;
+    }
+    way.length_m += drive.to_m - drive.from_m;
+  }
+  return way;
+}
+
+std::string Network::ClosedOn(const std::vector<Drive>& drives) const {
+  std::string text;
+  for (const Drive& drive : drives) {
+    Index i = NodeAt({drive.route, drive.from_m});
+    while (i + 1 < nodes_.size() && nodes_[i].route == drive.route &&
+           nodes_[i].along_m < drive.to_m) {
+      Index end = i;
+      while (nodes_[end].closed) ++end;
+      if (end > i) {
+        text += fmt::format("{}{} {:g}..{:g}", text.empty() ? "" : ", ", routes_[drive.route].name,
+                            nodes_[i].along_m, nodes_[end].along_m);
+      }
+      i = std::max(end, i + 1);
+    }
+  }
+  return text;
+}
+
+std::string Network::Text(const Spot& spot) const {
+  return fmt::format("{}@{:g}", routes_[spot.route].name, spot.along_m);
+}
+
+Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {
+  const auto begin = Find(from);
+  if (!begin) return tl::unexpected(begin.error());
+  const auto end = Find(to);
+  if (!end) return tl::unexpected(end.error());
+  const Found found = Search(*begin, *end);
+  if (found.cost < kClosedCosts) return WayOf(found.drives);
+  const std::string ends = fmt::format("from {} to {}", Text(*begin), Text(*end));
+  if (found.cost < kNever) {
+    return Fail(ErrorCode::kNotFound, "every way {} is closed; on the least closed: {}", ends,
+                ClosedOn(found.drives));
+  }
+  return Fail(ErrorCode::kNotFound,
+              "no way leads {}: routes are followed as they were taught, and no joints lead there",
+              ends);
+}
+
+}  // namespace trailcast::network

@@ -1,0 +1,258 @@
+#include "services/network/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "services/base/number.h"
+
+namespace trailcast::network {
+namespace {
+
+constexpr double kPerDegree = std::numbers::pi / 180.0;
+constexpr double kMostOffset_m = 100.0;
+constexpr double kLeastFactor = 0.1;
+constexpr double kMostFactor = 1000.0;
+constexpr const char* kEdits =
+    "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
+    "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]' or 'limit ROUTE [FROM..TO] [speed F] [cost F]'";
+
+std::optional<double> AmountIn(std::string_view word, double least, double most) {
+  const auto number = ParseNumber<double>(word);
+  return number && *number >= least && *number <= most ? number : std::nullopt;
+}
+
+// To the centimetre.
+std::string Metres(double metres) {
+  std::string text = fmt::format("{:.2f}", metres);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+tl::unexpected<Error> Wrong(std::string_view word, std::string_view expected) {
+  return Fail(ErrorCode::kInvalidArgument, "'{}': expected {}", word, expected);
+}
+
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) { Skip(); }
+
+  [[nodiscard]] bool empty() const { return rest_.empty(); }
+  [[nodiscard]] std::string_view Next() const { return rest_.substr(0, rest_.find(' ')); }
+  std::string_view Take() {
+    const std::string_view word = Next();
+    rest_.remove_prefix(word.size());
+    Skip();
+    return word;
+  }
+  bool TakeIf(std::string_view word) {
+    if (empty() || Next() != word) return false;
+    (void)Take();
+    return true;
+  }
+
+ private:
+  void Skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size())); }
+  std::string_view rest_;
+};
+
+Result<Joint> TakeJoint(Words& words) {
+  auto from = ParsePlace(words.Take());
+  if (!from) return tl::unexpected(from.error());
+  auto to = ParsePlace(words.Take());
+  if (!to) return tl::unexpected(to.error());
+  if (*from == *to) return Wrong(ToText(*to), "another place than the first");
+  return Joint{.from = *std::move(from), .to = *std::move(to)};
+}
+
+Result<void> TakeLie(Words& words, Joint& joint) {
+  if (words.TakeIf("offset")) {
+    const std::string_view word = words.Take();
+    const std::size_t comma = std::min(word.find(','), word.size());
+    const auto ahead = AmountIn(word.substr(0, comma), -kMostOffset_m, kMostOffset_m);
+    const auto left = comma < word.size()
+                          ? AmountIn(word.substr(comma + 1), -kMostOffset_m, kMostOffset_m)
+                          : std::nullopt;
+    if (!ahead || !left) return Wrong(word, "AHEAD,LEFT in metres, as 0.1,-0.25");
+    if (!joint.lie) joint.lie.emplace();
+    joint.lie->ahead_m = *ahead;
+    joint.lie->left_m = *left;
+  } else if (words.TakeIf("heading")) {
+    const std::string_view word = words.Take();
+    const auto degrees = AmountIn(word, -180.0, 180.0);
+    if (!degrees) return Wrong(word, "degrees to the left, -180 to 180");
+    if (!joint.lie) joint.lie.emplace();
+    joint.lie->turn_rad = *degrees * kPerDegree;
+  } else {
+    return Wrong(words.Next(), "'both', 'offset AHEAD,LEFT', 'heading DEGREES' or nothing more");
+  }
+  return {};
+}
+
+Result<Edit> TakeJoin(Words& words) {
+  auto joint = TakeJoint(words);
+  if (!joint) return tl::unexpected(joint.error());
+  while (!words.empty()) {
+    if (words.TakeIf("both")) {
+      joint->both = true;
+    } else if (auto taken = TakeLie(words, *joint); !taken) {
+      return tl::unexpected(taken.error());
+    }
+  }
+  return Edit{.kind = Edit::Kind::kJoin, .joint = *std::move(joint)};
+}
+
+// ROUTE [FROM..TO]
+Result<Condition> TakeStretch(Words& words) {
+  Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
+  if (stretch.route.empty()) return Wrong("", "a route, by its name or id");
+  const std::string_view word = words.Next();
+  const std::size_t dots = word.find("..");
+  if (dots == std::string_view::npos) return stretch;
+  (void)words.Take();
+  const auto end = [](std::string_view text, double otherwise) {
+    return text.empty() ? std::optional(otherwise) : AmountIn(text, 0.0, kToTheEnd_m);
+  };
+  const auto from_m = end(word.substr(0, dots), 0.0);
+  const auto to_m = end(word.substr(dots + 2), kToTheEnd_m);
+  if (!from_m || !to_m || *to_m <= *from_m) {
+    return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
+  }
+  stretch.from_m = *from_m;
+  stretch.to_m = *to_m;
+  return stretch;
+}
+
+Result<void> TakeLimits(Words& words, Condition& limit) {
+  while (!words.empty()) {
+    const bool is_speed = words.Next() == "speed";
+    if (!is_speed && words.Next() != "cost") {
+      return Wrong(words.Next(), "'speed F', 'cost F' or nothing more");
+    }
+    (void)words.Take();
+    const std::string_view word = words.Take();
+    const auto factor = AmountIn(word, kLeastFactor, is_speed ? 1.0 : kMostFactor);
+    if (!factor) {
+      return Wrong(word, is_speed ? "times the taught speed, 0.1 to 1"
+                                  : "how many metres one counts as, 0.1 to 1000");
+    }
+    (is_speed ? limit.speed : limit.cost) = *factor;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Edit> ParseEdit(std::string_view text) {
+  Words words(text);
+  if (words.TakeIf("join")) return TakeJoin(words);
+  if (words.TakeIf("part")) {
+    auto joint = TakeJoint(words);
+    if (!joint) return tl::unexpected(joint.error());
+    if (!words.empty()) return Wrong(words.Next(), "nothing more");
+    return Edit{.kind = Edit::Kind::kPart, .joint = *std::move(joint)};
+  }
+  const std::string_view first = words.Take();
+  Edit edit;
+  if (first == "close") {
+    edit.kind = Edit::Kind::kClose;
+  } else if (first == "open") {
+    edit.kind = Edit::Kind::kOpen;
+  } else if (first == "limit") {
+    edit.kind = Edit::Kind::kLimit;
+  } else {
+    return Wrong(first, kEdits);
+  }
+  auto stretch = TakeStretch(words);
+  if (!stretch) return tl::unexpected(stretch.error());
+  edit.condition = *std::move(stretch);
+  edit.condition.closed = edit.kind == Edit::Kind::kClose;
+  if (edit.kind == Edit::Kind::kLimit) {
+    if (auto taken = TakeLimits(words, edit.condition); !taken) {
+      return tl::unexpected(taken.error());
+    }
+  }
+  if (!words.empty()) return Wrong(words.Next(), "FROM..TO or nothing more");
+  return edit;
+}
+
+Result<Question> ParseQuestion(std::string_view text) {
+  Words words(text);
+  if (!words.TakeIf("way")) return Wrong(words.Next(), "'way FROM TO'");
+  Question question;
+  if (words.Next().find('@') == std::string_view::npos) {
+    question.robot = words.Take();
+    if (question.robot.empty()) return Wrong("", "a place, as hall@2.5, or a robot's name");
+  } else {
+    auto from = ParsePlace(words.Take());
+    if (!from) return tl::unexpected(from.error());
+    question.from = *std::move(from);
+  }
+  auto to = ParsePlace(words.Take());
+  if (!to) return tl::unexpected(to.error());
+  question.to = *std::move(to);
+  if (!words.empty()) return Wrong(words.Next(), "nothing more");
+  return question;
+}
+
+Result<Place> ParsePlace(std::string_view word) {
+  const std::size_t at = word.rfind('@');
+  const auto along_m = at == std::string_view::npos || at == 0
+                           ? std::nullopt
+                           : AmountIn(word.substr(at + 1), 0.0, kToTheEnd_m);
+  if (!along_m) return Wrong(word, "ROUTE@METRES, as hall@2.5");
+  return Place{std::string(word.substr(0, at)), *along_m};
+}
+
+std::string ToText(const Place& place) { return place.route + "@" + Metres(place.along_m); }
+
+std::string ToText(const Joint& joint) {
+  std::string text = "join " + ToText(joint.from) + " " + ToText(joint.to);
+  if (joint.both) text += " both";
+  if (joint.lie) {
+    text += fmt::format(" offset {},{} heading {:.1f}", Metres(joint.lie->ahead_m),
+                        Metres(joint.lie->left_m), joint.lie->turn_rad / kPerDegree);
+  }
+  return text;
+}
+
+std::string ToText(const Condition& condition) {
+  std::string text = (condition.closed ? "close " : "limit ") + condition.route;
+  const bool to_the_end = condition.to_m >= kToTheEnd_m;
+  if (condition.from_m > 0.0 || !to_the_end) {
+    text +=
+        fmt::format(" {}..{}", Metres(condition.from_m), to_the_end ? "" : Metres(condition.to_m));
+  }
+  if (condition.speed != 1.0) text += fmt::format(" speed {:g}", condition.speed);
+  if (condition.cost != 1.0) text += fmt::format(" cost {:g}", condition.cost);
+  return text;
+}
+
+std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit) {
+  const Condition& now = edit.condition;
+  const bool of_closed = edit.kind != Edit::Kind::kLimit;
+  std::vector<Condition> after;
+  for (const Condition& before : conditions) {
+    const bool stays = before.route != now.route || before.closed != of_closed ||
+                       before.to_m <= now.from_m || before.from_m >= now.to_m;
+    if (stays) {
+      after.push_back(before);
+      continue;
+    }
+    for (const auto& [from_m, to_m] : {std::pair(before.from_m, std::min(before.to_m, now.from_m)),
+                                       std::pair(std::max(before.from_m, now.to_m), before.to_m)}) {
+      if (!(from_m < to_m)) continue;
+      after.push_back(before);
+      after.back().from_m = from_m;
+      after.back().to_m = to_m;
+    }
+  }
+  if (now.closed || now.speed != 1.0 || now.cost != 1.0) after.push_back(now);
+  return after;
+}
+
+}  // namespace trailcast::network

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/network/network.h"
+
+namespace trailcast::network {
+
+// What an operator changes, in words:
+//   join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]   one may change over from the
+//                                                                   first to the second; both: and
+//                                                                   back; how the second lies there
+//   part PLACE PLACE                                                no more, neither way
+//   close ROUTE [FROM..TO]     nobody is sent along it
+//   open ROUTE [FROM..TO]
+//   limit ROUTE [FROM..TO] [speed F] [cost F]   F times the taught speed at most; a metre counts as
+//                                               F; neither: no limit any more
+// A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
+// that is followed; FROM..TO metres along it, either may be missing. As the server lists it, each
+// line is what brings it about, the joints of revisions that are not followed with "unused" before
+// it, and "route ROUTE METRES" the length of one that is named.
+struct Edit {
+  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit };
+  Kind kind = Kind::kJoin;
+  Joint joint{};          // of kJoin and kPart
+  Condition condition{};  // of the others
+};
+
+// Of a condition that ends where its route does.
+inline constexpr double kToTheEnd_m = 1e7;
+
+// kInvalidArgument, with the word that was not understood and what was expected.
+[[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
+
+// "way FROM TO": which way leads there. FROM is a PLACE, or a robot's name: from where it last said
+// that it stands.
+struct Question {
+  std::string robot{};  // empty: from a place
+  Place from{};
+  Place to{};
+};
+[[nodiscard]] Result<Question> ParseQuestion(std::string_view words);
+
+// "hall@12", "hall@2@12".
+[[nodiscard]] Result<Place> ParsePlace(std::string_view word);
+[[nodiscard]] std::string ToText(const Place& place);
+[[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
+[[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
+
+// What holds after such an edit: of one kind, a closed stretch or a limit, one at each place.
+[[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);
+
+}  // namespace trailcast::network

@@ -1,0 +1,87 @@
+// Words of the network of routes, a line each: understood, told, understood again; and ways over
+// what they make.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "services/network/words.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace network = trailcast::network;
+using trailcast::fuzz::Require;
+
+namespace {
+
+constexpr std::size_t kMostEdits = 200;
+
+const std::vector<network::Route>& Routes() {
+  static const std::vector<network::Route> routes{
+      {"a", "hall", 20.0}, {"b", "office", 10.0}, {"c", "point", 0.0}};
+  return routes;
+}
+
+// One of these, whatever was said.
+std::string RouteFor(const std::string& name) {
+  return Routes()[name.empty() ? 0 : static_cast<unsigned char>(name.back()) % 3].id;
+}
+
+struct Made {
+  std::vector<network::Joint> joints;
+  std::vector<network::Condition> conditions;
+};
+
+void Take(network::Edit edit, Made& made) {
+  if (edit.kind == network::Edit::Kind::kJoin) {
+    for (network::Place* place : {&edit.joint.from, &edit.joint.to}) {
+      place->route = RouteFor(place->route);
+      if (place->along_m > 20.0) place->along_m = std::fmod(place->along_m, 10.0);
+    }
+    made.joints.push_back(edit.joint);
+  } else if (edit.kind != network::Edit::Kind::kPart) {
+    edit.condition.route = RouteFor(edit.condition.route);
+    made.conditions = network::Amended(std::move(made.conditions), edit);
+  }
+}
+
+void Understand(const std::string& line, Made& made) {
+  if (const auto edit = network::ParseEdit(line)) {
+    const bool is_told = edit->condition.closed || edit->kind == network::Edit::Kind::kLimit;
+    // To the centimetre.
+    if (is_told && edit->condition.to_m - edit->condition.from_m > 0.02) {
+      const std::string told = network::ToText(edit->condition);
+      const auto again = network::ParseEdit(told);
+      Require(again.has_value(), "what was told is understood");
+      Require(network::ToText(again->condition) == told, "and is told likewise");
+    }
+    Take(*edit, made);
+  }
+  (void)network::ParseQuestion(line);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  Made made;
+  std::size_t edits = 0;
+  for (std::size_t at = 0; at < text.size() && edits < kMostEdits; ++edits) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    Understand(text.substr(at, end - at), made);
+    at = end + 1;
+  }
+  const auto built = network::Network::Build(Routes(), made.joints, made.conditions);
+  if (!built) return 0;
+  for (const network::Route& from : Routes()) {
+    for (const network::Route& to : Routes()) {
+      const auto way =
+          built->ShortestWay({from.id, from.length_m / 3.0}, {to.id, to.length_m / 2.0});
+      if (!way) continue;
+      Require(way->length_m >= 0.0, "a way is no less than nothing");
+      for (const network::Stretch& stretch : way->stretches) {
+        Require(stretch.from_m < stretch.to_m && stretch.speed > 0.0, "a stretch leads ahead");
+      }
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,178 @@
+#include "services/network/network.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace trailcast::network {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// hall (20 m) leads at 12 m to the beginning of office (10 m), and at its end to yard (30 m), whose
+// end leads to office's 4 m; ring (8 m) to its own beginning.
+class NetworkTest : public testing::Test {
+ protected:
+  [[nodiscard]] Network Made() const {
+    auto made = Network::Build(routes_, joints_, conditions_);
+    EXPECT_TRUE(made) << made.error().message;
+    return *std::move(made);
+  }
+  [[nodiscard]] Way Found(const Place& from, const Place& to) const {
+    auto way = Made().ShortestWay(from, to);
+    EXPECT_TRUE(way) << way.error().message;
+    return way.value_or(Way{});
+  }
+  [[nodiscard]] std::string Why(const Place& from, const Place& to) const {
+    const auto way = Made().ShortestWay(from, to);
+    EXPECT_FALSE(way);
+    if (way) return "";
+    EXPECT_EQ(way.error().code, ErrorCode::kNotFound);
+    return way.error().message;
+  }
+
+  std::vector<Route> routes_{
+      {"h", "hall", 20.0}, {"o", "office", 10.0}, {"y", "yard", 30.0}, {"r", "ring", 8.0}};
+  std::vector<Joint> joints_{{{"h", 12.0}, {"o", 0.0}},
+                             {{"h", 20.0}, {"y", 0.0}},
+                             {{"y", 30.0}, {"o", 4.0}},
+                             {{"r", 8.0}, {"r", 0.0}}};
+  std::vector<Condition> conditions_;
+};
+
+TEST_F(NetworkTest, AWayLeadsOverJointsInTheDirectionThatWasTaught) {
+  const Way way = Found({"h", 2.0}, {"o", 8.0});
+  EXPECT_THAT(way.stretches, ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 0.0, 8.0}));
+  EXPECT_DOUBLE_EQ(way.length_m, 18.0);
+  EXPECT_THAT(Found({"h", 2.0}, {"h", 13.0}).stretches, ElementsAre(Stretch{"h", 2.0, 13.0}));
+  EXPECT_THAT(Found({"h", 2.0}, {"h", 2.0}).stretches, IsEmpty());
+  EXPECT_THAT(Found({"h", 12.0}, {"o", 0.0}).stretches, IsEmpty()) << "it stands at the joint";
+  EXPECT_THAT(Why({"o", 1.0}, {"h", 2.0}),
+              AllOf(HasSubstr("no way leads from office@1 to hall@2"), HasSubstr("joints")));
+  EXPECT_THAT(Why({"h", 5.0}, {"h", 2.0}), HasSubstr("no way leads from hall@5 to hall@2"));
+}
+
+TEST_F(NetworkTest, AJointOfBothWaysLeadsBack) {
+  joints_.push_back({{"o", 10.0}, {"h", 1.0}, true});
+  EXPECT_THAT(Found({"o", 9.0}, {"h", 3.0}).stretches,
+              ElementsAre(Stretch{"o", 9.0, 10.0}, Stretch{"h", 1.0, 3.0}));
+  EXPECT_THAT(Found({"h", 0.0}, {"o", 10.0}).stretches, ElementsAre(Stretch{"h", 0.0, 1.0}));
+}
+
+TEST_F(NetworkTest, ARingIsDrivenOnToWhatLiesBehind) {
+  EXPECT_THAT(Found({"r", 6.0}, {"r", 2.0}).stretches,
+              ElementsAre(Stretch{"r", 6.0, 8.0}, Stretch{"r", 0.0, 2.0}));
+  EXPECT_THAT(Found({"r", 2.0}, {"r", 6.0}).stretches, ElementsAre(Stretch{"r", 2.0, 6.0}));
+}
+
+TEST_F(NetworkTest, AClosedStretchIsAvoidedOrNamed) {
+  conditions_ = {{.route = "o", .from_m = 1.0, .to_m = 2.0, .closed = true}};
+  EXPECT_THAT(
+      Found({"h", 2.0}, {"o", 8.0}).stretches,
+      ElementsAre(Stretch{"h", 2.0, 20.0}, Stretch{"y", 0.0, 30.0}, Stretch{"o", 4.0, 8.0}));
+  EXPECT_THAT(Found({"h", 2.0}, {"o", 1.0}).stretches,
+              ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 0.0, 1.0}))
+      << "up to where it is closed";
+  EXPECT_THAT(Found({"o", 2.0}, {"o", 3.0}).stretches, ElementsAre(Stretch{"o", 2.0, 3.0}));
+  EXPECT_THAT(
+      Why({"h", 2.0}, {"o", 1.5}),
+      AllOf(HasSubstr("every way from hall@2 to office@1.5 is closed"), HasSubstr("office 1..2")));
+  conditions_.push_back({.route = "h", .from_m = 15.0, .to_m = 16.0, .closed = true});
+  conditions_.push_back({.route = "h", .from_m = 16.0, .to_m = 1e7, .closed = true});
+  EXPECT_THAT(Why({"h", 2.0}, {"y", 3.0}), HasSubstr("on the least closed: hall 15..20"));
+  EXPECT_THAT(Why({"h", 17.0}, {"h", 18.0}), HasSubstr("hall 16..20"));
+}
+
+TEST_F(NetworkTest, SpeedAndCostDecideAndSpeedIsToldOfEachStretch) {
+  conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 3.0, .speed = 0.5}};
+  EXPECT_THAT(Found({"h", 11.0}, {"o", 8.0}).stretches,
+              ElementsAre(Stretch{"h", 11.0, 12.0}, Stretch{"o", 0.0, 2.0},
+                          Stretch{"o", 2.0, 3.0, 0.5}, Stretch{"o", 3.0, 8.0}));
+  conditions_.push_back({.route = "o", .from_m = 1.0, .to_m = 2.0, .cost = 100.0});
+  const Way way = Found({"h", 11.0}, {"o", 8.0});
+  EXPECT_DOUBLE_EQ(way.length_m, 43.0) << "round by the yard, in metres that are driven";
+  EXPECT_THAT(way.stretches.back(), (Stretch{"o", 4.0, 8.0}));
+}
+
+TEST_F(NetworkTest, OfWaysOfAboutOneLengthThatWithFewerJointsIsTaken) {
+  routes_.push_back({"s", "short cut", 3.9});
+  joints_.push_back({{"h", 1.0}, {"s", 0.0}});
+  joints_.push_back({{"s", 3.9}, {"h", 5.0}});
+  EXPECT_THAT(Found({"h", 0.0}, {"h", 6.0}).stretches, ElementsAre(Stretch{"h", 0.0, 6.0}));
+  joints_.back().to.along_m = 10.0;
+  EXPECT_EQ(Found({"h", 0.0}, {"h", 12.0}).stretches.size(), 3U);
+}
+
+TEST_F(NetworkTest, WhatIsNotThereIsNamed) {
+  EXPECT_THAT(Why({"x", 1.0}, {"h", 2.0}), HasSubstr("no route 'x'"));
+  EXPECT_THAT(Why({"h", 1.0}, {"o", 11.0}), HasSubstr("'office' is 10.0 m long: there is no 11 m"));
+  EXPECT_THAT(Why({"h", -1.0}, {"o", 1.0}), HasSubstr("there is no -1 m"));
+  EXPECT_THAT(Why({"h", std::numeric_limits<double>::quiet_NaN()}, {"o", 1.0}), HasSubstr("nan"));
+  EXPECT_THAT(Found({"h", 20.3}, {"y", 1.0}).stretches, ElementsAre(Stretch{"y", 0.0, 1.0}))
+      << "a robot that has arrived may stand a little beyond the end";
+  joints_.push_back({{"h", 30.0}, {"o", 0.0}});
+  const auto beyond = Network::Build(routes_, joints_, {});
+  ASSERT_FALSE(beyond);
+  EXPECT_THAT(beyond.error().message, HasSubstr("a joint: route 'hall' is 20.0 m long"));
+  EXPECT_FALSE(Network::Build({{"h", "hall", 1.0}, {"h", "hall", 1.0}}, {}, {}));
+  conditions_ = {{.route = "x", .to_m = 1.0, .closed = true}};
+  joints_.pop_back();
+  EXPECT_TRUE(Network::Build(routes_, joints_, conditions_));
+}
+
+// Random networks, beside all ways of up to so many joints, tried one by one.
+TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
+  std::mt19937 random(7);
+  const auto metres = [&](double most) {
+    return static_cast<double>(random() % 101) / 100.0 * most;
+  };
+  constexpr double kLength_m = 10.0;
+  int found = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::vector<Route> routes{
+        {"a", "a", kLength_m}, {"b", "b", kLength_m}, {"c", "c", kLength_m}};
+    const auto place = [&] { return Place{routes[random() % 3].id, metres(kLength_m)}; };
+    std::vector<Joint> joints;
+    for (int i = 0; i < 5; ++i) joints.push_back({place(), place()});
+    const Condition closed{.route = "b", .from_m = 4.0, .to_m = 5.0, .closed = true};
+    const Place from = place();
+    const Place to = place();
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const auto ahead = [&](const Place& begin, const Place& end) {
+      const bool barred = begin.route == "b" && begin.along_m < 5.0 && end.along_m > 4.0;
+      if (begin.route != end.route || begin.along_m > end.along_m) return kNever;
+      return barred && begin.along_m < end.along_m ? kNever : end.along_m - begin.along_m;
+    };
+    const std::function<double(const Place&, int)> best = [&](const Place& at, int joints_left) {
+      double least = ahead(at, to);
+      if (joints_left == 0) return least;
+      for (const Joint& joint : joints) {
+        const double there = ahead(at, joint.from);
+        if (there == kNever) continue;
+        least = std::min(least, there + Network::kChangeCosts_m + best(joint.to, joints_left - 1));
+      }
+      return least;
+    };
+    const double least = best(from, 5);
+    const auto way = Network::Build(routes, joints, {&closed, 1})->ShortestWay(from, to);
+    ASSERT_EQ(way.has_value(), least < kNever) << trial;
+    if (!way) continue;
+    ++found;
+    double length_m = 0.0;
+    for (const Stretch& stretch : way->stretches) length_m += stretch.to_m - stretch.from_m;
+    EXPECT_NEAR(length_m, way->length_m, 1e-9);
+    EXPECT_LE(way->length_m, least + 1e-9) << trial;
+    EXPECT_GE(way->length_m, least - 5 * Network::kChangeCosts_m - 1e-9) << trial;
+  }
+  EXPECT_GT(found, 80);
+}
+
+}  // namespace
+}  // namespace trailcast::network

@@ -1,0 +1,109 @@
+#include "services/network/words.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::network {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string Why(const std::string& words) {
+  const auto edit = ParseEdit(words);
+  EXPECT_FALSE(edit) << words;
+  return edit ? "" : edit.error().message;
+}
+
+// As a server lists what an edit has brought about.
+std::string Listed(const std::string& words) {
+  const auto edit = ParseEdit(words);
+  if (!edit) return edit.error().message;
+  return edit->kind == Edit::Kind::kJoin ? ToText(edit->joint) : ToText(edit->condition);
+}
+
+TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
+  for (const char* words :
+       {"join hall@12 office@0", "join hall@2@12.25 office@0 both",
+        "join hall@12 office@0 both offset 0.1,-0.25 heading 3.5", "close hall", "close hall 3..7",
+        "close hall 3..", "close hall 0..7", "limit hall 3..7 speed 0.5",
+        "limit hall 3.. speed 0.5 cost 2", "limit a3f9c21 cost 0.5"}) {
+    EXPECT_EQ(Listed(words), words);
+  }
+  EXPECT_EQ(Listed("  join   hall@12.0 office@0.00  "), "join hall@12 office@0");
+  EXPECT_EQ(Listed("close hall ..7"), "close hall 0..7");
+  const auto part = ParseEdit("part hall@12 office@0");
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->kind, Edit::Kind::kPart);
+  EXPECT_EQ(part->joint.from, (Place{"hall", 12.0}));
+}
+
+TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
+  EXPECT_THAT(Why(""), HasSubstr("expected 'join PLACE PLACE"));
+  EXPECT_THAT(Why("dance hall"), HasSubstr("'dance': expected 'join"));
+  EXPECT_THAT(Why("join hall office@1"), HasSubstr("'hall': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("join hall@1"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("join hall@1 hall@1"), HasSubstr("another place"));
+  EXPECT_THAT(Why("join hall@-1 hall@1"), HasSubstr("'hall@-1'"));
+  EXPECT_THAT(Why("join hall@nan hall@1"), HasSubstr("'hall@nan'"));
+  EXPECT_THAT(Why("join @1 hall@1"), HasSubstr("'@1'"));
+  EXPECT_THAT(Why("join hall@2 hall@1 offset 3"), HasSubstr("'3': expected AHEAD,LEFT"));
+  EXPECT_THAT(Why("join hall@2 hall@1 heading west"), HasSubstr("'west': expected degrees"));
+  EXPECT_THAT(Why("join hall@2 hall@1 twice"), HasSubstr("'twice'"));
+  EXPECT_THAT(Why("part hall@2 hall@1 both"), HasSubstr("'both': expected nothing more"));
+  EXPECT_THAT(Why("close"), HasSubstr("a route"));
+  EXPECT_THAT(Why("close hall 7..3"), HasSubstr("'7..3': expected FROM..TO"));
+  EXPECT_THAT(Why("open hall 3..7 speed 1"), HasSubstr("'speed'"));
+  EXPECT_THAT(Why("limit hall 3..7 speed 2"), HasSubstr("'2': expected times the taught speed"));
+  EXPECT_THAT(Why("limit hall cost 0"), HasSubstr("'0': expected how many metres"));
+}
+
+TEST(NetworkWords, AWayIsAskedForFromAPlaceOrARobot) {
+  const auto places = ParseQuestion("way hall@2@1.5 office@8");
+  ASSERT_TRUE(places);
+  EXPECT_EQ(places->from, (Place{"hall@2", 1.5}));
+  EXPECT_EQ(places->to, (Place{"office", 8.0}));
+  EXPECT_EQ(places->robot, "");
+  const auto robot = ParseQuestion("way robot1 office@8");
+  ASSERT_TRUE(robot);
+  EXPECT_EQ(robot->robot, "robot1");
+  for (const char* wrong : {"", "way", "way hall@2", "way hall@2 office", "way hall@2 office@8 x",
+                            "away hall@2 office@8"}) {
+    EXPECT_FALSE(ParseQuestion(wrong)) << wrong;
+  }
+}
+
+class Amending : public testing::Test {
+ protected:
+  void Edit(const std::string& words) {
+    conditions_ = Amended(std::move(conditions_), ParseEdit(words).value());
+  }
+  std::vector<std::string> Texts() {
+    std::vector<std::string> texts;
+    for (const Condition& condition : conditions_) texts.push_back(ToText(condition));
+    return texts;
+  }
+  std::vector<Condition> conditions_;
+};
+
+TEST_F(Amending, AtEachPlaceTheLastWordHolds) {
+  Edit("close hall 3..7");
+  Edit("close hall 5..9");
+  EXPECT_THAT(Texts(), ElementsAre("close hall 3..5", "close hall 5..9"));
+  Edit("open hall 4..6");
+  EXPECT_THAT(Texts(), ElementsAre("close hall 3..4", "close hall 6..9"));
+  Edit("limit hall speed 0.5");
+  Edit("close office");
+  Edit("open hall");
+  EXPECT_THAT(Texts(), ElementsAre("limit hall speed 0.5", "close office"));
+  Edit("limit hall 2..3");
+  EXPECT_THAT(Texts(),
+              ElementsAre("limit hall 0..2 speed 0.5", "limit hall 3.. speed 0.5", "close office"));
+  Edit("limit hall");
+  Edit("open office");
+  EXPECT_THAT(Texts(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace trailcast::network
