@@ -274,6 +274,35 @@ struct Glance {
   bool operator==(const Glance&) const = default;
 };
 
+// trailcast/network_edits: an operator changes how routes are joined, or closes a stretch. Answered
+// by a NetworkReply.
+struct NetworkEdit {
+  AgentId client{};
+  std::uint64_t request = 0;  // echoed in the reply
+  std::string words{};        // one line: network/words.h
+  bool operator==(const NetworkEdit&) const = default;
+};
+
+// trailcast/network_requests: how routes are joined, or which way leads from one place to another.
+struct NetworkRequest {
+  AgentId client{};
+  std::uint64_t request = 0;  // echoed in the reply
+  std::string words{};        // one line: network/words.h; empty: all that is known
+  std::uint32_t first = 0;    // NetworkReply::next of the page before
+  bool operator==(const NetworkRequest&) const = default;
+};
+
+// trailcast/network_replies
+struct NetworkReply {
+  AgentId server{};
+  AgentId client{};
+  std::uint64_t request = 0;
+  std::vector<std::string> lines{};  // network/words.h; of a way, orders as missions have them
+  std::uint32_t next = 0;            // 0: this is the last page
+  std::string error{};               // not empty: it could not be done, or answered
+  bool operator==(const NetworkReply&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -285,6 +314,7 @@ using Message =
     std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
-                 DriveCommand, GlanceRequest, Glance, AgentGone>;
+                 DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
+                 AgentGone>;
 
 }  // namespace trailcast::exchange

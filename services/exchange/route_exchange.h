@@ -31,6 +31,9 @@ enum class Topic : std::uint8_t {
   kDrives,
   kGlanceRequests,
   kGlances,
+  kNetworkEdits,
+  kNetworkRequests,
+  kNetworkReplies,
 };
 
 struct TopicUse {
@@ -64,6 +67,8 @@ struct TopicUse {
 [[nodiscard]] TopicUse HistoryTopics();     // of who asks what became of them
 [[nodiscard]] TopicUse DriverTopics();      // of who drives a robot that teaches
 [[nodiscard]] TopicUse GlanceTopics();      // of who looks through robots' cameras
+[[nodiscard]] TopicUse NetworkTopics();     // of who asks for ways over routes
+[[nodiscard]] TopicUse JoinerTopics();      // of who joins routes
 [[nodiscard]] TopicUse ObserverTopics();    // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and

@@ -80,6 +80,12 @@ Message ProbeFor(Topic topic) {
       return exchange::GlanceRequest{.agent = kProbe, .client = kProbe};
     case Topic::kGlances:
       return exchange::Glance{.agent = kProbe, .client = kProbe};
+    case Topic::kNetworkEdits:
+      return exchange::NetworkEdit{.client = kProbe};
+    case Topic::kNetworkRequests:
+      return exchange::NetworkRequest{.client = kProbe};
+    case Topic::kNetworkReplies:
+      return exchange::NetworkReply{.server = kProbe, .client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -111,6 +117,9 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::DriveCommand& m) { return m.client; }
     AgentId operator()(const exchange::GlanceRequest& m) { return m.client; }
     AgentId operator()(const exchange::Glance& m) { return m.agent; }
+    AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
+    AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
+    AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

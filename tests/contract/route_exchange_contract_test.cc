@@ -208,6 +208,20 @@ TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
                   Topic::kGlances);
 }
 
+TEST_P(RouteExchangeContract, CarriesWordsOfTheNetwork) {
+  const std::string words(kMaxLineBytes, 'w');
+  ExpectRoundTrip(exchange::NetworkEdit{AgentId("o"), ~0ULL, words}, Topic::kNetworkEdits);
+  ExpectRoundTrip(exchange::NetworkRequest{AgentId("o"), ~0ULL, words, ~0U},
+                  Topic::kNetworkRequests);
+  ExpectRoundTrip(exchange::NetworkReply{.server = AgentId("s"),
+                                         .client = AgentId("o"),
+                                         .request = ~0ULL,
+                                         .lines = std::vector(exchange::kMaxNetworkLines, words),
+                                         .next = ~0U,
+                                         .error = words},
+                  Topic::kNetworkReplies);
+}
+
 TEST_P(RouteExchangeContract, CarriesARefusal) {
   Receipt receipt{.server = AgentId("s"), .key = KeyNumber(1)};
   receipt.refusal = exchange::Refusal::kFull;

@@ -169,6 +169,25 @@ class Samples {
     wire.picture._length = static_cast<std::uint32_t>(picture_.size());
     wire.detail = Text();
   }
+  void Fill(trailcast_wire_NetworkEdit& wire) {
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.words = Text();
+  }
+  void Fill(trailcast_wire_NetworkRequest& wire) {
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.words = Text();
+    wire.first = Number();
+  }
+  void Fill(trailcast_wire_NetworkReply& wire) {
+    wire.server = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    FillTexts(wire.lines);
+    wire.next = Number();
+    wire.error = Text();
+  }
   void Fill(trailcast_wire_Fleet& wire) {
     wire.server = Name();
     wire.agents = Number();
@@ -467,6 +486,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kGlances:
       FillAndTakeIn<trailcast_wire_Glance>(topic, input);
+      break;
+    case Topic::kNetworkEdits:
+      FillAndTakeIn<trailcast_wire_NetworkEdit>(topic, input);
+      break;
+    case Topic::kNetworkRequests:
+      FillAndTakeIn<trailcast_wire_NetworkRequest>(topic, input);
+      break;
+    case Topic::kNetworkReplies:
+      FillAndTakeIn<trailcast_wire_NetworkReply>(topic, input);
       break;
   }
   return 0;

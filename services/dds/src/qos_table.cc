@@ -45,6 +45,9 @@ constexpr std::array kTable = {
     Row{T::kDrives,          {false,    1,         kForever, /*best_effort=*/true}},
     Row{T::kGlanceRequests,  {false,    1,         kForever, /*best_effort=*/true}},
     Row{T::kGlances,         {false,    1,         kForever, /*best_effort=*/true}},
+    Row{T::kNetworkEdits,    {false,    16,        kForever}},
+    Row{T::kNetworkRequests, {false,    16,        kForever}},
+    Row{T::kNetworkReplies,  {false,    16,        kForever}},
 };
 // clang-format on
 

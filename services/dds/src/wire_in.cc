@@ -340,6 +340,27 @@ Message From(const trailcast_wire_Glance& wire) {
                 .detail = Text(wire.detail)};
 }
 
+Message From(const trailcast_wire_NetworkEdit& wire) {
+  return NetworkEdit{
+      .client = AgentId(Text(wire.client)), .request = wire.request, .words = Text(wire.words)};
+}
+
+Message From(const trailcast_wire_NetworkRequest& wire) {
+  return NetworkRequest{.client = AgentId(Text(wire.client)),
+                        .request = wire.request,
+                        .words = Text(wire.words),
+                        .first = wire.first};
+}
+
+Message From(const trailcast_wire_NetworkReply& wire) {
+  return NetworkReply{.server = AgentId(Text(wire.server)),
+                      .client = AgentId(Text(wire.client)),
+                      .request = wire.request,
+                      .lines = Texts(wire.lines),
+                      .next = wire.next,
+                      .error = Text(wire.error)};
+}
+
 Message From(const trailcast_wire_RouteFollowers& wire) {
   RouteFollowers all{.server = AgentId(Text(wire.server)), .key = From(wire.key), .followers = {}};
   for (const trailcast_wire_RouteFollower& follower : Elements(wire.followers)) {
@@ -390,6 +411,12 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_GlanceRequest*>(sample));
     case Topic::kGlances:
       return From(*static_cast<const trailcast_wire_Glance*>(sample));
+    case Topic::kNetworkEdits:
+      return From(*static_cast<const trailcast_wire_NetworkEdit*>(sample));
+    case Topic::kNetworkRequests:
+      return From(*static_cast<const trailcast_wire_NetworkRequest*>(sample));
+    case Topic::kNetworkReplies:
+      return From(*static_cast<const trailcast_wire_NetworkReply*>(sample));
     case Topic::kAgents:
       break;
   }

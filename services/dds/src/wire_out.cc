@@ -424,6 +424,33 @@ Result<void> With(const Glance& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const NetworkEdit& message, const UseSample& use) {
+  const trailcast_wire_NetworkEdit sample{.client = Lend(message.client.value()),
+                                          .request = message.request,
+                                          .words = Lend(message.words)};
+  return use(&sample);
+}
+
+Result<void> With(const NetworkRequest& message, const UseSample& use) {
+  const trailcast_wire_NetworkRequest sample{.client = Lend(message.client.value()),
+                                             .request = message.request,
+                                             .words = Lend(message.words),
+                                             .first = message.first};
+  return use(&sample);
+}
+
+Result<void> With(const NetworkReply& message, const UseSample& use) {
+  TextArrays arrays;
+  trailcast_wire_NetworkReply sample{};
+  sample.server = Lend(message.server.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  arrays.Lend(message.lines, sample.lines);
+  sample.next = message.next;
+  sample.error = Lend(message.error);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -450,7 +477,10 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_MissionReply_desc,
                                                              &trailcast_wire_DriveCommand_desc,
                                                              &trailcast_wire_GlanceRequest_desc,
-                                                             &trailcast_wire_Glance_desc};
+                                                             &trailcast_wire_Glance_desc,
+                                                             &trailcast_wire_NetworkEdit_desc,
+                                                             &trailcast_wire_NetworkRequest_desc,
+                                                             &trailcast_wire_NetworkReply_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -297,6 +297,26 @@ Result<void> Check(const Glance& message) {
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
 
+Result<void> Check(const NetworkEdit& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  return CheckText("words", message.words, kMaxLineBytes);
+}
+
+Result<void> Check(const NetworkRequest& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  return CheckText("words", message.words, kMaxLineBytes);
+}
+
+Result<void> Check(const NetworkReply& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (auto ok = CheckCount("lines", message.lines.size(), kMaxNetworkLines); !ok) return ok;
+  for (const std::string& line : message.lines) {
+    if (auto ok = CheckText("line", line, kMaxLineBytes); !ok) return ok;
+  }
+  return CheckText("error", message.error, kMaxLineBytes);
+}
+
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace

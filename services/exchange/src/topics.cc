@@ -38,15 +38,15 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {
-      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
-                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions,
-                Topic::kMissionStates},
-      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests,
-               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers,
-               Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests},
-      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
-                       Topic::kMissionReplies}};
+  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
+                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
+                    Topic::kMissions, Topic::kMissionStates},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
+                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
+                   Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
+                   Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests},
+          .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                           Topic::kMissionReplies, Topic::kNetworkReplies}};
 }
 
 TopicUse OperatorTopics() {
@@ -86,6 +86,14 @@ TopicUse DriverTopics() { return {.write = {Topic::kDrives}, .read = {}}; }
 
 TopicUse GlanceTopics() { return {.write = {Topic::kGlanceRequests}, .read = {Topic::kGlances}}; }
 
+TopicUse NetworkTopics() {
+  return {.write = {Topic::kNetworkRequests}, .read = {Topic::kNetworkReplies}};
+}
+
+TopicUse JoinerTopics() {
+  return {.write = {Topic::kNetworkEdits}, .read = {Topic::kNetworkReplies}};
+}
+
 TopicUse ObserverTopics() {
   TopicUse use = OperatorTopics();
   std::erase(use.write, Topic::kRouteEdits);
@@ -112,7 +120,10 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kMissionReplies,
                                        Topic::kDrives,
                                        Topic::kGlanceRequests,
-                                       Topic::kGlances};
+                                       Topic::kGlances,
+                                       Topic::kNetworkEdits,
+                                       Topic::kNetworkRequests,
+                                       Topic::kNetworkReplies};
   if (message.index() >= std::size(kInOrder)) return std::nullopt;
   return kInOrder[message.index()];
 }
@@ -165,6 +176,12 @@ const char* NameOf(Topic topic) {
       return "trailcast/glance_requests";
     case Topic::kGlances:
       return "trailcast/glances";
+    case Topic::kNetworkEdits:
+      return "trailcast/network_edits";
+    case Topic::kNetworkRequests:
+      return "trailcast/network_requests";
+    case Topic::kNetworkReplies:
+      return "trailcast/network_replies";
   }
   return "unknown topic";
 }

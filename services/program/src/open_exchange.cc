@@ -25,6 +25,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kMissions, "robots were sent on missions"},
     {exchange::Topic::kDrives, "robots that teach were driven by operators"},
     {exchange::Topic::kGlanceRequests, "operators looked through robots' cameras"},
+    {exchange::Topic::kNetworkReplies, "routes were joined"},
 };
 
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {

@@ -85,12 +85,15 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::ScoutTopics());
       use = Together(std::move(use), exchange::DriverTopics());
       use = Together(std::move(use), exchange::GlanceTopics());
+      use = Together(std::move(use), exchange::NetworkTopics());
+      use = Together(std::move(use), exchange::JoinerTopics());
       std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
       return use;
     }
     case Role::kObserver:
-      return Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
-                      exchange::GlanceTopics());
+      return Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
+                               exchange::GlanceTopics()),
+                      exchange::NetworkTopics());
   }
   return {};
 }

@@ -31,6 +31,8 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
     EXPECT_EQ(may(Topic::kMissions), role == Role::kOperator || role == Role::kServer)
         << NameOf(role);
     EXPECT_EQ(may(Topic::kMissionReplies), role == Role::kServer) << NameOf(role);
+    EXPECT_EQ(may(Topic::kNetworkEdits), role == Role::kOperator) << NameOf(role);
+    EXPECT_EQ(may(Topic::kNetworkReplies), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
@@ -38,9 +40,9 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
 
 TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(RightsOf(Role::kFollower).write, Not(Contains(Topic::kRoutes)));
-  EXPECT_THAT(
-      RightsOf(Role::kObserver).write,
-      ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kGlanceRequests));
+  EXPECT_THAT(RightsOf(Role::kObserver).write,
+              ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kGlanceRequests,
+                          Topic::kNetworkRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
