@@ -40,6 +40,7 @@ struct HttpOptions {
 struct StoreOptions {
   std::string location;
   std::string missions;  // empty: beside the location, if that is a file
+  std::string joints;    // likewise
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // of each scout
   std::uint32_t keep_revisions = 0;
@@ -63,6 +64,11 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "the store's name with '.missions' behind it; with PostgreSQL, each server's own: "
                  "without one, it keeps no missions")
       ->envname("TRAILCAST_MISSIONS");
+  app.add_option("--joints", options.joints,
+                 "SQLite file that holds how routes are joined, created if missing; default: the "
+                 "store's name with '.joints' behind it; with PostgreSQL, each server's own: "
+                 "without one, it keeps no network of routes")
+      ->envname("TRAILCAST_JOINTS");
   app.add_option("--keep-revisions", options.keep_revisions,
                  "How many complete revisions of a route to keep, the newest, besides the active "
                  "one; older ones are deleted; 0: all")
@@ -111,15 +117,27 @@ trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
   return std::move(damaged->whole);
 }
 
+// A file of this server's own: `given`, or beside its routes; empty: it has none.
+std::string OwnFile(const StoreOptions& options, const std::string& given, const char* ending) {
+  const bool beside = given.empty() && !trailcast::store::IsPostgresUrl(options.location);
+  return beside ? options.location + ending : given;
+}
+
 // Routes are served without, too.
 void OpenMissions(trailcast::server::Server& server, const StoreOptions& options) {
-  const bool beside =
-      options.missions.empty() && !trailcast::store::IsPostgresUrl(options.location);
-  const std::string file = beside ? options.location + ".missions" : options.missions;
+  const std::string file = OwnFile(options, options.missions, ".missions");
   if (file.empty()) return;
   const auto kept = trailcast::store::MissionStore::Open(file).and_then(
       [&](auto store) { return server.KeepMissions(std::move(store)); });
   if (!kept) spdlog::error("keeping no missions: {}", kept.error().message);
+}
+
+void OpenNetwork(trailcast::server::Server& server, const StoreOptions& options) {
+  const std::string file = OwnFile(options, options.joints, ".joints");
+  if (file.empty()) return;
+  const auto kept = trailcast::store::NetworkStore::Open(file).and_then(
+      [&](auto store) { return server.KeepNetwork(std::move(store)); });
+  if (!kept) spdlog::error("keeping no network of routes: {}", kept.error().message);
 }
 
 // What Cyclone receives lands in blocks of 1 MB. The C library would take the first from the system
@@ -145,6 +163,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
                                                 std::move(*exchange));
   if (!server) return program::Complain(app, server.error());
   OpenMissions(**server, options);
+  OpenNetwork(**server, options);
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};

@@ -8,6 +8,8 @@ namespace {
 
 using exchange::CatalogRequest;
 using exchange::Message;
+using exchange::NetworkEdit;
+using exchange::NetworkRequest;
 using exchange::RouteEditRequest;
 
 // A client that heard no answer asks the same again, of the catalog under a new number; an edit has
@@ -22,8 +24,10 @@ bool IsSameAgain(const Message& request, const Message& before) {
 }  // namespace
 
 const AgentId& ClientOf(const Message& request) {
-  const auto* query = std::get_if<CatalogRequest>(&request);
-  return query != nullptr ? query->client : std::get<RouteEditRequest>(request).client;
+  if (const auto* query = std::get_if<CatalogRequest>(&request)) return query->client;
+  if (const auto* edit = std::get_if<RouteEditRequest>(&request)) return edit->client;
+  if (const auto* edit = std::get_if<NetworkEdit>(&request)) return edit->client;
+  return std::get<NetworkRequest>(request).client;
 }
 
 Result<void> RequestQueue::Add(const Message& request) {

@@ -10,19 +10,19 @@
 
 namespace trailcast::server {
 
-// Of a CatalogRequest or RouteEditRequest.
+// Of one of those that wait here.
 [[nodiscard]] const AgentId& ClientOf(const exchange::Message& request);
 
-// What clients ask of the catalog, or want edited, waits here for its turn: the clients are served
-// one after the other, each in the order in which it asked, so that one who asks for much, or
-// slowly, holds up neither the others nor the segments. Bounded.
+// What clients ask of the catalog or the network of routes, or want changed, waits here for its
+// turn: the clients are served one after the other, each in the order in which it asked, so that
+// one who asks for much, or slowly, holds up neither the others nor the segments. Bounded.
 class RequestQueue {
  public:
   static constexpr std::size_t kMostOfAClient = 16;
   static constexpr std::size_t kMost = 2048;  // 20 MB, if all of them have a view
 
-  // A CatalogRequest or RouteEditRequest. The same that waits already, asked again, takes its
-  // place. kUnavailable, in words for the reply: too many wait.
+  // A CatalogRequest, RouteEditRequest, NetworkRequest or NetworkEdit. The same that waits already,
+  // asked again, takes its place. kUnavailable, in words for the reply: too many wait.
   [[nodiscard]] Result<void> Add(const exchange::Message& request);
   [[nodiscard]] std::optional<exchange::Message> Next();
   [[nodiscard]] bool empty() const { return size_ == 0; }

@@ -98,9 +98,18 @@ Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
   return {};
 }
 
+Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
+  auto board = NetworkBoard::Open(presence_.status().agent, std::move(store), *store_);
+  if (!board) return tl::unexpected(board.error());
+  network_ = std::move(*board);
+  return {};
+}
+
 void Server::Receive(exchange::Message message) {
   if (std::holds_alternative<exchange::CatalogRequest>(message) ||
-      std::holds_alternative<exchange::RouteEditRequest>(message)) {
+      std::holds_alternative<exchange::RouteEditRequest>(message) ||
+      std::holds_alternative<exchange::NetworkRequest>(message) ||
+      std::holds_alternative<exchange::NetworkEdit>(message)) {
     ReceiveRequest(message);
     return;
   }
@@ -121,9 +130,12 @@ void Server::Receive(exchange::Message message) {
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     holders_.Note(*status, steady_clock::now());
+    if (network_) network_->Hear(*status);
   }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
+    // Another server may have changed it in the store that both share.
+    if (network_ && store_->shared()) network_->Note(announced->info);
   }
   if (!quotas_) {
     keeper_->Handle(std::move(message), steady_clock::now());
@@ -189,8 +201,8 @@ milliseconds Server::WaitForMessages() const {
 
 std::vector<exchange::Message> Server::Say(steady_clock::time_point now) {
   auto outgoing = keeper_->Tick(now);
-  for (exchange::Message& refusal : std::exchange(refusals_, {})) {
-    outgoing.push_back(std::move(refusal));
+  for (exchange::Message& reply : std::exchange(replies_, {})) {
+    outgoing.push_back(std::move(reply));
   }
   for (const exchange::Message& message : outgoing) {
     if (const auto line = journal_.Sent(message)) spdlog::info("{}", *line);
@@ -247,6 +259,7 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
   for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {
     const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
+    if (announced != nullptr && network_) network_->Note(announced->info);
     if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
       views_.Forget(announced->info.key);
     }

@@ -11,6 +11,7 @@
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
 #include "route_server/mission_board.h"
+#include "route_server/network_board.h"
 #include "route_server/quotas.h"
 #include "route_server/request_queue.h"
 #include "route_server/route_followers.h"
@@ -38,6 +39,8 @@ class Server {
   void Limit(const QuotaOptions& options);
   // Keeps what robots are sent to do, from now on; without, that is not this server's.
   [[nodiscard]] Result<void> KeepMissions(std::unique_ptr<store::MissionStore> store);
+  // Keeps how routes are joined, likewise.
+  [[nodiscard]] Result<void> KeepNetwork(std::unique_ptr<store::NetworkStore> store);
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -62,6 +65,7 @@ class Server {
   void Serve();
   [[nodiscard]] std::chrono::milliseconds WaitForMessages() const;
   void ServeRequests();
+  void Serve(const exchange::Message& request);
   // Hands over what is due, and returns it.
   [[nodiscard]] std::vector<exchange::Message> Say(std::chrono::steady_clock::time_point now);
   void TellTroubles();
@@ -86,10 +90,11 @@ class Server {
   Holders holders_;
   std::optional<Quotas> quotas_;  // none: everybody may use what there is
   RequestQueue requests_;
-  std::vector<exchange::Message> refusals_;  // of requests, to be sent
+  std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
   RouteFollowersBoard followers_;
   std::unique_ptr<MissionBoard> missions_;  // none: it keeps none
+  std::unique_ptr<NetworkBoard> network_;   // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

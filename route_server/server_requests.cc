@@ -1,5 +1,6 @@
 // What clients ask of the catalog, or want edited.
 #include "route_server/server.h"
+#include "services/base/unix_time.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
 
@@ -12,33 +13,41 @@ using std::chrono::steady_clock;
 // All else waits for so long, and for the request that is being answered then.
 constexpr milliseconds kRequestsASlice{20};
 
-exchange::CatalogReply Refusal(const exchange::Message& request, const AgentId& self,
-                               const std::string& why) {
-  exchange::CatalogReply reply;
-  reply.server = self;
+exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
+                          const std::string& why) {
+  const auto refusal = [&](const auto& refused, auto reply) {
+    reply.server = self;
+    reply.client = refused.client;
+    reply.request = refused.request;
+    reply.error = why;
+    return exchange::Message(std::move(reply));
+  };
   if (const auto* query = std::get_if<exchange::CatalogRequest>(&request)) {
-    reply.client = query->client;
-    reply.request = query->request;
-  } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&request)) {
-    reply.client = edit->client;
-    reply.request = edit->request;
+    return refusal(*query, exchange::CatalogReply{});
   }
-  reply.error = why;
-  return reply;
+  if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&request)) {
+    return refusal(*edit, exchange::CatalogReply{});
+  }
+  if (const auto* edit = std::get_if<exchange::NetworkEdit>(&request)) {
+    return refusal(*edit, exchange::NetworkReply{});
+  }
+  return refusal(std::get<exchange::NetworkRequest>(request), exchange::NetworkReply{});
 }
 
 }  // namespace
 
 // Who asks wrongly is told so at once: it costs nothing, and what waits is small.
 void Server::ReceiveRequest(const exchange::Message& request) {
-  const auto* query = std::get_if<exchange::CatalogRequest>(&request);
-  const auto possible =
-      query != nullptr ? exchange::CheckQuery(query->query)
-                       : exchange::CheckEdit(std::get<exchange::RouteEditRequest>(request).edit);
+  Result<void> possible;
+  if (const auto* query = std::get_if<exchange::CatalogRequest>(&request)) {
+    possible = exchange::CheckQuery(query->query);
+  } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&request)) {
+    possible = exchange::CheckEdit(edit->edit);
+  }
   if (!possible) {
     keeper_->Handle(request, steady_clock::now());
   } else if (const auto added = Enqueue(request); !added) {
-    refusals_.emplace_back(Refusal(request, presence_.status().agent, added.error().message));
+    replies_.push_back(Refusal(request, presence_.status().agent, added.error().message));
   }
 }
 
@@ -59,8 +68,24 @@ Result<void> Server::Enqueue(const exchange::Message& request) {
 void Server::ServeRequests() {
   const auto until = steady_clock::now() + kRequestsASlice;
   while (const auto request = requests_.Next()) {
-    keeper_->Handle(*request, steady_clock::now());
+    Serve(*request);
     if (steady_clock::now() >= until) break;
+  }
+}
+
+void Server::Serve(const exchange::Message& request) {
+  const auto* question = std::get_if<exchange::NetworkRequest>(&request);
+  const auto* edit = std::get_if<exchange::NetworkEdit>(&request);
+  if (question == nullptr && edit == nullptr) {
+    keeper_->Handle(request, steady_clock::now());
+  } else if (!network_) {
+    replies_.push_back(
+        Refusal(request, presence_.status().agent,
+                "keeps no network of routes: its log says why, or it was given no --joints"));
+  } else if (question != nullptr) {
+    replies_.emplace_back(network_->Answer(*question));
+  } else {
+    replies_.emplace_back(network_->Change(*edit, NowUnixMs()));
   }
 }
 

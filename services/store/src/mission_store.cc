@@ -10,6 +10,7 @@
 #include "services/mission/orders.h"
 #include "services/store/compiled_statements.h"
 #include "services/store/sqlite_database.h"
+#include "services/store/src/own_file.h"
 
 namespace trailcast::store {
 namespace {
@@ -122,28 +123,6 @@ std::string EndedStates() {
   return list;
 }
 
-// Who has it locked is another server, not somebody who is done in a moment.
-void Prepare(SQLite::Database& db) {
-  db.exec("PRAGMA locking_mode = EXCLUSIVE");
-  const int id = db.execAndGet("PRAGMA application_id").getInt();
-  const int version = db.execAndGet("PRAGMA user_version").getInt();
-  const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
-  if (!empty && (id != kMissionsId || version != kVersion)) {
-    throw SQLite::Exception("it holds no missions, or those of another version", SQLITE_NOTADB);
-  }
-  db.exec("PRAGMA journal_mode = WAL");
-  db.exec("PRAGMA synchronous = FULL");
-  db.exec("PRAGMA journal_size_limit = 4194304");
-  db.exec("PRAGMA trusted_schema = OFF");
-  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
-  if (empty) {
-    db.exec("PRAGMA application_id = " + std::to_string(kMissionsId));
-    db.exec("PRAGMA user_version = " + std::to_string(kVersion));
-    db.exec(kTables);
-  }
-  transaction.commit();
-}
-
 }  // namespace
 
 struct MissionStore::Database {
@@ -245,7 +224,9 @@ Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
                                                          std::int64_t most_kept) {
   try {
     auto database = std::make_unique<Database>(file, most_kept);
-    Prepare(database->db);
+    PrepareOwnFile(
+        database->db,
+        {.id = kMissionsId, .version = kVersion, .tables = kTables, .holds = "missions"});
     return std::unique_ptr<MissionStore>(new MissionStore(std::move(database)));
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(ToError(exception, file, "opening it", kWhat));

@@ -1,0 +1,397 @@
+#include "route_server/network_board.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "services/base/number.h"
+#include "services/base/process_name.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/route_finder.h"
+#include "services/mission/orders.h"
+#include "services/route/route_ref.h"
+
+namespace trailcast::server {
+namespace {
+
+using network::Condition;
+using network::Edit;
+using network::Joint;
+using network::Place;
+using Lines = std::vector<std::string>;
+
+std::string IdOf(const route::RouteKey& key) {
+  return fmt::format("{}/{}", key.route.value(), key.teaching.value());
+}
+
+route::RouteKey KeyOf(const std::string& id) {
+  const std::size_t slash = std::min(id.find('/'), id.size());
+  const auto teaching =
+      ParseNumber<std::uint64_t>(std::string_view(id).substr(std::min(slash + 1, id.size())));
+  return {RouteId(id.substr(0, slash)), TeachingId(teaching.value_or(0))};
+}
+
+double ToCentimetre(double metres) { return std::round(metres * 100.0) / 100.0; }
+
+bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkBoard::kSame_m; }
+
+bool IsNear(const Place& a, const Place& b) {
+  return a.route == b.route && IsNear(a.along_m, b.along_m);
+}
+
+Joint Reversed(Joint joint) {
+  std::swap(joint.from, joint.to);
+  return joint;
+}
+
+bool IsFollowable(const route::RouteInfo& info) {
+  return info.state == route::RouteState::kComplete && info.standing == route::Standing::kActive;
+}
+
+std::string OrdersFor(const network::Stretch& stretch, const std::string& called) {
+  return mission::ToText({.route = {.route = called},
+                          .from_m = ToCentimetre(stretch.from_m),
+                          .to_m = ToCentimetre(stretch.to_m),
+                          .speed_factor = stretch.speed});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
+                                                         std::unique_ptr<store::NetworkStore> store,
+                                                         store::RouteStore& routes) {
+  std::unique_ptr<NetworkBoard> board(
+      new NetworkBoard(std::move(server), std::move(store), routes));
+  auto joints = board->store_->Joints();
+  if (!joints) return tl::unexpected(joints.error());
+  auto conditions = board->store_->Conditions();
+  if (!conditions) return tl::unexpected(conditions.error());
+  board->joints_ = *std::move(joints);
+  board->conditions_ = *std::move(conditions);
+  return board;
+}
+
+exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
+                                            std::int64_t now_unix_ms) {
+  auto& answered = answered_.Touch({edit.client, edit.request});
+  if (answered) return *answered;
+  exchange::NetworkReply reply{.server = server_, .client = edit.client, .request = edit.request};
+  auto lines = network::ParseEdit(edit.words).and_then([&](const Edit& parsed) {
+    return Carry(parsed, WithoutProcess(edit.client.value()), now_unix_ms);
+  });
+  if (lines) {
+    lines->resize(std::min(lines->size(), exchange::kMaxNetworkLines));
+    reply.lines = *std::move(lines);
+  } else {
+    reply.error = PlainText(lines.error().message, exchange::kMaxLineBytes);
+  }
+  answered = reply;
+  return reply;
+}
+
+exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& request) {
+  exchange::NetworkReply reply{
+      .server = server_, .client = request.client, .request = request.request};
+  const auto lines =
+      request.words.empty()
+          ? All()
+          : network::ParseQuestion(request.words).and_then([&](const network::Question& question) {
+              return WayTo(question);
+            });
+  if (!lines) {
+    reply.error = PlainText(lines.error().message, exchange::kMaxLineBytes);
+    return reply;
+  }
+  const std::size_t begin = std::min<std::size_t>(request.first, lines->size());
+  const std::size_t end = std::min(begin + exchange::kMaxNetworkLines, lines->size());
+  reply.lines.assign(lines->begin() + static_cast<std::ptrdiff_t>(begin),
+                     lines->begin() + static_cast<std::ptrdiff_t>(end));
+  if (end < lines->size()) reply.next = static_cast<std::uint32_t>(end);
+  return reply;
+}
+
+void NetworkBoard::Hear(const exchange::AgentStatus& status) {
+  if (status.role != exchange::AgentRole::kFollower || !status.place) return;
+  places_.Touch(status.agent) = *status.place;
+}
+
+void NetworkBoard::Note(const route::RouteInfo& info) {
+  const auto at = known_.find(info.key.route);
+  if (at == known_.end()) {
+    // Its name may no longer tell another from it.
+    if (!names_.contains(info.name)) return;
+    known_.clear();
+  } else {
+    const auto& followed = at->second.followed;
+    const bool is_followed = followed && followed->key == info.key;
+    if (is_followed ? *followed == info : !IsFollowable(info)) return;
+    known_.erase(at);
+  }
+  network_.reset();
+}
+
+Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
+                                  std::int64_t now_unix_ms) {
+  switch (edit.kind) {
+    case Edit::Kind::kJoin:
+      return Join(edit.joint, by, now_unix_ms);
+    case Edit::Kind::kPart:
+      return Part(edit.joint);
+    default:
+      return Set(edit, by, now_unix_ms);
+  }
+}
+
+Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_t now_unix_ms) {
+  for (Place* place : {&joint.from, &joint.to}) {
+    auto resolved = Resolve(*place);
+    if (!resolved) return tl::unexpected(resolved.error());
+    *place = *std::move(resolved);
+  }
+  if (IsNear(joint.from, joint.to)) {
+    return Fail(ErrorCode::kInvalidArgument, "a joint leads to another place than where it begins");
+  }
+  const auto before = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& each) {
+    return IsNear(each.from, joint.from) && IsNear(each.to, joint.to);
+  });
+  if (before != joints_.end()) {
+    joint.from = before->from;
+    joint.to = before->to;
+  }
+  if (auto put = store_->Put(joint, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  if (before != joints_.end()) joints_.erase(before);
+  joints_.push_back(joint);
+  network_.reset();
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  const auto called = Called(joint);
+  if (!called) return tl::unexpected(called.error());
+  return Lines{network::ToText(*called)};
+}
+
+Result<Lines> NetworkBoard::Part(const Joint& joint) {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  // Those of deleted routes are known by what they are called in the list alone.
+  const auto from = Resolve(joint.from);
+  const auto to = Resolve(joint.to);
+  std::vector<Joint> parted;
+  Lines lines;
+  for (const Joint& each : joints_) {
+    const auto called = Called(each);
+    if (!called) return tl::unexpected(called.error());
+    const auto is = [&](const Joint& it, const Joint& its_name) {
+      return (IsNear(its_name.from, joint.from) || (from && IsNear(it.from, *from))) &&
+             (IsNear(its_name.to, joint.to) || (to && IsNear(it.to, *to)));
+    };
+    if (!is(each, *called) && !is(Reversed(each), Reversed(*called))) continue;
+    parted.push_back(each);
+    lines.push_back(network::ToText(*called));
+  }
+  if (parted.empty()) {
+    return Fail(ErrorCode::kNotFound, "there is no joint of {} and {}", network::ToText(joint.from),
+                network::ToText(joint.to));
+  }
+  for (const Joint& each : parted) {
+    if (auto dropped = store_->Drop(each); !dropped) return tl::unexpected(dropped.error());
+    std::erase(joints_, each);
+    network_.reset();
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t now_unix_ms) {
+  Condition& condition = edit.condition;
+  const auto meant = Meant(condition.route);
+  if (!meant) return tl::unexpected(meant.error());
+  if (condition.from_m >= meant->length_m) {
+    return Fail(ErrorCode::kInvalidArgument, "route '{}' is {:.1f} m long: {:g} m is beyond it",
+                meant->name, meant->length_m, condition.from_m);
+  }
+  condition.route = meant->key.route.value();
+  auto after = network::Amended(conditions_, edit);
+  std::vector<Condition> its;
+  std::copy_if(after.begin(), after.end(), std::back_inserter(its),
+               [&](const Condition& each) { return each.route == condition.route; });
+  if (auto stored = store_->Replace(condition.route, its, by, now_unix_ms); !stored) {
+    return tl::unexpected(stored.error());
+  }
+  conditions_ = std::move(after);
+  network_.reset();
+  if (auto known = Know({meant->key.route}); !known) return tl::unexpected(known.error());
+  Lines lines;
+  for (Condition& each : its) {
+    each.route = Called(meant->key.route);
+    lines.push_back(network::ToText(each));
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::All() {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  Lines lines;
+  for (const auto& [id, known] : known_) {
+    if (!known.followed) continue;
+    lines.push_back(fmt::format("route {} {:.2f}", known.called, known.followed->length_m));
+  }
+  for (const Joint& joint : joints_) {
+    const auto called = Called(joint);
+    if (!called) return tl::unexpected(called.error());
+    const bool used = IsUsed(joint.from) && IsUsed(joint.to);
+    lines.push_back((used ? "" : "unused ") + network::ToText(*called));
+  }
+  for (Condition condition : conditions_) {
+    condition.route = Called(RouteId(condition.route));
+    lines.push_back(network::ToText(condition));
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
+  const auto to = Resolve(question.to);
+  if (!to) return tl::unexpected(to.error());
+  Result<Place> from;
+  if (question.robot.empty()) {
+    from = Resolve(question.from);
+  } else if (const auto* place = places_.Find(AgentId(question.robot))) {
+    from = Place{IdOf(place->key), place->along_m};
+  } else {
+    return Fail(ErrorCode::kNotFound,
+                "'{}' has not said where on a route it stands since this server was started: say "
+                "from where it is to go",
+                question.robot);
+  }
+  if (!from) return tl::unexpected(from.error());
+  if (auto known = Know({KeyOf(from->route).route, KeyOf(to->route).route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  for (const auto& place : {*from, *to}) {
+    if (IsUsed(place)) continue;
+    const auto called = Called(place);
+    if (!called) return tl::unexpected(called.error());
+    return Fail(ErrorCode::kNotFound, "{} is on a revision that robots do not follow{}",
+                network::ToText(*called),
+                question.robot.empty() ? "" : ", where " + question.robot + " may stand");
+  }
+  const auto way = network_->ShortestWay(*from, *to);
+  if (!way) return tl::unexpected(way.error());
+  Lines lines;
+  for (const network::Stretch& stretch : way->stretches) {
+    if (IsNear(stretch.from_m, stretch.to_m)) continue;
+    lines.push_back(OrdersFor(stretch, Called(KeyOf(stretch.route).route)));
+  }
+  return lines;
+}
+
+Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
+  const auto ref = route::ParseRouteRef(words);
+  if (!ref) return tl::unexpected(ref.error());
+  const auto routes = routes_.FindMeant(ref->route);
+  if (!routes) return tl::unexpected(routes.error());
+  const exchange::RevisionChoice which{.number = ref->revision};
+  if (const auto rivals = exchange::FindRivals(*routes, which); rivals.size() > 1) {
+    return exchange::Ambiguous(ref->route, rivals);
+  }
+  auto meant = exchange::ChooseRoute(*routes, which);
+  if (!meant) return Fail(ErrorCode::kNotFound, "there is no route '{}'", words);
+  if (meant->state != route::RouteState::kComplete) {
+    return Fail(ErrorCode::kNotFound, "route '{}' is not complete yet", words);
+  }
+  return *std::move(meant);
+}
+
+Result<Place> NetworkBoard::Resolve(const Place& named) const {
+  const auto meant = Meant(named.route);
+  if (!meant) return tl::unexpected(meant.error());
+  if (named.along_m > meant->length_m + kSame_m) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route '{}' is {:.2f} m long: there is no {:g} m on it", meant->name,
+                meant->length_m, named.along_m);
+  }
+  return Place{IdOf(meant->key), ToCentimetre(named.along_m)};
+}
+
+Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
+  const auto all_known = std::all_of(asked.begin(), asked.end(),
+                                     [&](const RouteId& id) { return known_.contains(id); });
+  if (network_ && all_known) return {};
+  std::set<RouteId> wanted = asked;
+  for (const Joint& joint : joints_) {
+    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  }
+  for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
+  std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
+  names_.clear();
+  std::vector<network::Route> routes;
+  for (const RouteId& id : wanted) {
+    auto at = known_.find(id);
+    if (at == known_.end()) {
+      auto known = LookUp(id);
+      if (!known) return tl::unexpected(known.error());
+      at = known_.emplace(id, *std::move(known)).first;
+    }
+    if (const auto& followed = at->second.followed) {
+      names_.insert(followed->name);
+      routes.push_back({IdOf(followed->key), at->second.called, followed->length_m});
+    }
+  }
+  std::vector<Joint> joints;
+  std::copy_if(joints_.begin(), joints_.end(), std::back_inserter(joints),
+               [&](const Joint& joint) { return IsUsed(joint.from) && IsUsed(joint.to); });
+  std::vector<Condition> conditions;
+  for (Condition condition : conditions_) {
+    const Known& known = known_.at(RouteId(condition.route));
+    if (!known.followed) continue;
+    condition.route = IdOf(known.followed->key);
+    conditions.push_back(std::move(condition));
+  }
+  auto built = network::Network::Build(std::move(routes), joints, conditions);
+  if (!built) return tl::unexpected(built.error());
+  network_ = *std::move(built);
+  return {};
+}
+
+Result<NetworkBoard::Known> NetworkBoard::LookUp(const RouteId& route) const {
+  const auto revisions = routes_.FindRevisions(route);
+  if (!revisions) return tl::unexpected(revisions.error());
+  const auto followed = std::find_if(revisions->begin(), revisions->end(), IsFollowable);
+  Known known{.followed = {}, .called = route.value()};
+  if (followed == revisions->end()) return known;
+  known.followed = *followed;
+  const auto namesakes = routes_.FindMeant(followed->name);
+  if (!namesakes) return tl::unexpected(namesakes.error());
+  if (exchange::FindRivals(*namesakes).size() <= 1) known.called = followed->name;
+  return known;
+}
+
+bool NetworkBoard::IsUsed(const Place& place) const {
+  const auto key = KeyOf(place.route);
+  const auto at = known_.find(key.route);
+  return at != known_.end() && at->second.followed && at->second.followed->key == key;
+}
+
+std::string NetworkBoard::Called(const RouteId& route) const {
+  const auto at = known_.find(route);
+  return at == known_.end() ? route.value() : at->second.called;
+}
+
+Result<Place> NetworkBoard::Called(const Place& place) const {
+  const auto key = KeyOf(place.route);
+  if (IsUsed(place)) return Place{Called(key.route), place.along_m};
+  const auto info = routes_.FindRoute(key);
+  if (!info) return tl::unexpected(info.error());
+  if (!*info) return Place{key.route.value(), place.along_m};
+  return Place{fmt::format("{}@{}", (*info)->name, (*info)->revision.value()), place.along_m};
+}
+
+Result<Joint> NetworkBoard::Called(Joint joint) const {
+  for (Place* place : {&joint.from, &joint.to}) {
+    auto called = Called(*place);
+    if (!called) return tl::unexpected(called.error());
+    *place = *std::move(called);
+  }
+  return joint;
+}
+
+}  // namespace trailcast::server

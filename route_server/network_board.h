@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/base/newest_map.h"
+#include "services/exchange/messages.h"
+#include "services/network/words.h"
+#include "services/store/network_store.h"
+#include "services/store/route_store.h"
+
+namespace trailcast::server {
+
+// How routes are joined, as operators say, and which ways that makes. A joint is one of two
+// revisions, whose metres it names: it is used while both are those that robots follow. What is
+// closed or limited is so on whichever revision is followed. No clock of its own.
+class NetworkBoard {
+ public:
+  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  static constexpr std::size_t kMostAgents = 4096;
+  // Within so many metres a joint, or a place on a route, is the same.
+  static constexpr double kSame_m = 0.05;
+
+  // `routes` outlives this.
+  [[nodiscard]] static Result<std::unique_ptr<NetworkBoard>> Open(
+      AgentId server, std::unique_ptr<store::NetworkStore> store, store::RouteStore& routes);
+
+  // On the disk when it returns. The same request asked again is answered again, and carried out
+  // once.
+  [[nodiscard]] exchange::NetworkReply Change(const exchange::NetworkEdit& edit,
+                                              std::int64_t now_unix_ms);
+  [[nodiscard]] exchange::NetworkReply Answer(const exchange::NetworkRequest& request);
+  // Where robots say that they stand.
+  void Hear(const exchange::AgentStatus& status);
+  // What is known of a revision may have changed.
+  void Note(const route::RouteInfo& info);
+
+ private:
+  // Of a route the revision that robots follow, if there is one.
+  struct Known {
+    std::optional<route::RouteInfo> followed;
+    std::string called;  // its name, or its id where that may mean others, too
+  };
+  NetworkBoard(AgentId server, std::unique_ptr<store::NetworkStore> store,
+               store::RouteStore& routes)
+      : server_(std::move(server)), store_(std::move(store)), routes_(routes) {}
+
+  [[nodiscard]] Result<std::vector<std::string>> Carry(const network::Edit& edit,
+                                                       const std::string& by,
+                                                       std::int64_t now_unix_ms);
+  [[nodiscard]] Result<std::vector<std::string>> Join(network::Joint joint, const std::string& by,
+                                                      std::int64_t now_unix_ms);
+  [[nodiscard]] Result<std::vector<std::string>> Part(const network::Joint& joint);
+  [[nodiscard]] Result<std::vector<std::string>> Set(network::Edit edit, const std::string& by,
+                                                     std::int64_t now_unix_ms);
+  [[nodiscard]] Result<std::vector<std::string>> All();
+  [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
+
+  // The complete revision that ROUTE[@REVISION] means.
+  [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
+  [[nodiscard]] Result<network::Place> Resolve(const network::Place& named) const;
+  // Looks up what is not known of the routes that are joined, and of these.
+  [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
+  [[nodiscard]] Result<Known> LookUp(const RouteId& route) const;
+  [[nodiscard]] bool IsUsed(const network::Place& place) const;
+  // As people are shown it: "hall@12", "hall@1@12" of a revision that is not followed.
+  [[nodiscard]] Result<network::Place> Called(const network::Place& place) const;
+  [[nodiscard]] Result<network::Joint> Called(network::Joint joint) const;
+  [[nodiscard]] std::string Called(const RouteId& route) const;
+
+  AgentId server_;
+  std::unique_ptr<store::NetworkStore> store_;
+  store::RouteStore& routes_;
+  std::vector<network::Joint> joints_;          // of revisions: "ID/TEACHING"
+  std::vector<network::Condition> conditions_;  // of routes: "ID"
+  std::map<RouteId, Known> known_;
+  std::set<std::string> names_;              // of those
+  std::optional<network::Network> network_;  // of those, by revision
+  NewestMap<AgentId, exchange::PlaceOnRoute> places_{kMostAgents};
+  // What the last edits were answered with.
+  NewestMap<std::pair<AgentId, std::uint64_t>, std::optional<exchange::NetworkReply>> answered_{64};
+};
+
+}  // namespace trailcast::server

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/network/network.h"
+
+namespace trailcast::store {
+
+// How routes are joined, and what holds on parts of them, as operators said: a SQLite file of its
+// own, created if missing. What a call has stored is on the disk when it returns. Which routes
+// places and conditions name is the caller's affair. Errors name the file: kUnavailable (disk full,
+// no such folder, too many), kConflict (another process has it open), kCorrupt (no such file of
+// ours, or a damaged one).
+class NetworkStore {
+ public:
+  static constexpr std::int64_t kMostJoints = 100'000;
+  static constexpr std::int64_t kMostConditions = 10'000;
+
+  [[nodiscard]] static Result<std::unique_ptr<NetworkStore>> Open(
+      const std::filesystem::path& file);
+  ~NetworkStore();
+  NetworkStore(const NetworkStore&) = delete;
+  NetworkStore& operator=(const NetworkStore&) = delete;
+
+  // In the order in which they were put.
+  [[nodiscard]] Result<std::vector<network::Joint>> Joints();
+  [[nodiscard]] Result<std::vector<network::Condition>> Conditions();
+
+  // In place of that from and to the same places. `by`: who said so, and when by the caller's
+  // clock.
+  [[nodiscard]] Result<void> Put(const network::Joint& joint, const std::string& by,
+                                 std::int64_t now_unix_ms);
+  // That from and to just these places, if there is one.
+  [[nodiscard]] Result<void> Drop(const network::Joint& joint);
+  // All there are of this route.
+  [[nodiscard]] Result<void> Replace(const std::string& route,
+                                     const std::vector<network::Condition>& conditions,
+                                     const std::string& by, std::int64_t now_unix_ms);
+
+ private:
+  struct Database;
+  explicit NetworkStore(std::unique_ptr<Database> database);
+  std::unique_ptr<Database> database_;
+};
+
+}  // namespace trailcast::store

@@ -1,0 +1,213 @@
+#include "services/store/network_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <utility>
+
+#include "services/store/compiled_statements.h"
+#include "services/store/sqlite_database.h"
+#include "services/store/src/own_file.h"
+
+namespace trailcast::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kWhat = "store of the network";
+constexpr OwnFile kFile{.id = 0x5452434E,  // "TRCN"
+                        .version = 1,
+                        .tables = R"(
+CREATE TABLE joint (
+  number INTEGER PRIMARY KEY,
+  from_route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_route TEXT NOT NULL,
+  to_m REAL NOT NULL,
+  both INTEGER NOT NULL,
+  ahead_m REAL,
+  left_m REAL,
+  turn_rad REAL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL,
+  UNIQUE (from_route, from_m, to_route, to_m)
+) STRICT;
+CREATE TABLE condition (
+  number INTEGER PRIMARY KEY,
+  route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_m REAL NOT NULL,
+  closed INTEGER NOT NULL,
+  speed REAL NOT NULL,
+  cost REAL NOT NULL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL
+) STRICT;
+CREATE INDEX condition_route ON condition (route);
+)",
+                        .holds = "joints"};
+
+network::Joint JointIn(SQLite::Statement& row) {
+  network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
+                       .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
+                       .both = row.getColumn(4).getInt() != 0};
+  if (!row.getColumn(5).isNull()) {
+    joint.lie = {.ahead_m = row.getColumn(5).getDouble(),
+                 .left_m = row.getColumn(6).getDouble(),
+                 .turn_rad = row.getColumn(7).getDouble()};
+  }
+  return joint;
+}
+
+network::Condition ConditionIn(SQLite::Statement& row) {
+  return {.route = row.getColumn(0).getString(),
+          .from_m = row.getColumn(1).getDouble(),
+          .to_m = row.getColumn(2).getDouble(),
+          .closed = row.getColumn(3).getInt() != 0,
+          .speed = row.getColumn(4).getDouble(),
+          .cost = row.getColumn(5).getDouble()};
+}
+
+void BindPlaces(SQLite::Statement& statement, const network::Joint& joint) {
+  statement.bind(1, joint.from.route);
+  statement.bind(2, joint.from.along_m);
+  statement.bind(3, joint.to.route);
+  statement.bind(4, joint.to.along_m);
+}
+
+}  // namespace
+
+struct NetworkStore::Database {
+  explicit Database(const fs::path& path)
+      : file(path), db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE), compiled(db) {}
+
+  // Runs `work`, which may throw SQLite's exceptions.
+  template <typename Work>
+  auto Guarded(const char* doing, const Work& work) -> decltype(work()) {
+    try {
+      return work();
+    } catch (const SQLite::Exception& exception) {
+      return tl::unexpected(ToError(exception, file, doing, kWhat));
+    }
+  }
+
+  template <typename Value>
+  std::vector<Value> All(const char* sql, Value (*in)(SQLite::Statement&)) {
+    auto select = compiled.Take(sql);
+    std::vector<Value> all;
+    while (select->executeStep()) all.push_back(in(*select));
+    return all;
+  }
+
+  std::int64_t Count(const char* sql) {
+    auto select = compiled.Take(sql);
+    return select->executeStep() ? select->getColumn(0).getInt64() : 0;
+  }
+
+  void Remove(const network::Joint& joint) {
+    auto remove = compiled.Take(
+        "DELETE FROM joint WHERE from_route = ?1 AND from_m = ?2 AND to_route = ?3 AND to_m = ?4");
+    BindPlaces(*remove, joint);
+    remove->exec();
+  }
+
+  fs::path file;
+  SQLite::Database db;
+  CompiledStatements compiled;
+};
+
+NetworkStore::NetworkStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+NetworkStore::~NetworkStore() = default;
+
+Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
+  try {
+    auto database = std::make_unique<Database>(file);
+    PrepareOwnFile(database->db, kFile);
+    return std::unique_ptr<NetworkStore>(new NetworkStore(std::move(database)));
+  } catch (const SQLite::Exception& exception) {
+    return tl::unexpected(ToError(exception, file, "opening it", kWhat));
+  }
+}
+
+Result<std::vector<network::Joint>> NetworkStore::Joints() {
+  return database_->Guarded("reading joints", [&]() -> Result<std::vector<network::Joint>> {
+    return database_->All(
+        "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad FROM joint "
+        "ORDER BY number",
+        JointIn);
+  });
+}
+
+Result<std::vector<network::Condition>> NetworkStore::Conditions() {
+  return database_->Guarded("reading conditions", [&]() -> Result<std::vector<network::Condition>> {
+    return database_->All(
+        "SELECT route, from_m, to_m, closed, speed, cost FROM condition ORDER BY number",
+        ConditionIn);
+  });
+}
+
+Result<void> NetworkStore::Put(const network::Joint& joint, const std::string& by,
+                               std::int64_t now_unix_ms) {
+  return database_->Guarded("storing a joint", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    database_->Remove(joint);
+    if (database_->Count("SELECT count(*) FROM joint") >= kMostJoints) {
+      return Fail(ErrorCode::kUnavailable, "{} joints are kept already: no more", kMostJoints);
+    }
+    auto insert = database_->compiled.Take(
+        "INSERT INTO joint (from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, "
+        "set_by, set_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
+    BindPlaces(*insert, joint);
+    insert->bind(5, joint.both ? 1 : 0);
+    const double lie[] = {joint.lie ? joint.lie->ahead_m : 0.0, joint.lie ? joint.lie->left_m : 0.0,
+                          joint.lie ? joint.lie->turn_rad : 0.0};
+    for (int i = 0; i < 3; ++i) {
+      joint.lie ? insert->bind(6 + i, lie[i]) : insert->bind(6 + i);
+    }
+    insert->bind(9, by);
+    insert->bind(10, now_unix_ms);
+    insert->exec();
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Drop(const network::Joint& joint) {
+  return database_->Guarded("forgetting a joint", [&]() -> Result<void> {
+    database_->Remove(joint);
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Replace(const std::string& route,
+                                   const std::vector<network::Condition>& conditions,
+                                   const std::string& by, std::int64_t now_unix_ms) {
+  return database_->Guarded("storing conditions", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto remove = database_->compiled.Take("DELETE FROM condition WHERE route = ?1");
+    remove->bind(1, route);
+    remove->exec();
+    const std::int64_t others = database_->Count("SELECT count(*) FROM condition");
+    if (others + static_cast<std::int64_t>(conditions.size()) > kMostConditions) {
+      return Fail(ErrorCode::kUnavailable, "{} closed stretches and limits are kept: no more",
+                  kMostConditions);
+    }
+    for (const network::Condition& condition : conditions) {
+      auto insert = database_->compiled.Take(
+          "INSERT INTO condition (route, from_m, to_m, closed, speed, cost, set_by, set_unix_ms) "
+          "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)");
+      insert->bind(1, route);
+      insert->bind(2, condition.from_m);
+      insert->bind(3, condition.to_m);
+      insert->bind(4, condition.closed ? 1 : 0);
+      insert->bind(5, condition.speed);
+      insert->bind(6, condition.cost);
+      insert->bind(7, by);
+      insert->bind(8, now_unix_ms);
+      insert->exec();
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+}  // namespace trailcast::store

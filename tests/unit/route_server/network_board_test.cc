@@ -1,0 +1,205 @@
+#include "route_server/network_board.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/exchange/bounds.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::server {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// hall of 20 m, office of 10 m, ring of 8 m.
+class NetworkBoardTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Put(1, "hall", 20.0);
+    Put(2, "office", 10.0);
+    Put(3, "ring", 8.0);
+    Restart();
+  }
+  void Restart() {
+    board_.reset();
+    auto store = store::NetworkStore::Open(folder_ / "joints");
+    ASSERT_TRUE(store) << store.error().message;
+    auto board = NetworkBoard::Open(AgentId("server"), std::move(*store), routes_);
+    ASSERT_TRUE(board) << board.error().message;
+    board_ = std::move(*board);
+  }
+  route::RouteInfo Put(unsigned number, const std::string& name, double length_m,
+                       std::uint64_t teaching = 1,
+                       route::Standing standing = route::Standing::kActive,
+                       std::uint32_t edition = 0) {
+    route::RouteInfo info = test::InfoOf(test::KeyNumber(number, teaching),
+                                         test::PiecesOf(test::KeyNumber(number, teaching), 2),
+                                         route::RouteState::kComplete);
+    info.name = name;
+    info.length_m = length_m;
+    info.standing = standing;
+    info.edition = edition;
+    EXPECT_TRUE(routes_.PutRoute(info));
+    if (board_) board_->Note(info);
+    return info;
+  }
+  exchange::NetworkReply Edit(const std::string& words, std::uint64_t request = 0) {
+    return board_->Change({AgentId("desk-p7"), request == 0 ? ++requests_ : request, words}, 1000);
+  }
+  std::vector<std::string> Done(const std::string& words) {
+    const auto reply = Edit(words);
+    EXPECT_EQ(reply.error, "") << words;
+    return reply.lines;
+  }
+  std::string Refused(const std::string& words) {
+    const auto reply = Edit(words);
+    EXPECT_THAT(reply.lines, IsEmpty()) << words;
+    return reply.error;
+  }
+  exchange::NetworkReply Ask(const std::string& words, std::uint32_t first = 0) {
+    const auto reply = board_->Answer({AgentId("desk"), 7, words, first});
+    EXPECT_TRUE(exchange::CheckBounds(reply));
+    EXPECT_EQ(reply.request, 7U);
+    return reply;
+  }
+  std::vector<std::string> Asked(const std::string& words = "") {
+    const auto reply = Ask(words);
+    EXPECT_EQ(reply.error, "") << words;
+    return reply.lines;
+  }
+
+  test::TempDir folder_;
+  test::MemoryStore routes_;
+  std::unique_ptr<NetworkBoard> board_;
+  std::uint64_t requests_ = 100;
+};
+
+TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
+  EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("no way leads from hall@2 to office@8"));
+  EXPECT_THAT(Done("join hall@12.0 office@0.0"), ElementsAre("join hall@12 office@0"));
+  EXPECT_THAT(Asked("way hall@2 office@8"), ElementsAre("follow hall 2..12", "follow office 0..8"));
+  EXPECT_THAT(Asked(),
+              ElementsAre("route hall 20.00", "route office 10.00", "join hall@12 office@0"));
+  Restart();
+  EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2)) << "it is durable";
+  EXPECT_THAT(Asked("way hall@2 hall@2"), IsEmpty()) << "it is there";
+  EXPECT_THAT(Asked("way ring@2 ring@3"), ElementsAre("follow ring 2..3")) << "joined to none";
+  EXPECT_THAT(Done("part office@0 hall@12"), ElementsAre("join hall@12 office@0"));
+  EXPECT_THAT(Refused("part office@0 hall@12"), HasSubstr("no joint of office@0 and hall@12"));
+  EXPECT_THAT(Asked(), IsEmpty());
+}
+
+TEST_F(NetworkBoardTest, TheSameJointIsMadeOnce) {
+  Done("join hall@12 office@0");
+  EXPECT_THAT(Done("join hall@12.03 office@0 both offset 0.1,-0.2 heading 3"),
+              ElementsAre("join hall@12 office@0 both offset 0.1,-0.2 heading 3.0"));
+  EXPECT_THAT(Asked(), SizeIs(3));
+  EXPECT_THAT(Asked("way office@0 hall@13"), ElementsAre("follow hall 12..13"));
+}
+
+TEST_F(NetworkBoardTest, AnEditAskedForAgainIsCarriedOutOnce) {
+  Done("join hall@12 office@0");
+  const auto parted = Edit("part hall@12 office@0", 42);
+  EXPECT_EQ(parted.error, "");
+  EXPECT_EQ(Edit("part hall@12 office@0", 42), parted);
+  EXPECT_NE(Edit("part hall@12 office@0", 43).error, "");
+}
+
+TEST_F(NetworkBoardTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
+  Done("join hall@12 office@0");
+  Done("join ring@8 ring@0");
+  EXPECT_THAT(Done("close office 3..7"), ElementsAre("close office 3..7"));
+  Restart();
+  EXPECT_THAT(Ask("way hall@2 office@8").error,
+              AllOf(HasSubstr("closed"), HasSubstr("office 3..7")));
+  EXPECT_THAT(Asked("way hall@2 office@3"), SizeIs(2));
+  EXPECT_THAT(Asked("way ring@6 ring@1"), ElementsAre("follow ring 6..8", "follow ring 0..1"));
+  EXPECT_THAT(Done("open office"), IsEmpty());
+  EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));
+  EXPECT_THAT(Done("limit office 4.. speed 0.5"), ElementsAre("limit office 4.. speed 0.5"));
+  EXPECT_THAT(Asked("way hall@2 office@8"), ElementsAre("follow hall 2..12", "follow office 0..4",
+                                                        "follow office 4..8 speed 0.5"));
+}
+
+TEST_F(NetworkBoardTest, AJointOfARevisionThatIsNotFollowedIsNotUsed) {
+  Done("join hall@12 office@0");
+  Done("close hall 13..14");
+  Put(1, "hall", 20.0, 1, route::Standing::kRetired, 1);
+  Put(1, "hall", 21.0, 2, route::Standing::kActive, 1);
+  EXPECT_THAT(Asked(), ElementsAre("route hall 21.00", "route office 10.00",
+                                   "unused join hall@1@12 office@0", "close hall 13..14"));
+  EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("no way"));
+  EXPECT_THAT(Ask("way hall@1@2 office@8").error,
+              HasSubstr("hall@1@2 is on a revision that robots do not follow"));
+  EXPECT_THAT(Ask("way hall@2 hall@20").error, HasSubstr("13..14")) << "closed it stays";
+  Done("join hall@13 office@0");
+  EXPECT_THAT(Asked("way hall@2 office@8"), ElementsAre("follow hall 2..13", "follow office 0..8"));
+  EXPECT_THAT(Done("part hall@1@12 office@0"), ElementsAre("join hall@1@12 office@0"));
+}
+
+TEST_F(NetworkBoardTest, AJointOfADeletedRouteIsPartedAsItIsListed) {
+  Done("join hall@12 office@0");
+  Put(2, "office", 10.0, 1, route::Standing::kDeleted, 1);
+  EXPECT_THAT(Asked(), ElementsAre("route hall 20.00", "unused join hall@12 office@1@0"));
+  EXPECT_THAT(Done("part hall@12 office@1@0"), SizeIs(1));
+  EXPECT_THAT(Asked(), IsEmpty());
+}
+
+TEST_F(NetworkBoardTest, RoutesOfOneNameAreToldApartByTheirIds) {
+  Done("join hall@12 office@0");
+  Put(4, "hall", 5.0);
+  const std::string id = test::KeyNumber(1).route.value();
+  EXPECT_THAT(Asked("way " + id + "@2 office@8"),
+              ElementsAre("follow " + id + " 2..12", "follow office 0..8"));
+  EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("hall"));
+  EXPECT_THAT(Refused("close hall"), HasSubstr("hall"));
+}
+
+TEST_F(NetworkBoardTest, ARobotsWayBeginsWhereItLastSaidThatItStands) {
+  Done("join hall@12 office@0");
+  EXPECT_THAT(Ask("way robot1 office@8").error, HasSubstr("'robot1' has not said where"));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  status.place = {.key = test::KeyNumber(1), .along_m = 2.004};
+  board_->Hear(status);
+  status.place.reset();
+  board_->Hear(status);
+  EXPECT_THAT(Asked("way robot1 office@8"), ElementsAre("follow hall 2..12", "follow office 0..8"));
+  status.place = {.key = test::KeyNumber(9), .along_m = 1.0};
+  board_->Hear(status);
+  EXPECT_THAT(Ask("way robot1 office@8").error, HasSubstr("do not follow, where robot1 may stand"));
+}
+
+TEST_F(NetworkBoardTest, WhatCannotBeIsRefusedInWords) {
+  EXPECT_THAT(Refused("join hall@12 attic@0"), HasSubstr("there is no route 'attic'"));
+  EXPECT_THAT(Refused("join hall@21 office@0"), HasSubstr("'hall' is 20.00 m long"));
+  EXPECT_THAT(Refused("join hall@2 hall@2.01"), HasSubstr("another place"));
+  EXPECT_THAT(Refused("close hall 20.."), HasSubstr("beyond it"));
+  EXPECT_THAT(Refused("dance"), HasSubstr("expected 'join"));
+  EXPECT_THAT(Ask("way hall@2").error, HasSubstr("expected ROUTE@METRES"));
+  EXPECT_THAT(Ask("way hall@2 office@11").error, HasSubstr("'office' is 10.00 m long"));
+  EXPECT_THAT(Refused(std::string(512, 'x')), SizeIs(exchange::kMaxLineBytes));
+  EXPECT_THAT(Asked(), IsEmpty());
+}
+
+TEST_F(NetworkBoardTest, ALongListIsGivenInPages) {
+  for (int i = 0; i < 1100; ++i) {
+    Done(fmt::format("join hall@{:.2f} office@{:.2f}", 0.1 * (i % 190), 0.1 * (i / 190)));
+  }
+  const auto first = Ask("");
+  EXPECT_THAT(first.lines, SizeIs(exchange::kMaxNetworkLines));
+  ASSERT_EQ(first.next, exchange::kMaxNetworkLines);
+  const auto rest = Ask("", first.next);
+  EXPECT_EQ(first.lines.size() + rest.lines.size(), 1102U);
+  EXPECT_EQ(rest.next, 0U);
+  EXPECT_THAT(Ask("", 5000).lines, IsEmpty());
+}
+
+}  // namespace
+}  // namespace trailcast::server

@@ -1,0 +1,91 @@
+#include "services/store/network_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "services/store/mission_store.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::store {
+namespace {
+
+using network::Condition;
+using network::Joint;
+using network::Lie;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class NetworkStoreTest : public testing::Test {
+ protected:
+  void SetUp() override { Reopen(); }
+  void Reopen() {
+    store_.reset();
+    auto opened = NetworkStore::Open(file_);
+    ASSERT_TRUE(opened) << opened.error().message;
+    store_ = std::move(*opened);
+  }
+  void Put(const Joint& joint) { ASSERT_TRUE(store_->Put(joint, "desk", 1000)); }
+
+  test::TempDir folder_;
+  std::filesystem::path file_ = folder_ / "joints";
+  std::unique_ptr<NetworkStore> store_;
+};
+
+TEST_F(NetworkStoreTest, JointsAreThereAfterARestartInTheirOrderOnceForTheSamePlaces) {
+  const Joint first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{0.1, -0.25, 0.5}};
+  Joint second{{"b/7", 3.0}, {"a/1", 1.0}};
+  Put(first);
+  Put(second);
+  Reopen();
+  EXPECT_THAT(store_->Joints().value(), ElementsAre(first, second));
+  second.both = true;
+  Put(second);
+  EXPECT_THAT(store_->Joints().value(), ElementsAre(first, second));
+  ASSERT_TRUE(store_->Drop(first));
+  ASSERT_TRUE(store_->Drop(first)) << "of what is not there, too";
+  Reopen();
+  EXPECT_THAT(store_->Joints().value(), ElementsAre(second));
+}
+
+TEST_F(NetworkStoreTest, ConditionsOfARouteReplaceThoseOfBefore) {
+  const Condition closed{.route = "a", .from_m = 3.0, .to_m = 7.5, .closed = true};
+  const Condition slow{.route = "a", .to_m = 1e7, .speed = 0.5, .cost = 2.0};
+  const Condition other{.route = "b", .to_m = 1.0, .closed = true};
+  ASSERT_TRUE(store_->Replace("a", {closed, slow}, "desk", 1000));
+  ASSERT_TRUE(store_->Replace("b", {other}, "desk", 1000));
+  Reopen();
+  EXPECT_THAT(store_->Conditions().value(), ElementsAre(closed, slow, other));
+  ASSERT_TRUE(store_->Replace("a", {slow}, "desk", 2000));
+  EXPECT_THAT(store_->Conditions().value(), ElementsAre(other, slow));
+  ASSERT_TRUE(store_->Replace("a", {}, "desk", 3000));
+  ASSERT_TRUE(store_->Replace("b", {}, "desk", 3000));
+  Reopen();
+  EXPECT_THAT(store_->Conditions().value(), IsEmpty());
+}
+
+TEST_F(NetworkStoreTest, MoreConditionsThanThereMayBeAreRefusedAndThoseOfBeforeStay) {
+  const Condition closed{.route = "a", .to_m = 1.0, .closed = true};
+  ASSERT_TRUE(store_->Replace("a", {closed}, "desk", 1000));
+  const auto kept = static_cast<std::size_t>(NetworkStore::kMostConditions);
+  const auto refused = store_->Replace("a", std::vector<Condition>(kept + 1, closed), "desk", 1000);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(store_->Conditions().value(), ElementsAre(closed));
+}
+
+TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
+  EXPECT_EQ(NetworkStore::Open(file_).error().code, ErrorCode::kConflict) << "it is open";
+  ASSERT_TRUE(MissionStore::Open(folder_ / "missions"));
+  const auto missions = NetworkStore::Open(folder_ / "missions");
+  ASSERT_FALSE(missions);
+  EXPECT_EQ(missions.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(missions.error().message, HasSubstr("holds no joints"));
+  std::ofstream(folder_ / "text") << "this is no database, but a file of somebody's";
+  EXPECT_EQ(NetworkStore::Open(folder_ / "text").error().code, ErrorCode::kCorrupt);
+}
+
+}  // namespace
+}  // namespace trailcast::store
