@@ -30,6 +30,7 @@ struct Command {
 // send, missions.
 [[nodiscard]] std::vector<Command> AddMissionCommands(CLI::App& parent,
                                                       const program::CommonOptions& common);
+[[nodiscard]] Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common);
 // pause, resume, cancel, stop, release.
 [[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
                                                   const program::CommonOptions& common);

@@ -20,6 +20,8 @@ constexpr const char* kExamples =
     "  trailcast fleet                        # robots that are heard, and how they are\n"
     "  trailcast send robot2 follow hall      # a robot on duty; 'missions' tells what became of "
     "it\n"
+    "  trailcast network join hall@12 office@0   # routes become a network\n"
+    "  trailcast send robot2 goto office@8    # the shortest way over it\n"
     "  trailcast glance robot2                # what its camera sees, as a picture\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
@@ -50,6 +52,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddWhereCommand(app, common),
                                 trailcast::tool::AddFleetCommand(app, common),
                                 trailcast::tool::AddGlanceCommand(app, common),
+                                trailcast::tool::AddNetworkCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),
                                 trailcast::tool::AddRobotCommand(app, common)};

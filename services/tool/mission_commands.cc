@@ -12,8 +12,10 @@
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
+#include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/mission/orders.h"
+#include "services/network/words.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/command.h"
 #include "services/tool/time_spans.h"
@@ -30,6 +32,7 @@ struct SendOptions {
   std::string robot;
   std::vector<std::string> orders;
   std::string id;
+  std::string from;  // of goto; empty: where the robot stands
   double valid_s = 600.0;
   bool goes_on = false;
   bool wait = false;
@@ -44,6 +47,11 @@ constexpr const char* kSendExamples =
     "speed\n"
     "  teach ROUTE [TAG ...]   a person drives until 'trailcast end robot1'\n"
     "  wait SECONDS\n"
+    "or, alone:\n"
+    "  goto ROUTE@METRES    the shortest way over the network of routes ('trailcast network'), as\n"
+    "                       'follow' after 'follow'; from where the robot last said that it "
+    "stands, "
+    "or --from\n"
     "Examples:\n"
     "  trailcast send robot1 follow hall\n"
     "  trailcast send robot1 follow hall 3..10 speed 0.5 wait 20 follow yard laps 2\n"
@@ -51,24 +59,76 @@ constexpr const char* kSendExamples =
     "console\n"
     "  trailcast send robot1 follow hall --wait      # until it has arrived, or says why not\n"
     "  trailcast send robot1 follow hall --valid 2h  # however late it is back by then\n"
+    "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
     "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
     "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, or nobody "
     "answered\n(with --wait: not arrived); 2 wrong usage.";
 
+// Where it is to go, if that is what it is sent to.
+Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
+  if (options.orders.front() != "goto") {
+    if (options.from.empty()) return std::nullopt;
+    return Fail(ErrorCode::kInvalidArgument, "--from is for 'goto' alone");
+  }
+  if (options.orders.size() != 2) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'goto' is followed by one place and nothing else: goto office@8");
+  }
+  for (const std::string& place : {options.orders[1], options.from}) {
+    if (place.empty()) continue;
+    if (const auto is = network::ParsePlace(place); !is) return tl::unexpected(is.error());
+  }
+  return options.orders[1];
+}
+
+// The way there as one mission has it; empty: it is there already. Tells which way it is.
+Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer& peer,
+                             const SendOptions& options) {
+  const auto way = fleet::AskForWay(*peer.exchange, peer.self,
+                                    options.from.empty() ? options.robot : options.from, goal,
+                                    ToMilliseconds(options.timeout_s));
+  if (!way) return tl::unexpected(way.error());
+  if (!options.json) {
+    fmt::print("{}", fleet::WayText(*way));
+  } else if (way->empty()) {
+    fmt::print("{}", fleet::WayJson(*way));
+  }
+  std::string orders = fmt::format("{}", fmt::join(*way, " "));
+  if (orders.size() <= exchange::kMaxLineBytes) return orders;
+  return Fail(ErrorCode::kInvalidArgument,
+              "the way has {} stretches, more than one mission holds: send it to a place on the "
+              "way first ('trailcast network way' shows it)",
+              way->size());
+}
+
 int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {
+  const auto goal = GoalOf(options);
+  if (!goal) return program::Complain(app, goal.error());
   mission::Mission mission{.agent = AgentId(options.robot),
                            .id = options.id.empty() ? fleet::DrawMissionId() : options.id,
                            .orders = fmt::format("{}", fmt::join(options.orders, " ")),
                            .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
                            .goes_on = options.goes_on};
-  if (const auto tasks = mission::ParseOrders(mission.orders); !tasks) {
+  if (const auto tasks = mission::ParseOrders(mission.orders); !*goal && !tasks) {
     return program::Complain(app, tasks.error());
   }
   const program::StopSignal stop;
-  const auto peer = fleet::JoinAsOperator(common, exchange::SenderTopics());
+  exchange::TopicUse use = exchange::SenderTopics();
+  if (*goal) {
+    const exchange::TopicUse asking = exchange::NetworkTopics();
+    use.write.insert(use.write.end(), asking.write.begin(), asking.write.end());
+    use.read.insert(use.read.end(), asking.read.begin(), asking.read.end());
+  }
+  const auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
   mission.client = peer->self;
+  if (*goal) {
+    auto orders = OrdersTo(**goal, *peer, options);
+    if (!orders) return program::Complain(app, orders.error());
+    if (orders->empty()) return program::kExitOk;
+    mission.orders = *std::move(orders);
+  }
   fleet::SendWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);
   watch.to_its_end = options.wait;
@@ -191,6 +251,9 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
                   "The mission's name, by which it is done once however often it is sent; default: "
                   "drawn")
       ->check(program::NameValidator());
+  app->add_option("--from", options->from,
+                  "Where a robot stands that goes to a place, ROUTE@METRES; default: where it last "
+                  "said so");
   app->add_option("--valid", options->valid_s,
                   "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
                   "for ever")

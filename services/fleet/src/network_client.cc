@@ -1,0 +1,169 @@
+#include "services/fleet/network_client.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "services/base/number.h"
+#include "services/fleet/ask.h"
+#include "services/fleet/draw.h"
+#include "services/mission/orders.h"
+#include "services/network/words.h"
+#include "services/program/json.h"
+
+namespace trailcast::fleet {
+namespace {
+
+using program::JsonList;
+using program::JsonText;
+using std::chrono::milliseconds;
+using Lines = std::vector<std::string>;
+
+constexpr std::string_view kUnused = "unused ";
+constexpr std::string_view kRoute = "route ";
+
+Result<Lines> AskForLines(exchange::RouteExchange& exchange, exchange::NetworkRequest question,
+                          milliseconds timeout) {
+  Lines all;
+  while (true) {
+    question.request = DrawNumber();
+    auto reply =
+        Ask<exchange::NetworkReply>(exchange, question.client, question.request, question, timeout);
+    if (!reply) return tl::unexpected(reply.error());
+    std::move(reply->lines.begin(), reply->lines.end(), std::back_inserter(all));
+    // A server's pages go on, or end.
+    if (reply->next <= question.first) return all;
+    question.first = reply->next;
+  }
+}
+
+std::string PlaceJson(const network::Place& place) {
+  return fmt::format("{{\"route\": {}, \"along_m\": {:.2f}}}", JsonText(place.route),
+                     place.along_m);
+}
+
+std::string JointJson(const network::Joint& joint, bool used) {
+  std::string lie = "null";
+  if (joint.lie) {
+    lie = fmt::format("{{\"ahead_m\": {:.2f}, \"left_m\": {:.2f}, \"turn_rad\": {:.4f}}}",
+                      joint.lie->ahead_m, joint.lie->left_m, joint.lie->turn_rad);
+  }
+  return fmt::format("{{\"from\": {}, \"to\": {}, \"both\": {}, \"lie\": {}, \"used\": {}}}",
+                     PlaceJson(joint.from), PlaceJson(joint.to), joint.both, lie, used);
+}
+
+// null: up to the route's end.
+std::string ConditionJson(const network::Condition& condition) {
+  const std::string to =
+      condition.to_m >= network::kToTheEnd_m ? "null" : fmt::format("{:.2f}", condition.to_m);
+  std::string text = fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {}",
+                                 JsonText(condition.route), condition.from_m, to);
+  if (!condition.closed) {
+    text += fmt::format(", \"speed\": {:g}, \"cost\": {:g}", condition.speed, condition.cost);
+  }
+  return text + "}";
+}
+
+std::string RouteJson(std::string_view line) {
+  const std::size_t blank = std::min(line.find(' '), line.size());
+  const auto length_m = ParseNumber<double>(line.substr(std::min(blank + 1, line.size())));
+  return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(line.substr(0, blank)),
+                     length_m.value_or(0.0));
+}
+
+// The stretches; of orders that are no stretch, none.
+std::vector<mission::Task> TasksOf(const Lines& way) {
+  return mission::ParseOrders(fmt::format("{}", fmt::join(way, " ")))
+      .value_or(std::vector<mission::Task>{});
+}
+
+double LengthOf(const std::vector<mission::Task>& tasks) {
+  double length_m = 0.0;
+  for (const mission::Task& task : tasks) length_m += task.to_m - task.from_m;
+  return length_m;
+}
+
+}  // namespace
+
+Result<Lines> AskForNetwork(exchange::RouteExchange& exchange, const AgentId& client,
+                            milliseconds timeout) {
+  return AskForLines(exchange, {.client = client}, timeout);
+}
+
+Result<Lines> AskForWay(exchange::RouteExchange& exchange, const AgentId& client,
+                        const std::string& from, const std::string& to, milliseconds timeout) {
+  return AskForLines(exchange, {.client = client, .words = "way " + from + " " + to}, timeout);
+}
+
+Result<Lines> AskToJoin(exchange::RouteExchange& exchange, const AgentId& client,
+                        const std::string& words, milliseconds timeout) {
+  const exchange::NetworkEdit edit{.client = client, .request = DrawNumber(), .words = words};
+  auto reply = Ask<exchange::NetworkReply>(exchange, client, edit.request, edit, timeout);
+  if (!reply) return tl::unexpected(reply.error());
+  return std::move(reply->lines);
+}
+
+std::string NetworkText(const Lines& lines) {
+  if (lines.empty()) return "no routes are joined, and none is closed\n";
+  std::string text;
+  for (const std::string& line : lines) {
+    if (line.starts_with(kRoute)) {
+      text += line + " m\n";
+    } else if (line.starts_with(kUnused)) {
+      text +=
+          line.substr(kUnused.size()) + "   (not used: robots follow another revision, or none)\n";
+    } else {
+      text += line + "\n";
+    }
+  }
+  return text;
+}
+
+std::string NetworkJson(const Lines& lines) {
+  Lines routes;
+  Lines joints;
+  Lines closed;
+  Lines limits;
+  for (std::string_view line : lines) {
+    if (line.starts_with(kRoute)) {
+      routes.push_back(RouteJson(line.substr(kRoute.size())));
+      continue;
+    }
+    const bool unused = line.starts_with(kUnused);
+    if (unused) line.remove_prefix(kUnused.size());
+    const auto edit = network::ParseEdit(line);
+    if (!edit) continue;
+    if (edit->kind == network::Edit::Kind::kJoin) {
+      joints.push_back(JointJson(edit->joint, !unused));
+    } else {
+      (edit->condition.closed ? closed : limits).push_back(ConditionJson(edit->condition));
+    }
+  }
+  return fmt::format("{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}}}\n",
+                     JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits));
+}
+
+std::string WayText(const Lines& way) {
+  if (way.empty()) return "it is there already\n";
+  std::string text;
+  for (const std::string& stretch : way) text += stretch + "\n";
+  return text + fmt::format("{:.1f} m\n", LengthOf(TasksOf(way)));
+}
+
+std::string WayJson(const Lines& way) {
+  const auto tasks = TasksOf(way);
+  Lines stretches;
+  for (const mission::Task& task : tasks) {
+    stretches.push_back(
+        fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"speed\": {:g}}}",
+                    JsonText(task.route.route), task.from_m, task.to_m, task.speed_factor));
+  }
+  return fmt::format("{{\"length_m\": {:.2f}, \"stretches\": {}}}\n", LengthOf(tasks),
+                     JsonList(stretches));
+}
+
+}  // namespace trailcast::fleet

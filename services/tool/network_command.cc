@@ -1,0 +1,105 @@
+// `trailcast network`.
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "services/base/time.h"
+#include "services/fleet/network_client.h"
+#include "services/fleet/operator_peer.h"
+#include "services/network/words.h"
+#include "services/tool/command.h"
+
+namespace trailcast::tool {
+namespace {
+
+struct NetworkOptions {
+  std::vector<std::string> words;
+  bool json = false;
+  double timeout_s = 5.0;
+};
+
+constexpr const char* kExamples =
+    "Words; without any, it lists the routes that are joined, joints, and what is closed:\n"
+    "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
+    "                       robots may change over from the first place to the second; both: and\n"
+    "                       back; how the second lies there, where it is known\n"
+    "  part PLACE PLACE     no more, neither way\n"
+    "  close ROUTE [FROM..TO]   no robot is sent along it by 'goto'; open ROUTE [FROM..TO]\n"
+    "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
+    "                       at most F times the taught speed; a metre counts as F when ways are\n"
+    "                       compared; with neither, no limit any more\n"
+    "  way FROM PLACE       the shortest way, from a PLACE or from where a robot of that name "
+    "stands\n"
+    "A PLACE is ROUTE@METRES along it: hall@12.5; FROM..TO are metres, either may be missing.\n"
+    "Examples:\n"
+    "  trailcast network join hall@12 office@0\n"
+    "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
+    "  trailcast network close hall 3..7\n"
+    "  trailcast network way hall@2 office@8       # its stretches, and how long it is\n"
+    "  trailcast network way robot1 office@8 --json\n"
+    "A route is followed in the direction in which it was taught. A joint is of the revisions "
+    "that\n"
+    "robots follow when it is made; while another is followed, it is not used.\n"
+    "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
+
+bool Asks(const NetworkOptions& options) {
+  return options.words.empty() || options.words.front() == "way";
+}
+
+int Print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return program::kExitOk;
+}
+
+int Run(const CLI::App& app, const program::CommonOptions& common, const NetworkOptions& options) {
+  const std::string words = fmt::format("{}", fmt::join(options.words, " "));
+  // Before anybody is asked, what no server would understand.
+  if (!Asks(options)) {
+    if (const auto edit = network::ParseEdit(words); !edit) {
+      return program::Complain(app, edit.error());
+    }
+  } else if (!words.empty()) {
+    if (const auto question = network::ParseQuestion(words); !question) {
+      return program::Complain(app, question.error());
+    }
+  }
+  const auto peer = fleet::JoinAsOperator(
+      common, Asks(options) ? exchange::NetworkTopics() : exchange::JoinerTopics());
+  if (!peer) return program::Complain(app, peer.error());
+  const auto timeout = ToMilliseconds(options.timeout_s);
+  if (options.words.empty()) {
+    const auto lines = fleet::AskForNetwork(*peer->exchange, peer->self, timeout);
+    if (!lines) return program::Complain(app, lines.error());
+    return Print(options.json ? fleet::NetworkJson(*lines) : fleet::NetworkText(*lines));
+  }
+  if (Asks(options)) {
+    const auto way =
+        fleet::AskForWay(*peer->exchange, peer->self, options.words[1], options.words[2], timeout);
+    if (!way) return program::Complain(app, way.error());
+    return Print(options.json ? fleet::WayJson(*way) : fleet::WayText(*way));
+  }
+  const auto lines = fleet::AskToJoin(*peer->exchange, peer->self, words, timeout);
+  if (!lines) return program::Complain(app, lines.error());
+  if (options.json) return Print(fleet::NetworkJson(*lines));
+  const bool parted = options.words.front() == "part";
+  return Print(lines->empty() ? "nothing is closed or limited there now\n"
+                              : (parted ? "no more: " : "") + fleet::NetworkText(*lines));
+}
+
+}  // namespace
+
+Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<NetworkOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "network", "How routes are joined, what is closed, and which way leads where");
+  app->footer(kExamples);
+  app->add_option("WORDS", options->words, "What to change, or to ask: see below");
+  app->add_flag("--json", options->json, "For programs");
+  app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  return {app, [app, options, &common] { return Run(*app, common, *options); }};
+}
+
+}  // namespace trailcast::tool

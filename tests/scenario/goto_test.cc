@@ -1,0 +1,60 @@
+// Routes that are joined, and a robot sent to a place over them.
+#include "tests/scenario/robots.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class GotoTest : public RobotsTest {
+ protected:
+  Ended Tool(const Words& words) {
+    return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
+  }
+  Ended Network(const Words& words) { return Tool(With({"network"}, words)); }
+  Ended Send(const Words& words) { return Tool(With({"send", "robot1"}, words)); }
+
+  int tools_ = 0;
+};
+
+// The office was taught along the hall, so that a robot that changes over goes straight on.
+TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
+  Teach();
+  Teach("routes.db", kPath, "office");
+  const auto server = Server();
+  const Ended delivered = RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"});
+  ASSERT_EQ(delivered.status, 0) << delivered.output;
+  const Ended joined = Network({"join", "hall@1.5", "office@1.5"});
+  ASSERT_EQ(joined.status, 0) << joined.output;
+  EXPECT_THAT(joined.output, HasSubstr("join hall@1.5 office@1.5"));
+  const Ended way = Network({"way", "hall@0.5", "office@3"});
+  EXPECT_EQ(way.status, 0) << way.output;
+  EXPECT_THAT(way.output, AllOf(HasSubstr("follow hall 0.5..1.5"),
+                                HasSubstr("follow office 1.5..3"), HasSubstr("2.5 m")));
+  const Ended closed = Network({"close", "office", "2..2.5"});
+  ASSERT_EQ(closed.status, 0) << closed.output;
+
+  const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+  const auto agent = Serve("robot1");
+  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  const Ended barred = Send({"goto", "office@3", "--from", "hall@0"});
+  EXPECT_EQ(barred.status, 1) << barred.output;
+  EXPECT_THAT(barred.output, AllOf(HasSubstr("closed"), HasSubstr("office 2..2.5")));
+  ASSERT_EQ(Network({"open", "office"}).status, 0);
+  const Ended sent = Send({"goto", "office@3", "--from", "hall@0", "--wait"});
+  EXPECT_EQ(sent.status, 0) << sent.output << agent->output();
+  EXPECT_THAT(sent.output, AllOf(HasSubstr("follow office 1.5..3"), HasSubstr("robot1: arrived")));
+  EXPECT_NEAR(Along_m("truth.csv"), 4.0, 0.3);
+
+  const Ended back = Send({"goto", "hall@1"});
+  EXPECT_EQ(back.status, 1) << back.output;
+  EXPECT_THAT(back.output, HasSubstr("no way leads from office@")) << "from where it says it is";
+  const Ended on = Send({"goto", "office@3.4", "--wait"});
+  EXPECT_EQ(on.status, 0) << on.output << agent->output();
+  EXPECT_NEAR(Along_m("truth.csv"), 4.4, 0.3);
+  EXPECT_THAT(Tool({"missions"}).output, HasSubstr("follow hall 0..1.5 follow office 1.5..3"));
+}
+
+}  // namespace
+}  // namespace trailcast::test

@@ -1,0 +1,116 @@
+#include "services/fleet/network_client.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include "services/exchange/in_process_exchange.h"
+
+namespace trailcast::fleet {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+constexpr milliseconds kPatience{20'000};
+
+class NetworkClientTest : public testing::Test {
+ protected:
+  ~NetworkClientTest() override {
+    ending_ = true;
+    if (server_.joinable()) server_.join();
+  }
+  template <typename Question>
+  void Answer(const std::function<exchange::NetworkReply(const Question&)>& answer) {
+    server_ = std::thread(
+        [this, answer,
+         exchange = std::shared_ptr<exchange::RouteExchange>(bus_.Open(exchange::ServerTopics()))] {
+          while (!ending_) {
+            for (const exchange::Message& message : exchange->Take(milliseconds(10))) {
+              const auto* question = std::get_if<Question>(&message);
+              if (question == nullptr) continue;
+              exchange::NetworkReply reply = answer(*question);
+              reply.server = AgentId("server");
+              reply.client = question->client;
+              reply.request = question->request;
+              (void)exchange->Publish(reply);
+            }
+          }
+        });
+  }
+
+  exchange::InProcessBus bus_;
+  std::atomic<bool> ending_{false};
+  std::thread server_;
+};
+
+TEST_F(NetworkClientTest, AsksForPageAfterPageAndForAWay) {
+  Answer<exchange::NetworkRequest>([](const exchange::NetworkRequest& question) {
+    exchange::NetworkReply reply;
+    if (question.words.empty()) {
+      reply.lines = {fmt::format("route r{} 1", question.first)};
+      reply.next = question.first < 2 ? question.first + 1 : 0;
+    } else {
+      reply.lines = {question.words};
+    }
+    return reply;
+  });
+  const auto desk = bus_.Open(exchange::NetworkTopics());
+  EXPECT_THAT(AskForNetwork(*desk, AgentId("desk"), kPatience).value(),
+              ElementsAre("route r0 1", "route r1 1", "route r2 1"));
+  EXPECT_THAT(AskForWay(*desk, AgentId("desk"), "hall@2", "office@8", kPatience).value(),
+              ElementsAre("way hall@2 office@8"));
+}
+
+TEST_F(NetworkClientTest, TellsWhyAChangeWasNotMade) {
+  Answer<exchange::NetworkEdit>([](const exchange::NetworkEdit& edit) {
+    exchange::NetworkReply reply;
+    if (edit.words == "close hall") reply.lines = {edit.words};
+    if (reply.lines.empty()) reply.error = "there is no route 'attic'";
+    return reply;
+  });
+  const auto desk = bus_.Open(exchange::JoinerTopics());
+  EXPECT_THAT(AskToJoin(*desk, AgentId("desk"), "close hall", kPatience).value(), SizeIs(1));
+  const auto refused = AskToJoin(*desk, AgentId("desk"), "close attic", kPatience);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("server server: there is no route 'attic'"));
+}
+
+TEST(NetworkTexts, AreForPeopleAndForPrograms) {
+  const std::vector<std::string> lines{"route hall 20.00",
+                                       "unused join hall@1@12 office@0 both",
+                                       "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
+                                       "close hall 3..",
+                                       "limit hall 1..2 speed 0.5",
+                                       "narrow hall 1..2"};
+  EXPECT_THAT(NetworkText(lines),
+              AllOf(HasSubstr("route hall 20.00 m\n"),
+                    HasSubstr("join hall@1@12 office@0 both   (not used:"),
+                    HasSubstr("\nclose hall 3..\n"), HasSubstr("narrow hall 1..2\n")));
+  const std::string json = NetworkJson(lines);
+  EXPECT_THAT(json, HasSubstr(R"({"route": "hall", "length_m": 20.00})"));
+  EXPECT_THAT(json, HasSubstr(R"("from": {"route": "hall@1", "along_m": 12.00})"));
+  EXPECT_THAT(json, HasSubstr(R"("both": true, "lie": null, "used": false})"));
+  EXPECT_THAT(json,
+              HasSubstr(R"("ahead_m": 0.10, "left_m": -0.20, "turn_rad": 1.5708}, "used": true})"));
+  EXPECT_THAT(json, HasSubstr(R"({"route": "hall", "from_m": 3.00, "to_m": null})"));
+  EXPECT_THAT(json, HasSubstr(R"("to_m": 2.00, "speed": 0.5, "cost": 1})"));
+  EXPECT_THAT(NetworkText({}), HasSubstr("no routes are joined"));
+
+  const std::vector<std::string> way{"follow hall 2..12", "follow office ..8.5 speed 0.5"};
+  EXPECT_THAT(WayText(way), HasSubstr("follow office ..8.5 speed 0.5\n18.5 m\n"));
+  EXPECT_THAT(
+      WayJson(way),
+      AllOf(HasSubstr(R"("length_m": 18.50)"),
+            HasSubstr(R"({"route": "office", "from_m": 0.00, "to_m": 8.50, "speed": 0.5})")));
+  EXPECT_EQ(WayText({}), "it is there already\n");
+}
+
+}  // namespace
+}  // namespace trailcast::fleet
