@@ -12,12 +12,17 @@ struct JointOptions {
   // So many features of two views have to agree for them to count at all, and more are worth more.
   int least_agreed = 5;
   // In one place the pictures show things equally large, but for the cameras: so far off in its
-  // logarithm (one sigma) and they are views of one place from further off.
-  double log_scale_sigma = 0.4;
+  // logarithm (one sigma) and they are views of one place from further off. Features of cameras
+  // that magnify differently are alike where they look as large, so for these it says less.
+  double log_scale_sigma = 0.2;
+  double other_camera_sigma = 0.4;
+  // So far (half widths) they are shifted where one looks further left: in a turn views further on
+  // are alike, too, and shifted more.
+  double shift_sigma = 0.6;
   // How far apart two views are that are alike (one sigma), and of how large things look in them;
   // from both, and from how fast things grow, follows where things look equally large.
   double off_sigma_m = 2.0;
-  double off_sigma_s = 0.5;
+  double off_sigma_s = 0.1;
   double log_scale_noise = 0.05;
   // From one pair of views to the next of a joint: so many are passed over on either route, or so
   // many units, whichever is further.

@@ -119,8 +119,11 @@ class Finder {
     for (Alike& each : alike_) {
       const double off = each.log_scale - log_magnification_;
       each.at_b -= Moved(off, 0.5 * (a.views()[each.a].growth + b.views()[each.b].growth));
-      const double sigmas = off / options_.log_scale_sigma;
-      each.worth = (each.agreed - options_.least_agreed + 1) * std::exp(-0.5 * sigmas * sigmas);
+      const double scales =
+          off / (same_camera ? options_.log_scale_sigma : options_.other_camera_sigma);
+      const double shifts = each.shift_u / options_.shift_sigma;
+      each.worth = (each.agreed - options_.least_agreed + 1) *
+                   std::exp(-0.5 * (scales * scales + shifts * shifts));
     }
   }
 
@@ -155,14 +158,16 @@ class Finder {
            std::max(options_.least_loop, std::min(joint.length(), options_.sure_loop));
   }
 
+  [[nodiscard]] bool TooFarOnA(const Alike& before, const Alike& after) const {
+    return after.a - before.a > options_.most_passed_over + 1 &&
+           after.at_a - before.at_a > options_.most_apart;
+  }
+
   [[nodiscard]] bool Follows(const Alike& before, const Alike& after) const {
     if (after.a <= before.a || after.b <= before.b) return false;
     const double way_a = after.at_a - before.at_a;
     const double way_b = after.at_b - before.at_b;
     if (way_b < 0.0) return false;
-    if (after.a - before.a > options_.most_passed_over + 1 && way_a > options_.most_apart) {
-      return false;
-    }
     if (after.b - before.b > options_.most_passed_over + 1 && way_b > options_.most_apart) {
       return false;
     }
@@ -179,7 +184,8 @@ class Finder {
     std::vector<std::size_t> befores(alike_.size(), kNone);
     std::size_t best = kNone;
     for (std::size_t i = 0; i < alike_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t j = i; j-- > 0;) {
+        if (TooFarOnA(alike_[j], alike_[i])) break;  // as all before it are
         if (sums[j] <= sums[i] || !Follows(alike_[j], alike_[i])) continue;
         sums[i] = sums[j];
         befores[i] = j;

@@ -1,0 +1,199 @@
+// Joints of each route of some stores with all the others, found among a hundred thousand segments
+// from elsewhere: how long it takes, and whether it finds what comparing every two routes does.
+//
+//   bench_joints SEGMENTS ELSEWHERE STORE...
+//
+// ELSEWHERE is a store of routes in other places, of whose views those segments are made.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/joints/find_joints.h"
+#include "services/joints/near_routes.h"
+#include "services/program/command_line.h"
+#include "services/route/digest.h"
+#include "services/store/route_store.h"
+#include "tests/bench/view_corpus.h"
+
+namespace trailcast::bench {
+namespace {
+
+constexpr std::uint32_t kSegmentsARoute = 30;
+constexpr int kWidth_px = 320;
+
+template <typename Value>
+Value Must(Result<Value> result) {
+  if (result) return std::move(*result);
+  std::cerr << result.error().message << '\n';
+  std::abort();
+}
+
+// Of this thread alone: the machine may have other work.
+double ProcessorMs() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Taught {
+  route::RouteInfo info;
+  std::vector<route::Segment> segments;
+};
+
+std::vector<Taught> TaughtIn(const std::string& file) {
+  std::vector<Taught> taught;
+  const auto store = Must(store::OpenSqliteStore(file));
+  for (const route::RouteInfo& info : Must(store->ListRoutes())) {
+    if (info.state != route::RouteState::kComplete) continue;
+    Taught& route = taught.emplace_back();
+    route.info = info;
+    for (std::uint32_t i = 0; i < info.segment_count; ++i) {
+      route.segments.push_back(
+          Must(route::Open(Must(store->ReadSegment(info.key, SegmentIndex(i))))));
+    }
+  }
+  return taught;
+}
+
+joints::RouteViews Tabulate(const std::vector<route::Segment>& segments, int width_px) {
+  joints::RouteViews views(width_px);
+  for (const route::Segment& segment : segments) views.Add(segment);
+  return views;
+}
+
+// What the distractors are made of: a view each.
+std::vector<route::Segment> ViewsAsSegments(const std::vector<Taught>& routes) {
+  std::vector<route::Segment> apart;
+  for (const Taught& route : routes) {
+    for (const route::Segment& segment : route.segments) {
+      for (const route::KeyView& view : segment.key_views) {
+        route::Segment one;
+        one.has_odometry = true;
+        one.length_m = 1.0;
+        one.key_views.push_back({0.0, view.features});
+        apart.push_back(std::move(one));
+      }
+    }
+  }
+  return apart;
+}
+
+class Bench {
+ public:
+  Bench(std::vector<Taught> routes, const std::vector<Taught>& elsewhere, std::uint32_t distractors)
+      : routes_(std::move(routes)), apart_(ViewsAsSegments(elsewhere)) {
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+      const Taught& route = routes_[i];
+      numbers_[route.info.key] = i;
+      for (const route::Segment& segment : route.segments) Add(route.info.key, segment);
+      views_.push_back(Tabulate(route.segments, route.info.image_width_px));
+    }
+    for (std::uint32_t i = 0; i < distractors; ++i) {
+      route::Segment segment = Distractor(apart_, i);
+      segment.index = SegmentIndex(i % kSegmentsARoute);
+      Add(KeyOfDistractors(i / kSegmentsARoute), segment);
+    }
+  }
+
+  void Run() {
+    double near_ms = 0.0, compared_ms = 0.0, longest_ms = 0.0;
+    std::size_t near_routes = 0, found = 0, strange = 0, there = 0;
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+      const double began_ms = ProcessorMs();
+      const auto near = joints::NearRoutes(index_, routes_[i].info.key.route, routes_[i].segments);
+      const double took_ms = ProcessorMs() - began_ms;
+      double compare_ms = 0.0;
+      for (const joints::NearRoute& each : near) {
+        const joints::RouteViews views = ViewsOf(each.key);
+        const double compares_ms = ProcessorMs();
+        const bool joined = !joints::FindJoints(views_[i], views, SameCamera(i, each.key)).empty();
+        compare_ms += ProcessorMs() - compares_ms;
+        (numbers_.contains(each.key) ? found : strange) += joined ? 1 : 0;
+      }
+      near_routes += near.size();
+      near_ms += took_ms;
+      compared_ms += compare_ms;
+      longest_ms = std::max(longest_ms, took_ms + compare_ms);
+      for (std::size_t j = 0; j < routes_.size(); ++j) {
+        const bool same = SameCamera(i, routes_[j].info.key);
+        if (j != i && !joints::FindJoints(views_[i], views_[j], same).empty()) ++there;
+      }
+    }
+    const auto routes = static_cast<double>(routes_.size());
+    fmt::print("{} routes against {} segments ({:.0f} MB)\n", routes_.size(), index_.size(),
+               static_cast<double>(index_.bytes()) / 1e6);
+    fmt::print(
+        "a route: {:.0f} ms for {:.1f} routes near it, {:.1f} ms to compare them; the "
+        "longest {:.0f} ms\n",
+        near_ms / routes, static_cast<double>(near_routes) / routes, compared_ms / routes,
+        longest_ms);
+    fmt::print("a route and a thousand segments: {:.2f} ms\n",
+               1e3 * (near_ms + compared_ms) / routes / static_cast<double>(index_.size()));
+    fmt::print(
+        "joined routes: {} of the {} that comparing every two finds; {} with routes from "
+        "elsewhere\n",
+        found, there, strange);
+  }
+
+ private:
+  static route::RouteKey KeyOfDistractors(std::uint32_t number) {
+    return {RouteId(fmt::format("{:032x}", number)), TeachingId(1)};
+  }
+  void Add(const route::RouteKey& key, const route::Segment& segment) {
+    if (index_.Add(key, segment)) return;
+    std::cerr << "the index is full\n";
+    std::abort();
+  }
+
+  [[nodiscard]] bool SameCamera(std::size_t i, const route::RouteKey& key) const {
+    const auto known = numbers_.find(key);
+    return known != numbers_.end() && routes_[known->second].info.camera == routes_[i].info.camera;
+  }
+  [[nodiscard]] joints::RouteViews ViewsOf(const route::RouteKey& key) const {
+    const auto known = numbers_.find(key);
+    if (known != numbers_.end()) return views_[known->second];
+    const auto number = static_cast<std::uint32_t>(std::stoul(key.route.value(), nullptr, 16));
+    std::vector<route::Segment> segments;
+    for (std::uint32_t k = 0; k < kSegmentsARoute; ++k) {
+      segments.push_back(Distractor(apart_, number * kSegmentsARoute + k));
+    }
+    return Tabulate(segments, kWidth_px);
+  }
+
+  std::vector<Taught> routes_;
+  std::vector<route::Segment> apart_;
+  view::ViewIndex index_;
+  std::map<route::RouteKey, std::size_t> numbers_;
+  std::vector<joints::RouteViews> views_;
+};
+
+int Run(std::uint32_t distractors, const std::string& elsewhere,
+        const std::vector<std::string>& files) {
+  std::vector<Taught> routes;
+  for (const std::string& file : files) {
+    for (Taught& route : TaughtIn(file)) routes.push_back(std::move(route));
+  }
+  Bench(std::move(routes), TaughtIn(elsewhere), distractors).Run();
+  return 0;
+}
+
+}  // namespace
+}  // namespace trailcast::bench
+
+int main(int argc, char** argv) {
+  return trailcast::program::RunMain("bench_joints", [&] {
+    if (argc < 4) {
+      std::cerr << "usage: bench_joints SEGMENTS ELSEWHERE STORE...\n";
+      return trailcast::program::kExitUsage;
+    }
+    return trailcast::bench::Run(static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)),
+                                 argv[2], {argv + 3, argv + argc});
+  });
+}

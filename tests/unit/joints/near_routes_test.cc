@@ -1,0 +1,64 @@
+#include "services/joints/near_routes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/seen_segment.h"
+
+namespace trailcast::joints {
+namespace {
+
+using testing::IsEmpty;
+
+route::RouteKey Key(char id) { return {RouteId(std::string(32, id)), TeachingId(1)}; }
+
+// Segments that look like nothing else but what was taught with the same numbers.
+std::vector<route::Segment> Route(unsigned from, unsigned to) {
+  std::vector<route::Segment> segments;
+  for (unsigned number = from; number < to; ++number) {
+    segments.push_back(test::SegmentToSee(number, number - from));
+  }
+  return segments;
+}
+
+view::ViewIndex IndexOf(const std::vector<std::pair<char, std::vector<route::Segment>>>& routes) {
+  view::ViewIndex index;
+  for (const auto& [id, segments] : routes) {
+    for (const route::Segment& segment : segments) EXPECT_TRUE(index.Add(Key(id), segment));
+  }
+  return index;
+}
+
+TEST(NearRoutes, AreThoseWithSegmentsThatAreAlikeInOrder) {
+  auto index = IndexOf({{'a', Route(0, 20)}, {'b', Route(100, 120)}});
+  // The likest alone: a view has a few features in common with any segment.
+  const auto near = NearRoutes(index, RouteId("new"), Route(8, 12), {.most_alike = 1});
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].key, Key('a'));
+  EXPECT_EQ(near[0].first.value(), 5U) << "the eighth, and a margin of three";
+  EXPECT_EQ(near[0].last.value(), 14U);
+  EXPECT_EQ(near[0].views, 12U) << "three of each segment";
+}
+
+TEST(NearRoutes, AreNotTheRouteItself) {
+  auto index = IndexOf({{'a', Route(0, 20)}});
+  EXPECT_THAT(NearRoutes(index, Key('a').route, Route(0, 20)), IsEmpty());
+}
+
+TEST(NearRoutes, PutTheOneFirstThatIsAlikeForLonger) {
+  auto index = IndexOf({{'a', Route(0, 3)}, {'b', Route(0, 12)}});
+  const auto near = NearRoutes(index, RouteId("new"), Route(0, 12));
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].key, Key('b'));
+  EXPECT_EQ(near[1].first.value(), 0U);
+}
+
+TEST(NearRoutes, AreNoneOfAnEmptyIndexNorForAnEmptyRoute) {
+  view::ViewIndex empty;
+  EXPECT_THAT(NearRoutes(empty, RouteId("new"), Route(0, 3)), IsEmpty());
+  auto index = IndexOf({{'a', Route(0, 3)}});
+  EXPECT_THAT(NearRoutes(index, RouteId("new"), {}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace trailcast::joints
