@@ -1,0 +1,56 @@
+// Where routes come to the same place, asked of stores and files.
+#include "tests/scenario/programs.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class JointsTest : public ProgramsTest {
+ protected:
+  Ended Tool(const Words& words) { return End(*Start("trailcast", words, "tool")); }
+  void Teach(const std::string& route, const std::string& frames) {
+    const auto scout =
+        RunAgent({"teach", "--frames", frames, "--route", route, "--store", Path("scout.db")});
+    ASSERT_EQ(scout.status, 0) << scout.output;
+  }
+};
+
+TEST_F(JointsTest, ARouteTaughtTwiceIsJoinedWithItself) {
+  const std::string frames = Walk("taught", kTaughtFrames);
+  Teach("hall", frames);
+  Teach("annex", frames);
+  const auto found = Tool({"joints", "hall", "annex", "--store", Path("scout.db")});
+  EXPECT_EQ(found.status, 0) << found.output;
+  EXPECT_THAT(found.output,
+              AllOf(HasSubstr("hall@0.0s annex@0.0s for "), HasSubstr("straight on")));
+  const auto all = Tool({"joints", "--store", Path("scout.db"), "--json"});
+  EXPECT_THAT(all.output, AllOf(HasSubstr("\"routes\": 2"), HasSubstr("\"name\": \"annex\"")));
+
+  for (const char* name : {"hall", "annex"}) {
+    ASSERT_EQ(Tool({"export", name, "--store", Path("scout.db"), "--out",
+                    Path(std::string(name) + ".trailcast")})
+                  .status,
+              0);
+  }
+  EXPECT_EQ(Tool({"joints", Path("hall.trailcast"), Path("annex.trailcast")}).output, found.output);
+}
+
+TEST_F(JointsTest, WhatIsNotThereIsSaid) {
+  Teach("hall", Walk("taught", kTaughtFrames));
+  const auto alone = Tool({"joints", "hall", "--store", Path("scout.db")});
+  EXPECT_EQ(alone.status, 0);
+  EXPECT_THAT(alone.output, HasSubstr("no joints of 1 routes"));
+  EXPECT_EQ(Tool({"joints"}).status, 2);
+  const auto absent = Tool({"joints", "--store", Path("absent.db")});
+  EXPECT_EQ(absent.status, 1);
+  EXPECT_THAT(absent.output, HasSubstr("there is no route store"));
+  const auto unknown = Tool({"joints", "yard", "hall", "--store", Path("scout.db")});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.output, HasSubstr("no complete route 'yard'"));
+  EXPECT_EQ(Tool({"joints", Path("scout.db")}).status, 1) << "no route file";
+}
+
+}  // namespace
+}  // namespace trailcast::test
