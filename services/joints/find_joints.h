@@ -21,7 +21,7 @@ struct JointOptions {
   double shift_sigma = 0.6;
   // How far apart two views are that are alike (one sigma), and of how large things look in them;
   // from both, and from how fast things grow, follows where things look equally large.
-  double off_sigma_m = 2.0;
+  double off_sigma_m = 4.0;
   double off_sigma_s = 0.1;
   double log_scale_noise = 0.05;
   // From one pair of views to the next of a joint: so many are passed over on either route, or so

@@ -106,6 +106,35 @@ double LogMagnification(const RouteViews& a, const RouteViews& b, std::span<cons
   return LogMagnification(alike, least_agreed);
 }
 
+// What is alike in two views is further away than what was tracked from the one to the other, and
+// grows the less: its share of that growth, by pairs that share a view, of neighbours on the other
+// route.
+double ShareOfGrowth(const RouteViews& a, const RouteViews& b, std::span<const Alike> alike,
+                     bool metric) {
+  constexpr std::size_t kEnough = 3;
+  constexpr std::size_t kNeighbours = 2;
+  constexpr double kLeast = 0.3;
+  std::vector<Weighed> shares;
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    for (std::size_t j = i + 1; j < alike.size(); ++j) {
+      const Alike& x = alike[i];
+      const Alike& y = alike[j];
+      if (y.a > x.a + kNeighbours) break;
+      double grown = 0.0;
+      if (y.a == x.a && y.b <= x.b + kNeighbours) {
+        grown = (y.at_b - x.at_b) * 0.5 * (b.views()[x.b].growth + b.views()[y.b].growth);
+      }
+      if (metric && y.b == x.b) {
+        grown = (x.at_a - y.at_a) * 0.5 * (a.views()[x.a].growth + a.views()[y.a].growth);
+      }
+      if (std::abs(grown) < 0.05) continue;  // too little to tell
+      shares.push_back({(y.log_scale - x.log_scale) / grown, 1.0 * std::min(x.agreed, y.agreed)});
+    }
+  }
+  if (shares.size() < kEnough) return 1.0;
+  return std::clamp(*Median(std::move(shares)), kLeast, 1.0);
+}
+
 class Finder {
  public:
   Finder(std::vector<Alike> alike, const RouteViews& a, const RouteViews& b, bool same_camera,
@@ -116,9 +145,10 @@ class Finder {
         b_(b),
         options_(options) {
     if (!same_camera) log_magnification_ = LogMagnification(a, b, alike_, options_.least_agreed);
+    const double share = ShareOfGrowth(a, b, alike_, metric_);
     for (Alike& each : alike_) {
       const double off = each.log_scale - log_magnification_;
-      each.at_b -= Moved(off, 0.5 * (a.views()[each.a].growth + b.views()[each.b].growth));
+      each.at_b -= Moved(off, 0.5 * share * (a.views()[each.a].growth + b.views()[each.b].growth));
       const double scales =
           off / (same_camera ? options_.log_scale_sigma : options_.other_camera_sigma);
       const double shifts = each.shift_u / options_.shift_sigma;
