@@ -38,6 +38,7 @@ struct JudgeCommand {
   fs::path pairs;
   fs::path data;
   std::string method = "default";
+  std::string start = "beginning";
   std::pair<int, int> steering_lead{2, 5};
   trial::RecordingOptions options;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -55,6 +56,8 @@ constexpr const char* kExamples =
     "  trailcast judge drive1/ drive2/ --truth truth.csv --csv judged.csv --plot judged.png\n"
     "  trailcast judge drive1/ drive2/ --truth truth.csv --disturb "
     "none,camera,every=3,jpeg=30+noise=8\n"
+    "  trailcast judge drive1/ drive2/ --truth truth.csv --start anywhere --disturb "
+    "from=0.2,from=0.7\n"
     "  trailcast judge drive1/ other-hall/                    # must not be followed\n"
     "  trailcast judge --pairs pairs.csv --data recordings/ --csv judged.csv\n"
     "\n"
@@ -120,6 +123,10 @@ void AddOptions(CLI::App& app, JudgeCommand& judge) {
   app.option_defaults()->always_capture_default();
   app.add_option("--method", judge.method, "How to follow")
       ->check(CLI::IsMember(agent::ReplayMethodNames()));
+  app.add_option("--start", judge.start,
+                 "Where followers take themselves to be at first: at the route's beginning, or "
+                 "anywhere on it")
+      ->check(CLI::IsMember({"beginning", "anywhere"}));
   app.add_option(
       "--steering-lead", judge.steering_lead,
       "Frames by which the driver's hand is ahead of the picture, from and to; default: 2 5");
@@ -203,6 +210,7 @@ int Run(const CLI::App& app, JudgeCommand& judge) {
   const auto method = agent::FindReplayMethod(judge.method);
   if (!method) return program::Complain(app, method.error());
   judge.options.method = *method;
+  judge.options.anywhere = judge.start == "anywhere";
   judge.options.judging.steering_leads_least = judge.steering_lead.first;
   judge.options.judging.steering_leads_most = judge.steering_lead.second;
   program::LiveLines live(stderr, std::chrono::seconds(20));

@@ -43,6 +43,7 @@ struct RecordingOutcome {
 
 struct RecordingOptions {
   agent::ReplayMethod method = agent::ReplayMethod::kDefault;
+  bool anywhere = false;       // followers are not told that they are at the beginning
   std::uint64_t seed = 1;      // of what is drawn to disturb
   std::filesystem::path logs;  // folder for one log a replay; empty: none
   JudgeOptions judging;        // its rate and width are the recording's

@@ -15,6 +15,7 @@ enum class ChangeKind {
   kReverse,
   kSkip,
   kJump,
+  kFrom,
   kCamera,
   kGamma,
   kNoise,

@@ -47,6 +47,13 @@ TEST(FrameOrder, EveryThirdSlowerAndReverse) {
   EXPECT_THAT(Frames(Order("every=2+reverse", 5)), ElementsAre(4, 2, 0));
 }
 
+TEST(FrameOrder, BeginsOnTheWay) {
+  EXPECT_THAT(Frames(Order("from=0.4", 5)), ElementsAre(2, 3, 4));
+  EXPECT_EQ(CutsIn(Order("from=0.4", 5)), 0);
+  EXPECT_THAT(Frames(Order("from=0.95", 5)), ElementsAre(4));
+  EXPECT_THAT(Frames(Order("reverse+from=0.5", 4)), ElementsAre(1, 0));
+}
+
 TEST(FrameOrder, SkippingLeavesOutSoManyAtThreePlaces) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const auto order = Order("skip=50", 480, seed);

@@ -129,7 +129,8 @@ Result<void> Follow(const TaughtRecording& taught, const RecordingOptions& optio
     return {};
   }
   outcome.row.segments = static_cast<int>(taught.route->pieces.size());
-  auto session = OpenSession(*taught.route, {.method = options.method});
+  auto session =
+      OpenSession(*taught.route, {.method = options.method, .anywhere = options.anywhere});
   if (!session) return tl::unexpected(session.error());
   auto diagnosis = OpenLog(outcome.row, taught.route->info, options);
   if (!diagnosis) return tl::unexpected(diagnosis.error());

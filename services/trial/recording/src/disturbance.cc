@@ -30,6 +30,8 @@ constexpr std::array kKnown{
           "leaves so many frames out, at up to three places"},
     Known{ChangeKind::kJump, "jump", 3, 1, 100, true,
           "goes on elsewhere in the recording, so many times"},
+    Known{ChangeKind::kFrom, "from", 0.5, 0, 0.95, false,
+          "begins so far into the recording: a robot that is set down on the way"},
     Known{ChangeKind::kCamera, "camera", 1.3, 0.25, 4, false,
           "another camera: so much more magnification, 1.25 times the pixels, barrel, gamma 0.7"},
     Known{ChangeKind::kGamma, "gamma", 0.5, 0.1, 10, false,

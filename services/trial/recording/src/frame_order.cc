@@ -94,6 +94,13 @@ Result<Order> Jump(const Order& order, int jumps, std::mt19937_64& random) {
   return jumped;
 }
 
+Order From(const Order& order, double share) {
+  const auto left_out = static_cast<std::ptrdiff_t>(share * static_cast<double>(order.size()));
+  Order rest(order.begin() + left_out, order.end());
+  if (!rest.empty()) rest.front().cut = false;
+  return rest;
+}
+
 }  // namespace
 
 Result<std::vector<Shown>> OrderOf(const Disturbance& disturbance, int frames, std::uint64_t seed) {
@@ -107,6 +114,7 @@ Result<std::vector<Shown>> OrderOf(const Disturbance& disturbance, int frames, s
     if (change.kind == ChangeKind::kSlower) changed = Slower(order, value);
     if (change.kind == ChangeKind::kReverse) changed = Reverse(order);
     if (change.kind == ChangeKind::kSkip) changed = Skip(order, value, random);
+    if (change.kind == ChangeKind::kFrom) changed = From(order, change.value);
     if (change.kind == ChangeKind::kJump) changed = Jump(order, value, random);
     if (!changed) return changed;
     order = std::move(*changed);

@@ -98,6 +98,7 @@ Result<GrayImage> Changed(GrayImage frame, const Change& change, std::uint64_t s
     case ChangeKind::kReverse:
     case ChangeKind::kSkip:
     case ChangeKind::kJump:
+    case ChangeKind::kFrom:
       break;  // of the order alone
   }
   return frame;
