@@ -108,6 +108,10 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
                  "How often each follower drives the route, without a pause, of a path that ends "
                  "where it begins")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--starts", options.starts,
+                 "Followers are set down at so many drawn places along each taught route, told of "
+                 "none, and judged by where they take themselves to be and by the metres after")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--seed", options.seed, "Trial i is drawn from this plus i - 1");
   app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
       ->check(CLI::Range(1, 256));

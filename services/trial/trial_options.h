@@ -32,7 +32,10 @@ struct TrialOptions {
   // The robot that taught follows, with the same camera on the same mount and the same wheels, past
   // nobody, under the sun of its teaching: how the paper measured.
   bool same_robot = false;
-  int laps = 1;            // of a path that ends where it begins
+  int laps = 1;  // of a path that ends where it begins
+  // Each taught route is followed from so many drawn places along it, by robots that are told no
+  // place, until they have come a few metres; 0: from its beginning to its end.
+  int starts = 0;
   std::string log_folder;  // one log a trial goes here; empty: none
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };

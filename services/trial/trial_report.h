@@ -19,6 +19,13 @@ struct ScanFigures {
   bool touched = false;                                        // something, by its bumper
 };
 
+// Of a follower that is set down anywhere along the path.
+struct FoundFigures {
+  double at_m = 0.0;     // from the path's beginning, where it was set down
+  double after_s = 0.0;  // it knew where it was, and set off
+  double off_m = 0.0;    // along the path, from where it was
+};
+
 // One trial: who, under which conditions, and what truth says of it.
 struct TrialRow {
   std::string scenario;
@@ -41,9 +48,11 @@ struct TrialRow {
   int segments = 0;
   int frames = 0;
   int hand_overs = 0;
-  std::vector<double> lap_ends_m;   // how far from the taught end each lap ended
-  std::optional<ScanFigures> scan;  // in no CSV
-  std::string reason;               // why it ended, if it did not arrive
+  std::vector<double> lap_ends_m;     // how far from the taught end each lap ended
+  std::optional<ScanFigures> scan;    // in no CSV
+  bool set_down = false;              // somewhere, and told no place; in no CSV
+  std::optional<FoundFigures> found;  // in no CSV; nothing: it never set off
+  std::string reason;                 // why it ended, if it did not arrive
 };
 
 // Over all trials; a failed one counts with the distance at which it ended.

@@ -26,6 +26,7 @@ struct TrialCase {
   double push_m = 0.0;  // to the left, half way; 0: none
   bool through_server = false;
   std::string flaw;  // of the follower, one of Flaws(); empty: none
+  int start = 0;     // the drawn place where it begins, from 1; 0: the path's beginning
 };
 
 // How a scout of that method teaches: as printed, segments end by the 50 % rule or at the length

@@ -94,6 +94,24 @@ INSTANTIATE_TEST_SUITE_P(
                          test.param.follower_camera);
     });
 
+TEST(Trial, WhoIsSetDownAnywhereOnTheRouteKnowsWhereAndFollowsOn) {
+  TrialOptions options;
+  options.scenario = "indoor";
+  options.trials = 1;
+  options.starts = 3;
+  const auto setup = PrepareTrials(options);
+  ASSERT_TRUE(setup.has_value()) << setup.error().message;
+  const std::vector<TrialRow> rows = RunAll(*setup, options);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const TrialRow& row : rows) {
+    EXPECT_TRUE(row.arrived) << TrialTable(rows);
+    ASSERT_TRUE(row.found) << TrialTable(rows);
+    EXPECT_GT(row.found->at_m, 1.0);
+    EXPECT_LE(row.found->after_s, 3.0) << TrialTable(rows);
+    EXPECT_LE(std::abs(row.found->off_m), 0.5) << TrialTable(rows);
+  }
+}
+
 TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
   const std::filesystem::path shop =
       std::filesystem::path(TRAILCAST_SOURCE_DIR) / "../shared/worlds/bookstore";

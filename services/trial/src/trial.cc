@@ -27,13 +27,20 @@ constexpr double kPatience = 4.0;  // times what teaching took: going round in c
 constexpr double kPatience_s = 60.0;
 constexpr int kProgressEvery = 15;   // frames
 constexpr double kTeachShare = 0.4;  // of a trial's work
+// Of one that is set down somewhere: how much of the path's end is no place to begin, how far it
+// goes on once it has found itself, and how far beside the path is no following.
+constexpr double kLeftAtLeast_m = 2.0;
+constexpr double kGoesOn_m = 5.0;
+constexpr double kBeside_m = 1.0;
+constexpr double kAbout_m = 0.1;
 
 Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
                                                    const sim::CameraModel& camera,
-                                                   const TrialSeeds& seeds) {
+                                                   const TrialSeeds& seeds,
+                                                   const motion::Pose2& start) {
   sim::SimulatedRobotOptions options;
   options.camera = camera;
-  options.start = sim::StartPose(setup.path);
+  options.start = start;
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = setup.follower;
   options.seed = seeds.follower;
@@ -47,6 +54,20 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
   return options;
 }
 
+// Somewhere along the taught path.
+double DrawStart(const TruePath& taught, std::uint64_t seed) {
+  return sim::Random(seed, "set down")
+      .Uniform(0.0, std::max(0.0, taught.length_m() - kLeftAtLeast_m));
+}
+
+// There, looking along it.
+motion::Pose2 PoseAlong(const TruePath& taught, double along_m) {
+  const Eigen::Vector2d at = sim::PointAlong(taught.points_m(), along_m);
+  const Eigen::Vector2d ahead = sim::PointAlong(taught.points_m(), along_m + kAbout_m) -
+                                sim::PointAlong(taught.points_m(), along_m - kAbout_m);
+  return {at.x(), at.y(), std::atan2(ahead.y(), ahead.x())};
+}
+
 using SessionOpener = std::function<Result<agent::ReplaySession>()>;
 
 // A follower in closed loop, frame by frame, until it has ended one way or the other: lap after
@@ -55,7 +76,8 @@ class Replaying {
  public:
   Replaying(sim::SimulatedRobot& robot, std::optional<FlawedRobot> flawed, const Taught& taught,
             agent::ReplaySession session, SessionOpener open_next, int laps,
-            agent::Diagnosis diagnosis, double push_m, std::optional<ScannedWay> way)
+            agent::Diagnosis diagnosis, double push_m, std::optional<double> set_down_m,
+            std::optional<ScannedWay> way)
       : robot_(robot),
         flawed_(std::move(flawed)),
         truth_(robot),
@@ -66,6 +88,7 @@ class Replaying {
         diagnosis_(std::move(diagnosis)),
         push_at_m_(0.5 * taught.path.length_m()),
         push_m_(push_m),
+        set_down_m_(set_down_m),
         way_(std::move(way)),
         limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
@@ -85,6 +108,7 @@ class Replaying {
     last_ = std::move(*step);
     if (way_) last_.command = way_->Allow(last_.command);
     NotePassing();
+    if (set_down_m_ && !found_) NoteFound();
     diagnosis_.Add({observation->stamp, observation->odometry, cpu_ms, off_m_}, session_, last_);
     if (Ended(motion::Position(truth_.true_pose()))) return false;
     if (last_.state == ReplayState::kArrived) return BeginLap();
@@ -106,7 +130,9 @@ class Replaying {
     row.state = state_;
     row.reason = reason_;
     if (way_) row.scan = way_->figures();
-    row.arrived = state_ == "arrived";
+    row.set_down = set_down_m_.has_value();
+    row.found = found_;
+    row.arrived = state_ == (set_down_m_ ? "found" : "arrived");
   }
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
   [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
@@ -125,6 +151,19 @@ class Replaying {
     if (last_.passing == passing_) return;
     passing_ = last_.passing;
     diagnosis_.Note("passing", passing_.empty() ? "nothing stands on the path" : passing_);
+  }
+  // Set down somewhere, it sets off: where it takes itself to be is compared with where it is.
+  void NoteFound() {
+    if (last_.state != ReplayState::kFollowing) return;
+    const double at_m =
+        sim::Nearest(judge_.taught().points_m(), motion::Position(truth_.true_pose()),
+                     *set_down_m_ - kGoesOn_m, *set_down_m_ + kGoesOn_m)
+            .along_m;
+    const double taken_m =
+        last_.along_m.value_or(0.0) / session_.known_m() * judge_.taught().length_m();
+    found_ = {*set_down_m_, Seconds(now_), taken_m - at_m};
+    diagnosis_.Note("found", fmt::format("{:+.2f} m from where it is", found_->off_m));
+    found_after_m_ = judge_.driven_m();
   }
   // What the agent sees next; the robot drives until then as it was told last.
   std::optional<agent::Observation> See() {
@@ -161,7 +200,9 @@ class Replaying {
                        100.0 * last_.progress);
   }
   bool Ended(const Eigen::Vector2d& position_m) {
+    if (found_ && judge_.driven_m() - found_after_m_ > kGoesOn_m) return EndFound();
     if (last_.state == ReplayState::kArrived) {
+      if (set_down_m_) return EndFound();
       const double error_m = judge_.verdict().final_error_m;
       lap_ends_m_.push_back(error_m);
       if (error_m <= kArrivalRadius_m) {
@@ -185,6 +226,10 @@ class Replaying {
     }
     return false;
   }
+  bool EndFound() {
+    if (off_m_ <= kBeside_m) return End("found", "");
+    return End("strayed", fmt::format("{}: {:.1f} m off the path", Where(), off_m_));
+  }
   bool End(const char* state, std::string reason) {
     state_ = state;
     reason_ = std::move(reason);
@@ -201,7 +246,10 @@ class Replaying {
   std::vector<double> lap_ends_m_;  // how far from the taught end each lap ended
   agent::Diagnosis diagnosis_;
   double push_at_m_;
-  double push_m_;                  // 0: none, or done
+  double push_m_;                     // 0: none, or done
+  std::optional<double> set_down_m_;  // along the path, and it is told no place
+  std::optional<FoundFigures> found_;
+  double found_after_m_ = 0.0;     // driven
   std::optional<ScannedWay> way_;  // of one with a scanner
   bool waits_ = false;
   std::string passing_;  // as it says it
@@ -245,10 +293,17 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
                                     [&](double share) { return on_progress(kTeachShare * share); });
   if (!taught) return tl::unexpected(taught.error());
   const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
-  const TrialSeeds seeds = SeedsOf(options, trial);
+  TrialSeeds seeds = SeedsOf(options, trial);
+  std::optional<double> set_down_m;
+  if (trial_case.start > 0) {
+    seeds.follower = sim::Random(seeds.follower, fmt::format("start {}", trial_case.start)).Bits();
+    set_down_m = DrawStart((*taught)->path, seeds.follower);
+  }
+  const motion::Pose2 start =
+      set_down_m ? PoseAlong((*taught)->path, *set_down_m) : sim::StartPose(setup.path);
   const RobotFlaws flaws =
       DrawFlaws(trial_case.flaw, trial_case.follower_camera, (*taught)->duration_s, seeds.follower);
-  const auto options_of_follower = FollowerOptions(setup, flaws.camera, seeds);
+  const auto options_of_follower = FollowerOptions(setup, flaws.camera, seeds, start);
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
   const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");
@@ -267,7 +322,7 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   std::optional<FlawedRobot> flawed;
   if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
   Replaying replaying(**robot, std::move(flawed), **taught, std::move(*session), open, setup.laps,
-                      std::move(*diagnosis), trial_case.push_m,
+                      std::move(*diagnosis), trial_case.push_m, set_down_m,
                       setup.scanner ? std::optional<ScannedWay>(setup.world) : std::nullopt);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();

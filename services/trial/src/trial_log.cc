@@ -12,11 +12,13 @@ std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& tri
   const std::string push =
       trial_case.push_m != 0.0 ? fmt::format("-push{:g}", trial_case.push_m) : "";
   const std::string flaw = trial_case.flaw.empty() ? "" : "-" + trial_case.flaw;
+  const std::string start = trial_case.start > 0 ? fmt::format("-start{}", trial_case.start) : "";
   const char* const served = trial_case.through_server ? "-served" : "";
   const char* const same = setup.same_robot ? "-same" : "";
-  return fmt::format("{}-{}-{}-{}{}{}{}{}-trial{}.log", ForFileName(setup.scenario),
+  return fmt::format("{}-{}-{}-{}{}{}{}{}-trial{}{}.log", ForFileName(setup.scenario),
                      agent::ToString(trial_case.method), ForFileName(trial_case.scout_camera.name),
-                     ForFileName(trial_case.follower_camera.name), push, served, same, flaw, trial);
+                     ForFileName(trial_case.follower_camera.name), push, served, same, flaw, trial,
+                     start);
 }
 
 Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup, const TrialCase& trial_case,

@@ -112,6 +112,10 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
           fmt::format("  waited {:.1f} s, {} {:.2f} m off what it scanned", row.scan->waited_s,
                       row.scan->touched ? "touched something," : "nearest", row.scan->nearest_m);
     }
+    if (row.found) {
+      text += fmt::format("  set down at {:.2f} m, found after {:.1f} s, {:+.2f} m off",
+                          row.found->at_m, row.found->after_s, row.found->off_m);
+    }
     text += row.reason.empty() ? "\n" : fmt::format("  {}\n", row.reason);
   }
   return text;
@@ -136,7 +140,43 @@ std::string CaseTable(const std::vector<std::vector<TrialRow>>& cases) {
   return text;
 }
 
+// Of followers that were set down somewhere: the end of the path is no place to judge them by.
+std::string FoundTable(const std::vector<TrialRow>& rows) {
+  std::vector<double> off_m;
+  std::vector<double> after_s;
+  int within = 0;
+  int arrived = 0;
+  for (const TrialRow& row : rows) {
+    arrived += row.arrived ? 1 : 0;
+    if (!row.found) continue;
+    off_m.push_back(std::abs(row.found->off_m));
+    after_s.push_back(row.found->after_s);
+    if (off_m.back() <= 0.5 * row.taught_m / std::max(1, row.segments)) ++within;
+  }
+  const TrialRow& first = rows.front();
+  std::string text =
+      fmt::format("{}, method {}, taught by {}, followed by {} from anywhere\n", first.scenario,
+                  first.method, first.scout_camera, first.follower_camera);
+  text += SummaryLine("found", fmt::format("{} of {}", off_m.size(), rows.size()), "");
+  text += SummaryLine("went on along the path", fmt::format("{} of {}", arrived, rows.size()), "");
+  if (off_m.empty()) return text;
+  std::sort(off_m.begin(), off_m.end());
+  std::sort(after_s.begin(), after_s.end());
+  text +=
+      SummaryLine("found within half a segment", fmt::format("{} of {}", within, rows.size()), "");
+  text += SummaryLine("off along the path, median",
+                      fmt::format("{:.3f} m", off_m[off_m.size() / 2]), "");
+  text += SummaryLine("largest", fmt::format("{:.3f} m", off_m.back()), "");
+  text +=
+      SummaryLine("found after, median", fmt::format("{:.1f} s", after_s[after_s.size() / 2]), "");
+  text += SummaryLine("latest", fmt::format("{:.1f} s", after_s.back()), "");
+  return text;
+}
+
 std::string SummaryTable(const std::vector<TrialRow>& rows) {
+  const bool set_down =
+      std::any_of(rows.begin(), rows.end(), [](const TrialRow& row) { return row.set_down; });
+  if (set_down) return FoundTable(rows);
   const TrialRow& first = rows.front();
   const TrialSummary summary = Summarize(rows);
   const std::optional<PaperFigures> paper = PaperFiguresFor(first);

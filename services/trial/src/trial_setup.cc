@@ -48,7 +48,11 @@ Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOp
       if (!follower) return tl::unexpected(follower.error());
       for (const double push_m : scenario.pushes_m) {
         for (const std::string& flaw : flaws) {
-          cases.push_back({method, *scout, *follower, push_m, scenario.through_server, flaw});
+          TrialCase each{method, *scout, *follower, push_m, scenario.through_server, flaw};
+          for (each.start = std::min(1, options.starts); each.start <= options.starts;
+               ++each.start) {
+            cases.push_back(each);
+          }
         }
       }
     }
@@ -150,6 +154,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (options.same_robot) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
+  setup.follower_options.anywhere = options.starts > 0;
   setup.scout_roll_deg = options.scout_roll_deg;
   setup.follower_options.intake.roll_deg = options.follower_roll_deg;
   setup.follower_options.camera_ahead_m = options.follower_ahead_m;
