@@ -154,8 +154,8 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   command
       .add_option("--start", replay.start,
                   "Where the robot is at first: where its last run has left it, or else at the "
-                  "route's beginning (left); at the beginning; anywhere on the route: it stands "
-                  "until it knows where")
+                  "route's beginning, or else anywhere on the route (left); at the beginning; "
+                  "anywhere: it stands until it knows where")
       ->check(CLI::IsMember({"left", "beginning", "anywhere"}))
       ->capture_default_str();
   command.add_flag("--from-start", replay.from_start, "The same as --start beginning");

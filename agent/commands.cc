@@ -130,6 +130,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;
   follower.session.anywhere = replay.start == "anywhere";
+  follower.session.else_anywhere = replay.start == "left" && !follower.open_loop;
   follower.link.from_start = replay.from_start || replay.start != "left";
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {

@@ -286,6 +286,8 @@ void OnDuty::Follow(const mission::Task& task) {
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   follower.end_m = task.to_m;
+  // Of a stretch it is not to do another part.
+  if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
   follower.glances = &glances_;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});

@@ -36,9 +36,11 @@ struct ReplayMethodOptions {
   ReplayMethod method = ReplayMethod::kDefault;
   motion::VelocityLimits limits{1.0, 0.8};
   double speed_factor = 1.0;  // times the taught speed
-  // The robot may be anywhere on the route at first: it stands until it knows where. Otherwise at
-  // the route's start, or where it was left.
+  // The robot may be anywhere on the route at first: it stands until it knows where. Otherwise it
+  // is at the route's start, or where it was left, and anywhere else only if it may be: a robot
+  // that is neither here nor there looks along the whole route then.
   bool anywhere = false;
+  bool else_anywhere = false;
   vision::IntakeOptions intake = {};
   // From the axle that the robot turns about ahead to its camera, more than on the scout; nothing:
   // not told, and learnt in bends.

@@ -116,6 +116,10 @@ class RouteBelief {
   // of what was seen at held places; nothing before.
   [[nodiscard]] std::optional<double> log_magnification() const { return log_magnification_; }
 
+  // The likeliest places, each more than a window from the others, at most so many; none of less
+  // than this probability.
+  [[nodiscard]] std::vector<double> Likeliest(std::size_t most, double least) const;
+
   // The views before and after a place, at most so many in all, in order.
   [[nodiscard]] std::vector<std::size_t> Around(double along, std::size_t most) const;
   // Which views to compare next, at most so many: those about the held place, then the others by

@@ -78,6 +78,9 @@ class Follower {
   virtual void Begin(const route::Segment& segment) = 0;
   // Any segment, by a robot that is found to be that fraction along it.
   virtual void BeginAt(const route::Segment& segment, double fraction) = 0;
+  // The same, by one that does not know yet how large its camera shows things: they look larger
+  // from further along.
+  virtual void BeginAbout(const route::Segment& segment, double fraction) = 0;
   // Where the segment's features should be in the picture now (FollowInput's coordinates).
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
   // Where they will be at the segment's end for a robot that gets there as it was taught.

@@ -38,6 +38,7 @@ class PathFollower final : public Follower {
   void Learn(const route::Segment& segment) override;
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
+  void BeginAbout(const route::Segment& segment, double fraction) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return estimator_.Expect();
   }

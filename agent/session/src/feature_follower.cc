@@ -16,7 +16,8 @@ namespace {
 // Blind robots look for the route again every so many seconds: the wide search costs time.
 constexpr double kLookAgain_s = 5.0 / 30.0;
 constexpr double kShareToSkip = 0.5;
-constexpr int kEnoughAgreed = 10;
+// What a robot that stands does not see where it should be, it will not see there later.
+constexpr double kLookThere_s = 1.5;
 
 // How many of these places, from the image centre, are in the picture.
 int InPicture(const std::vector<route::TrackedFeature>& places, const image::GrayImage& frame) {
@@ -54,12 +55,15 @@ replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
   }
   replay::FollowStep step;
   if (!follower_ || standing.state == ReplayState::kWaiting) {
-    if (!BeginNext(seen.looked_s, standing)) return {};
+    if (!BeginNext(seen.looked_s, standing)) return LookAroundForAny(seen, standing);
     step = follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
     Judge(step, seen, standing);
   } else {
     step = follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
   }
+  const bool in_vain = standing.trust == Trust::kLost ||
+                       (standing.trust == Trust::kSeeking && confidence_.unsure_s() > kLookThere_s);
+  if (in_vain && LooksElsewhere(standing)) return {};
   RefuseReverse(standing);
   return step;
 }
@@ -188,10 +192,20 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
 // Whoever would give up because it does not see the path may have been turned away from it.
 void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
   if (standing.trust != Trust::kLost) look_around_.Rest();
-  if (standing.trust != Trust::kLost || look_around_.furthest_rad() == 0.0 || !seen.driven ||
-      !confidence_.ever_sure()) {
-    return;
-  }
+  if (standing.trust == Trust::kLost && confidence_.ever_sure()) TurnToLook(seen, standing);
+}
+
+// Nor does one that may be anywhere on the route, and does not see where.
+replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
+  replay::FollowStep step;
+  if (!options_.anywhere || follower_ || standing.trust != Trust::kLost) return step;
+  TurnToLook(seen, standing);
+  step.command = {0.0, look_around_.turn_rate_radps()};
+  return step;
+}
+
+void FeatureFollower::TurnToLook(const Seen& seen, Standing& standing) {
+  if (look_around_.furthest_rad() == 0.0 || !seen.driven) return;
   if (look_around_.Turn(seen.driven->heading_change_rad, seen.looked_s)) {
     standing = {ReplayState::kBlind, Trust::kLooking,
                 "turns on the spot to look for the path: " + standing.reason};

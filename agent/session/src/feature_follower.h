@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "agent/session/confidence.h"
@@ -51,6 +52,8 @@ class FeatureFollower {
  private:
   // So far from where its features are, the belief holds the robot to be somewhere else.
   static constexpr double kElsewhere = 2.0;
+  // A handful agree in any picture.
+  static constexpr int kEnoughAgreed = 10;
 
   [[nodiscard]] bool by_odometry() const {
     return eyes_.has_odometry() && UsesOdometry(options_.method);
@@ -59,6 +62,10 @@ class FeatureFollower {
   [[nodiscard]] bool BeginNext(double dt_s, Standing& standing);
   [[nodiscard]] bool BeginWhereLeft(Standing& standing);
   [[nodiscard]] bool BeginAnywhere(double dt_s, Standing& standing);
+  [[nodiscard]] bool LooksElsewhere(Standing& standing);
+  [[nodiscard]] bool BeginAbout(const RoutePoint& point);
+  [[nodiscard]] bool BeginBy(const RoutePoint& point);
+  void BeginAtLikeliest(const std::vector<double>& places);
   void Make(const route::Segment& first);
   void Begin(const route::Segment& segment);
   void EndSegment(Standing& standing);
@@ -72,6 +79,8 @@ class FeatureFollower {
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
   void LookAroundFirst(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep LookAroundForAny(const Seen& seen, Standing& standing);
+  void TurnToLook(const Seen& seen, Standing& standing);
   void LookAgain(double fraction, bool elsewhere);
   void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
   void SteerByWholeView(replay::FollowStep& step) const;
@@ -87,9 +96,10 @@ class FeatureFollower {
   Confidence confidence_;
   replay::Passing passing_;
   LookingAround look_around_;
-  PlaceTrust place_trust_;                      // of the printed methods
-  double look_again_at_s_ = 0.0;                // of being unsure
-  std::optional<PlaceFinder> place_finder_;     // until it has found the place
+  PlaceTrust place_trust_;                   // of the printed methods
+  double look_again_at_s_ = 0.0;             // of being unsure
+  std::optional<PlaceFinder> place_finder_;  // until it has found the place
+  std::string not_there_;  // where it looks along the whole route: where it is not
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "agent/session/src/feature_follower.h"
 #include "services/base/angles.h"
@@ -16,6 +17,14 @@ namespace {
 // millisecond.
 constexpr std::size_t kMostLearnt = 200;
 constexpr double kFound_m = 0.3;
+// Of places that look alike: how many are compared, of which probability at least, and how often
+// while the robot stands; which are the same by their features; and how many fewer agree with a
+// wrong one.
+constexpr std::size_t kMostCompared = 3;
+constexpr double kLeastCompared = 0.05;
+constexpr double kCompare_s = 0.5;
+constexpr double kSamePlace = 0.6;
+constexpr double kFarFewer = 0.6;
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
@@ -84,6 +93,7 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
     }
     return true;
   }
+  if (place_finder_->given_up() && LooksElsewhere(standing)) return false;
   standing.state = ReplayState::kBlind;
   const double left_m = place_finder_->left().along_m;
   standing.reason =
@@ -98,18 +108,84 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
   return false;
 }
 
+// It is not where it was said to be. True: it looks along the whole route from now on.
+bool FeatureFollower::LooksElsewhere(Standing& standing) {
+  if (!options_.else_anywhere || options_.anywhere || confidence_.ever_sure()) return false;
+  options_.anywhere = true;
+  not_there_ = place_finder_ ? "it is not where it was left: " : "it is not at the route's start: ";
+  follower_.reset();
+  place_finder_.reset();
+  search_.Forget();
+  place_.StartAnywhere();
+  look_again_at_s_ = 0.0;
+  standing = {ReplayState::kBlind, Trust::kSeeking, not_there_ + "looks where on the route it is"};
+  return true;
+}
+
 // The same, of one that may be anywhere on the route.
 bool FeatureFollower::BeginAnywhere(double dt_s, Standing& standing) {
   Verdict verdict = place_trust_.Judge(place_.where(), dt_s);
   const bool lost = verdict.trust == Trust::kLost;
   standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
               lost ? Trust::kLost : Trust::kSeeking,
-              "looks where on the route it is: " + verdict.reason};
-  const RoutePoint point = place_.point();
+              not_there_ + "looks where on the route it is: " + verdict.reason};
+  if (!lost) look_around_.Rest();
+  if (place_.where().held) {
+    BeginAtLikeliest({place_.where().along});
+  } else if (place_.where().agreed >= kEnoughAgreed) {
+    look_again_at_s_ -= dt_s;
+    if (look_again_at_s_ > kTimeSlack_s) return false;
+    look_again_at_s_ = kCompare_s;
+    BeginAtLikeliest(place_.belief().Likeliest(kMostCompared, kLeastCompared));
+  }
+  return follower_ != nullptr;
+}
+
+// Views look alike that are of places apart, and from half a metre further on. Where it is tell the
+// features of each: how many lie as a robot would see them from anywhere thereabouts, and from
+// where. Begins there, if that is one place.
+void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
+  struct Candidate {
+    double along = 0.0;  // by its features
+    int agreeing = 0;
+  };
+  std::vector<Candidate> candidates;
+  const HandOver unlearnt = search_.hand_over();
+  for (const double along : places) {
+    if (!BeginAbout(place_.PointAt(along))) continue;
+    const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
+    const SegmentIndex segment = follower_->segment().index;
+    const double by_features = step.offset && place_.metric()
+                                   ? place_.AlongOf({segment, 0.0}) + step.offset->along_m
+                                   : place_.AlongOf({segment, step.fraction});
+    candidates.push_back({by_features, step.agreeing});
+    search_.hand_over() = unlearnt;
+  }
+  follower_.reset();
+  search_.Forget();
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.agreeing > b.agreeing; });
+  const bool one_place =
+      std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+        return std::abs(other.along - candidates.front().along) < kSamePlace ||
+               other.agreeing < kFarFewer * candidates.front().agreeing;
+      });
+  if (candidates.empty() || candidates.front().agreeing < kEnoughAgreed || !one_place) return;
+  const double along = std::clamp(candidates.front().along, 0.0, place_.belief().length());
+  if (BeginAbout(place_.PointAt(along))) place_.StartAt(along, kFound_m);
+}
+
+// Late in a segment its features are leaving the picture, and the next one's are all there.
+bool FeatureFollower::BeginAbout(const RoutePoint& point) {
+  const std::size_t next = point.segment.value() + 1;
+  return BeginBy(point) || (route_.has(next) && BeginBy({route_.segments()[next].index, 0.0}));
+}
+
+bool FeatureFollower::BeginBy(const RoutePoint& point) {
   const route::Segment& segment = route_.segment(point.segment);
-  if (!place_.where().held || segment.features.empty()) return false;
+  if (segment.features.empty()) return false;
   Make(segment);
-  follower_->BeginAt(segment, point.fraction);
+  follower_->BeginAbout(segment, point.fraction);
   const auto found = search_.Recover(*follower_, segment, point);
   if (found.empty()) {
     follower_.reset();

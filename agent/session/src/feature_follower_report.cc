@@ -40,7 +40,10 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.found_share = search_.hand_over().found_share();
   report.hand_overs = search_.hand_over().count();
   report.features = eyes_.tracker().count();
-  if (!follower_) return report;
+  if (!follower_) {
+    report.command = step.command;
+    return report;
+  }
   const route::Segment& segment = follower_->segment();
   report.segment = segment.index;
   report.sight.stored = static_cast<int>(segment.features.size());

@@ -60,6 +60,7 @@ class PlaceKeeper {
   [[nodiscard]] const belief::RouteBelief& belief() const { return place_.belief(); }
   [[nodiscard]] const belief::RouteBelief::Place& where() const { return belief().place(); }
   [[nodiscard]] RoutePoint point() const { return place_.PointAt(where().along); }
+  [[nodiscard]] RoutePoint PointAt(double along) const { return place_.PointAt(along); }
   [[nodiscard]] double AlongOf(const RoutePoint& point) const { return place_.AlongOf(point); }
   [[nodiscard]] bool metric() const { return place_.metric(); }
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }

@@ -10,15 +10,14 @@
 namespace trailcast::replay {
 namespace {
 
-// Starting places of the search, to either side: closer together than the depths in view are far
-// apart. From each the fit comes in from afar: at first every feature counts, at last only those
-// that agree.
+// Starting places of the search, to either side or along the path: closer together than the depths
+// in view are far apart. From each the fit comes in from afar: at first every feature counts, at
+// last only those that agree.
 constexpr double kFurthest_m = 3.0;
 constexpr double kApart_m = 0.5;
 constexpr double kWidest = 8.0;  // times Cauchy's own width
 constexpr int kIterations = 6;
 constexpr double kSamePlace_m = 0.4;  // from one look to the next
-constexpr std::size_t kFewest = 10;   // features; a handful can be explained from anywhere
 
 }  // namespace
 
@@ -47,25 +46,48 @@ PathEstimator::State PathEstimator::FromFarAway(
   return start;
 }
 
+std::pair<PathEstimator::State, double> PathEstimator::LeastSurprising(
+    Index index, const State& about, const Prior& prior,
+    const std::vector<route::TrackedFeature>& seen) const {
+  State best = about;
+  double least = std::numeric_limits<double>::infinity();
+  for (double off_m = -kFurthest_m; off_m <= kFurthest_m; off_m += kApart_m) {
+    State start = about;
+    start[index] += off_m;
+    const State there = FromFarAway(start, prior, seen);
+    const double surprise = Surprise(there, prior, seen);
+    if (surprise >= least) continue;
+    least = surprise;
+    best = there;
+  }
+  return {best, least};
+}
+
+PathEstimator::Prior PathEstimator::FindWhereAlong(const Prior& any_camera,
+                                                   const std::vector<route::TrackedFeature>& seen) {
+  along_is_rough_ = false;
+  State mean = any_camera.mean;
+  mean[kMagnification] = own_magnification_;
+  Covariance alike = any_camera.covariance;
+  alike(kMagnification, kMagnification) = Square(options_.same_camera * own_magnification_);
+  const Prior same_camera(mean, alike);
+  const auto by_same = LeastSurprising(kAlong, mean, same_camera, seen);
+  const auto by_any = LeastSurprising(kAlong, any_camera.mean, any_camera, seen);
+  const double rarer = std::log(options_.found_magnification / options_.same_camera);
+  const bool same = by_same.second < by_any.second + rarer;
+  state_ = same ? by_same.first : by_any.first;
+  return same ? same_camera : any_camera;
+}
+
 std::optional<double> PathEstimator::FindIfCarriedOff(
     const Prior& before, const std::vector<route::TrackedFeature>& seen) {
-  if (seen.size() < kFewest) return std::nullopt;
+  if (seen.size() < kFewestToFind) return std::nullopt;
   Covariance wide = before.covariance;
   wide(kLeft, kLeft) += Square(options_.carried_left_m);
   wide(kHeading, kHeading) += Square(options_.carried_heading_rad);
   wide(kAlong, kAlong) += Square(options_.carried_along_m);
   const Prior anywhere(before.mean, wide);
-  State best = state_;
-  double least = std::numeric_limits<double>::infinity();
-  for (double left_m = -kFurthest_m; left_m <= kFurthest_m; left_m += kApart_m) {
-    State start = before.mean;
-    start[kLeft] += left_m;
-    const State there = FromFarAway(start, anywhere, seen);
-    const double surprise = Surprise(there, anywhere, seen);
-    if (surprise >= least) continue;
-    least = surprise;
-    best = there;
-  }
+  const auto [best, least] = LeastSurprising(kLeft, before.mean, anywhere, seen);
   const double here = Surprise(state_, before, seen);
   const Equations there = Linearise(best, anywhere, seen, options_.cauchy_px);
   const int agreeing_here =

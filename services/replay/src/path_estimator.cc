@@ -40,7 +40,10 @@ void Count(double residual_px, double outlier_px, Agreement& agreement) {
 
 PathEstimator::PathEstimator(int scout_width_px, double magnification,
                              const PathEstimatorOptions& options)
-    : options_(options), scout_width_px_(scout_width_px), flow_(scout_width_px, options.flow) {
+    : options_(options),
+      scout_width_px_(scout_width_px),
+      own_magnification_(magnification),
+      flow_(scout_width_px, options.flow) {
   state_[kMagnification] = magnification;
   state_[kAhead] = options_.camera_ahead_m.value_or(0.0);
   covariance_(kAhead, kAhead) =
@@ -63,10 +66,18 @@ void PathEstimator::Begin(const route::Segment& segment) {
 void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   state_[kLeft] = state_[kHeading] = 0.0;
   carried_.reset();
+  along_is_rough_ = false;
   BeUnsure();
   state_[kAlong] = ExitOf(segment_) - EntryOf(segment) + along_m;
   Begin(segment);
   last_heading_ = {};
+}
+
+void PathEstimator::BeUnsureWhereAlong() {
+  covariance_(kAlong, kAlong) = Square(options_.found_along_m);
+  covariance_(kMagnification, kMagnification) =
+      Square(options_.found_magnification * state_[kMagnification]);
+  along_is_rough_ = true;
 }
 
 void PathEstimator::StartAt(const route::Segment& segment) {
@@ -316,7 +327,11 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   const bool stands =
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
-  const Prior prior(state_, last_look_->before);
+  Prior prior(state_, last_look_->before);
+  if (along_is_rough_ && seen.size() >= kFewestToFind) {
+    prior = FindWhereAlong(prior, seen);
+    last_look_->before = prior.covariance;
+  }
   Equations equations;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     equations = Linearise(state_, prior, seen, options_.cauchy_px);

@@ -50,6 +50,11 @@ void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
   turning_ = false;
 }
 
+void PathFollower::BeginAbout(const route::Segment& segment, double fraction) {
+  BeginAt(segment, fraction);
+  estimator_.BeUnsureWhereAlong();
+}
+
 void PathFollower::SetMagnification(double magnification) {
   if (!settled_) estimator_.SetMagnification(magnification);
 }

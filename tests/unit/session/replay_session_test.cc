@@ -39,15 +39,30 @@ const std::vector<image::GrayImage>& Walk() {
   return walk;
 }
 
-std::vector<route::Segment> Taught(bool odometry) {
+// Past another wall first, of which nothing is in the second.
+const std::vector<image::GrayImage>& TwoWalls() {
+  static const std::vector<image::GrayImage> walls = [] {
+    std::vector<image::GrayImage> frames = Walk();
+    for (image::GrayImage& frame : frames) {
+      std::reverse(frame.pixels.begin(), frame.pixels.end());
+      for (std::uint8_t& pixel : frame.pixels) pixel = static_cast<std::uint8_t>(255 - pixel);
+    }
+    frames.insert(frames.end(), Walk().begin(), Walk().end());
+    return frames;
+  }();
+  return walls;
+}
+
+std::vector<route::Segment> Taught(bool odometry,
+                                   const std::vector<image::GrayImage>& frames = Walk()) {
   TeachSession session;
   std::vector<route::Segment> segments;
   const auto keep = [&](std::optional<route::Segment> segment) {
     if (segment) segments.push_back(std::move(*segment));
   };
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     auto step =
-        session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, odometry)});
+        session.Observe({StampOf(i), frames[static_cast<std::size_t>(i)], PoseAt(i, odometry)});
     EXPECT_TRUE(step);
     keep(std::move(step->finished));
   }
@@ -116,6 +131,26 @@ TEST_P(ReplaySessionTest, BeginsAnywhereIfToldSo) {
   }
   ASSERT_TRUE(found_at);
   EXPECT_LE(*found_at, kFirst + 15);
+}
+
+TEST_P(ReplaySessionTest, NotAtTheStartItLooksAlongTheWholeRouteIfItMay) {
+  constexpr int kStands = kFrames + 20;  // at this frame, for 3 s
+  ReplayMethodOptions options;
+  options.else_anywhere = true;
+  ReplaySession session = SessionOn(Taught(odometry(), TwoWalls()), options);
+  std::optional<double> found;
+  for (int i = 0; i < 90 && !found; ++i) {
+    const auto step =
+        session.Observe({StampOf(i), TwoWalls()[kStands], PoseAt(kStands, odometry())});
+    ASSERT_TRUE(step);
+    if (step->state == ReplayState::kFollowing) {
+      found = step->believed->place;
+    } else {
+      EXPECT_TRUE(Stands(*step)) << step->reason;
+    }
+  }
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, kStands / (2.0 * kFrames - 1.0), 0.15);
 }
 
 TEST_P(ReplaySessionTest, NothingOfTheRouteInViewIsNeverFollowed) {
