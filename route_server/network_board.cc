@@ -298,6 +298,11 @@ Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
   if (meant->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kNotFound, "route '{}' is not complete yet", words);
   }
+  if (meant->length_m <= 0.0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route '{}' was taught without odometry: no places on it are known in metres",
+                words);
+  }
   return *std::move(meant);
 }
 

@@ -62,7 +62,7 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> All();
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
 
-  // The complete revision that ROUTE[@REVISION] means.
+  // The complete revision that ROUTE[@REVISION] means, of some length.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Place& named) const;
   // Looks up what is not known of the routes that are joined, and of these.

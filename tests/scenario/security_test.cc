@@ -85,6 +85,20 @@ TEST_F(SecurityTest, AnOperatorSendsAndAnObserverSeesWhatBecomesOfIt) {
   EXPECT_THAT(seen.output, AllOf(HasSubstr("trip"), HasSubstr("sent"))) << seen.output;
 }
 
+TEST_F(SecurityTest, AnOperatorIsAnsweredAboutTheNetworkAndAnObserverMayAsk) {
+  const auto server = SecuredServer();
+  ASSERT_EQ(Teach(scout_keys_).status, 0);
+  const Ended closed =
+      RunAs(operator_keys_, "trailcast", {"network", "close", "hall", "--timeout", "20"});
+  EXPECT_THAT(closed.output, HasSubstr("server: route 'hall' was taught without odometry"));
+  const Ended asked = RunAs(observer_keys_, "trailcast", {"network", "--timeout", "20"});
+  EXPECT_EQ(asked.status, 0) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("no routes are joined"));
+  const Ended opens = RunAs(observer_keys_, "trailcast", {"network", "open", "hall"});
+  EXPECT_EQ(opens.status, 1);
+  EXPECT_THAT(opens.output, HasSubstr("write trailcast/network_edits"));
+}
+
 TEST_F(SecurityTest, ARevokedMemberIsKeptOutOfARunningFleetAndARenewedOneIsBack) {
   const auto server = SecuredServer();
   ASSERT_EQ(Teach(scout_keys_).status, 0);

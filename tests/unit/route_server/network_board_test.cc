@@ -181,6 +181,8 @@ TEST_F(NetworkBoardTest, WhatCannotBeIsRefusedInWords) {
   EXPECT_THAT(Refused("join hall@21 office@0"), HasSubstr("'hall' is 20.00 m long"));
   EXPECT_THAT(Refused("join hall@2 hall@2.01"), HasSubstr("another place"));
   EXPECT_THAT(Refused("close hall 20.."), HasSubstr("beyond it"));
+  Put(5, "blind", 0.0);
+  EXPECT_THAT(Refused("join hall@12 blind@0"), HasSubstr("'blind' was taught without odometry"));
   EXPECT_THAT(Refused("dance"), HasSubstr("expected 'join"));
   EXPECT_THAT(Ask("way hall@2").error, HasSubstr("expected ROUTE@METRES"));
   EXPECT_THAT(Ask("way hall@2 office@11").error, HasSubstr("'office' is 10.00 m long"));

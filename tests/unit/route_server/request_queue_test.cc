@@ -54,6 +54,14 @@ TEST_F(RequestQueueTest, TheSameAskedAgainTakesItsPlace) {
   Add(edit);
   EXPECT_EQ(queue_.size(), 1U);
   EXPECT_EQ(queue_.Next(), exchange::Message(edit));
+  const exchange::NetworkEdit close{AgentId("desk"), 6, "close hall"};
+  const exchange::NetworkRequest way{AgentId("desk"), 7, "way hall@2 office@8", 0};
+  Add(close);
+  Add(way);
+  Add(close);
+  EXPECT_EQ(queue_.size(), 2U);
+  EXPECT_EQ(queue_.Next(), exchange::Message(close));
+  EXPECT_EQ(queue_.Next(), exchange::Message(way));
 }
 
 TEST_F(RequestQueueTest, WhoAsksTooMuchIsToldSoAndOthersAreNot) {

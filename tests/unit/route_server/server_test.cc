@@ -1,8 +1,10 @@
 #include "route_server/server.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -12,6 +14,7 @@
 #include "services/program/presence.h"
 #include "services/route/digest.h"
 #include "tests/support/memory_store.h"
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::server {
 namespace {
@@ -32,16 +35,19 @@ class SlowStore : public test::MemoryStore {
 
 class ServerTest : public testing::Test {
  protected:
-  void Start(const QuotaOptions& quotas = {}) {
+  void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& joints = {}) {
     auto server = Server::Open(AgentId("server"), std::make_unique<SlowStore>(),
                                bus_.Open(program::WithAgents(exchange::ServerTopics())));
     server_ = std::move(*server);
     if (quotas.any()) server_->Limit(quotas);
+    if (!joints.empty()) {
+      ASSERT_TRUE(server_->KeepNetwork(store::NetworkStore::Open(joints).value()));
+    }
     running_ = std::thread([this] { (void)server_->Run([this] { return stopping_.load(); }); });
   }
   void TearDown() override {
     stopping_ = true;
-    running_.join();
+    if (running_.joinable()) running_.join();
   }
 
   // The whole route, as its scout has it.
@@ -84,6 +90,23 @@ class ServerTest : public testing::Test {
       }
     }
     return false;
+  }
+
+  // What is replied to words of the network: lines, or the error.
+  template <typename Words>
+  std::string NetworkSays(exchange::RouteExchange& desk, const Words& words) {
+    std::string said;
+    EXPECT_TRUE(desk.Publish(words));
+    EXPECT_TRUE(Hears(desk, seconds(20), [&](const exchange::Message& message) {
+      const auto* reply = std::get_if<exchange::NetworkReply>(&message);
+      if (reply == nullptr || reply->client != words.client || reply->request != words.request) {
+        return false;
+      }
+      said = reply->error;
+      for (const std::string& line : reply->lines) said += line + "\n";
+      return true;
+    }));
+    return said;
   }
 
   exchange::InProcessBus bus_;
@@ -157,6 +180,35 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   EXPECT_LT(answered, kClients / 2) << "a receipt does not wait for them";
   EXPECT_TRUE(Hears(*desk, seconds(60), count)) << "all are answered in the end";
   EXPECT_GE(statuses, 2) << "it tells of itself each second meanwhile";
+}
+
+TEST_F(ServerTest, ADeliveredRouteIsPartOfTheNetworkAtOnce) {
+  const test::TempDir folder;
+  Start({}, folder / "joints");
+  const auto desk = bus_.Open(exchange::JoinerTopics());
+  const auto observer = bus_.Open(exchange::NetworkTopics());
+  const exchange::NetworkEdit close{AgentId("desk"), 1, "close corridor 5..7"};
+  EXPECT_EQ(NetworkSays(*desk, close), "there is no route 'corridor'");
+  const auto scout = bus_.Open(exchange::ScoutTopics());
+  exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 12);
+  ASSERT_TRUE(Delivers(sender, *scout, seconds(30)));
+  exchange::NetworkEdit again = close;
+  again.request = 2;
+  EXPECT_EQ(NetworkSays(*desk, again), "close corridor 5..7\n");
+  const auto ask = [](std::uint64_t request, const std::string& words) {
+    return exchange::NetworkRequest{AgentId("observer"), request, words, 0};
+  };
+  EXPECT_EQ(NetworkSays(*observer, ask(1, "way corridor@1 corridor@5")), "follow corridor 1..5\n");
+  EXPECT_THAT(NetworkSays(*observer, ask(2, "way corridor@1 corridor@6")),
+              testing::HasSubstr("corridor 5..7"));
+  EXPECT_EQ(NetworkSays(*observer, ask(3, "")), "route corridor 24.00\nclose corridor 5..7\n");
+}
+
+TEST_F(ServerTest, AServerWithoutANetworkSaysSo) {
+  Start();
+  const auto desk = bus_.Open(exchange::JoinerTopics());
+  EXPECT_THAT(NetworkSays(*desk, exchange::NetworkEdit{AgentId("desk"), 1, "open corridor"}),
+              testing::HasSubstr("keeps no network of routes"));
 }
 
 TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {
