@@ -2,13 +2,17 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "services/exchange/messages.h"
 #include "services/store/route_store.h"
+#include "services/view/any_camera.h"
 #include "services/view/view_index.h"
+#include "services/view/view_match.h"
 
 namespace trailcast::catalog {
 
@@ -45,6 +49,7 @@ class ViewCatalog {
 
  private:
   using Place = view::ViewIndex::Place;
+  using Matcher = std::function<view::ViewMatch(const route::Segment&)>;
 
   [[nodiscard]] Result<void> FillOne();
   [[nodiscard]] Result<void> ReadPage();
@@ -52,7 +57,13 @@ class ViewCatalog {
   [[nodiscard]] Result<void> IndexNext();
   [[nodiscard]] Result<void> Index(const Place& place, const Result<route::Segment>& segment);
   [[nodiscard]] Result<route::Segment> Read(const Place& place);
-  [[nodiscard]] Result<std::vector<route::FoundPlace>> Find(const route::View& view);
+  [[nodiscard]] Result<std::optional<route::FoundPlace>> Compare(const Place& place,
+                                                                 const Matcher& matcher);
+  [[nodiscard]] Result<std::vector<route::FoundPlace>> FindBy(const std::vector<Place>& candidates,
+                                                              const Matcher& matcher);
+  [[nodiscard]] Result<void> LookAround(std::vector<route::FoundPlace>& found,
+                                        const Matcher& matcher);
+  [[nodiscard]] Result<std::vector<route::FoundPlace>> Find(const route::View& seen);
   [[nodiscard]] Result<void> FillReply(exchange::CatalogReply& reply,
                                        const route::RouteQuery& query);
 

@@ -8,7 +8,7 @@
 namespace trailcast::route {
 
 // Of a view that a catalog is asked by.
-inline constexpr std::size_t kMaxViewFeatures = 200;
+inline constexpr std::size_t kMaxViewFeatures = 840;
 
 // A stretch of a route that looks like a view.
 struct FoundPlace {

@@ -46,6 +46,8 @@ class ViewIndex {
                                               std::size_t most);
 
   [[nodiscard]] bool Holds(const Place& place) const;
+  // The segments held of the place's route that come up to so many before it, or after; without it.
+  [[nodiscard]] std::vector<Place> Around(const Place& place, std::size_t before_and_after) const;
   [[nodiscard]] std::size_t routes() const { return routes_.size(); }
   // Segments.
   [[nodiscard]] std::size_t size() const { return slots_.size() - free_slots_.size() - dead_; }
@@ -74,9 +76,10 @@ class ViewIndex {
     std::uint32_t segment = 0;
     std::uint32_t features = 0;
   };
+  static constexpr std::size_t kOctaves = 4;
   struct Tally {
-    std::uint16_t votes = 0;
-    std::uint8_t voter = 0;  // the last feature of the view that voted
+    std::array<std::uint16_t, kOctaves> votes{};  // by the size of the features that voted
+    std::uint16_t voter = 0;                      // the last feature of the view that voted
   };
 
   // Nothing when all are taken.
@@ -93,7 +96,8 @@ class ViewIndex {
   void SweepWord(std::uint32_t word);
   void FindAlike(const route::Descriptor& descriptor);
   void FindAlike(std::uint32_t chunk, std::uint32_t check);
-  void Vote(std::uint8_t number);
+  void Vote(std::uint16_t number, std::size_t octave);
+  [[nodiscard]] static int Votes(const Tally& tally);
 
   ViewIndexOptions options_;
   std::vector<std::uint32_t> heads_;  // by word: its first chunk's number, 0: none

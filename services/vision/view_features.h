@@ -36,8 +36,11 @@ class ViewDescriber {
   std::unique_ptr<State> state_;
 };
 
-// One frame as a catalog is asked for it: unrolled if it is a donut, at most
-// route::kMaxViewFeatures, spread over the picture.
+// One frame as a catalog is asked for it, unrolled if it is a donut; at most
+// route::kMaxViewFeatures. First, spread over the picture and without their sizes, what a scout's
+// camera like it would keep; then, with sizes, features of the picture enlarged 2.5 times and
+// reduced down to a fifth of what ViewDescriber looks at, for a scout with another camera to have
+// seen things as large: the strong half of them and then the others, each by size.
 [[nodiscard]] route::View DescribeForQuery(const image::GrayImage& frame);
 
 }  // namespace trailcast::vision

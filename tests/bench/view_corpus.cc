@@ -159,10 +159,8 @@ void AddSimulated(Corpus& corpus) {
     Taught taught = TeachIn(name, place);
     const auto walk = static_cast<std::uint32_t>(corpus.walks.size());
     SeeAnew(place, taught, "webcam", fmt::format("sim {}", name), walk, corpus);
-    if (std::string(name) == "indoor") {
-      for (const char* camera : {"firewire", "hd", "wide"}) {
-        SeeAnew(place, taught, camera, fmt::format("sim {} by {}", name, camera), walk, corpus);
-      }
+    for (const char* camera : {"firewire", "hd", "wide", "fisheye", "omni"}) {
+      SeeAnew(place, taught, camera, fmt::format("sim {} by {}", name, camera), walk, corpus);
     }
     corpus.walks.push_back(std::move(taught.walk));
     for (const route::View& view : LookElsewhere(name, place, 300)) {

@@ -122,8 +122,8 @@ TEST_P(RouteExchangeContract, CarriesCatalogRequests) {
 TEST_P(RouteExchangeContract, CarriesTheLongestView) {
   route::RouteQuery query{.page_size = 3};
   for (std::size_t i = 0; i < route::kMaxViewFeatures; ++i) {
-    route::ViewFeature feature{{}, 159.9375F, -65535.0F};
-    feature.descriptor.fill(static_cast<std::uint8_t>(i));
+    route::ViewFeature feature{{}, 159.9375F, -65535.0F, 0.125F * static_cast<float>(i)};
+    feature.descriptor.fill(static_cast<std::uint8_t>(1 + i % 255));
     query.view.push_back(feature);
   }
   ExpectRoundTrip(CatalogRequest{AgentId("f"), 1, query}, Topic::kCatalogRequests);

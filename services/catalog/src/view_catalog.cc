@@ -5,7 +5,6 @@
 
 #include "services/exchange/bounds.h"
 #include "services/route/codec.h"
-#include "services/view/view_match.h"
 
 namespace trailcast::catalog {
 namespace {
@@ -16,12 +15,19 @@ constexpr std::uint32_t kPage = store::RouteStore::kMaxPage;
 constexpr std::size_t kCompared = 100;
 constexpr std::size_t kComparedOnceSure = 30;
 constexpr double kSure = 0.5;
+constexpr std::size_t kComparedAround = 8;  // of the best one's route, to either side
 
 // Bytes that are whole and mean nothing are as their scout sent them.
 Result<route::Segment> Decoded(const route::SegmentPiece& piece) {
   auto segment = route::Decode(piece.bytes);
   if (segment) segment->index = piece.index;
   return segment;
+}
+
+bool IsSure(const route::FoundPlace& place) { return place.score >= kSure; }
+
+bool LikestFirst(const route::FoundPlace& a, const route::FoundPlace& b) {
+  return a.score > b.score;
 }
 
 }  // namespace
@@ -135,27 +141,73 @@ void ViewCatalog::Forget(const route::RouteKey& key) {
   std::erase_if(unreadable_, of_route);
 }
 
-Result<std::vector<route::FoundPlace>> ViewCatalog::Find(const route::View& view) {
+Result<std::optional<route::FoundPlace>> ViewCatalog::Compare(const Place& place,
+                                                              const Matcher& matcher) {
+  const auto segment = Read(place);
+  if (!segment && segment.error().code == ErrorCode::kNotFound) {
+    Forget(place.key);
+    return std::nullopt;
+  }
+  if (!segment) return tl::unexpected(segment.error());
+  const view::ViewMatch match = matcher(*segment);
+  if (!match.found()) return std::nullopt;
+  return route::FoundPlace{place.key, place.segment, match.score()};
+}
+
+Result<std::vector<route::FoundPlace>> ViewCatalog::FindBy(const std::vector<Place>& candidates,
+                                                           const Matcher& matcher) {
   std::vector<route::FoundPlace> found;
   std::size_t compared = 0;
   bool sure = false;
-  for (const Place& place : index_.Candidates(view, kCompared)) {
+  for (const Place& place : candidates) {
     if (sure && compared >= kComparedOnceSure) break;
     ++compared;
-    const auto segment = Read(place);
-    if (!segment && segment.error().code == ErrorCode::kNotFound) {
-      Forget(place.key);
-      continue;
-    }
-    if (!segment) return tl::unexpected(segment.error());
-    const view::ViewMatch match = view::Match(view, *segment);
-    if (!match.found()) continue;
-    found.push_back({place.key, place.segment, match.score()});
-    sure = sure || match.score() >= kSure;
+    auto match = Compare(place, matcher);
+    if (!match) return tl::unexpected(match.error());
+    if (!*match) continue;
+    sure = sure || IsSure(**match);
+    found.push_back(std::move(**match));
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::stable_sort(found.begin(), found.end(), LikestFirst);
   return found;
+}
+
+// The index sees what looks alike, not which of a few places in a row looks most so.
+Result<void> ViewCatalog::LookAround(std::vector<route::FoundPlace>& found,
+                                     const Matcher& matcher) {
+  if (found.empty()) return {};
+  const Place best{found.front().key, found.front().segment};
+  for (const Place& place : index_.Around(best, kComparedAround)) {
+    const bool known = std::any_of(found.begin(), found.end(), [&](const auto& other) {
+      return other.key == place.key && other.segment == place.segment;
+    });
+    if (known) continue;
+    auto match = Compare(place, matcher);
+    if (!match) return tl::unexpected(match.error());
+    if (*match) found.push_back(std::move(**match));
+  }
+  std::stable_sort(found.begin(), found.end(), LikestFirst);
+  return {};
+}
+
+Result<std::vector<route::FoundPlace>> ViewCatalog::Find(const route::View& seen) {
+  // Those of unknown size come first.
+  const auto sized = std::find_if(seen.begin(), seen.end(),
+                                  [](const auto& feature) { return feature.size_px > 0.0F; });
+  const std::span<const route::ViewFeature> as_scout(seen.begin(), sized);
+  const std::span<const route::ViewFeature> by_size(sized, seen.end());
+  auto found = FindBy(index_.Candidates(as_scout, kCompared), [&](const route::Segment& segment) {
+    return view::Match(as_scout, segment);
+  });
+  if (!found || by_size.empty() || (!found->empty() && IsSure(found->front()))) return found;
+  const view::AnyCameraView any_camera(by_size);
+  const auto matcher = [&](const route::Segment& segment) { return any_camera.MatchWith(segment); };
+  auto found_by_any = FindBy(index_.Candidates(by_size, kCompared), matcher);
+  if (!found_by_any) return found_by_any;
+  if (auto done = LookAround(*found_by_any, matcher); !done) return tl::unexpected(done.error());
+  const bool likelier = !found_by_any->empty() &&
+                        (found->empty() || LikestFirst(found_by_any->front(), found->front()));
+  return likelier ? found_by_any : found;
 }
 
 Result<void> ViewCatalog::FillReply(exchange::CatalogReply& reply, const route::RouteQuery& query) {

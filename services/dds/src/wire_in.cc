@@ -132,12 +132,23 @@ Message From(const trailcast_wire_Receipt& wire) {
                  .reason = Text(wire.reason)};
 }
 
-route::ViewFeature From(const trailcast_wire_ViewFeature& wire) {
-  route::ViewFeature feature;
-  std::copy(std::begin(wire.descriptor), std::end(wire.descriptor), feature.descriptor.begin());
-  feature.u_px = static_cast<float>(wire.u_sixteenth_px) / kSubpixels;
-  feature.v_px = static_cast<float>(wire.v_sixteenth_px) / kSubpixels;
-  return feature;
+template <typename Sequence>
+route::View ViewFrom(const Sequence& wire) {
+  route::View view;
+  float size_px = 0.0F;
+  for (const trailcast_wire_ViewFeature& seen : Elements(wire)) {
+    route::ViewFeature feature;
+    std::copy(std::begin(seen.descriptor), std::end(seen.descriptor), feature.descriptor.begin());
+    feature.u_px = static_cast<float>(seen.u_sixteenth_px) / kSubpixels;
+    feature.v_px = static_cast<float>(seen.v_sixteenth_px) / kSubpixels;
+    if (route::IsDescribed(feature.descriptor)) {
+      feature.size_px = size_px;
+      view.push_back(feature);
+    } else {
+      size_px = feature.u_px;
+    }
+  }
+  return view;
 }
 
 route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
@@ -156,7 +167,7 @@ route::RouteQuery From(const trailcast_wire_CatalogQuery& wire) {
   if (wire.state != 0) query.state = static_cast<RouteState>(wire.state - 1);
   if (wire.standing != 0) query.standing = static_cast<route::Standing>(wire.standing - 1);
   if (const auto middle = From(wire.near)) query.near = {*middle, wire.radius_m};
-  for (const auto& feature : Elements(wire.view)) query.view.push_back(From(feature));
+  query.view = ViewFrom(wire.view);
   return query;
 }
 

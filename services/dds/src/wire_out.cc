@@ -78,14 +78,23 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
 }
 
 std::vector<trailcast_wire_ViewFeature> ToWire(const route::View& view) {
-  constexpr float kSubpixels = 16.0F;
+  const auto subpixels = [](float px) {
+    constexpr float kSubpixels = 16.0F;
+    return static_cast<std::int32_t>(std::lround(kSubpixels * px));
+  };
   std::vector<trailcast_wire_ViewFeature> features;
   features.reserve(view.size());
+  std::int32_t size = 0;
   for (const route::ViewFeature& feature : view) {
+    if (!route::IsDescribed(feature.descriptor)) continue;
+    if (subpixels(feature.size_px) != size) {
+      size = subpixels(feature.size_px);
+      features.push_back({{}, size, 0});
+    }
     trailcast_wire_ViewFeature& wire = features.emplace_back();
     std::copy(feature.descriptor.begin(), feature.descriptor.end(), wire.descriptor);
-    wire.u_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.u_px));
-    wire.v_sixteenth_px = static_cast<std::int32_t>(std::lround(kSubpixels * feature.v_px));
+    wire.u_sixteenth_px = subpixels(feature.u_px);
+    wire.v_sixteenth_px = subpixels(feature.v_px);
   }
   return features;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "services/view/src/view_words.h"
@@ -16,8 +17,10 @@ constexpr std::uint32_t kFree = 0xFFFFFFFEU;
 constexpr std::size_t kBytesARoute = 192;  // a key, its text, a node of a map
 // Chunks of one word that are looked at: a word so common says next to nothing.
 constexpr int kMostChunks = 64;
-// Features of a view that vote, the first, which are the strongest: the time is theirs.
+// Features of a view that vote, the first, which are the strongest: the time is theirs. More of
+// them where they are of all sizes, of which one key view has a part.
 constexpr std::size_t kMostVoters = 80;
+constexpr std::size_t kMostVotersOfAllSizes = 320;
 // Of a segment, the first: more than teaching keeps would only fill the memory.
 constexpr std::size_t kMostFeatures = 64;
 // Added to a segment's number of features where votes are weighed against it.
@@ -48,6 +51,24 @@ std::vector<route::Descriptor> DescriptorsOf(const route::Segment& segment) {
     }
   }
   return descriptors;
+}
+
+// Above 0: of features whose size is known.
+float LeastSize_px(std::span<const route::ViewFeature> view) {
+  float least_px = std::numeric_limits<float>::max();
+  for (const route::ViewFeature& feature : view) {
+    if (feature.size_px > 0.0F) least_px = std::min(least_px, feature.size_px);
+  }
+  return least_px;
+}
+
+std::size_t OctaveOf(float size, std::size_t octaves) {
+  std::size_t octave = 0;
+  while (size >= 2.0F && octave + 1 < octaves) {
+    size /= 2.0F;
+    ++octave;
+  }
+  return octave;
 }
 
 }  // namespace
@@ -207,7 +228,7 @@ void ViewIndex::FindAlike(std::uint32_t chunk, std::uint32_t check) {
 }
 
 // Each segment with such a feature gets a vote, the greater the fewer there are.
-void ViewIndex::Vote(std::uint8_t number) {
+void ViewIndex::Vote(std::uint16_t number, std::size_t octave) {
   constexpr double kFine = 64.0;
   constexpr std::size_t kAFew = 1000;  // with fewer segments than that all features count
   const double rare =
@@ -218,25 +239,38 @@ void ViewIndex::Vote(std::uint8_t number) {
     Tally& tally = tallies_[slot];
     if (tally.voter == number) continue;
     tally.voter = number;
-    tally.votes = static_cast<std::uint16_t>(std::min(tally.votes + vote, kMostVotes));
+    std::uint16_t& votes = tally.votes[octave];
+    votes = static_cast<std::uint16_t>(std::min(votes + vote, kMostVotes));
   }
+}
+
+// The most that features had which differ in size as those of one key view do: by two octaves.
+int ViewIndex::Votes(const Tally& tally) {
+  int most = 0;
+  for (std::size_t octave = 1; octave < kOctaves; ++octave) {
+    most = std::max(most, tally.votes[octave - 1] + tally.votes[octave]);
+  }
+  return most;
 }
 
 std::vector<ViewIndex::Place> ViewIndex::Candidates(std::span<const route::ViewFeature> view,
                                                     std::size_t most) {
   std::fill(tallies_.begin(), tallies_.end(), Tally{});
-  std::uint8_t number = 0;
-  for (const route::ViewFeature& feature : view.first(std::min(view.size(), kMostVoters))) {
+  const float least_px = LeastSize_px(view);
+  std::uint16_t number = 0;
+  const bool sized = !view.empty() && view.front().size_px > 0.0F;
+  const std::size_t voters = sized ? kMostVotersOfAllSizes : kMostVoters;
+  for (const route::ViewFeature& feature : view.first(std::min(view.size(), voters))) {
     if (!route::IsDescribed(feature.descriptor)) continue;
     FindAlike(feature.descriptor);
-    Vote(++number);
+    Vote(++number, OctaveOf(feature.size_px / least_px, kOctaves));
   }
   // Votes by chance grow with the number of features.
   std::vector<std::pair<float, std::uint32_t>> voted;
   for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
-    if (tallies_[slot].votes == 0 || slots_[slot].route >= kFree) continue;
+    if (tallies_[slot].voter == 0 || slots_[slot].route >= kFree) continue;
     const auto features = static_cast<float>(slots_[slot].features + kUsualFeatures);
-    voted.emplace_back(-static_cast<float>(tallies_[slot].votes) / std::sqrt(features), slot);
+    voted.emplace_back(-static_cast<float>(Votes(tallies_[slot])) / std::sqrt(features), slot);
   }
   const auto count = static_cast<std::ptrdiff_t>(std::min(most, voted.size()));
   std::partial_sort(voted.begin(), voted.begin() + count, voted.end());
@@ -254,6 +288,22 @@ bool ViewIndex::Holds(const Place& place) const {
   if (known == routes_.end()) return false;
   const auto& held = known->second.segments;
   return std::binary_search(held.begin(), held.end(), place.segment.value());
+}
+
+std::vector<ViewIndex::Place> ViewIndex::Around(const Place& place,
+                                                std::size_t before_and_after) const {
+  std::vector<Place> around;
+  const auto known = routes_.find(place.key);
+  if (known == routes_.end()) return around;
+  const auto& held = known->second.segments;
+  const auto at = std::lower_bound(held.begin(), held.end(), place.segment.value());
+  const auto reach = static_cast<std::ptrdiff_t>(before_and_after);
+  const auto from = at - std::min(reach, at - held.begin());
+  const auto until = at + std::min(reach + 1, held.end() - at);
+  for (auto segment = from; segment != until; ++segment) {
+    if (segment != at) around.push_back({place.key, SegmentIndex(*segment)});
+  }
+  return around;
 }
 
 std::size_t ViewIndex::bytes() const {

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "services/view/key_views.h"
+#include "services/view/src/spanned_width.h"
 #include "services/view/view_table.h"
 
 namespace trailcast::view {
-namespace {
-
 double SpannedWidth_px(std::span<const route::ViewFeature> view) {
   double half_width_px = 1.0;
   for (const route::ViewFeature& feature : view) {
@@ -16,8 +15,6 @@ double SpannedWidth_px(std::span<const route::ViewFeature> view) {
   }
   return 2.0 * half_width_px;
 }
-
-}  // namespace
 
 ViewMatch Match(std::span<const route::ViewFeature> view, const route::Segment& segment) {
   const ViewTable seen = Tabulate(view, SpannedWidth_px(view));

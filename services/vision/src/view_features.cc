@@ -1,6 +1,7 @@
 #include "services/vision/view_features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <opencv2/features2d.hpp>
@@ -29,6 +30,11 @@ cv::Mat AtCommonSize(const cv::Mat& frame, int pixels) {
   cv::Mat resized;
   cv::resize(frame, resized, size, 0, 0, shrink < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
   return resized;
+}
+
+void SortBySize(route::View& view) {
+  std::stable_sort(view.begin(), view.end(),
+                   [](const auto& a, const auto& b) { return a.size_px < b.size_px; });
 }
 
 }  // namespace
@@ -91,9 +97,34 @@ route::View ViewDescriber::Describe(const image::GrayImage& frame) {
 }
 
 route::View DescribeForQuery(const image::GrayImage& frame) {
+  // Together four octaves and a half, each a describer's pyramid.
+  constexpr std::array kEnlarged = {2.5, 1.21, 0.58, 0.28};
+  constexpr int kLevels = 4;
+  constexpr std::size_t kAsScouts = 200;
+  constexpr int kDescribed = 240;  // of which those are taken that are spread over the picture
+  constexpr std::size_t kOfEach = 160;
+  static_assert(kAsScouts + kOfEach * kEnlarged.size() == route::kMaxViewFeatures);
   DonutUnroller unroller;
-  ViewDescriber describer;
-  return view::Spread(describer.Describe(unroller.Unroll(frame)), route::kMaxViewFeatures);
+  const image::GrayImage& picture = unroller.Unroll(frame);
+  route::View all = view::Spread(ViewDescriber().Describe(picture), kAsScouts);
+  for (route::ViewFeature& feature : all) feature.size_px = 0.0F;
+  route::View strong;
+  route::View others;
+  for (const double enlarged : kEnlarged) {
+    ViewFeatureOptions options;
+    options.pixels = static_cast<int>(options.pixels * enlarged * enlarged);
+    options.most_features = kDescribed;
+    options.levels = kLevels;
+    const route::View view = view::Spread(ViewDescriber(options).Describe(picture), kOfEach);
+    const auto middle = view.begin() + static_cast<std::ptrdiff_t>(view.size() / 2);
+    strong.insert(strong.end(), view.begin(), middle);
+    others.insert(others.end(), middle, view.end());
+  }
+  SortBySize(strong);
+  SortBySize(others);
+  all.insert(all.end(), strong.begin(), strong.end());
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
 }  // namespace trailcast::vision

@@ -208,7 +208,8 @@ TEST_F(ViewCatalogTest, AViewThatCannotBeAnsweredIsSaidByField) {
   const route::View view = ViewOf(SegmentToSee(1, 0));
   route::View nowhere = view;
   nowhere[3].v_px = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(Ask(views, {.view = route::View(201)}).error, HasSubstr("features in a view is 201"));
+  EXPECT_THAT(Ask(views, {.view = route::View(route::kMaxViewFeatures + 1)}).error,
+              HasSubstr("features in a view is 841"));
   EXPECT_THAT(Ask(views, {.view = nowhere}).error, HasSubstr("v in a view"));
   EXPECT_THAT(Ask(views, {.name = "yard", .view = view}).error,
               HasSubstr("name is given together with a view"));

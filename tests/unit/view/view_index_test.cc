@@ -53,6 +53,19 @@ TEST(ViewIndex, GivesNoMoreThanAskedForAndNothingForAnEmptyView) {
   EXPECT_THAT(index.Candidates({}, 3), IsEmpty());
 }
 
+TEST(ViewIndex, TellsWhichSegmentsLieAroundOne) {
+  ViewIndex index;
+  for (const std::uint32_t segment : {0U, 1U, 4U, 5U, 9U}) {
+    ASSERT_TRUE(index.Add(KeyNumber(1), SegmentToSee(segment, segment)));
+  }
+  ASSERT_TRUE(index.Add(KeyNumber(2), SegmentToSee(4, 4)));
+  EXPECT_THAT(index.Around(PlaceOf(1, 4), 1), ElementsAre(PlaceOf(1, 1), PlaceOf(1, 5)));
+  EXPECT_THAT(index.Around(PlaceOf(1, 0), 2), ElementsAre(PlaceOf(1, 1), PlaceOf(1, 4)));
+  EXPECT_EQ(index.Around(PlaceOf(1, 9), 8).size(), 4U);
+  EXPECT_THAT(index.Around(PlaceOf(2, 4), 8), IsEmpty());
+  EXPECT_THAT(index.Around(PlaceOf(3, 0), 8), IsEmpty());
+}
+
 TEST(ViewIndex, AFeatureNearThePicturesEdgeIsDescribedByNothingAndLikeNothing) {
   ViewIndex index;
   route::Segment segment = SegmentToSee(1, 0);

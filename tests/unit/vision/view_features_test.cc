@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "services/route/view.h"
@@ -23,6 +24,19 @@ TEST(DescribeForQuery, GivesDescribedFeaturesInsideThePictureAndNoMoreThanAViewM
     EXPECT_LT(std::abs(feature.v_px), 240.0F);
   }
   EXPECT_EQ(view, DescribeForQuery(frame));
+}
+
+TEST(DescribeForQuery, GivesFirstWhatHasNoSizeAndThenFourOctavesOfSizes) {
+  const route::View view = DescribeForQuery(test::WalkFrame(40, 640, 480));
+  const auto sized = std::find_if(view.begin(), view.end(),
+                                  [](const auto& feature) { return feature.size_px > 0.0F; });
+  EXPECT_GT(sized - view.begin(), 20);
+  EXPECT_LE(sized - view.begin(), 200);
+  ASSERT_GT(view.end() - sized, 100);
+  const auto [least, most] = std::minmax_element(
+      sized, view.end(), [](const auto& a, const auto& b) { return a.size_px < b.size_px; });
+  EXPECT_GT(least->size_px, 0.0F);
+  EXPECT_GT(most->size_px, 8.0F * least->size_px);
 }
 
 TEST(DescribeForQuery, SeesNothingInABlankPicture) {

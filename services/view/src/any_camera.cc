@@ -1,0 +1,200 @@
+#include "services/view/any_camera.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "services/view/key_views.h"
+#include "services/view/src/spanned_width.h"
+
+namespace trailcast::view {
+namespace {
+
+// Magnification tried, natural logarithm: an omnidirectional mirror sees things a fifth as large as
+// a webcam does, a narrow lens seen by a wide one three times as large.
+constexpr double kLeastLogScale = -1.6;
+constexpr double kMostLogScale = 1.1;
+constexpr double kStep = 0.2;
+// How far off the size of a feature may be, and the magnification of a pair of them.
+constexpr double kSizeBand = 0.25;
+constexpr double kScaleBand = 0.22;
+constexpr int kMostBits = 72;
+constexpr double kRatio = 0.9;  // best to second best that is elsewhere
+// In half widths of the key view's picture, as it is magnified; not below those of a picture in
+// which all is so small that a pixel more is much.
+constexpr double kElsewhere = 0.03;
+constexpr double kAgreeU = 0.10;
+constexpr double kAgreeV = 0.04;
+constexpr double kLeastTolerance = 0.3;
+constexpr double kShortestBase = 0.2;
+constexpr std::size_t kFewestPairs = 4;
+// One view in a hundred of other worlds is so like any of 100 000 segments; fewer magnifications
+// have fewer chances, and those of cameras much like the scout's are the likely ones.
+constexpr double kEnoughLikeness = 5.5;
+constexpr double kEnoughOfLikeCameras = 4.5;
+constexpr double kLeastLogScaleOfLike = -0.5;
+constexpr double kMostLogScaleOfLike = 0.2;
+
+int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
+  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
+         std::popcount(a[3] ^ b[3]);
+}
+
+// Features seen again differ in some forty bits, the likest of many strangers in some seventy.
+double Weight(int bits) { return std::min(1.0, (76.0 - bits) / 40.0); }
+
+struct Alike {
+  std::size_t seen = 0;
+  int bits = 0;
+};
+
+struct Pair {
+  std::size_t key = 0;
+  std::size_t seen = 0;
+  int bits = 0;
+};
+
+class Magnified {
+ public:
+  Magnified(const ViewTable& key, const ViewTable& seen) : key_(key), seen_(seen) {
+    // A second best beyond this takes nothing from a best that is like enough.
+    const int most = static_cast<int>(kMostBits / kRatio);
+    alike_.resize(key.size());
+    for (std::size_t i = 0; i < key.size(); ++i) {
+      for (std::size_t j = 0; j < seen.size(); ++j) {
+        const int bits = Hamming(key.bits[i], seen.bits[j]);
+        if (bits <= most) alike_[i].push_back({j, bits});
+      }
+    }
+    taken_.resize(seen.size(), kFree);
+  }
+
+  [[nodiscard]] ViewMatch Best() {
+    ViewMatch best;
+    for (double log_scale = kLeastLogScale; log_scale <= kMostLogScale; log_scale += kStep) {
+      FindPairs(log_scale);
+      if (pairs_.size() < kFewestPairs) continue;
+      ViewMatch match;
+      Improve(match, std::exp(log_scale));
+      const bool like = log_scale >= kLeastLogScaleOfLike && log_scale <= kMostLogScaleOfLike;
+      const double enough = like ? kEnoughOfLikeCameras : kEnoughLikeness;
+      if (match.likeness >= std::max(enough, best.likeness)) best = match;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t kFree = ~std::size_t{0};
+
+  void FindPairs(double log_scale) {
+    for (const Pair& pair : pairs_) taken_[pair.seen] = kFree;
+    pairs_.clear();
+    const double elsewhere = kElsewhere * std::exp(log_scale);
+    for (std::size_t i = 0; i < key_.size(); ++i) {
+      const Alike nearest = MostAlike(i, key_.log_size[i] + log_scale, elsewhere);
+      if (nearest.bits > kMostBits) continue;
+      std::size_t& taken = taken_[nearest.seen];
+      if (taken == kFree) {
+        taken = pairs_.size();
+        pairs_.push_back({i, nearest.seen, nearest.bits});
+      } else if (nearest.bits < pairs_[taken].bits) {
+        pairs_[taken] = {i, nearest.seen, nearest.bits};
+      }
+    }
+  }
+
+  // Of the seen features that are about this large; more than kMostBits for none.
+  [[nodiscard]] Alike MostAlike(std::size_t key, double log_size, double elsewhere) const {
+    constexpr Alike kNone{0, 257};
+    Alike nearest = kNone;
+    int second = kNone.bits;
+    for (const Alike& alike : alike_[key]) {
+      if (std::abs(seen_.log_size[alike.seen] - log_size) > kSizeBand || alike.bits >= second) {
+        continue;
+      }
+      const bool rival = nearest.bits == kNone.bits || Apart(alike.seen, nearest.seen, elsewhere);
+      if (alike.bits < nearest.bits) {
+        if (rival) second = nearest.bits;
+        nearest = alike;
+      } else if (rival) {
+        second = alike.bits;
+      }
+    }
+    return nearest.bits <= kRatio * second ? nearest : kNone;
+  }
+
+  [[nodiscard]] bool Apart(std::size_t i, std::size_t j, double by) const {
+    return std::abs(seen_.u[i] - seen_.u[j]) > by || std::abs(seen_.v[i] - seen_.v[j]) > by;
+  }
+
+  // By what carries two pairs over, of any two.
+  void Improve(ViewMatch& best, double about_scale) const {
+    const double tolerance = std::max(about_scale, kLeastTolerance);
+    for (std::size_t a = 1; a < pairs_.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const double du = key_.u[pairs_[b].key] - key_.u[pairs_[a].key];
+        const double dv = key_.v[pairs_[b].key] - key_.v[pairs_[a].key];
+        const double base = du * du + dv * dv;
+        if (base < kShortestBase * kShortestBase) continue;
+        const double scale = (du * (seen_.u[pairs_[b].seen] - seen_.u[pairs_[a].seen]) +
+                              dv * (seen_.v[pairs_[b].seen] - seen_.v[pairs_[a].seen])) /
+                             base;
+        if (std::abs(scale / about_scale - 1.0) > kScaleBand) continue;
+        const ViewMatch found = Agreed(scale, pairs_[a], tolerance);
+        if (found.likeness > best.likeness) best = found;
+      }
+    }
+  }
+
+  // Magnified so, and shifted so that this pair agrees.
+  [[nodiscard]] ViewMatch Agreed(double scale, const Pair& with, double tolerance) const {
+    const double shift_u = seen_.u[with.seen] - scale * key_.u[with.key];
+    const double shift_v = seen_.v[with.seen] - scale * key_.v[with.key];
+    ViewMatch match;
+    for (const Pair& pair : pairs_) {
+      const double off_u = seen_.u[pair.seen] - scale * key_.u[pair.key] - shift_u;
+      const double off_v = seen_.v[pair.seen] - scale * key_.v[pair.key] - shift_v;
+      const double off = std::max(std::abs(off_u) / kAgreeU, std::abs(off_v) / kAgreeV) / tolerance;
+      if (off >= 1.0) continue;
+      ++match.agreed;
+      match.likeness += (1.0 - off * off) * Weight(pair.bits);
+    }
+    return match;
+  }
+
+  const ViewTable& key_;
+  const ViewTable& seen_;
+  std::vector<std::vector<Alike>> alike_;  // by key feature
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> taken_;  // by seen feature: its pair
+};
+
+bool AllSized(std::span<const route::ViewFeature> view) {
+  return std::all_of(view.begin(), view.end(),
+                     [](const route::ViewFeature& feature) { return feature.size_px > 0.0F; });
+}
+
+}  // namespace
+
+AnyCameraView::AnyCameraView(std::span<const route::ViewFeature> view)
+    : sized_(AllSized(view)), table_(Tabulate(view, SpannedWidth_px(view))) {}
+
+ViewMatch AnyCameraView::MatchWith(const route::Segment& segment) const {
+  ViewMatch best;
+  for (const route::KeyView& key : KeyViewsOf(segment)) {
+    const ViewTable table = Tabulate(key.features, SpannedWidth_px(key.features));
+    ViewMatch match;
+    if (sized_ && AllSized(key.features)) {
+      match = Magnified(table, table_).Best();
+    } else {
+      const Comparison comparison = Compare(table, table_);
+      match = {comparison.agreed(), comparison.likeness};
+    }
+    if (match.likeness > best.likeness) best = match;
+  }
+  return best;
+}
+
+}  // namespace trailcast::view
