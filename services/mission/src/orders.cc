@@ -34,11 +34,6 @@ std::vector<std::string> Words(std::string_view text) {
   return words;
 }
 
-std::optional<double> AmountIn(std::string_view word, double least, double most) {
-  const auto number = ParseNumber<double>(word);
-  return number && *number >= least && *number <= most ? number : std::nullopt;
-}
-
 bool BeginsAnOrder(const std::string& word) {
   return word == "follow" || word == "wait" || word == "teach";
 }
@@ -66,7 +61,7 @@ class Parser {
   [[nodiscard]] Result<Task> Wait() {
     (void)Take();
     const std::string word = Take();
-    const auto seconds = AmountIn(word, 0.0, kLongestWait_s);
+    const auto seconds = ParseNumberWithin(word, 0.0, kLongestWait_s);
     if (!seconds) return Wrong(word, "seconds, a week at most");
     return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
   }
@@ -118,7 +113,7 @@ class Parser {
   [[nodiscard]] Result<void> Speed(Task& task) {
     (void)Take();
     const std::string word = Take();
-    const auto factor = AmountIn(word, kLeastSpeed, kMostSpeed);
+    const auto factor = ParseNumberWithin(word, kLeastSpeed, kMostSpeed);
     if (!factor) return Wrong(word, "times the taught speed, 0.1 to 3");
     task.speed_factor = *factor;
     return {};
@@ -126,16 +121,14 @@ class Parser {
 
   [[nodiscard]] Result<void> Part(Task& task) {
     const std::string word = Take();
-    const std::size_t dots = word.find("..");
-    const std::string from = word.substr(0, dots);
-    const std::string to = word.substr(dots + 2);
-    const auto from_m = from.empty() ? 0.0 : AmountIn(from, 0.0, route::kMaxLength_m);
-    const auto to_m = to.empty() ? 0.0 : AmountIn(to, 0.0, route::kMaxLength_m);
-    if (!from_m || !to_m || (*to_m > 0.0 && *to_m <= *from_m)) {
+    const auto part = ParseRange(word, 0.0, route::kMaxLength_m);
+    const double from_m = part ? part->from.value_or(0.0) : 0.0;
+    const double to_m = part ? part->to.value_or(0.0) : 0.0;
+    if (!part || (to_m > 0.0 && to_m <= from_m)) {
       return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
     }
-    task.from_m = *from_m;
-    task.to_m = *to_m;
+    task.from_m = from_m;
+    task.to_m = to_m;
     return {};
   }
 

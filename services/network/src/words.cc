@@ -20,11 +20,6 @@ constexpr const char* kEdits =
     "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
     "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]' or 'limit ROUTE [FROM..TO] [speed F] [cost F]'";
 
-std::optional<double> AmountIn(std::string_view word, double least, double most) {
-  const auto number = ParseNumber<double>(word);
-  return number && *number >= least && *number <= most ? number : std::nullopt;
-}
-
 // To the centimetre.
 std::string Metres(double metres) {
   std::string text = fmt::format("{:.2f}", metres);
@@ -73,9 +68,9 @@ Result<void> TakeLie(Words& words, Joint& joint) {
   if (words.TakeIf("offset")) {
     const std::string_view word = words.Take();
     const std::size_t comma = std::min(word.find(','), word.size());
-    const auto ahead = AmountIn(word.substr(0, comma), -kMostOffset_m, kMostOffset_m);
+    const auto ahead = ParseNumberWithin(word.substr(0, comma), -kMostOffset_m, kMostOffset_m);
     const auto left = comma < word.size()
-                          ? AmountIn(word.substr(comma + 1), -kMostOffset_m, kMostOffset_m)
+                          ? ParseNumberWithin(word.substr(comma + 1), -kMostOffset_m, kMostOffset_m)
                           : std::nullopt;
     if (!ahead || !left) return Wrong(word, "AHEAD,LEFT in metres, as 0.1,-0.25");
     if (!joint.lie) joint.lie.emplace();
@@ -83,7 +78,7 @@ Result<void> TakeLie(Words& words, Joint& joint) {
     joint.lie->left_m = *left;
   } else if (words.TakeIf("heading")) {
     const std::string_view word = words.Take();
-    const auto degrees = AmountIn(word, -180.0, 180.0);
+    const auto degrees = ParseNumberWithin(word, -180.0, 180.0);
     if (!degrees) return Wrong(word, "degrees to the left, -180 to 180");
     if (!joint.lie) joint.lie.emplace();
     joint.lie->turn_rad = *degrees * kPerDegree;
@@ -111,19 +106,16 @@ Result<Condition> TakeStretch(Words& words) {
   Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
   if (stretch.route.empty()) return Wrong("", "a route, by its name or id");
   const std::string_view word = words.Next();
-  const std::size_t dots = word.find("..");
-  if (dots == std::string_view::npos) return stretch;
+  if (word.find("..") == std::string_view::npos) return stretch;
   (void)words.Take();
-  const auto end = [](std::string_view text, double otherwise) {
-    return text.empty() ? std::optional(otherwise) : AmountIn(text, 0.0, kToTheEnd_m);
-  };
-  const auto from_m = end(word.substr(0, dots), 0.0);
-  const auto to_m = end(word.substr(dots + 2), kToTheEnd_m);
-  if (!from_m || !to_m || *to_m <= *from_m) {
+  const auto part = ParseRange(word, 0.0, kToTheEnd_m);
+  if (part) {
+    stretch.from_m = part->from.value_or(0.0);
+    stretch.to_m = part->to.value_or(kToTheEnd_m);
+  }
+  if (!part || stretch.to_m <= stretch.from_m) {
     return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
   }
-  stretch.from_m = *from_m;
-  stretch.to_m = *to_m;
   return stretch;
 }
 
@@ -135,7 +127,7 @@ Result<void> TakeLimits(Words& words, Condition& limit) {
     }
     (void)words.Take();
     const std::string_view word = words.Take();
-    const auto factor = AmountIn(word, kLeastFactor, is_speed ? 1.0 : kMostFactor);
+    const auto factor = ParseNumberWithin(word, kLeastFactor, is_speed ? 1.0 : kMostFactor);
     if (!factor) {
       return Wrong(word, is_speed ? "times the taught speed, 0.1 to 1"
                                   : "how many metres one counts as, 0.1 to 1000");
@@ -203,7 +195,7 @@ Result<Place> ParsePlace(std::string_view word) {
   const std::size_t at = word.rfind('@');
   const auto along_m = at == std::string_view::npos || at == 0
                            ? std::nullopt
-                           : AmountIn(word.substr(at + 1), 0.0, kToTheEnd_m);
+                           : ParseNumberWithin(word.substr(at + 1), 0.0, kToTheEnd_m);
   if (!along_m) return Wrong(word, "ROUTE@METRES, as hall@2.5");
   return Place{std::string(word.substr(0, at)), *along_m};
 }
