@@ -289,11 +289,9 @@ Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
   if (!ref) return tl::unexpected(ref.error());
   const auto routes = routes_.FindMeant(ref->route);
   if (!routes) return tl::unexpected(routes.error());
-  const exchange::RevisionChoice which{.number = ref->revision};
-  if (const auto rivals = exchange::FindRivals(*routes, which); rivals.size() > 1) {
-    return exchange::Ambiguous(ref->route, rivals);
-  }
-  auto meant = exchange::ChooseRoute(*routes, which);
+  auto found = exchange::ChooseMeant(ref->route, *routes, {.number = ref->revision});
+  if (!found) return tl::unexpected(found.error());
+  auto& meant = *found;
   if (!meant) return Fail(ErrorCode::kNotFound, "there is no route '{}'", words);
   if (meant->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kNotFound, "route '{}' is not complete yet", words);
@@ -366,7 +364,7 @@ Result<NetworkBoard::Known> NetworkBoard::LookUp(const RouteId& route) const {
   known.followed = *followed;
   const auto namesakes = routes_.FindMeant(followed->name);
   if (!namesakes) return tl::unexpected(namesakes.error());
-  if (exchange::FindRivals(*namesakes).size() <= 1) known.called = followed->name;
+  if (exchange::FindRivals(*namesakes).empty()) known.called = followed->name;
   return known;
 }
 

@@ -34,6 +34,12 @@ struct RevisionChoice {
 [[nodiscard]] tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
                                               const std::vector<route::RouteInfo>& rivals);
 
+// Of what a name, or the beginning of an id, may mean the one that is meant, as ChooseRoute; or
+// else that it may be any of several.
+[[nodiscard]] Result<std::optional<route::RouteInfo>> ChooseMeant(
+    const std::string& name_or_id, const std::vector<route::RouteInfo>& routes,
+    const RevisionChoice& which = {});
+
 // Asks the catalog which route has a name, or an id that begins so, again and again until one has.
 // No clock, no I/O.
 class RouteFinder {

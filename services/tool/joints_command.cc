@@ -74,10 +74,9 @@ Result<route::RouteInfo> Meant(store::RouteStore& store, const std::string& text
   if (!ref) return tl::unexpected(ref.error());
   const auto infos = store.FindMeant(ref->route);
   if (!infos) return tl::unexpected(infos.error());
-  const exchange::RevisionChoice which{.number = ref->revision};
-  const auto rivals = exchange::FindRivals(*infos, which);
-  if (!rivals.empty()) return exchange::Ambiguous(ref->route, rivals);
-  auto chosen = exchange::ChooseRoute(*infos, which);
+  auto found = exchange::ChooseMeant(ref->route, *infos, {.number = ref->revision});
+  if (!found) return tl::unexpected(found.error());
+  auto& chosen = *found;
   if (!chosen || chosen->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kNotFound,
                 "the store has no complete route '{}' that is in use: see "

@@ -55,9 +55,7 @@ Error NotOffered(const std::string& holder, std::vector<route::RouteInfo> others
 Result<std::optional<route::RouteInfo>> FollowerLink::FindOwn() {
   const auto meant = store_->FindMeant(options_.route);
   if (!meant) return tl::unexpected(meant.error());
-  const auto rivals = exchange::FindRivals(*meant, options_.revision);
-  if (!rivals.empty()) return exchange::Ambiguous(options_.route, rivals);
-  return exchange::ChooseRoute(*meant, options_.revision);
+  return exchange::ChooseMeant(options_.route, *meant, options_.revision);
 }
 
 Result<void> FollowerLink::Find() {

@@ -69,6 +69,14 @@ tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
               rivals.size(), shown, rivals.size() > kShown ? "; .." : "");
 }
 
+Result<std::optional<route::RouteInfo>> ChooseMeant(const std::string& name_or_id,
+                                                    const std::vector<route::RouteInfo>& routes,
+                                                    const RevisionChoice& which) {
+  const auto rivals = FindRivals(routes, which);
+  if (!rivals.empty()) return Ambiguous(name_or_id, rivals);
+  return ChooseRoute(routes, which);
+}
+
 void RouteFinder::Handle(const exchange::Message& message) {
   if (found_) return;
   if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {

@@ -94,6 +94,17 @@ TEST_F(RouteFinderTest, ANameThatTwoScoutsGaveIsNotFoundWithoutSayingWhose) {
   EXPECT_THAT(FindRivals({retired, ours}), testing::IsEmpty()) << "of it none may be followed";
 }
 
+TEST_F(RouteFinderTest, ChoosesTheOneThatIsMeantOrSaysThatSeveralAre) {
+  const RouteInfo ours = Info("hall", 1, 10, RouteState::kComplete);
+  RouteInfo theirs = ours;
+  theirs.key.route = RouteId(std::string(32, 'b'));
+  EXPECT_EQ(*ChooseMeant("hall", {ours}), ours);
+  EXPECT_EQ(*ChooseMeant("hall", {}), std::nullopt);
+  const auto either = ChooseMeant("hall", {ours, theirs});
+  ASSERT_FALSE(either);
+  EXPECT_EQ(either.error().code, ErrorCode::kConflict);
+}
+
 TEST_F(RouteFinderTest, FindsARouteByTheBeginningOfItsId) {
   const RouteInfo ours = Info("hall", 1, 10, RouteState::kComplete);
   RouteInfo theirs = ours;

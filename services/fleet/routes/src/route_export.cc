@@ -76,9 +76,9 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
     return NotThere(reply, name_or_id,
                     which.number == 0 ? std::nullopt : std::optional(which.number), holder);
   }
-  const auto rivals = exchange::FindRivals(fitting, which);
-  if (!rivals.empty()) return exchange::Ambiguous(name_or_id, rivals);
-  auto chosen = exchange::ChooseRoute(fitting, which);
+  auto found = exchange::ChooseMeant(name_or_id, fitting, which);
+  if (!found) return tl::unexpected(found.error());
+  auto& chosen = *found;
   if (!chosen) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{} has no active revision of route '{}'{}: say which with --revision", holder,
