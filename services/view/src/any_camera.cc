@@ -1,12 +1,13 @@
 #include "services/view/any_camera.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "services/view/key_views.h"
+#include "services/view/src/likest.h"
 #include "services/view/src/spanned_width.h"
 
 namespace trailcast::view {
@@ -37,22 +38,10 @@ constexpr double kEnoughOfLikeCameras = 4.5;
 constexpr double kLeastLogScaleOfLike = -0.5;
 constexpr double kMostLogScaleOfLike = 0.2;
 
-int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
-  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
-         std::popcount(a[3] ^ b[3]);
-}
-
 // Features seen again differ in some forty bits, the likest of many strangers in some seventy.
 double Weight(int bits) { return std::min(1.0, (76.0 - bits) / 40.0); }
 
-struct Alike {
-  std::size_t seen = 0;
-  int bits = 0;
-};
-
-struct Pair {
-  std::size_t key = 0;
-  std::size_t seen = 0;
+struct Pair : Comparison::Pair {
   int bits = 0;
 };
 
@@ -93,40 +82,28 @@ class Magnified {
     pairs_.clear();
     const double elsewhere = kElsewhere * std::exp(log_scale);
     for (std::size_t i = 0; i < key_.size(); ++i) {
-      const Alike nearest = MostAlike(i, key_.log_size[i] + log_scale, elsewhere);
-      if (nearest.bits > kMostBits) continue;
-      std::size_t& taken = taken_[nearest.seen];
+      const auto nearest = MostAlike(i, key_.log_size[i] + log_scale, elsewhere);
+      if (!nearest) continue;
+      const Pair pair{{i, nearest->seen}, nearest->bits};
+      std::size_t& taken = taken_[pair.seen];
       if (taken == kFree) {
         taken = pairs_.size();
-        pairs_.push_back({i, nearest.seen, nearest.bits});
-      } else if (nearest.bits < pairs_[taken].bits) {
-        pairs_[taken] = {i, nearest.seen, nearest.bits};
+        pairs_.push_back(pair);
+      } else if (pair.bits < pairs_[taken].bits) {
+        pairs_[taken] = pair;
       }
     }
   }
 
-  // Of the seen features that are about this large; more than kMostBits for none.
-  [[nodiscard]] Alike MostAlike(std::size_t key, double log_size, double elsewhere) const {
-    constexpr Alike kNone{0, 257};
-    Alike nearest = kNone;
-    int second = kNone.bits;
-    for (const Alike& alike : alike_[key]) {
-      if (std::abs(seen_.log_size[alike.seen] - log_size) > kSizeBand || alike.bits >= second) {
-        continue;
-      }
-      const bool rival = nearest.bits == kNone.bits || Apart(alike.seen, nearest.seen, elsewhere);
-      if (alike.bits < nearest.bits) {
-        if (rival) second = nearest.bits;
-        nearest = alike;
-      } else if (rival) {
-        second = alike.bits;
-      }
+  // Of the seen features that are about this large.
+  [[nodiscard]] std::optional<Likest::Nearest> MostAlike(std::size_t key, double log_size,
+                                                         double elsewhere) const {
+    Likest likest(seen_, elsewhere);
+    for (const Likest::Nearest& alike : alike_[key]) {
+      if (std::abs(seen_.log_size[alike.seen] - log_size) > kSizeBand) continue;
+      likest.Offer(alike.seen, alike.bits);
     }
-    return nearest.bits <= kRatio * second ? nearest : kNone;
-  }
-
-  [[nodiscard]] bool Apart(std::size_t i, std::size_t j, double by) const {
-    return std::abs(seen_.u[i] - seen_.u[j]) > by || std::abs(seen_.v[i] - seen_.v[j]) > by;
+    return likest.Found(kMostBits, kRatio);
   }
 
   // By what carries two pairs over, of any two.
@@ -134,28 +111,19 @@ class Magnified {
     const double tolerance = std::max(about_scale, kLeastTolerance);
     for (std::size_t a = 1; a < pairs_.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
-        const double du = key_.u[pairs_[b].key] - key_.u[pairs_[a].key];
-        const double dv = key_.v[pairs_[b].key] - key_.v[pairs_[a].key];
-        const double base = du * du + dv * dv;
-        if (base < kShortestBase * kShortestBase) continue;
-        const double scale = (du * (seen_.u[pairs_[b].seen] - seen_.u[pairs_[a].seen]) +
-                              dv * (seen_.v[pairs_[b].seen] - seen_.v[pairs_[a].seen])) /
-                             base;
-        if (std::abs(scale / about_scale - 1.0) > kScaleBand) continue;
-        const ViewMatch found = Agreed(scale, pairs_[a], tolerance);
+        const auto fit = FitTwo(key_, seen_, pairs_[a], pairs_[b], kShortestBase);
+        if (!fit || std::abs(fit->scale / about_scale - 1.0) > kScaleBand) continue;
+        const ViewMatch found = Agreed(*fit, tolerance);
         if (found.likeness > best.likeness) best = found;
       }
     }
   }
 
-  // Magnified so, and shifted so that this pair agrees.
-  [[nodiscard]] ViewMatch Agreed(double scale, const Pair& with, double tolerance) const {
-    const double shift_u = seen_.u[with.seen] - scale * key_.u[with.key];
-    const double shift_v = seen_.v[with.seen] - scale * key_.v[with.key];
+  [[nodiscard]] ViewMatch Agreed(const Fit& fit, double tolerance) const {
     ViewMatch match;
     for (const Pair& pair : pairs_) {
-      const double off_u = seen_.u[pair.seen] - scale * key_.u[pair.key] - shift_u;
-      const double off_v = seen_.v[pair.seen] - scale * key_.v[pair.key] - shift_v;
+      const double off_u = seen_.u[pair.seen] - fit.scale * key_.u[pair.key] - fit.shift_u;
+      const double off_v = seen_.v[pair.seen] - fit.scale * key_.v[pair.key] - fit.shift_v;
       const double off = std::max(std::abs(off_u) / kAgreeU, std::abs(off_v) / kAgreeV) / tolerance;
       if (off >= 1.0) continue;
       ++match.agreed;
@@ -166,7 +134,7 @@ class Magnified {
 
   const ViewTable& key_;
   const ViewTable& seen_;
-  std::vector<std::vector<Alike>> alike_;  // by key feature
+  std::vector<std::vector<Likest::Nearest>> alike_;  // by key feature
   std::vector<Pair> pairs_;
   std::vector<std::size_t> taken_;  // by seen feature: its pair
 };

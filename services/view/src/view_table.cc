@@ -1,64 +1,32 @@
 #include "services/view/view_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "services/view/src/likest.h"
+
 namespace trailcast::view {
 namespace {
-
-constexpr int kNone = std::numeric_limits<int>::max();
-
-int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
-  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
-         std::popcount(a[3] ^ b[3]);
-}
-
-bool Elsewhere(const ViewTable& table, std::size_t i, std::size_t j, double by) {
-  return std::abs(table.u[i] - table.u[j]) > by || std::abs(table.v[i] - table.v[j]) > by;
-}
-
-struct Nearest {
-  std::size_t seen = 0;
-  int bits = kNone;
-};
-
-// The seen feature most like this one, if it is like enough and no other place is nearly so: the
-// same corner on the pyramid's next level is no rival.
-std::optional<Nearest> MostAlike(const ViewTable::Bits& wanted, const ViewTable& seen,
-                                 const ComparisonOptions& options) {
-  Nearest nearest;
-  int second = kNone;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const int bits = Hamming(wanted, seen.bits[i]);
-    if (bits >= second) continue;
-    const bool rival = nearest.bits == kNone || Elsewhere(seen, i, nearest.seen, options.elsewhere);
-    if (bits < nearest.bits) {
-      if (rival) second = nearest.bits;
-      nearest = {i, bits};
-    } else if (rival) {
-      second = bits;
-    }
-  }
-  if (nearest.bits > options.max_hamming_bits) return std::nullopt;
-  if (nearest.bits > options.hamming_ratio * second) return std::nullopt;
-  return nearest;
-}
 
 // Each seen feature with the one of `key` that is most like it.
 std::vector<Comparison::Pair> FindAlike(const ViewTable& key, const ViewTable& seen,
                                         const ComparisonOptions& options) {
+  constexpr int kNone = std::numeric_limits<int>::max();
   struct Claim {
     std::size_t key = 0;
     int bits = kNone;
   };
   std::vector<Claim> claims(seen.size());
   for (std::size_t i = 0; i < key.size(); ++i) {
-    const auto nearest = MostAlike(key.bits[i], seen, options);
+    Likest likest(seen, options.elsewhere);
+    for (std::size_t j = 0; j < seen.size(); ++j) {
+      likest.Offer(j, Hamming(key.bits[i], seen.bits[j]));
+    }
+    const auto nearest = likest.Found(options.max_hamming_bits, options.hamming_ratio);
     if (!nearest) continue;
     Claim& claim = claims[nearest->seen];
     if (nearest->bits < claim.bits) claim = {i, nearest->bits};
@@ -69,12 +37,6 @@ std::vector<Comparison::Pair> FindAlike(const ViewTable& key, const ViewTable& s
   }
   return pairs;
 }
-
-struct Fit {
-  double scale = 1.0;
-  double shift_u = 0.0;
-  double shift_v = 0.0;
-};
 
 // Two views and what may be alike in them.
 class Agreement {
@@ -87,8 +49,8 @@ class Agreement {
     Fit best;
     for (std::size_t a = 1; a < alike_.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
-        const auto fit = FitTwo(alike_[a], alike_[b]);
-        if (!fit) continue;
+        const auto fit = FitTwo(key_, seen_, alike_[a], alike_[b], options_.shortest_base);
+        if (!fit || fit->scale < options_.least_scale || fit->scale > options_.most_scale) continue;
         const double found = Likeness(*fit);
         if (found <= likeness) continue;
         likeness = found;
@@ -102,21 +64,6 @@ class Agreement {
   }
 
  private:
-  // What carries two pairs over exactly (the scale in the least-squares sense).
-  [[nodiscard]] std::optional<Fit> FitTwo(const Comparison::Pair& a,
-                                          const Comparison::Pair& b) const {
-    const double du = key_.u[b.key] - key_.u[a.key];
-    const double dv = key_.v[b.key] - key_.v[a.key];
-    const double base = du * du + dv * dv;
-    if (base < options_.shortest_base * options_.shortest_base) return std::nullopt;
-    const double scale =
-        (du * (seen_.u[b.seen] - seen_.u[a.seen]) + dv * (seen_.v[b.seen] - seen_.v[a.seen])) /
-        base;
-    if (scale < options_.least_scale || scale > options_.most_scale) return std::nullopt;
-    return Fit{scale, seen_.u[a.seen] - scale * key_.u[a.key],
-               seen_.v[a.seen] - scale * key_.v[a.key]};
-  }
-
   // 0 for a pair that does not belong to the fit, else up to 1.
   [[nodiscard]] double Belongs(const Comparison::Pair& pair, const Fit& fit,
                                double log_scale) const {

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "services/view/view_table.h"
+
+namespace trailcast::view {
+
+// Bits in which two descriptors differ.
+[[nodiscard]] inline int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
+  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
+         std::popcount(a[3] ^ b[3]);
+}
+
+// Of the features of a view that are offered one after the other the one most like another, if it
+// is like enough and no other place is nearly so: the same corner on the pyramid's next level is no
+// rival.
+class Likest {
+ public:
+  struct Nearest {
+    std::size_t seen = 0;
+    int bits = std::numeric_limits<int>::max();
+  };
+
+  // `elsewhere`: half widths.
+  Likest(const ViewTable& seen, double elsewhere) : seen_(seen), elsewhere_(elsewhere) {}
+
+  void Offer(std::size_t seen, int bits) {
+    if (bits >= second_) return;
+    const bool rival = nearest_.bits == Nearest{}.bits || IsElsewhere(seen);
+    if (bits < nearest_.bits) {
+      if (rival) second_ = nearest_.bits;
+      nearest_ = {seen, bits};
+    } else if (rival) {
+      second_ = bits;
+    }
+  }
+
+  [[nodiscard]] std::optional<Nearest> Found(int most_bits, double ratio) const {
+    if (nearest_.bits > most_bits || nearest_.bits > ratio * second_) return std::nullopt;
+    return nearest_;
+  }
+
+ private:
+  [[nodiscard]] bool IsElsewhere(std::size_t seen) const {
+    return std::abs(seen_.u[seen] - seen_.u[nearest_.seen]) > elsewhere_ ||
+           std::abs(seen_.v[seen] - seen_.v[nearest_.seen]) > elsewhere_;
+  }
+
+  const ViewTable& seen_;
+  double elsewhere_;
+  Nearest nearest_;
+  int second_ = Nearest{}.bits;
+};
+
+// One magnification and one shift of a picture, half widths.
+struct Fit {
+  double scale = 1.0;
+  double shift_u = 0.0;
+  double shift_v = 0.0;
+};
+
+// What carries the first of two pairs over exactly, and the second too (the scale in the
+// least-squares sense); nothing where they are closer together than `shortest_base`.
+[[nodiscard]] inline std::optional<Fit> FitTwo(const ViewTable& key, const ViewTable& seen,
+                                               const Comparison::Pair& a, const Comparison::Pair& b,
+                                               double shortest_base) {
+  const double du = key.u[b.key] - key.u[a.key];
+  const double dv = key.v[b.key] - key.v[a.key];
+  const double base = du * du + dv * dv;
+  if (base < shortest_base * shortest_base) return std::nullopt;
+  const double scale =
+      (du * (seen.u[b.seen] - seen.u[a.seen]) + dv * (seen.v[b.seen] - seen.v[a.seen])) / base;
+  return Fit{scale, seen.u[a.seen] - scale * key.u[a.key], seen.v[a.seen] - scale * key.v[a.key]};
+}
+
+}  // namespace trailcast::view
