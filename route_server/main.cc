@@ -123,21 +123,14 @@ std::string OwnFile(const StoreOptions& options, const std::string& given, const
   return beside ? options.location + ending : given;
 }
 
-// Routes are served without, too.
-void OpenMissions(trailcast::server::Server& server, const StoreOptions& options) {
-  const std::string file = OwnFile(options, options.missions, ".missions");
+// What such a file holds, which is said where it cannot be kept: routes are served without, too.
+template <typename Store>
+void Keep(const std::string& file, const char* what, trailcast::server::Server& server,
+          trailcast::Result<void> (trailcast::server::Server::*keep)(std::unique_ptr<Store>)) {
   if (file.empty()) return;
-  const auto kept = trailcast::store::MissionStore::Open(file).and_then(
-      [&](auto store) { return server.KeepMissions(std::move(store)); });
-  if (!kept) spdlog::error("keeping no missions: {}", kept.error().message);
-}
-
-void OpenNetwork(trailcast::server::Server& server, const StoreOptions& options) {
-  const std::string file = OwnFile(options, options.joints, ".joints");
-  if (file.empty()) return;
-  const auto kept = trailcast::store::NetworkStore::Open(file).and_then(
-      [&](auto store) { return server.KeepNetwork(std::move(store)); });
-  if (!kept) spdlog::error("keeping no network of routes: {}", kept.error().message);
+  const auto kept =
+      Store::Open(file).and_then([&](auto store) { return (server.*keep)(std::move(store)); });
+  if (!kept) spdlog::error("keeping no {}: {}", what, kept.error().message);
 }
 
 // What Cyclone receives lands in blocks of 1 MB. The C library would take the first from the system
@@ -162,8 +155,11 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
   if (!server) return program::Complain(app, server.error());
-  OpenMissions(**server, options);
-  OpenNetwork(**server, options);
+  using trailcast::server::Server;
+  Keep(OwnFile(options, options.missions, ".missions"), "missions", **server,
+       &Server::KeepMissions);
+  Keep(OwnFile(options, options.joints, ".joints"), "network of routes", **server,
+       &Server::KeepNetwork);
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};
