@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace trailcast::trial {
+namespace trailcast {
 
 // Of the calling thread.
 [[nodiscard]] inline double ThreadCpuMs() {
@@ -11,4 +11,4 @@ namespace trailcast::trial {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-}  // namespace trailcast::trial
+}  // namespace trailcast

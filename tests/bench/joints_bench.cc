@@ -15,11 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "services/base/cpu_time.h"
 #include "services/joints/find_joints.h"
 #include "services/joints/near_routes.h"
 #include "services/program/command_line.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/bench/must.h"
 #include "tests/bench/view_corpus.h"
 
 namespace trailcast::bench {
@@ -27,20 +29,6 @@ namespace {
 
 constexpr std::uint32_t kSegmentsARoute = 30;
 constexpr int kWidth_px = 320;
-
-template <typename Value>
-Value Must(Result<Value> result) {
-  if (result) return std::move(*result);
-  std::cerr << result.error().message << '\n';
-  std::abort();
-}
-
-// Of this thread alone: the machine may have other work.
-double ProcessorMs() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Taught {
   route::RouteInfo info;
@@ -106,15 +94,15 @@ class Bench {
     double near_ms = 0.0, compared_ms = 0.0, longest_ms = 0.0;
     std::size_t near_routes = 0, found = 0, strange = 0, there = 0;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
-      const double began_ms = ProcessorMs();
+      const double began_ms = ThreadCpuMs();
       const auto near = joints::NearRoutes(index_, routes_[i].info.key.route, routes_[i].segments);
-      const double took_ms = ProcessorMs() - began_ms;
+      const double took_ms = ThreadCpuMs() - began_ms;
       double compare_ms = 0.0;
       for (const joints::NearRoute& each : near) {
         const joints::RouteViews views = ViewsOf(each.key);
-        const double compares_ms = ProcessorMs();
+        const double compares_ms = ThreadCpuMs();
         const bool joined = !joints::FindJoints(views_[i], views, SameCamera(i, each.key)).empty();
-        compare_ms += ProcessorMs() - compares_ms;
+        compare_ms += ThreadCpuMs() - compares_ms;
         (numbers_.contains(each.key) ? found : strange) += joined ? 1 : 0;
       }
       near_routes += near.size();

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/cpu_time.h"
 #include "services/catalog/view_catalog.h"
 #include "services/program/command_line.h"
 #include "services/route/digest.h"
@@ -31,13 +32,6 @@ void Check(const Result<Value>& result) {
   if (result) return;
   std::cerr << result.error().message << '\n';
   std::abort();
-}
-
-// Of this thread alone: the machine may have other work.
-double ProcessorMs() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 double Share(std::vector<double> values, double share) {
@@ -104,14 +98,14 @@ class Bench {
   Bench(const Corpus& corpus, store::RouteStore& store) : corpus_(corpus), views_(store) {}
 
   void Fill() {
-    const double began_ms = ProcessorMs();
+    const double began_ms = ThreadCpuMs();
     double longest_ms = 0.0;
     while (!views_.Filled()) {
-      const double slice_ms = ProcessorMs();
+      const double slice_ms = ThreadCpuMs();
       Check(views_.Fill(kSlice));
-      longest_ms = std::max(longest_ms, ProcessorMs() - slice_ms);
+      longest_ms = std::max(longest_ms, ThreadCpuMs() - slice_ms);
     }
-    const double took_s = (ProcessorMs() - began_ms) / 1e3;
+    const double took_s = (ThreadCpuMs() - began_ms) / 1e3;
     const auto& index = views_.index();
     fmt::print(
         "filled: {} segments in {:.1f} s, {:.0f} a second; the longest slice of {}: {:.0f} ms\n",
@@ -155,9 +149,9 @@ class Bench {
  private:
   exchange::CatalogReply Ask(const route::View& view) {
     const auto began = std::chrono::steady_clock::now();
-    const double began_ms = ProcessorMs();
+    const double began_ms = ThreadCpuMs();
     auto reply = views_.Answer({AgentId("bench"), 1, {.view = view}}, AgentId("server"));
-    processor_ms_.push_back(ProcessorMs() - began_ms);
+    processor_ms_.push_back(ThreadCpuMs() - began_ms);
     wall_ms_.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began)
             .count());

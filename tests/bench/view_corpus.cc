@@ -16,18 +16,12 @@
 #include "services/sim/core/simulated_robot.h"
 #include "services/sim/places/place.h"
 #include "services/vision/view_features.h"
+#include "tests/bench/must.h"
 
 namespace trailcast::bench {
 namespace {
 
 constexpr double kFrames_hz = 15.0;
-
-template <typename Value>
-Value Must(Result<Value> result) {
-  if (result) return std::move(*result);
-  std::cerr << result.error().message << '\n';
-  std::abort();
-}
 
 // One frame of a teaching: which segment was under way, and where the scout was.
 struct Moment {

@@ -50,5 +50,7 @@ struct PlaceOnPath {
                                   double from_along_m = 0.0, double to_along_m = 1e18);
 // The point that far along, cut to the ends.
 [[nodiscard]] Eigen::Vector2d PointAlong(const Polyline& points, double along_m);
+// There, heading from so far before it to so far after it.
+[[nodiscard]] motion::Pose2 PoseAlong(const Polyline& points, double along_m, double about_m);
 
 }  // namespace trailcast::sim

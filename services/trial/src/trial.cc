@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "services/base/cpu_time.h"
 #include "services/sim/core/judge.h"
 #include "services/sim/core/random.h"
 #include "services/sim/core/simulated_robot.h"
-#include "services/trial/cpu_time.h"
 #include "services/trial/src/flawed_robot.h"
 #include "services/trial/src/scanned_way.h"
 #include "services/trial/src/served_route.h"
@@ -58,14 +58,6 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
 double DrawStart(const TruePath& taught, std::uint64_t seed) {
   return sim::Random(seed, "set down")
       .Uniform(0.0, std::max(0.0, taught.length_m() - kLeftAtLeast_m));
-}
-
-// There, looking along it.
-motion::Pose2 PoseAlong(const TruePath& taught, double along_m) {
-  const Eigen::Vector2d at = sim::PointAlong(taught.points_m(), along_m);
-  const Eigen::Vector2d ahead = sim::PointAlong(taught.points_m(), along_m + kAbout_m) -
-                                sim::PointAlong(taught.points_m(), along_m - kAbout_m);
-  return {at.x(), at.y(), std::atan2(ahead.y(), ahead.x())};
 }
 
 using SessionOpener = std::function<Result<agent::ReplaySession>()>;
@@ -300,7 +292,8 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
     set_down_m = DrawStart((*taught)->path, seeds.follower);
   }
   const motion::Pose2 start =
-      set_down_m ? PoseAlong((*taught)->path, *set_down_m) : sim::StartPose(setup.path);
+      set_down_m ? sim::PoseAlong((*taught)->path.points_m(), *set_down_m, kAbout_m)
+                 : sim::StartPose(setup.path);
   const RobotFlaws flaws =
       DrawFlaws(trial_case.flaw, trial_case.follower_camera, (*taught)->duration_s, seeds.follower);
   const auto options_of_follower = FollowerOptions(setup, flaws.camera, seeds, start);

@@ -85,6 +85,13 @@ Eigen::Vector2d PointAlong(const Polyline& points, double along_m) {
   return points.back();
 }
 
+motion::Pose2 PoseAlong(const Polyline& points, double along_m, double about_m) {
+  const Eigen::Vector2d at = PointAlong(points, along_m);
+  const Eigen::Vector2d way =
+      PointAlong(points, along_m + about_m) - PointAlong(points, along_m - about_m);
+  return {at.x(), at.y(), std::atan2(way.y(), way.x())};
+}
+
 Polyline RoundCorners(const Polyline& points, double radius_m, double spacing_m) {
   Polyline rounded = {points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {

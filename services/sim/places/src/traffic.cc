@@ -109,9 +109,8 @@ OnPath OnStraight(const Polyline& path, Random& random, double from, double to) 
     const Eigen::Vector2d after = PointAlong(path, along_m + kStretch_m) - at;
     if (before.normalized().dot(after.normalized()) > 0.995) break;
   }
-  const Eigen::Vector2d way =
-      PointAlong(path, along_m + kStretch_m) - PointAlong(path, along_m - kStretch_m);
-  return {PointAlong(path, along_m), std::atan2(way.y(), way.x())};
+  const motion::Pose2 pose = PoseAlong(path, along_m, kStretch_m);
+  return {motion::Position(pose), pose.heading_rad};
 }
 
 // Free room beside a place on the path, on the side that is there.

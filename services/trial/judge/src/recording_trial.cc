@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "agent/diagnosis/diagnosis.h"
+#include "services/base/cpu_time.h"
 #include "services/base/file_name.h"
-#include "services/trial/cpu_time.h"
 #include "services/trial/judge/src/recording_view.h"
 #include "services/trial/trial_teach.h"
 
