@@ -19,7 +19,9 @@ namespace {
 
 using network::Condition;
 using network::Edit;
+using network::Goal;
 using network::Joint;
+using network::NamedPlace;
 using network::Place;
 using Lines = std::vector<std::string>;
 
@@ -69,6 +71,9 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   if (!joints) return tl::unexpected(joints.error());
   auto conditions = board->store_->Conditions();
   if (!conditions) return tl::unexpected(conditions.error());
+  auto names = board->store_->Names();
+  if (!names) return tl::unexpected(names.error());
+  for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named.place));
   board->joints_ = *std::move(joints);
   board->conditions_ = *std::move(conditions);
   return board;
@@ -140,6 +145,10 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
       return Join(edit.joint, by, now_unix_ms);
     case Edit::Kind::kPart:
       return Part(edit.joint);
+    case Edit::Kind::kName:
+      return Name(edit.named, by, now_unix_ms);
+    case Edit::Kind::kForget:
+      return Forget(edit.named.name);
     default:
       return Set(edit, by, now_unix_ms);
   }
@@ -228,6 +237,33 @@ Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t n
   return lines;
 }
 
+Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
+                                 std::int64_t now_unix_ms) {
+  auto place = Resolve(named.place);
+  if (!place) return tl::unexpected(place.error());
+  named.place = *std::move(place);
+  if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  named_[named.name] = named.place;
+  if (auto known = Know({KeyOf(named.place.route).route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  const auto called = Called(named);
+  if (!called) return tl::unexpected(called.error());
+  return Lines{network::ToText(*called)};
+}
+
+Result<Lines> NetworkBoard::Forget(const std::string& name) {
+  const auto at = named_.find(name);
+  if (at == named_.end()) return Fail(ErrorCode::kNotFound, "no place is called '{}'", name);
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  const auto called = Called(NamedPlace{at->first, at->second});
+  if (!called) return tl::unexpected(called.error());
+  if (auto forgotten = store_->Forget(name); !forgotten) return tl::unexpected(forgotten.error());
+  named_.erase(at);
+  network_.reset();
+  return Lines{network::ToText(*called)};
+}
+
 Result<Lines> NetworkBoard::All() {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   Lines lines;
@@ -245,23 +281,28 @@ Result<Lines> NetworkBoard::All() {
     condition.route = Called(RouteId(condition.route));
     lines.push_back(network::ToText(condition));
   }
+  for (const auto& [name, place] : named_) {
+    const auto called = Called(NamedPlace{name, place});
+    if (!called) return tl::unexpected(called.error());
+    lines.push_back((IsUsed(place) ? "" : "unused ") + network::ToText(*called));
+  }
   return lines;
 }
 
 Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   const auto to = Resolve(question.to);
   if (!to) return tl::unexpected(to.error());
-  Result<Place> from;
-  if (question.robot.empty()) {
-    from = Resolve(question.from);
-  } else if (const auto* place = places_.Find(AgentId(question.robot))) {
-    from = Place{IdOf(place->key), place->along_m};
-  } else {
-    return Fail(ErrorCode::kNotFound,
-                "'{}' has not said where on a route it stands since this server was started: say "
-                "from where it is to go",
-                question.robot);
+  const std::string& robot = question.from.name;
+  const auto* stands = robot.empty() ? nullptr : places_.Find(AgentId(robot));
+  if (stands == nullptr && !robot.empty() && !named_.contains(robot)) {
+    return Fail(
+        ErrorCode::kNotFound,
+        "'{}' has not said where on a route it stands since this server was started, nor is "
+        "a place called so: say from where it is to go",
+        robot);
   }
+  const auto from = stands == nullptr ? Resolve(question.from)
+                                      : Result<Place>(Place{IdOf(stands->key), stands->along_m});
   if (!from) return tl::unexpected(from.error());
   if (auto known = Know({KeyOf(from->route).route, KeyOf(to->route).route}); !known) {
     return tl::unexpected(known.error());
@@ -272,7 +313,7 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
     if (!called) return tl::unexpected(called.error());
     return Fail(ErrorCode::kNotFound, "{} is on a revision that robots do not follow{}",
                 network::ToText(*called),
-                question.robot.empty() ? "" : ", where " + question.robot + " may stand");
+                stands == nullptr ? "" : ", where " + robot + " may stand");
   }
   const auto way = network_->ShortestWay(*from, *to);
   if (!way) return tl::unexpected(way.error());
@@ -315,6 +356,17 @@ Result<Place> NetworkBoard::Resolve(const Place& named) const {
   return Place{IdOf(meant->key), ToCentimetre(named.along_m)};
 }
 
+Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
+  if (goal.name.empty()) return Resolve(goal.place);
+  const auto at = named_.find(goal.name);
+  if (at != named_.end()) return at->second;
+  return Fail(
+      ErrorCode::kNotFound,
+      "no place is called '{}': 'trailcast network' lists those that are, 'trailcast network "
+      "name {} ROUTE@METRES' makes it one",
+      goal.name, goal.name);
+}
+
 Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
   const auto all_known = std::all_of(asked.begin(), asked.end(),
                                      [&](const RouteId& id) { return known_.contains(id); });
@@ -324,6 +376,7 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
     wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
+  for (const auto& [name, place] : named_) wanted.insert(KeyOf(place.route).route);
   std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
   names_.clear();
   std::vector<network::Route> routes;
@@ -395,6 +448,13 @@ Result<Joint> NetworkBoard::Called(Joint joint) const {
     *place = *std::move(called);
   }
   return joint;
+}
+
+Result<NamedPlace> NetworkBoard::Called(NamedPlace named) const {
+  auto called = Called(named.place);
+  if (!called) return tl::unexpected(called.error());
+  named.place = *std::move(called);
+  return named;
 }
 
 }  // namespace trailcast::server

@@ -17,8 +17,9 @@
 
 namespace trailcast::server {
 
-// How routes are joined, as operators say, and which ways that makes. A joint is one of two
-// revisions, whose metres it names: it is used while both are those that robots follow. What is
+// How routes are joined and what places are called, as operators say, and which ways that makes. A
+// joint is one of two revisions, whose metres it names: it is used while both are those that robots
+// follow; a name is that of a place on one revision likewise. What is
 // closed or limited is so on whichever revision is followed. No clock of its own.
 class NetworkBoard {
  public:
@@ -59,26 +60,33 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> Part(const network::Joint& joint);
   [[nodiscard]] Result<std::vector<std::string>> Set(network::Edit edit, const std::string& by,
                                                      std::int64_t now_unix_ms);
+  [[nodiscard]] Result<std::vector<std::string>> Name(network::NamedPlace named,
+                                                      const std::string& by,
+                                                      std::int64_t now_unix_ms);
+  [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
   [[nodiscard]] Result<std::vector<std::string>> All();
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
 
   // The complete revision that ROUTE[@REVISION] means, of some length.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Place& named) const;
-  // Looks up what is not known of the routes that are joined, and of these.
+  [[nodiscard]] Result<network::Place> Resolve(const network::Goal& goal) const;
+  // Looks up what is not known of the routes that are joined or have named places, and of these.
   [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
   [[nodiscard]] Result<Known> LookUp(const RouteId& route) const;
   [[nodiscard]] bool IsUsed(const network::Place& place) const;
   // As people are shown it: "hall@12", "hall@1@12" of a revision that is not followed.
   [[nodiscard]] Result<network::Place> Called(const network::Place& place) const;
   [[nodiscard]] Result<network::Joint> Called(network::Joint joint) const;
+  [[nodiscard]] Result<network::NamedPlace> Called(network::NamedPlace named) const;
   [[nodiscard]] std::string Called(const RouteId& route) const;
 
   AgentId server_;
   std::unique_ptr<store::NetworkStore> store_;
   store::RouteStore& routes_;
-  std::vector<network::Joint> joints_;          // of revisions: "ID/TEACHING"
-  std::vector<network::Condition> conditions_;  // of routes: "ID"
+  std::vector<network::Joint> joints_;           // of revisions: "ID/TEACHING"
+  std::vector<network::Condition> conditions_;   // of routes: "ID"
+  std::map<std::string, network::Place> named_;  // of revisions
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision

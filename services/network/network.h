@@ -18,6 +18,13 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
+// A place that people call by a name: "loading-bay".
+struct NamedPlace {
+  std::string name{};
+  Place place{};
+  bool operator==(const NamedPlace&) const = default;
+};
+
 // How the route that a joint leads to lies there, seen from the one that it leaves: in that one's
 // direction, to the left of it, and counter-clockwise.
 struct Lie {

@@ -18,15 +18,18 @@ namespace trailcast::network {
 //   open ROUTE [FROM..TO]
 //   limit ROUTE [FROM..TO] [speed F] [cost F]   F times the taught speed at most; a metre counts as
 //                                               F; neither: no limit any more
+//   name NAME PLACE            it is called so; whatever was called so no longer is
+//   forget NAME
 // A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
 // that is followed; FROM..TO metres along it, either may be missing. As the server lists it, each
 // line is what brings it about, the joints of revisions that are not followed with "unused" before
 // it, and "route ROUTE METRES" the length of one that is named.
 struct Edit {
-  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit };
+  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit, kName, kForget };
   Kind kind = Kind::kJoin;
   Joint joint{};          // of kJoin and kPart
-  Condition condition{};  // of the others
+  Condition condition{};  // of kClose, kOpen and kLimit
+  NamedPlace named{};     // of kName; of kForget its name alone
 };
 
 // Of a condition that ends where its route does.
@@ -35,18 +38,27 @@ inline constexpr double kToTheEnd_m = 1e7;
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
 
-// "way FROM TO": which way leads there. FROM is a PLACE, or a robot's name: from where it last said
-// that it stands.
+// A PLACE, or what one is called: then `name` alone is set.
+struct Goal {
+  std::string name{};
+  Place place{};
+  bool operator==(const Goal&) const = default;
+};
+// A name is up to 64 bytes without blanks and '@'.
+[[nodiscard]] Result<Goal> ParseGoal(std::string_view word);
+
+// "way FROM TO": which way leads there, from a goal or, before one of that name, from where a robot
+// last said that it stands.
 struct Question {
-  std::string robot{};  // empty: from a place
-  Place from{};
-  Place to{};
+  Goal from{};
+  Goal to{};
 };
 [[nodiscard]] Result<Question> ParseQuestion(std::string_view words);
 
 // "hall@12", "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
+[[nodiscard]] std::string ToText(const NamedPlace& named);     // "name .."
 [[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
 [[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
 

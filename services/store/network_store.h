@@ -11,15 +11,16 @@
 
 namespace trailcast::store {
 
-// How routes are joined, and what holds on parts of them, as operators said: a SQLite file of its
-// own, created if missing. What a call has stored is on the disk when it returns. Which routes
-// places and conditions name is the caller's affair. Errors name the file: kUnavailable (disk full,
-// no such folder, too many), kConflict (another process has it open), kCorrupt (no such file of
-// ours, or a damaged one).
+// How routes are joined, what holds on parts of them and what places are called, as operators said:
+// a SQLite file of its own, created if missing. What a call has stored is on the disk when it
+// returns. Which routes places and conditions name is the caller's affair. Errors name the file:
+// kUnavailable (disk full, no such folder, too many), kConflict (another process has it open),
+// kCorrupt (no such file of ours, or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJoints = 100'000;
   static constexpr std::int64_t kMostConditions = 10'000;
+  static constexpr std::int64_t kMostNames = 10'000;
 
   [[nodiscard]] static Result<std::unique_ptr<NetworkStore>> Open(
       const std::filesystem::path& file);
@@ -30,6 +31,7 @@ class NetworkStore {
   // In the order in which they were put.
   [[nodiscard]] Result<std::vector<network::Joint>> Joints();
   [[nodiscard]] Result<std::vector<network::Condition>> Conditions();
+  [[nodiscard]] Result<std::vector<network::NamedPlace>> Names();  // by name
 
   // In place of that from and to the same places. `by`: who said so, and when by the caller's
   // clock.
@@ -41,6 +43,11 @@ class NetworkStore {
   [[nodiscard]] Result<void> Replace(const std::string& route,
                                      const std::vector<network::Condition>& conditions,
                                      const std::string& by, std::int64_t now_unix_ms);
+  // In place of what was called so.
+  [[nodiscard]] Result<void> Put(const network::NamedPlace& named, const std::string& by,
+                                 std::int64_t now_unix_ms);
+  // What is called so, if anything is.
+  [[nodiscard]] Result<void> Forget(const std::string& name);
 
  private:
   struct Database;

@@ -48,10 +48,11 @@ constexpr const char* kSendExamples =
     "  teach ROUTE [TAG ...]   a person drives until 'trailcast end robot1'\n"
     "  wait SECONDS\n"
     "or, alone:\n"
-    "  goto ROUTE@METRES    the shortest way over the network of routes ('trailcast network'), as\n"
-    "                       'follow' after 'follow'; from where the robot last said that it "
-    "stands, "
-    "or --from\n"
+    "  goto PLACE           ROUTE@METRES, or what it is called: the shortest way over the network "
+    "of\n"
+    "                       routes ('trailcast network'), as 'follow' after 'follow'; from where "
+    "the\n"
+    "                       robot last said that it stands, or --from\n"
     "Examples:\n"
     "  trailcast send robot1 follow hall\n"
     "  trailcast send robot1 follow hall 3..10 speed 0.5 wait 20 follow yard laps 2\n"
@@ -60,6 +61,7 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 follow hall --wait      # until it has arrived, or says why not\n"
     "  trailcast send robot1 follow hall --valid 2h  # however late it is back by then\n"
     "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
+    "  trailcast send robot1 goto loading-bay\n"
     "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
     "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, or nobody "
@@ -77,7 +79,7 @@ Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
   }
   for (const std::string& place : {options.orders[1], options.from}) {
     if (place.empty()) continue;
-    if (const auto is = network::ParsePlace(place); !is) return tl::unexpected(is.error());
+    if (const auto is = network::ParseGoal(place); !is) return tl::unexpected(is.error());
   }
   return options.orders[1];
 }
@@ -251,9 +253,10 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
                   "The mission's name, by which it is done once however often it is sent; default: "
                   "drawn")
       ->check(program::NameValidator());
-  app->add_option("--from", options->from,
-                  "Where a robot stands that goes to a place, ROUTE@METRES; default: where it last "
-                  "said so");
+  app->add_option(
+      "--from", options->from,
+      "Where a robot stands that goes to a place, ROUTE@METRES or a name; default: where "
+      "it last said so");
   app->add_option("--valid", options->valid_s,
                   "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
                   "for ever")

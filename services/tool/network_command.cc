@@ -20,7 +20,7 @@ struct NetworkOptions {
 };
 
 constexpr const char* kExamples =
-    "Words; without any, it lists the routes that are joined, joints, and what is closed:\n"
+    "Words; without any, it lists the routes that are joined, joints, what is closed, and names:\n"
     "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
     "                       robots may change over from the first place to the second; both: and\n"
     "                       back; how the second lies there, where it is known\n"
@@ -29,18 +29,20 @@ constexpr const char* kExamples =
     "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
     "                       at most F times the taught speed; a metre counts as F when ways are\n"
     "                       compared; with neither, no limit any more\n"
-    "  way FROM PLACE       the shortest way, from a PLACE or from where a robot of that name "
-    "stands\n"
+    "  name NAME PLACE      'goto NAME' leads there; forget NAME\n"
+    "  way FROM TO          the shortest way, between PLACEs or named ones; FROM may be a robot, "
+    "as\n"
+    "                       it stands\n"
     "A PLACE is ROUTE@METRES along it: hall@12.5; FROM..TO are metres, either may be missing.\n"
     "Examples:\n"
     "  trailcast network join hall@12 office@0\n"
     "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
     "  trailcast network close hall 3..7\n"
-    "  trailcast network way hall@2 office@8       # its stretches, and how long it is\n"
+    "  trailcast network name loading-bay office@8\n"
+    "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
     "  trailcast network way robot1 office@8 --json\n"
-    "A route is followed in the direction in which it was taught. A joint is of the revisions "
-    "that\n"
-    "robots follow when it is made; while another is followed, it is not used.\n"
+    "A route is followed in the direction in which it was taught. A joint or a name is of the\n"
+    "revisions that robots follow when it is made; while another is followed, it is not used.\n"
     "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
 
 bool Asks(const NetworkOptions& options) {
@@ -82,7 +84,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   const auto lines = fleet::AskToJoin(*peer->exchange, peer->self, words, timeout);
   if (!lines) return program::Complain(app, lines.error());
   if (options.json) return Print(fleet::NetworkJson(*lines));
-  const bool parted = options.words.front() == "part";
+  const bool parted = options.words.front() == "part" || options.words.front() == "forget";
   return Print(lines->empty() ? "nothing is closed or limited there now\n"
                               : (parted ? "no more: " : "") + fleet::NetworkText(*lines));
 }

@@ -31,6 +31,11 @@ struct Made {
   std::vector<network::Condition> conditions;
 };
 
+bool IsOfACondition(const network::Edit& edit) {
+  using Kind = network::Edit::Kind;
+  return edit.kind == Kind::kClose || edit.kind == Kind::kOpen || edit.kind == Kind::kLimit;
+}
+
 void Take(network::Edit edit, Made& made) {
   if (edit.kind == network::Edit::Kind::kJoin) {
     for (network::Place* place : {&edit.joint.from, &edit.joint.to}) {
@@ -38,7 +43,7 @@ void Take(network::Edit edit, Made& made) {
       if (place->along_m > 20.0) place->along_m = std::fmod(place->along_m, 10.0);
     }
     made.joints.push_back(edit.joint);
-  } else if (edit.kind != network::Edit::Kind::kPart) {
+  } else if (IsOfACondition(edit)) {
     edit.condition.route = RouteFor(edit.condition.route);
     made.conditions = network::Amended(std::move(made.conditions), edit);
   }
@@ -53,6 +58,11 @@ void Understand(const std::string& line, Made& made) {
       const auto again = network::ParseEdit(told);
       Require(again.has_value(), "what was told is understood");
       Require(network::ToText(again->condition) == told, "and is told likewise");
+    }
+    if (edit->kind == network::Edit::Kind::kName) {
+      const std::string told = network::ToText(edit->named);
+      const auto again = network::ParseEdit(told);
+      Require(again && network::ToText(again->named) == told, "a name is understood again");
     }
     Take(*edit, made);
   }

@@ -50,7 +50,13 @@ TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
   const Ended back = Send({"goto", "hall@1"});
   EXPECT_EQ(back.status, 1) << back.output;
   EXPECT_THAT(back.output, HasSubstr("no way leads from office@")) << "from where it says it is";
-  const Ended on = Send({"goto", "office@3.4", "--wait"});
+  const Ended nowhere = Send({"goto", "loading-bay"});
+  EXPECT_EQ(nowhere.status, 1) << nowhere.output;
+  EXPECT_THAT(nowhere.output, HasSubstr("no place is called 'loading-bay'"));
+  const Ended named = Network({"name", "loading-bay", "office@3.4"});
+  ASSERT_EQ(named.status, 0) << named.output;
+  EXPECT_THAT(Network({}).output, HasSubstr("name loading-bay office@3.4"));
+  const Ended on = Send({"goto", "loading-bay", "--wait"});
   EXPECT_EQ(on.status, 0) << on.output << agent->output();
   EXPECT_NEAR(Along_m("truth.csv"), 4.4, 0.3);
   EXPECT_THAT(Tool({"missions"}).output, HasSubstr("follow hall 0..1.5 follow office 1.5..3"));

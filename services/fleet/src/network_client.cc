@@ -128,6 +128,7 @@ std::string NetworkJson(const Lines& lines) {
   Lines joints;
   Lines closed;
   Lines limits;
+  Lines names;
   for (std::string_view line : lines) {
     if (line.starts_with(kRoute)) {
       routes.push_back(RouteJson(line.substr(kRoute.size())));
@@ -139,12 +140,17 @@ std::string NetworkJson(const Lines& lines) {
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
       joints.push_back(JointJson(edit->joint, !unused));
+    } else if (edit->kind == network::Edit::Kind::kName) {
+      names.push_back(fmt::format("{{\"name\": {}, \"place\": {}, \"used\": {}}}",
+                                  JsonText(edit->named.name), PlaceJson(edit->named.place),
+                                  !unused));
     } else {
       (edit->condition.closed ? closed : limits).push_back(ConditionJson(edit->condition));
     }
   }
-  return fmt::format("{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}}}\n",
-                     JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits));
+  return fmt::format(
+      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"names\": {}}}\n",
+      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(names));
 }
 
 std::string WayText(const Lines& way) {

@@ -18,7 +18,10 @@ constexpr double kLeastFactor = 0.1;
 constexpr double kMostFactor = 1000.0;
 constexpr const char* kEdits =
     "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
-    "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]' or 'limit ROUTE [FROM..TO] [speed F] [cost F]'";
+    "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]', 'limit ROUTE [FROM..TO] [speed F] [cost F]', "
+    "'name "
+    "NAME PLACE' or 'forget NAME'";
+constexpr std::size_t kLongestName = 64;
 
 // To the centimetre.
 std::string Metres(double metres) {
@@ -101,6 +104,21 @@ Result<Edit> TakeJoin(Words& words) {
   return Edit{.kind = Edit::Kind::kJoin, .joint = *std::move(joint)};
 }
 
+Result<Edit> TakeName(Words& words, Edit::Kind kind) {
+  const std::string_view name = words.Take();
+  auto called = ParseGoal(name);
+  if (!called) return tl::unexpected(called.error());
+  if (called->name.empty()) return Wrong(name, "what the place is called, without '@'");
+  Edit edit{.kind = kind, .named = {.name = std::move(called->name)}};
+  if (kind == Edit::Kind::kName) {
+    auto place = ParsePlace(words.Take());
+    if (!place) return tl::unexpected(place.error());
+    edit.named.place = *std::move(place);
+  }
+  if (!words.empty()) return Wrong(words.Next(), "nothing more");
+  return edit;
+}
+
 // ROUTE [FROM..TO]
 Result<Condition> TakeStretch(Words& words) {
   Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
@@ -148,6 +166,8 @@ Result<Edit> ParseEdit(std::string_view text) {
     if (!words.empty()) return Wrong(words.Next(), "nothing more");
     return Edit{.kind = Edit::Kind::kPart, .joint = *std::move(joint)};
   }
+  if (words.TakeIf("name")) return TakeName(words, Edit::Kind::kName);
+  if (words.TakeIf("forget")) return TakeName(words, Edit::Kind::kForget);
   const std::string_view first = words.Take();
   Edit edit;
   if (first == "close") {
@@ -175,20 +195,24 @@ Result<Edit> ParseEdit(std::string_view text) {
 Result<Question> ParseQuestion(std::string_view text) {
   Words words(text);
   if (!words.TakeIf("way")) return Wrong(words.Next(), "'way FROM TO'");
-  Question question;
-  if (words.Next().find('@') == std::string_view::npos) {
-    question.robot = words.Take();
-    if (question.robot.empty()) return Wrong("", "a place, as hall@2.5, or a robot's name");
-  } else {
-    auto from = ParsePlace(words.Take());
-    if (!from) return tl::unexpected(from.error());
-    question.from = *std::move(from);
-  }
-  auto to = ParsePlace(words.Take());
+  auto from = ParseGoal(words.Take());
+  if (!from) return tl::unexpected(from.error());
+  auto to = ParseGoal(words.Take());
   if (!to) return tl::unexpected(to.error());
-  question.to = *std::move(to);
   if (!words.empty()) return Wrong(words.Next(), "nothing more");
-  return question;
+  return Question{.from = *std::move(from), .to = *std::move(to)};
+}
+
+Result<Goal> ParseGoal(std::string_view word) {
+  if (word.find('@') == std::string_view::npos) {
+    if (word.empty() || word.size() > kLongestName) {
+      return Wrong(word, "ROUTE@METRES, as hall@2.5, or a name of up to 64 letters");
+    }
+    return Goal{.name = std::string(word)};
+  }
+  auto place = ParsePlace(word);
+  if (!place) return tl::unexpected(place.error());
+  return Goal{.place = *std::move(place)};
 }
 
 Result<Place> ParsePlace(std::string_view word) {
@@ -201,6 +225,10 @@ Result<Place> ParsePlace(std::string_view word) {
 }
 
 std::string ToText(const Place& place) { return place.route + "@" + Metres(place.along_m); }
+
+std::string ToText(const NamedPlace& named) {
+  return "name " + named.name + " " + ToText(named.place);
+}
 
 std::string ToText(const Joint& joint) {
   std::string text = "join " + ToText(joint.from) + " " + ToText(joint.to);

@@ -46,6 +46,17 @@ CREATE INDEX condition_route ON condition (route);
 )",
                         .holds = "joints"};
 
+// Apart: files that were made without it get it.
+constexpr const char* kNames = R"(
+CREATE TABLE IF NOT EXISTS named_place (
+  name TEXT PRIMARY KEY,
+  route TEXT NOT NULL,
+  along_m REAL NOT NULL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL
+) STRICT;
+)";
+
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
                        .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
@@ -65,6 +76,11 @@ network::Condition ConditionIn(SQLite::Statement& row) {
           .closed = row.getColumn(3).getInt() != 0,
           .speed = row.getColumn(4).getDouble(),
           .cost = row.getColumn(5).getDouble()};
+}
+
+network::NamedPlace NamedPlaceIn(SQLite::Statement& row) {
+  return {.name = row.getColumn(0).getString(),
+          .place = {row.getColumn(1).getString(), row.getColumn(2).getDouble()}};
 }
 
 void BindPlaces(SQLite::Statement& statement, const network::Joint& joint) {
@@ -122,6 +138,7 @@ Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
   try {
     auto database = std::make_unique<Database>(file);
     PrepareOwnFile(database->db, kFile);
+    database->db.exec(kNames);
     return std::unique_ptr<NetworkStore>(new NetworkStore(std::move(database)));
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(ToError(exception, file, "opening it", kWhat));
@@ -142,6 +159,13 @@ Result<std::vector<network::Condition>> NetworkStore::Conditions() {
     return database_->All(
         "SELECT route, from_m, to_m, closed, speed, cost FROM condition ORDER BY number",
         ConditionIn);
+  });
+}
+
+Result<std::vector<network::NamedPlace>> NetworkStore::Names() {
+  return database_->Guarded("reading names", [&]() -> Result<std::vector<network::NamedPlace>> {
+    return database_->All("SELECT name, route, along_m FROM named_place ORDER BY name",
+                          NamedPlaceIn);
   });
 }
 
@@ -206,6 +230,36 @@ Result<void> NetworkStore::Replace(const std::string& route,
       insert->exec();
     }
     transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Put(const network::NamedPlace& named, const std::string& by,
+                               std::int64_t now_unix_ms) {
+  return database_->Guarded("storing a name", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto put = database_->compiled.Take(
+        "INSERT OR REPLACE INTO named_place (name, route, along_m, set_by, set_unix_ms) VALUES "
+        "(?1, ?2, ?3, ?4, ?5)");
+    put->bind(1, named.name);
+    put->bind(2, named.place.route);
+    put->bind(3, named.place.along_m);
+    put->bind(4, by);
+    put->bind(5, now_unix_ms);
+    put->exec();
+    if (database_->Count("SELECT count(*) FROM named_place") > kMostNames) {
+      return Fail(ErrorCode::kUnavailable, "{} places have names already: no more", kMostNames);
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Forget(const std::string& name) {
+  return database_->Guarded("forgetting a name", [&]() -> Result<void> {
+    auto forget = database_->compiled.Take("DELETE FROM named_place WHERE name = ?1");
+    forget->bind(1, name);
+    forget->exec();
     return {};
   });
 }

@@ -20,6 +20,7 @@ std::string Why(const std::string& words) {
 std::string Listed(const std::string& words) {
   const auto edit = ParseEdit(words);
   if (!edit) return edit.error().message;
+  if (edit->kind == Edit::Kind::kName) return ToText(edit->named);
   return edit->kind == Edit::Kind::kJoin ? ToText(edit->joint) : ToText(edit->condition);
 }
 
@@ -28,7 +29,7 @@ TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
        {"join hall@12 office@0", "join hall@2@12.25 office@0 both",
         "join hall@12 office@0 both offset 0.1,-0.25 heading 3.5", "close hall", "close hall 3..7",
         "close hall 3..", "close hall 0..7", "limit hall 3..7 speed 0.5",
-        "limit hall 3.. speed 0.5 cost 2", "limit a3f9c21 cost 0.5"}) {
+        "limit hall 3.. speed 0.5 cost 2", "limit a3f9c21 cost 0.5", "name loading-bay office@8"}) {
     EXPECT_EQ(Listed(words), words);
   }
   EXPECT_EQ(Listed("  join   hall@12.0 office@0.00  "), "join hall@12 office@0");
@@ -37,6 +38,10 @@ TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
   ASSERT_TRUE(part);
   EXPECT_EQ(part->kind, Edit::Kind::kPart);
   EXPECT_EQ(part->joint.from, (Place{"hall", 12.0}));
+  const auto forget = ParseEdit("forget loading-bay");
+  ASSERT_TRUE(forget);
+  EXPECT_EQ(forget->kind, Edit::Kind::kForget);
+  EXPECT_EQ(forget->named.name, "loading-bay");
 }
 
 TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
@@ -57,18 +62,25 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("open hall 3..7 speed 1"), HasSubstr("'speed'"));
   EXPECT_THAT(Why("limit hall 3..7 speed 2"), HasSubstr("'2': expected times the taught speed"));
   EXPECT_THAT(Why("limit hall cost 0"), HasSubstr("'0': expected how many metres"));
+  EXPECT_THAT(Why("name"), HasSubstr("or a name"));
+  EXPECT_THAT(Why("name bay"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("name hall@3 office@8"),
+              HasSubstr("'hall@3': expected what the place is called"));
+  EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
+  EXPECT_THAT(Why("name " + std::string(65, 'x') + " office@8"), HasSubstr("up to 64"));
+  EXPECT_THAT(Why("forget bay office@8"), HasSubstr("nothing more"));
 }
 
-TEST(NetworkWords, AWayIsAskedForFromAPlaceOrARobot) {
+TEST(NetworkWords, AWayIsAskedForBetweenPlacesNamedOnesOrFromARobot) {
   const auto places = ParseQuestion("way hall@2@1.5 office@8");
   ASSERT_TRUE(places);
-  EXPECT_EQ(places->from, (Place{"hall@2", 1.5}));
-  EXPECT_EQ(places->to, (Place{"office", 8.0}));
-  EXPECT_EQ(places->robot, "");
-  const auto robot = ParseQuestion("way robot1 office@8");
-  ASSERT_TRUE(robot);
-  EXPECT_EQ(robot->robot, "robot1");
-  for (const char* wrong : {"", "way", "way hall@2", "way hall@2 office", "way hall@2 office@8 x",
+  EXPECT_EQ(places->from, (Goal{.place = {"hall@2", 1.5}}));
+  EXPECT_EQ(places->to, (Goal{.place = {"office", 8.0}}));
+  const auto named = ParseQuestion("way robot1 loading-bay");
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->from, (Goal{.name = "robot1"}));
+  EXPECT_EQ(named->to, (Goal{.name = "loading-bay"}));
+  for (const char* wrong : {"", "way", "way hall@2", "way hall@2 office@", "way hall@2 office@8 x",
                             "away hall@2 office@8"}) {
     EXPECT_FALSE(ParseQuestion(wrong)) << wrong;
   }

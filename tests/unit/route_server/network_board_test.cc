@@ -176,6 +176,36 @@ TEST_F(NetworkBoardTest, ARobotsWayBeginsWhereItLastSaidThatItStands) {
   EXPECT_THAT(Ask("way robot1 office@8").error, HasSubstr("do not follow, where robot1 may stand"));
 }
 
+TEST_F(NetworkBoardTest, APlaceIsGoneToByItsName) {
+  Done("join hall@12 office@0");
+  EXPECT_THAT(Done("name loading-bay office@8.0"), ElementsAre("name loading-bay office@8"));
+  Done("name door ring@1");
+  Restart();
+  EXPECT_THAT(Asked(), testing::IsSupersetOf(
+                           {"route ring 8.00", "name door ring@1", "name loading-bay office@8"}));
+  EXPECT_THAT(Asked("way hall@2 loading-bay"),
+              ElementsAre("follow hall 2..12", "follow office 0..8"));
+  Done("name loading-bay office@3");
+  Done("name gate hall@11");
+  EXPECT_THAT(Asked("way gate loading-bay"),
+              ElementsAre("follow hall 11..12", "follow office 0..3"));
+  exchange::AgentStatus status;
+  status.agent = AgentId("gate");
+  status.role = exchange::AgentRole::kFollower;
+  status.place = {.key = test::KeyNumber(1), .along_m = 2.0};
+  board_->Hear(status);
+  EXPECT_THAT(Asked("way gate loading-bay").front(), "follow hall 2..12") << "a robot of that name";
+
+  Put(2, "office", 12.0, 2, route::Standing::kActive, 1);
+  Put(2, "office", 10.0, 1, route::Standing::kRetired, 1);
+  EXPECT_THAT(Asked(), testing::Contains(HasSubstr("unused name loading-bay office@")));
+  EXPECT_THAT(Ask("way hall@2 loading-bay").error, HasSubstr("robots do not follow"));
+  EXPECT_THAT(Done("forget loading-bay"), ElementsAre(HasSubstr("name loading-bay office@")));
+  EXPECT_THAT(Ask("way hall@2 loading-bay").error, HasSubstr("no place is called 'loading-bay'"));
+  EXPECT_THAT(Refused("forget loading-bay"), HasSubstr("no place is called 'loading-bay'"));
+  EXPECT_THAT(Refused("name attic attic@2"), HasSubstr("there is no route 'attic'"));
+}
+
 TEST_F(NetworkBoardTest, WhatCannotBeIsRefusedInWords) {
   EXPECT_THAT(Refused("join hall@12 attic@0"), HasSubstr("there is no route 'attic'"));
   EXPECT_THAT(Refused("join hall@21 office@0"), HasSubstr("'hall' is 20.00 m long"));

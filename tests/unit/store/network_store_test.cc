@@ -1,5 +1,6 @@
 #include "services/store/network_store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,6 +75,29 @@ TEST_F(NetworkStoreTest, MoreConditionsThanThereMayBeAreRefusedAndThoseOfBeforeS
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable);
   EXPECT_THAT(store_->Conditions().value(), ElementsAre(closed));
+}
+
+TEST_F(NetworkStoreTest, ANameIsThatOfOnePlace) {
+  using network::NamedPlace;
+  ASSERT_TRUE(store_->Put(NamedPlace{"dock", {"a/1", 2.5}}, "desk", 1000));
+  ASSERT_TRUE(store_->Put(NamedPlace{"bay", {"b/7", 0.0}}, "desk", 1000));
+  ASSERT_TRUE(store_->Put(NamedPlace{"dock", {"b/7", 3.0}}, "desk", 2000));
+  Reopen();
+  EXPECT_THAT(store_->Names().value(),
+              ElementsAre(NamedPlace{"bay", {"b/7", 0.0}}, NamedPlace{"dock", {"b/7", 3.0}}));
+  ASSERT_TRUE(store_->Forget("bay"));
+  ASSERT_TRUE(store_->Forget("bay")) << "of what is not there, too";
+  Reopen();
+  EXPECT_THAT(store_->Names().value(), ElementsAre(NamedPlace{"dock", {"b/7", 3.0}}));
+}
+
+TEST_F(NetworkStoreTest, NamesAreKeptInAFileThatWasMadeWithoutThem) {
+  Put({{"a/1", 1.0}, {"b/7", 2.0}});
+  store_.reset();
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE named_place");
+  Reopen();
+  EXPECT_THAT(store_->Names().value(), IsEmpty());
+  EXPECT_EQ(store_->Joints().value().size(), 1U);
 }
 
 TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
