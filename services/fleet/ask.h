@@ -37,7 +37,8 @@ template <typename Reply>
       auto* reply = std::get_if<Reply>(&message);
       if (reply == nullptr || reply->client != client || reply->request != request) continue;
       if (!reply->error.empty()) {
-        return Fail(ErrorCode::kUnavailable, "server {}: {}", reply->server.value(), reply->error);
+        return Fail(ErrorCode::kUnavailable, "server '{}': {}", reply->server.value(),
+                    reply->error);
       }
       return std::move(*reply);
     }

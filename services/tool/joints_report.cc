@@ -71,8 +71,9 @@ std::string JointsText(const std::vector<JoinableRoute>& routes,
                         joint.length(), UnitOf(routes[a]), joint.features, joint.confidence,
                         HeadingText(joint.heading_rad));
   }
-  if (text.empty()) text = fmt::format("no joints of {} routes\n", routes.size());
-  return text;
+  if (!text.empty()) return text;
+  if (routes.size() == 1) return "it does not come back to where it was\n";
+  return fmt::format("no joints of {} routes\n", routes.size());
 }
 
 std::string JointsJson(const std::vector<JoinableRoute>& routes,

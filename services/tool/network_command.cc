@@ -9,6 +9,7 @@
 #include "services/fleet/operator_peer.h"
 #include "services/network/words.h"
 #include "services/tool/command.h"
+#include "services/tool/network_picture.h"
 
 namespace trailcast::tool {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 struct NetworkOptions {
   std::vector<std::string> words;
   bool json = false;
+  std::string plot;
   double timeout_s = 5.0;
 };
 
@@ -41,6 +43,7 @@ constexpr const char* kExamples =
     "  trailcast network name loading-bay office@8\n"
     "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
     "  trailcast network way robot1 office@8 --json\n"
+    "  trailcast network --plot network.png\n"
     "A route is followed in the direction in which it was taught. A joint or a name is of the\n"
     "revisions that robots follow when it is made; while another is followed, it is not used.\n"
     "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
@@ -66,6 +69,10 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
       return program::Complain(app, question.error());
     }
   }
+  if (!options.plot.empty() && !words.empty()) {
+    return program::Complain(
+        app, {ErrorCode::kInvalidArgument, "--plot draws all there is: no words beside it"});
+  }
   const auto peer = fleet::JoinAsOperator(
       common, Asks(options) ? exchange::NetworkTopics() : exchange::JoinerTopics());
   if (!peer) return program::Complain(app, peer.error());
@@ -73,6 +80,12 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   if (options.words.empty()) {
     const auto lines = fleet::AskForNetwork(*peer->exchange, peer->self, timeout);
     if (!lines) return program::Complain(app, lines.error());
+    if (!options.plot.empty()) {
+      const auto written = PictureOf(*lines).and_then([&](const plot::NetworkPicture& picture) {
+        return plot::DrawNetwork(picture).Write(options.plot);
+      });
+      if (!written) return program::Complain(app, written.error());
+    }
     return Print(options.json ? fleet::NetworkJson(*lines) : fleet::NetworkText(*lines));
   }
   if (Asks(options)) {
@@ -98,6 +111,9 @@ Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common
   app->footer(kExamples);
   app->add_option("WORDS", options->words, "What to change, or to ask: see below");
   app->add_flag("--json", options->json, "For programs");
+  app->add_option("--plot", options->plot,
+                  "Where a picture of it goes (PNG, or SVG by its name): routes as straight lines, "
+                  "metres to scale, joints, what is closed or limited, names");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));

@@ -102,7 +102,7 @@ class Question final : public ErrandFor<Reply> {
   [[nodiscard]] Result<Reply> Outcome() const override {
     if (!reply_) return Fail(ErrorCode::kUnavailable, "no route server answers");
     if (reply_->error.empty()) return *reply_;
-    return Fail(wrong_, "server {}: {}", reply_->server.value(), reply_->error);
+    return Fail(wrong_, "server '{}': {}", reply_->server.value(), reply_->error);
   }
 
   Request request_;

@@ -79,7 +79,7 @@ TEST_F(NetworkClientTest, TellsWhyAChangeWasNotMade) {
   EXPECT_THAT(AskToJoin(*desk, AgentId("desk"), "close hall", kPatience).value(), SizeIs(1));
   const auto refused = AskToJoin(*desk, AgentId("desk"), "close attic", kPatience);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("server server: there is no route 'attic'"));
+  EXPECT_THAT(refused.error().message, HasSubstr("server 'server': there is no route 'attic'"));
 }
 
 TEST(NetworkTexts, AreForPeopleAndForPrograms) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "services/plot/drawing.h"
+
+namespace trailcast::plot {
+
+// Routes as lines of a railway map: metres along them to scale, how they bend not at all. Places
+// are given by a route's position in `routes` and metres along it.
+struct NetworkPicture {
+  struct Place {
+    std::size_t route = 0;
+    double along_m = 0.0;
+  };
+  enum class Part { kClosed, kLimited };
+  struct Marked {
+    Part part = Part::kClosed;
+    double from_m = 0.0;
+    double to_m = 0.0;
+  };
+  struct Route {
+    std::string name{};
+    double length_m = 0.0;
+    std::vector<Marked> marked{};
+  };
+  struct Joint {
+    Place from{};
+    Place to{};
+    bool both = false;
+    bool used = true;  // drawn dashed where not
+  };
+  struct Name {
+    std::string name{};
+    Place place{};
+  };
+
+  std::vector<Route> routes{};
+  std::vector<Joint> joints{};
+  std::vector<Name> names{};
+};
+
+// A route a row, moved along so that the first joint to a row above it stands upright; a joint of a
+// route with itself is a bow below it. At least one route.
+[[nodiscard]] Drawing DrawNetwork(const NetworkPicture& network);
+
+// Where each row begins, metres from the picture's left; the smallest is 0.
+[[nodiscard]] std::vector<double> RowStarts(const NetworkPicture& network);
+
+}  // namespace trailcast::plot
