@@ -14,7 +14,7 @@ if(TRAILCAST_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${TRAILCAST_CCACHE}")
 endif()
 
-option(TRAILCAST_UNITY "Compile tests' sources eight at a time" ON)
+option(TRAILCAST_UNITY "Compile sources eight at a time" ON)
 
 set(TRAILCAST_SANITIZE "" CACHE STRING "Comma-separated sanitizers, e.g. address,undefined")
 if(TRAILCAST_SANITIZE)
@@ -37,11 +37,21 @@ function(trailcast_target_defaults target)
                                               "$<INSTALL_INTERFACE:include/trailcast>")
 endfunction()
 
-# trailcast_library(<name> SOURCES a.cc b.cc DEPS x PRIVATE_DEPS y)
+function(trailcast_compile_together target)
+  if(TRAILCAST_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
+
+# trailcast_library(<name> SOURCES a.cc b.cc APART c.cc DEPS x PRIVATE_DEPS y)
+# Sources are compiled eight at a time, which takes half the time; APART: one by one, since they
+# name things of their own like others do.
 function(trailcast_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
-  add_library(${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;APART;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
+  trailcast_compile_together(${name})
+  set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
 endfunction()
 
@@ -53,13 +63,14 @@ function(trailcast_executable name)
   target_link_libraries(${name} PRIVATE ${ARG_DEPS})
 endfunction()
 
-# trailcast_test(<name> LABEL unit|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
+# trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
 # with TOGETHER they are one, since they share what is slow to start. ALONE: nothing runs beside
-# them, since they measure time. Sources are compiled eight at a time, which takes half the time;
-# APART: one by one, since they name things alike.
+# them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock.
+# APART: sources are compiled one by one, since they name things alike.
+# NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;APART" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;APART;NUMERIC" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 180)
   endif()
@@ -69,10 +80,14 @@ function(trailcast_test name)
   add_executable(${name} ${ARG_SOURCES})
   trailcast_target_defaults(${name})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
-  # A quarter less time to compile; what is tested is optimised all the same.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(TRAILCAST_UNITY AND NOT ARG_APART)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # Much less time to compile; what is tested is optimised all the same.
+  if(TRAILCAST_SANITIZE AND NOT ARG_NUMERIC)
+    target_compile_options(${name} PRIVATE -O0)
+  else()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(NOT ARG_APART)
+    trailcast_compile_together(${name})
   endif()
   target_compile_definitions(
     ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -82,9 +97,13 @@ function(trailcast_test name)
     set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
     return()
   endif()
+  set(beside RUN_SERIAL ${ARG_ALONE})
+  if(ARG_REAL_TIME)
+    set(beside RESOURCE_LOCK real_time COST 1000) # begun first, so that others fill the other cores
+  endif()
   gtest_discover_tests(
     ${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 # from a cold disk, beside other work
-    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
+    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${beside})
 endfunction()
 
 # trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.

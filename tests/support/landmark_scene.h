@@ -36,7 +36,10 @@ class LandmarkScene {
     std::vector<Eigen::Vector3d> landmarks;
     for (int i = 0; i < count; ++i) {
       const double side = i % 2 == 0 ? 1.0 : -1.0;
-      landmarks.emplace_back(uniform(from_m, to_m), side * uniform(1.0, 4.0), uniform(-1.0, 1.5));
+      // One after the other: the same scene whatever the compiler.
+      const double up_m = uniform(-1.0, 1.5);
+      const double beside_m = side * uniform(1.0, 4.0);
+      landmarks.emplace_back(uniform(from_m, to_m), beside_m, up_m);
     }
     return LandmarkScene(landmarks);
   }
