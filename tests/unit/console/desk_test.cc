@@ -176,7 +176,7 @@ TEST_F(DeskTest, AServerSaysWhatItHasAndWhyItChangesNothing) {
   const auto why = edited.get();
   ASSERT_FALSE(why);
   EXPECT_EQ(why.error().code, ErrorCode::kConflict);
-  EXPECT_THAT(why.error().message, HasSubstr("barn: there is none before it"));
+  EXPECT_THAT(why.error().message, HasSubstr("'barn': there is none before it"));
 }
 
 TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {

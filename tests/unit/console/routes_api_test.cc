@@ -185,7 +185,7 @@ TEST_F(RoutesApiTest, ARevisionIsActivatedRetiredAndRefusedWithTheReason) {
       << "it is so already";
   const Replied back = Post("/api/routes/aisle-0/edits", {{"action", "rollback"}});
   EXPECT_EQ(back.status, 409);
-  EXPECT_THAT(back.body["error"].get<std::string>(), HasSubstr("server barn: "));
+  EXPECT_THAT(back.body["error"].get<std::string>(), HasSubstr("server 'barn': "));
   EXPECT_EQ(Post("/api/routes/attic/edits", {{"action", "retire"}}).status, 409);
   const Replied retired =
       Post("/api/routes/aisle-0/edits", {{"action", "retire"}, {"revision", 2}});
