@@ -31,8 +31,12 @@ endif()
 function(trailcast_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
-                                           -Wnon-virtual-dtor -Woverloaded-virtual)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wnon-virtual-dtor
+                                           -Woverloaded-virtual)
+  # Clang has a source's own names shadowed by those of another one that is compiled with it.
+  if(NOT (TRAILCAST_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
+    target_compile_options(${target} PRIVATE -Wshadow)
+  endif()
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
                                               "$<INSTALL_INTERFACE:include/trailcast>")
 endfunction()
