@@ -53,6 +53,10 @@ bool IsFollowable(const route::RouteInfo& info) {
   return info.state == route::RouteState::kComplete && info.standing == route::Standing::kActive;
 }
 
+std::string ListedText(const std::string& edit, bool used) {
+  return used ? edit : std::string(network::kUnused) + edit;
+}
+
 std::string OrdersFor(const network::Stretch& stretch, const std::string& called) {
   return mission::ToText({.route = {.route = called},
                           .from_m = ToCentimetre(stretch.from_m),
@@ -269,13 +273,13 @@ Result<Lines> NetworkBoard::All() {
   Lines lines;
   for (const auto& [id, known] : known_) {
     if (!known.followed) continue;
-    lines.push_back(fmt::format("route {} {:.2f}", known.called, known.followed->length_m));
+    lines.push_back(network::ToText(
+        network::Route{.name = known.called, .length_m = known.followed->length_m}));
   }
   for (const Joint& joint : joints_) {
     const auto called = Called(joint);
     if (!called) return tl::unexpected(called.error());
-    const bool used = IsUsed(joint.from) && IsUsed(joint.to);
-    lines.push_back((used ? "" : "unused ") + network::ToText(*called));
+    lines.push_back(ListedText(network::ToText(*called), IsUsed(joint.from) && IsUsed(joint.to)));
   }
   for (Condition condition : conditions_) {
     condition.route = Called(RouteId(condition.route));
@@ -284,7 +288,7 @@ Result<Lines> NetworkBoard::All() {
   for (const auto& [name, place] : named_) {
     const auto called = Called(NamedPlace{name, place});
     if (!called) return tl::unexpected(called.error());
-    lines.push_back((IsUsed(place) ? "" : "unused ") + network::ToText(*called));
+    lines.push_back(ListedText(network::ToText(*called), IsUsed(place)));
   }
   return lines;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,9 +22,7 @@ namespace trailcast::network {
 //   name NAME PLACE            it is called so; whatever was called so no longer is
 //   forget NAME
 // A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
-// that is followed; FROM..TO metres along it, either may be missing. As the server lists it, each
-// line is what brings it about, the joints of revisions that are not followed with "unused" before
-// it, and "route ROUTE METRES" the length of one that is named.
+// that is followed; FROM..TO metres along it, either may be missing.
 struct Edit {
   enum class Kind { kJoin, kPart, kClose, kOpen, kLimit, kName, kForget };
   Kind kind = Kind::kJoin;
@@ -37,6 +36,17 @@ inline constexpr double kToTheEnd_m = 1e7;
 
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
+
+// A line of what a server lists: a route that it names, "route ROUTE METRES", or what is so, as the
+// edit that brings it about. Of a line that a later version may have, neither.
+struct Listed {
+  bool used = true;              // false: of a revision that robots do not follow
+  std::optional<Route> route{};  // its name and length
+  std::optional<Edit> edit{};
+};
+[[nodiscard]] Listed ParseListed(std::string_view line);
+// Before an edit that is not used.
+inline constexpr std::string_view kUnused = "unused ";
 
 // A PLACE, or what one is called: then `name` alone is set.
 struct Goal {
@@ -58,6 +68,7 @@ struct Question {
 // "hall@12", "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
+[[nodiscard]] std::string ToText(const Route& route);          // "route .."
 [[nodiscard]] std::string ToText(const NamedPlace& named);     // "name .."
 [[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
 [[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."

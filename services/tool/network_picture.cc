@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <string_view>
+#include <utility>
 
-#include "services/base/number.h"
 #include "services/network/words.h"
 
 namespace trailcast::tool {
@@ -14,42 +13,31 @@ namespace {
 using network::Edit;
 using plot::NetworkPicture;
 
-constexpr std::string_view kRoute = "route ";
-constexpr std::string_view kUnused = "unused ";
-
 class Reader {
  public:
-  void Take(std::string_view line) {
-    if (line.starts_with(kRoute)) return TakeRoute(line.substr(kRoute.size()));
-    const bool used = !line.starts_with(kUnused);
-    if (!used) line.remove_prefix(kUnused.size());
-    const auto edit = network::ParseEdit(line);
-    if (!edit) return;
-    switch (edit->kind) {
+  // Each once, and before what is on them.
+  void TakeRoute(const network::Route& route) {
+    numbers_.emplace(route.name, picture_.routes.size());
+    picture_.routes.push_back({.name = route.name, .length_m = route.length_m});
+  }
+
+  void TakeEdit(const Edit& edit, bool used) {
+    switch (edit.kind) {
       case Edit::Kind::kJoin:
-        return TakeJoint(edit->joint, used);
+        return TakeJoint(edit.joint, used);
       case Edit::Kind::kName:
-        if (const auto at = Find(edit->named.place)) {
-          picture_.names.push_back({edit->named.name, *at});
+        if (const auto at = Find(edit.named.place)) {
+          picture_.names.push_back({edit.named.name, *at});
         }
         return;
       default:
-        return TakeCondition(edit->condition);
+        return TakeCondition(edit.condition);
     }
   }
 
   [[nodiscard]] NetworkPicture picture() && { return std::move(picture_); }
 
  private:
-  void TakeRoute(std::string_view text) {
-    const std::size_t blank = std::min(text.rfind(' '), text.size());
-    const auto length_m = ParseNumber<double>(text.substr(std::min(blank + 1, text.size())));
-    if (!length_m) return;
-    const std::string name(text.substr(0, blank));
-    if (!numbers_.emplace(name, picture_.routes.size()).second) return;
-    picture_.routes.push_back({.name = name, .length_m = *length_m});
-  }
-
   void TakeJoint(const network::Joint& joint, bool used) {
     const auto from = Find(joint.from);
     const auto to = Find(joint.to);
@@ -81,14 +69,19 @@ class Reader {
 }  // namespace
 
 Result<NetworkPicture> PictureOf(const std::vector<std::string>& lines) {
+  std::vector<network::Listed> listed;
+  listed.reserve(lines.size());
+  for (const std::string& line : lines) listed.push_back(network::ParseListed(line));
   // Rows by name: servers list routes by their ids, which are drawn at random.
-  std::vector<std::string> rows_first = lines;
-  const auto others =
-      std::stable_partition(rows_first.begin(), rows_first.end(),
-                            [](const std::string& line) { return line.starts_with(kRoute); });
-  std::sort(rows_first.begin(), others);
+  std::map<std::string, network::Route> routes;
+  for (const network::Listed& each : listed) {
+    if (each.route) routes.emplace(each.route->name, *each.route);
+  }
   Reader reader;
-  for (const std::string& line : rows_first) reader.Take(line);
+  for (const auto& [name, route] : routes) reader.TakeRoute(route);
+  for (const network::Listed& each : listed) {
+    if (each.edit) reader.TakeEdit(*each.edit, each.used);
+  }
   NetworkPicture picture = std::move(reader).picture();
   if (picture.routes.empty()) {
     return Fail(ErrorCode::kNotFound, "no routes are joined: there is nothing to draw");

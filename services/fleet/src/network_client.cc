@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "services/base/number.h"
 #include "services/fleet/ask.h"
 #include "services/fleet/draw.h"
 #include "services/mission/orders.h"
@@ -22,9 +21,6 @@ using program::JsonList;
 using program::JsonText;
 using std::chrono::milliseconds;
 using Lines = std::vector<std::string>;
-
-constexpr std::string_view kUnused = "unused ";
-constexpr std::string_view kRoute = "route ";
 
 Result<Lines> AskForLines(exchange::RouteExchange& exchange, exchange::NetworkRequest question,
                           milliseconds timeout) {
@@ -68,11 +64,9 @@ std::string ConditionJson(const network::Condition& condition) {
   return text + "}";
 }
 
-std::string RouteJson(std::string_view line) {
-  const std::size_t blank = std::min(line.find(' '), line.size());
-  const auto length_m = ParseNumber<double>(line.substr(std::min(blank + 1, line.size())));
-  return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(line.substr(0, blank)),
-                     length_m.value_or(0.0));
+std::string RouteJson(const network::Route& route) {
+  return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(route.name),
+                     route.length_m);
 }
 
 // The stretches; of orders that are no stretch, none.
@@ -111,11 +105,12 @@ std::string NetworkText(const Lines& lines) {
   if (lines.empty()) return "no routes are joined, and none is closed\n";
   std::string text;
   for (const std::string& line : lines) {
-    if (line.starts_with(kRoute)) {
+    const network::Listed listed = network::ParseListed(line);
+    if (listed.route) {
       text += line + " m\n";
-    } else if (line.starts_with(kUnused)) {
-      text +=
-          line.substr(kUnused.size()) + "   (not used: robots follow another revision, or none)\n";
+    } else if (!listed.used) {
+      text += line.substr(network::kUnused.size()) +
+              "   (not used: robots follow another revision, or none)\n";
     } else {
       text += line + "\n";
     }
@@ -129,21 +124,15 @@ std::string NetworkJson(const Lines& lines) {
   Lines closed;
   Lines limits;
   Lines names;
-  for (std::string_view line : lines) {
-    if (line.starts_with(kRoute)) {
-      routes.push_back(RouteJson(line.substr(kRoute.size())));
-      continue;
-    }
-    const bool unused = line.starts_with(kUnused);
-    if (unused) line.remove_prefix(kUnused.size());
-    const auto edit = network::ParseEdit(line);
+  for (const std::string& line : lines) {
+    const auto [used, route, edit] = network::ParseListed(line);
+    if (route) routes.push_back(RouteJson(*route));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
-      joints.push_back(JointJson(edit->joint, !unused));
+      joints.push_back(JointJson(edit->joint, used));
     } else if (edit->kind == network::Edit::Kind::kName) {
       names.push_back(fmt::format("{{\"name\": {}, \"place\": {}, \"used\": {}}}",
-                                  JsonText(edit->named.name), PlaceJson(edit->named.place),
-                                  !unused));
+                                  JsonText(edit->named.name), PlaceJson(edit->named.place), used));
     } else {
       (edit->condition.closed ? closed : limits).push_back(ConditionJson(edit->condition));
     }

@@ -22,6 +22,7 @@ constexpr const char* kEdits =
     "'name "
     "NAME PLACE' or 'forget NAME'";
 constexpr std::size_t kLongestName = 64;
+constexpr std::string_view kRoute = "route ";
 
 // To the centimetre.
 std::string Metres(double metres) {
@@ -192,6 +193,23 @@ Result<Edit> ParseEdit(std::string_view text) {
   return edit;
 }
 
+Listed ParseListed(std::string_view line) {
+  Listed listed;
+  if (line.starts_with(kRoute)) {
+    line.remove_prefix(kRoute.size());
+    const std::size_t blank = std::min(line.rfind(' '), line.size());
+    const auto length_m = ParseNumber<double>(line.substr(std::min(blank + 1, line.size())));
+    if (length_m) {
+      listed.route = {.name = std::string(line.substr(0, blank)), .length_m = *length_m};
+    }
+    return listed;
+  }
+  listed.used = !line.starts_with(kUnused);
+  if (!listed.used) line.remove_prefix(kUnused.size());
+  if (auto edit = ParseEdit(line)) listed.edit = *std::move(edit);
+  return listed;
+}
+
 Result<Question> ParseQuestion(std::string_view text) {
   Words words(text);
   if (!words.TakeIf("way")) return Wrong(words.Next(), "'way FROM TO'");
@@ -225,6 +243,10 @@ Result<Place> ParsePlace(std::string_view word) {
 }
 
 std::string ToText(const Place& place) { return place.route + "@" + Metres(place.along_m); }
+
+std::string ToText(const Route& route) {
+  return fmt::format("{}{} {:.2f}", kRoute, route.name, route.length_m);
+}
 
 std::string ToText(const NamedPlace& named) {
   return "name " + named.name + " " + ToText(named.place);

@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "services/plot/plot_style.h"
+#include "tests/support/count_near.h"
 
 namespace trailcast::plot {
 namespace {
@@ -14,16 +13,7 @@ using testing::DoubleEq;
 using testing::ElementsAre;
 
 int CountNear(const NetworkPicture& network, image::Color color) {
-  const image::RgbImage picture = DrawNetwork(network).Render();
-  int count = 0;
-  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
-    int difference = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      difference += std::abs(static_cast<int>(picture.pixels[i + c]) - color[c]);
-    }
-    count += difference < 30 ? 1 : 0;
-  }
-  return count;
+  return test::CountNear(DrawNetwork(network).Render(), color);
 }
 
 // office leaves hall at 12 m, and comes back to it; the ring is by itself.

@@ -2,23 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstddef>
+#include "tests/support/count_near.h"
 
 namespace trailcast::plot {
 namespace {
 
-int CountNear(const image::RgbImage& picture, image::Color color) {
-  int count = 0;
-  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
-    int difference = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      difference += std::abs(static_cast<int>(picture.pixels[i + c]) - color[c]);
-    }
-    count += difference < 30 ? 1 : 0;
-  }
-  return count;
-}
+using test::CountNear;
 
 Plan TwoPaths() {
   Plan plan;
