@@ -248,9 +248,8 @@ Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
   named.place = *std::move(place);
   if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
   named_[named.name] = named.place;
-  if (auto known = Know({KeyOf(named.place.route).route}); !known) {
-    return tl::unexpected(known.error());
-  }
+  network_.reset();
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
   const auto called = Called(named);
   if (!called) return tl::unexpected(called.error());
   return Lines{network::ToText(*called)};

@@ -185,6 +185,9 @@ TEST_F(NetworkBoardTest, APlaceIsGoneToByItsName) {
                            {"route ring 8.00", "name door ring@1", "name loading-bay office@8"}));
   EXPECT_THAT(Asked("way hall@2 loading-bay"),
               ElementsAre("follow hall 2..12", "follow office 0..8"));
+  Done("name door office@1");
+  EXPECT_THAT(Asked(), testing::Not(testing::Contains(HasSubstr("ring"))))
+      << "nothing is there now";
   Done("name loading-bay office@3");
   Done("name gate hall@11");
   EXPECT_THAT(Asked("way gate loading-bay"),
