@@ -90,7 +90,8 @@ TEST_F(SecurityTest, AnOperatorIsAnsweredAboutTheNetworkAndAnObserverMayAsk) {
   ASSERT_EQ(Teach(scout_keys_).status, 0);
   const Ended closed =
       RunAs(operator_keys_, "trailcast", {"network", "close", "hall", "--timeout", "20"});
-  EXPECT_THAT(closed.output, HasSubstr("server 'server': route 'hall' was taught without odometry"));
+  EXPECT_THAT(closed.output,
+              HasSubstr("server 'server': route 'hall' was taught without odometry"));
   const Ended asked = RunAs(observer_keys_, "trailcast", {"network", "--timeout", "20"});
   EXPECT_EQ(asked.status, 0) << asked.output;
   EXPECT_THAT(asked.output, HasSubstr("no routes are joined"));
