@@ -74,6 +74,12 @@ class Desk {
   [[nodiscard]] Result<exchange::CatalogReply> Routes(const route::RouteQuery& query);
   // The revisions that have changed. kConflict: a server says why it changes nothing.
   [[nodiscard]] Result<exchange::CatalogReply> Edit(const route::RouteEdit& edit);
+  // A page of what a server answers, from its line `first` on: to "way FROM TO", or, to no words,
+  // how routes are joined. kConflict: a server says why not.
+  [[nodiscard]] Result<exchange::NetworkReply> Network(const std::string& words,
+                                                       std::uint32_t first);
+  // Has servers change that, in words; what is so now. kConflict likewise.
+  [[nodiscard]] Result<exchange::NetworkReply> Join(const std::string& words);
 
   // All that is measured, for Prometheus.
   [[nodiscard]] Result<http::MetricsText> Measure();

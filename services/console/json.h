@@ -31,6 +31,9 @@ struct SendBody {
 // {"linear_mps", "turn_radps", "driver", "said_ms"}: all of it.
 [[nodiscard]] Result<Driving::Word> ReadDrive(const std::string& body);
 
+// {"words": ".."}: what is changed of the network, in a server's words (network/words.h).
+[[nodiscard]] Result<std::string> ReadNetworkEdit(const std::string& body);
+
 struct LogInBody {
   std::string user;
   std::string password;

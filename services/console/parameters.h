@@ -5,6 +5,7 @@
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
+#include "services/console/network_query.h"
 #include "services/console/runs_query.h"
 #include "services/mission/mission.h"
 #include "services/route/route_query.h"
@@ -24,6 +25,11 @@ using Parameters = std::multimap<std::string, std::string>;
 
 // Of GET /api/runs.
 [[nodiscard]] Result<RunsQuery> ReadRunsQuery(const Parameters& parameters);
+
+// Of GET /api/network.
+[[nodiscard]] Result<NetworkQuery> ReadNetworkQuery(const Parameters& parameters);
+// Of GET /api/network/way, in a server's words (network/words.h).
+[[nodiscard]] Result<std::string> ReadWayQuestion(const Parameters& parameters);
 
 // Of which teaching, in hexadecimal digits.
 [[nodiscard]] Result<TeachingId> ReadTeaching(const std::string& text);

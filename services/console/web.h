@@ -12,6 +12,7 @@
 #include "services/console/atlas.h"
 #include "services/console/command_counts.h"
 #include "services/console/desk.h"
+#include "services/console/network_watch.h"
 #include "services/console/site.h"
 #include "services/console/transfers.h"
 #include "services/http/door.h"
@@ -54,6 +55,7 @@ class Web {
 
   Desk& desk_;
   Access access_;
+  NetworkWatch network_;
   std::optional<Transfers> transfers_;
   http::Door door_;
   std::atomic<int> streams_{0};

@@ -24,6 +24,9 @@ namespace trailcast::fleet {
                                                          const std::string& to,
                                                          std::chrono::milliseconds timeout);
 
+// A way as one mission's orders. kInvalidArgument: it has more stretches than one holds.
+[[nodiscard]] Result<std::string> OrdersAlong(const std::vector<std::string>& way);
+
 // Has the servers in reach change it, in words; the first reply has what is so now, or, of joints
 // that are parted, was so.
 [[nodiscard]] Result<std::vector<std::string>> AskToJoin(exchange::RouteExchange& exchange,

@@ -9,7 +9,6 @@
 
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
-#include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
@@ -96,12 +95,7 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
   } else if (way->empty()) {
     fmt::print("{}", fleet::WayJson(*way));
   }
-  std::string orders = fmt::format("{}", fmt::join(*way, " "));
-  if (orders.size() <= exchange::kMaxLineBytes) return orders;
-  return Fail(ErrorCode::kInvalidArgument,
-              "the way has {} stretches, more than one mission holds: send it to a place on the "
-              "way first ('trailcast network way' shows it)",
-              way->size());
+  return fleet::OrdersAlong(*way);
 }
 
 int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {

@@ -1,10 +1,13 @@
 // Requests to the console: their bodies, and what stands behind their question mark; its file of
-// users, and the files of its site.
+// users, and the files of its site; what a server lists of its network.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "services/base/text.h"
 #include "services/console/json.h"
+#include "services/console/network_list.h"
 #include "services/console/parameters.h"
 #include "services/console/site.h"
 #include "services/exchange/bounds.h"
@@ -28,6 +31,17 @@ console::Parameters ParametersIn(const std::string& text) {
     at = end + 1;
   }
   return parameters;
+}
+
+// As a server lists its network.
+std::vector<std::string> LinesIn(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
 }
 
 }  // namespace
@@ -86,6 +100,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Require(exchange::CheckBounds(request).has_value(), "a question may be published");
   }
   (void)console::ReadRunsQuery(parameters);
+  const auto part = console::ReadNetworkQuery(parameters);
+  (void)console::NetworkList(LinesIn(body), true).Body(part.value_or(console::NetworkQuery{}));
+  if (const auto question = console::ReadWayQuestion(parameters)) {
+    const exchange::NetworkRequest request{AgentId("desk"), 1, *question, 0};
+    Require(exchange::CheckBounds(request).has_value(), "a way may be asked for");
+  }
+  if (const auto words = console::ReadNetworkEdit(body)) {
+    const exchange::NetworkEdit change{AgentId("desk"), 1, *words};
+    Require(exchange::CheckBounds(change).has_value(), "a change may be published");
+  }
   (void)console::ErrorBody(body);
   if (const auto users = users::ParseUsers(body)) {
     const auto again = users::ParseUsers(users::TextOf(*users));

@@ -113,6 +113,8 @@ class Question final : public ErrandFor<Reply> {
 using MissionQuestion = Question<exchange::MissionRequest, exchange::MissionReply>;
 using RouteQuestion = Question<exchange::CatalogRequest, exchange::CatalogReply>;
 using RouteChange = Question<exchange::RouteEditRequest, exchange::CatalogReply>;
+using NetworkQuestion = Question<exchange::NetworkRequest, exchange::NetworkReply>;
+using NetworkChange = Question<exchange::NetworkEdit, exchange::NetworkReply>;
 
 // Looks at the desk's own state, in its thread.
 class MeasureErrand final : public ErrandFor<http::MetricsText> {
@@ -150,16 +152,19 @@ tl::unexpected<Error> TooMuch() {
 
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
-                    Topic::kRouteEdits, Topic::kDrives, Topic::kGlanceRequests},
+                    Topic::kRouteEdits, Topic::kDrives, Topic::kGlanceRequests,
+                    Topic::kNetworkEdits, Topic::kNetworkRequests},
           .read = {Topic::kGlances, Topic::kNowAnswers, Topic::kMissionStates,
-                   Topic::kMissionReplies, Topic::kCatalogReplies},
+                   Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kNetworkReplies},
           // Said again all the time: to confirm each would cost the radio as much again.
           .overhear = {Topic::kAgents}};
 }
 
 exchange::TopicUse LookingTopics() {
-  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kGlanceRequests},
-          .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kGlances},
+  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kGlanceRequests,
+                    Topic::kNetworkRequests},
+          .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kGlances,
+                   Topic::kNetworkReplies},
           .overhear = {Topic::kAgents}};
 }
 
@@ -230,6 +235,20 @@ Result<exchange::CatalogReply> Desk::Edit(const route::RouteEdit& edit) {
   const exchange::RouteEditRequest request{self_, fleet::DrawNumber(), edit};
   return CarryOut(
       std::make_shared<RouteChange>(request, options_.reply_within, ErrorCode::kConflict), false,
+      options_.reply_within);
+}
+
+Result<exchange::NetworkReply> Desk::Network(const std::string& words, std::uint32_t first) {
+  const exchange::NetworkRequest request{self_, fleet::DrawNumber(), words, first};
+  return CarryOut(
+      std::make_shared<NetworkQuestion>(request, options_.reply_within, ErrorCode::kConflict),
+      false, options_.reply_within);
+}
+
+Result<exchange::NetworkReply> Desk::Join(const std::string& words) {
+  const exchange::NetworkEdit edit{self_, fleet::DrawNumber(), words};
+  return CarryOut(
+      std::make_shared<NetworkChange>(edit, options_.reply_within, ErrorCode::kConflict), false,
       options_.reply_within);
 }
 

@@ -12,6 +12,7 @@
 #include "services/console/src/words.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
+#include "services/network/words.h"
 
 namespace trailcast::console {
 namespace {
@@ -179,6 +180,15 @@ Result<route::RouteEdit> ReadRouteEdit(const std::string& route, const std::stri
     return tl::unexpected(possible.error());
   }
   return edit;
+}
+
+Result<std::string> ReadNetworkEdit(const std::string& body) {
+  return ReadObject(body, {"words"})
+      .and_then([](const Json& json) { return LineIn(json, "words"); })
+      .and_then([](const std::string& words) -> Result<std::string> {
+        if (const auto edit = network::ParseEdit(words); !edit) return tl::unexpected(edit.error());
+        return words;
+      });
 }
 
 Result<LogInBody> ReadLogIn(const std::string& body) {

@@ -1,13 +1,17 @@
 #include "services/console/parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <utility>
 
 #include "services/base/number.h"
 #include "services/base/text.h"
 #include "services/console/src/words.h"
 #include "services/exchange/bounds.h"
+#include "services/network/words.h"
 #include "services/route/bounds.h"
 #include "services/route/query_words.h"
 
@@ -16,6 +20,7 @@ namespace {
 
 constexpr std::uint32_t kRoutesAPage = 50;
 constexpr std::uint32_t kMostRoutesAPage = 200;
+constexpr std::uint32_t kMostRoutesDrawn = 500;
 constexpr double kWithin_m = 50.0;
 constexpr std::size_t kMostNameBytes = 128;
 
@@ -223,6 +228,45 @@ Result<RunsQuery> ReadRunsQuery(const Parameters& parameters) {
     return tl::unexpected(read.error());
   }
   return query;
+}
+
+Result<NetworkQuery> ReadNetworkQuery(const Parameters& parameters) {
+  using Query = NetworkQuery;
+  static const Readers<Query> kAll{{"search", LoggedNameInto<Query>(&Query::search)},
+                                   {"around", LoggedNameInto<Query>(&Query::around)},
+                                   {"limit", LimitInto<Query>(&Query::limit, kMostRoutesDrawn)}};
+  Query query;
+  if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  if (query.search.empty() || query.around.empty()) return query;
+  return Fail(ErrorCode::kInvalidArgument, "'search' and 'around' exclude each other");
+}
+
+Result<std::string> ReadWayQuestion(const Parameters& parameters) {
+  struct Ends {
+    std::string from;
+    std::string to;
+  };
+  static const Readers<Ends> kAll{{"from", LoggedNameInto<Ends>(&Ends::from)},
+                                  {"to", LoggedNameInto<Ends>(&Ends::to)}};
+  Ends ends;
+  if (auto read = ReadParameters(parameters, kAll, "", ends); !read) {
+    return tl::unexpected(read.error());
+  }
+  for (const auto& [name, word] : {std::pair("from", &ends.from), std::pair("to", &ends.to)}) {
+    if (const auto goal = network::ParseGoal(*word); !goal) {
+      return Wrap(goal.error(), fmt::format("'{}'", name));
+    }
+  }
+  const std::string words = fmt::format("way {} {}", ends.from, ends.to);
+  if (!IsPlainText(words, exchange::kMaxLineBytes)) {
+    return Fail(ErrorCode::kInvalidArgument, "places are to be text of one line");
+  }
+  if (const auto question = network::ParseQuestion(words); !question) {
+    return tl::unexpected(question.error());
+  }
+  return words;
 }
 
 Result<TeachingId> ReadTeaching(const std::string& text) {

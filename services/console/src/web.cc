@@ -17,6 +17,7 @@
 #include "services/console/src/glances_api.h"
 #include "services/console/src/history_api.h"
 #include "services/console/src/map_api.h"
+#include "services/console/src/network_api.h"
 #include "services/console/src/routes_api.h"
 #include "services/console/src/runs_api.h"
 #include "services/console/src/transfers_api.h"
@@ -58,8 +59,8 @@ std::string IdFor(const users::Who& who) {
 // for a picture; stops have enough left. Where strangers come, too, one address has enough for a
 // room of people, and leaves more.
 http::Limits LimitsFor(const Access& access) {
-  constexpr std::size_t kOwn =
-      Web::kMostStreams + Desk::kMostErrands + kMostLookers + Runs::kMostWaiting + 16;
+  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers +
+                               Runs::kMostWaiting + NetworkWatch::kMostWaiting + 16;
   if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
@@ -67,7 +68,7 @@ http::Limits LimitsFor(const Access& access) {
 }  // namespace
 
 Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
-    : desk_(desk), access_(std::move(entry)), server_(LimitsFor(access_)) {
+    : desk_(desk), access_(std::move(entry)), network_(desk), server_(LimitsFor(access_)) {
   httplib::Headers headers{
       {"Content-Security-Policy",
        "default-src 'self'; base-uri 'none'; form-action 'none'; "
@@ -99,6 +100,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeMetrics();
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
+  ServeNetwork(server_, desk_, network_, access_);
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
 #include "services/fleet/draw.h"
 #include "services/mission/orders.h"
@@ -91,6 +92,15 @@ Result<Lines> AskForNetwork(exchange::RouteExchange& exchange, const AgentId& cl
 Result<Lines> AskForWay(exchange::RouteExchange& exchange, const AgentId& client,
                         const std::string& from, const std::string& to, milliseconds timeout) {
   return AskForLines(exchange, {.client = client, .words = "way " + from + " " + to}, timeout);
+}
+
+Result<std::string> OrdersAlong(const Lines& way) {
+  std::string orders = fmt::format("{}", fmt::join(way, " "));
+  if (orders.size() <= exchange::kMaxLineBytes) return orders;
+  return Fail(ErrorCode::kInvalidArgument,
+              "the way has {} stretches, more than one mission holds: send it to a place on the "
+              "way first ('trailcast network way' shows it)",
+              way.size());
 }
 
 Result<Lines> AskToJoin(exchange::RouteExchange& exchange, const AgentId& client,

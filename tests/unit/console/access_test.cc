@@ -138,7 +138,10 @@ TEST_F(AccessTest, WhatARoleMayNotIsRefused) {
   const httplib::Headers guest = As("guest");
   EXPECT_EQ(Get("/api/state", guest).status, 200);
   EXPECT_EQ(Get("/api/me", guest).body["role"], "look");
-  for (const char* path : {"/api/all/stop", "/api/robots/robot1/stop", "/api/robots/r/missions"}) {
+  EXPECT_EQ(Get("/api/network", guest).status, 503) << "no server is there";
+  EXPECT_EQ(Get("/api/network/way?from=a@1&to=b@1", guest).status, 503);
+  for (const char* path : {"/api/all/stop", "/api/robots/robot1/stop", "/api/robots/r/missions",
+                           "/api/network/edits"}) {
     const Got refused = Post(path, guest);
     EXPECT_EQ(refused.status, 403) << path;
     EXPECT_EQ(refused.body["error"], "guest may not do this: that takes the role 'operate'");

@@ -43,6 +43,15 @@ TEST(ConsoleBodies, AMissionNeedsOrdersThatAreUnderstood) {
   }
 }
 
+TEST(ConsoleBodies, TheNetworkIsChangedInWordsThatAreUnderstood) {
+  EXPECT_EQ(ReadNetworkEdit(R"({"words": "close hall 3..7"})").value(), "close hall 3..7");
+  EXPECT_THAT(ReadNetworkEdit(R"({"words": "dance"})").error().message, HasSubstr("dance"));
+  for (const char* wrong : {"", "{}", R"({"words": ""})", R"({"words": 1})",
+                            R"({"words": "close hall", "by": "anna"})"}) {
+    EXPECT_FALSE(ReadNetworkEdit(wrong)) << wrong;
+  }
+}
+
 TEST(ConsoleBodies, AQueryIsAsTheCatalogHasIt) {
   EXPECT_EQ(ReadRouteQuery({})->page_size, 50U);
   const auto query = ReadRouteQuery({{"prefix", "barn-"},

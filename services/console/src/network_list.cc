@@ -1,0 +1,136 @@
+#include "services/console/network_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "services/fleet/network_client.h"
+#include "services/network/words.h"
+#include "services/program/json.h"
+
+namespace trailcast::console {
+namespace {
+
+using network::Edit;
+
+// Without what tells revisions apart: "hall" of "hall@2".
+std::string WithoutRevision(const std::string& route) { return route.substr(0, route.rfind('@')); }
+
+std::string Lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+}  // namespace
+
+NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : whole_(whole) {
+  std::vector<std::pair<const std::string*, Edit>> edits;
+  for (const std::string& line : lines) {
+    network::Listed listed = network::ParseListed(line);
+    if (listed.route && !listed.route->name.empty()) {
+      routes_.push_back({listed.route->name, Lower(listed.route->name), line, {}});
+    } else if (listed.edit) {
+      edits.emplace_back(&line, *std::move(listed.edit));
+    }
+  }
+  std::stable_sort(routes_.begin(), routes_.end(),
+                   [](const Route& one, const Route& other) { return one.name < other.name; });
+  const auto is_same = [](const Route& one, const Route& other) { return one.name == other.name; };
+  routes_.erase(std::unique(routes_.begin(), routes_.end(), is_same), routes_.end());
+  for (std::size_t i = 0; i < routes_.size(); ++i) numbers_.emplace(routes_[i].name, i);
+
+  const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
+    auto at = numbers_.find(name);
+    if (at == numbers_.end()) at = numbers_.find(WithoutRevision(name));
+    return at == numbers_.end() ? std::nullopt : std::optional(at->second);
+  };
+  for (const auto& [line, edit] : edits) {
+    if (edit.kind == Edit::Kind::kJoin) {
+      ++joints_;
+      const auto from = find(edit.joint.from.route);
+      const auto to = find(edit.joint.to.route);
+      if (!from || !to) continue;
+      marks_.push_back({Kind::kJoint, *from, *to, *line});
+      if (*from == *to) continue;
+      routes_[*from].joined.push_back(*to);
+      routes_[*to].joined.push_back(*from);
+      continue;
+    }
+    const bool is_name = edit.kind == Edit::Kind::kName;
+    const auto at = find(is_name ? edit.named.place.route : edit.condition.route);
+    if (!at) continue;
+    marks_.push_back({is_name ? Kind::kName : Kind::kCondition, *at, *at, *line});
+    if (!is_name) continue;
+    routes_[*at].lower += '\n';
+    routes_[*at].lower += Lower(edit.named.name);
+  }
+}
+
+std::vector<std::size_t> NetworkList::Matching(const std::string& search) const {
+  const std::string lower = Lower(search);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < routes_.size(); ++i) {
+    if (routes_[i].lower.find(lower) != std::string::npos) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::size_t> NetworkList::Around(const std::string& route) const {
+  const auto at = numbers_.find(route);
+  if (at == numbers_.end()) return {};
+  std::vector<std::size_t> found{at->second};
+  std::vector<bool> known(routes_.size(), false);
+  known[at->second] = true;
+  for (std::size_t next = 0; next < found.size(); ++next) {
+    for (const std::size_t neighbour : routes_[found[next]].joined) {
+      if (known[neighbour]) continue;
+      known[neighbour] = true;
+      found.push_back(neighbour);
+    }
+  }
+  return found;
+}
+
+std::string NetworkList::Body(const NetworkQuery& query) const {
+  std::vector<std::size_t> found =
+      query.around.empty() ? Matching(query.search) : Around(query.around);
+  const std::size_t matched = found.size();
+  found.resize(std::min<std::size_t>(found.size(), query.limit));
+  std::vector<bool> shown(routes_.size(), false);
+  std::vector<std::string> lines;
+  for (const std::size_t i : found) {
+    shown[i] = true;
+    lines.push_back(routes_[i].line);
+  }
+  std::array<std::size_t, kKinds> marks{};
+  std::size_t left_out = 0;
+  std::map<std::size_t, std::size_t> elsewhere;
+  for (const Mark& mark : marks_) {
+    if (!shown[mark.route] && !shown[mark.other]) continue;
+    if (!shown[mark.route] || !shown[mark.other]) {
+      ++elsewhere[shown[mark.route] ? mark.route : mark.other];
+    } else if (++marks[static_cast<std::size_t>(mark.kind)] > kMostMarks) {
+      ++left_out;
+    } else {
+      lines.push_back(mark.line);
+    }
+  }
+  std::vector<std::string> counts;
+  for (const auto& [route, count] : elsewhere) {
+    counts.push_back(fmt::format("{{\"route\": {}, \"joints\": {}}}",
+                                 program::JsonText(routes_[route].name), count));
+  }
+  return fmt::format(
+      "{{\"network\": {}, \"elsewhere\": {}, \"matched\": {}, \"routes\": {}, \"joints\": {}, "
+      "\"left_out\": {}, \"whole\": {}}}",
+      fleet::NetworkJson(lines), program::JsonList(counts), matched, routes_.size(), joints_,
+      left_out, whole_);
+}
+
+}  // namespace trailcast::console
