@@ -6,6 +6,7 @@
 
 #include "tests/scenario/console_fleet.h"
 #include "tests/scenario/secured_fleet.h"
+#include "tests/scenario/webdriver.h"
 
 namespace trailcast::test {
 namespace {
@@ -123,10 +124,20 @@ TEST_F(ConsoleWithKeysTest, AnObserversConsoleShowsAndRefusesOrders) {
   EXPECT_EQ(route["name"], "hall");
   for (const std::string path :
        {"/api/all/stop", "/api/robots/robot2/missions", "/api/robots/robot2/drive",
-        "/api/routes/hall/edits", "/api/transfers/uploads"}) {
+        "/api/routes/hall/edits", "/api/network/edits", "/api/transfers/uploads"}) {
     const Replied refused = Post(path);
     EXPECT_EQ(refused.status, 403) << path;
     EXPECT_THAT(refused.body.value("error", ""), HasSubstr("has the keys of 'guest'")) << path;
+  }
+  const Replied network = Get("/api/network");
+  EXPECT_EQ(network.status, 200) << network.body.dump();
+  EXPECT_EQ(network.body["routes"], 0);
+  if (Browser::IsThere()) {
+    Browser browser(folder_ / "");
+    ASSERT_TRUE(browser.runs()) << browser.log();
+    browser.Open("http://localhost:" + std::to_string(port_) + "/#network");
+    EXPECT_TRUE(browser.WaitForText("No routes are joined")) << browser.Text();
+    EXPECT_THAT(browser.Text(), testing::Not(HasSubstr("Send a robot")));
   }
   // Its keys give it no segments, and that is said.
   const Replied shape = Shape(route);

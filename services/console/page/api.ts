@@ -240,6 +240,45 @@ export async function where(picture: Blob): Promise<Found | string> {
   }
 }
 
+// A place on a route; the route may be "hall@2", of another revision than robots follow.
+export type Place = { route: string; along_m: number };
+export type Joint = { from: Place; to: Place; both: boolean; used: boolean };
+export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
+export type NamedPlace = { name: string; place: Place; used: boolean };
+
+// Routes that were asked for, with what is on them and between them; and of how many.
+export type NetworkPart = {
+  network: {
+    routes: { route: string; length_m: number }[];
+    joints: Joint[];
+    closed: Stretch[];
+    limits: Stretch[];
+    names: NamedPlace[];
+  };
+  elsewhere: { route: string; joints: number }[];
+  matched: number;
+  routes: number;
+  joints: number;
+  left_out: number;
+  whole: boolean;
+};
+
+export type Way = {
+  way: { length_m: number; stretches: { route: string; from_m: number; to_m: number; speed: number }[] };
+  orders: string;
+};
+
+// What is so then, in the words of `trailcast network`.
+export async function editNetwork(words: string): Promise<{ ok: boolean; now: string[]; why: string }> {
+  try {
+    const { json } = await post('/api/network/edits', { words });
+    if (json.error) return { ok: false, now: [], why: json.error };
+    return { ok: true, now: json.now as string[], why: '' };
+  } catch {
+    return { ok: false, now: [], why: 'The console does not answer: it may have been changed, or not.' };
+  }
+}
+
 // A route on its way as a file: to be downloaded, or uploaded and then delivered to a server.
 export type Transfer = {
   transfer: string;

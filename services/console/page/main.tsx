@@ -8,6 +8,7 @@ import { Doors, OnlyLooks, WhoIsIn } from './login';
 import { MapPage } from './map';
 import { useMay } from './me';
 import { Missions } from './missions';
+import { NetworkPage } from './network';
 import { Pages, usePage } from './pages';
 import { Badge, RobotCard } from './robot';
 import { Routes } from './routes';
@@ -101,6 +102,7 @@ function Page() {
       <main>
         {page === 'fleet' && <Robots fleet={fleet} settled={settled} now_ms={now_ms} />}
         {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} settled={settled} />}
+        {page === 'network' && <NetworkPage robots={fleet?.robots ?? []} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
         {page === 'history' && <History open={open} now_ms={now_ms} />}
       </main>

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'react';
 
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
-const pages = { fleet: 'Fleet', map: 'Map', routes: 'Routes', history: 'History' };
+const pages = { fleet: 'Fleet', map: 'Map', network: 'Network', routes: 'Routes', history: 'History' };
 
 export type PageName = keyof typeof pages;
 

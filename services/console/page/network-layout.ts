@@ -1,0 +1,169 @@
+// Routes as lines of a railway map: metres along them to scale, how they bend not at all.
+import type { Joint, NamedPlace, NetworkPart, Place, Robot, Route, Stretch } from './api';
+
+export type Part = { from_m: number; to_m: number; stretch: Stretch };
+export type Row = {
+  name: string;
+  length_m: number;
+  start_m: number;  // from the drawing's left
+  joined: boolean;  // a server lists it
+  closed: Part[];
+  limits: Part[];
+  names: (NamedPlace & { along_m: number })[];
+  joints: Joint[];
+  elsewhere: number;  // joints with routes that are not shown
+  robots: Robot[];
+};
+export type Spot = { row: number; along_m: number };
+export type Link = { joint: Joint; from: Spot; to: Spot };
+export type Layout = { rows: Row[]; links: Link[]; end_m: number; strays: Robot[] };
+
+const withoutRevision = (route: string) => route.slice(0, Math.max(0, route.lastIndexOf('@')));
+
+// "hall@12.5", "hall@2@12.5"; null: it is no place.
+export function placeOf(words: string): Place | null {
+  const at = words.lastIndexOf('@');
+  const metres = words.slice(at + 1);
+  if (at <= 0 || metres.trim() === '' || !(Number(metres) >= 0)) return null;
+  return { route: words.slice(0, at), along_m: Number(metres) };
+}
+
+// To the centimetre.
+export const metres = (value: number) => String(Math.round(value * 100) / 100);
+export const textOf = (place: Place) => `${place.route}@${metres(place.along_m)}`;
+export const rangeOf = (stretch: Stretch) =>
+  stretch.from_m > 0 || stretch.to_m !== null
+    ? `${metres(stretch.from_m)}..${stretch.to_m === null ? '' : metres(stretch.to_m)}` : '';
+
+export function rowOf(rows: Row[], route: string): number {
+  const exact = rows.findIndex((row) => row.name === route);
+  return exact >= 0 ? exact : rows.findIndex((row) => row.name === withoutRevision(route));
+}
+
+export function spotOf(rows: Row[], place: Place): Spot | null {
+  const row = rowOf(rows, place.route);
+  return row < 0 ? null : { row, along_m: Math.min(rows[row].length_m, Math.max(0, place.along_m)) };
+}
+
+const partOf = (stretch: Stretch, length_m: number): Part => ({
+  from_m: Math.min(stretch.from_m, length_m),
+  to_m: Math.min(stretch.to_m ?? length_m, length_m),
+  stretch,
+});
+
+// Those that are joined stand below each other: by breadth, from the first by name.
+function inOrder(names: string[], joints: Joint[]): string[] {
+  const known = new Set(names);
+  const next = new Map<string, string[]>(names.map((name) => [name, []]));
+  const nameOf = (route: string) => (known.has(route) ? route : withoutRevision(route));
+  for (const { from, to } of joints) {
+    next.get(nameOf(from.route))?.push(nameOf(to.route));
+    next.get(nameOf(to.route))?.push(nameOf(from.route));
+  }
+  const ordered: string[] = [];
+  const taken = new Set<string>();
+  for (const first of [...names].sort()) {
+    if (taken.has(first)) continue;
+    taken.add(first);
+    for (let at = ordered.push(first) - 1; at < ordered.length; ++at) {
+      for (const name of next.get(ordered[at])!) {
+        if (!known.has(name) || taken.has(name)) continue;
+        taken.add(name);
+        ordered.push(name);
+      }
+    }
+  }
+  return ordered;
+}
+
+// The first joint to a row above stands upright.
+function place(rows: Row[], links: Link[]) {
+  const upward = new Map<number, { here: Spot; above: Spot }>();
+  for (const { from, to } of links) {
+    if (from.row === to.row) continue;
+    const [here, above] = from.row > to.row ? [from, to] : [to, from];
+    if (!upward.has(here.row)) upward.set(here.row, { here, above });
+  }
+  rows.forEach((row, i) => {
+    const joint = upward.get(i);
+    if (joint) row.start_m = rows[joint.above.row].start_m + joint.above.along_m - joint.here.along_m;
+  });
+  const least = Math.min(0, ...rows.map((row) => row.start_m));
+  for (const row of rows) row.start_m -= least;
+}
+
+// `live`: routes that robots are on; those that are joined to none are drawn, too, where `all` are.
+export function layOut(part: NetworkPart, live: Route[]): Layout {
+  const { network } = part;
+  const lengths = new Map(network.routes.map((each) => [each.route, each.length_m]));
+  const joined = new Set(lengths.keys());
+  if (part.matched === part.routes && network.routes.length === part.routes) {
+    for (const route of live) {
+      const isListed = lengths.has(route.name) || lengths.has(route.route);
+      if (!isListed && route.state === 'active' && route.length_m > 0) lengths.set(route.name, route.length_m);
+    }
+  }
+  const rows = inOrder([...lengths.keys()], network.joints).map((name): Row => ({
+    name, length_m: lengths.get(name)!, start_m: 0, joined: joined.has(name),
+    closed: [], limits: [], names: [], joints: [], elsewhere: 0, robots: [],
+  }));
+  const links: Link[] = [];
+  for (const joint of network.joints) {
+    const from = spotOf(rows, joint.from);
+    const to = spotOf(rows, joint.to);
+    if (!from || !to) continue;
+    links.push({ joint, from, to });
+    rows[from.row].joints.push(joint);
+    if (to.row !== from.row) rows[to.row].joints.push(joint);
+  }
+  for (const stretch of network.closed) {
+    const row = rows[rowOf(rows, stretch.route)];
+    row?.closed.push(partOf(stretch, row.length_m));
+  }
+  for (const stretch of network.limits) {
+    const row = rows[rowOf(rows, stretch.route)];
+    row?.limits.push(partOf(stretch, row.length_m));
+  }
+  for (const named of network.names) {
+    const spot = spotOf(rows, named.place);
+    if (spot) rows[spot.row].names.push({ ...named, along_m: spot.along_m });
+  }
+  for (const { route, joints } of part.elsewhere) {
+    const row = rows[rowOf(rows, route)];
+    if (row) row.elsewhere = joints;
+  }
+  place(rows, links);
+  const end_m = Math.max(1, ...rows.map((row) => row.start_m + row.length_m));
+  return { rows, links, end_m, strays: [] };
+}
+
+// Each on its route, if that is shown and it stands on the revision that is followed: where it is on
+// another would be measured along another way.
+export function withRobots(layout: Layout, robots: Robot[], live: Route[]): Layout {
+  const followed = new Map(live.map((each) => [`${each.route} ${each.teaching}`, each.state === 'active']));
+  const byName = new Map(layout.rows.map((row) => [row.name, row]));
+  const on = new Map<Row, Robot[]>();
+  const strays: Robot[] = [];
+  for (const robot of robots) {
+    if (!robot.route_id || robot.along_m === null) continue;
+    const row = byName.get(robot.route_id) ?? byName.get(robot.route);
+    const isOn = row && (followed.get(`${robot.route_id} ${robot.teaching}`) ?? true);
+    if (!isOn) strays.push(robot);
+    else if (on.has(row)) on.get(row)!.push(robot);
+    else on.set(row, [robot]);
+  }
+  // Rows without robots stay the same objects: there may be hundreds.
+  const rows = layout.rows.map((row) => (on.has(row) ? { ...row, robots: on.get(row)! } : row));
+  return { ...layout, rows, strays };
+}
+
+// What there is, for who does not see it.
+export function told(layout: Layout): string {
+  const { rows, links } = layout;
+  const closed = rows.flatMap((row) => row.closed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
+  const robots = rows.flatMap((row) => row.robots.map((robot) => `${robot.name} ${robot.state} on ${row.name} at ${robot.along_m!.toFixed(1)} m`));
+  const some = (words: string[]) => words.slice(0, 20).join('; ') + (words.length > 20 ? ` and ${words.length - 20} more` : '');
+  return `${rows.length} routes, ${links.length} joints. `
+    + (closed.length > 0 ? `Closed: ${some(closed)}. ` : 'Nothing is closed. ')
+    + (robots.length > 0 ? `${some(robots)}.` : 'No robot is on them.');
+}
