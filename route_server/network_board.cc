@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "route_server/network_ids.h"
 #include "services/base/number.h"
 #include "services/base/process_name.h"
 #include "services/base/text.h"
@@ -25,18 +26,12 @@ using network::NamedPlace;
 using network::Place;
 using Lines = std::vector<std::string>;
 
-std::string IdOf(const route::RouteKey& key) {
-  return fmt::format("{}/{}", key.route.value(), key.teaching.value());
-}
-
 route::RouteKey KeyOf(const std::string& id) {
   const std::size_t slash = std::min(id.find('/'), id.size());
   const auto teaching =
       ParseNumber<std::uint64_t>(std::string_view(id).substr(std::min(slash + 1, id.size())));
   return {RouteId(id.substr(0, slash)), TeachingId(teaching.value_or(0))};
 }
-
-double ToCentimetre(double metres) { return std::round(metres * 100.0) / 100.0; }
 
 bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkBoard::kSame_m; }
 
@@ -78,6 +73,12 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   auto names = board->store_->Names();
   if (!names) return tl::unexpected(names.error());
   for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named.place));
+  auto proposed = board->store_->Proposals();
+  if (!proposed) return tl::unexpected(proposed.error());
+  auto searched = board->store_->Searched();
+  if (!searched) return tl::unexpected(searched.error());
+  board->proposed_ = *std::move(proposed);
+  board->searched_.insert(searched->begin(), searched->end());
   board->joints_ = *std::move(joints);
   board->conditions_ = *std::move(conditions);
   return board;
@@ -128,6 +129,7 @@ void NetworkBoard::Hear(const exchange::AgentStatus& status) {
 }
 
 void NetworkBoard::Note(const route::RouteInfo& info) {
+  if (info.standing == route::Standing::kDeleted) DropProposals(info.key);
   const auto at = known_.find(info.key.route);
   if (at == known_.end()) {
     // Its name may no longer tell another from it.
@@ -153,6 +155,9 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
       return Name(edit.named, by, now_unix_ms);
     case Edit::Kind::kForget:
       return Forget(edit.named.name);
+    case Edit::Kind::kConfirm:
+    case Edit::Kind::kRefuse:
+      return Settle(edit, by, now_unix_ms);
     default:
       return Set(edit, by, now_unix_ms);
   }
@@ -289,6 +294,13 @@ Result<Lines> NetworkBoard::All() {
     if (!called) return tl::unexpected(called.error());
     lines.push_back(ListedText(network::ToText(*called), IsUsed(place)));
   }
+  for (const std::size_t each : Open()) {
+    network::Proposal proposal = proposed_[each].proposal;
+    auto called = Called(std::move(proposal.joint));
+    if (!called) return tl::unexpected(called.error());
+    proposal.joint = *std::move(called);
+    lines.push_back(network::ToText(proposal));
+  }
   return lines;
 }
 
@@ -380,6 +392,11 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
   for (const auto& [name, place] : named_) wanted.insert(KeyOf(place.route).route);
+  for (const store::ProposedJoint& each : proposed_) {
+    if (each.verdict != store::ProposedJoint::Verdict::kNone) continue;
+    const Joint& joint = each.proposal.joint;
+    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  }
   std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
   names_.clear();
   std::vector<network::Route> routes;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "route_server/meeting.h"
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
 #include "services/network/words.h"
@@ -20,13 +21,19 @@ namespace trailcast::server {
 // How routes are joined and what places are called, as operators say, and which ways that makes. A
 // joint is one of two revisions, whose metres it names: it is used while both are those that robots
 // follow; a name is that of a place on one revision likewise. What is
-// closed or limited is so on whichever revision is followed. No clock of its own.
+// closed or limited is so on whichever revision is followed. Joints that were found are proposed
+// while both revisions are followed, until an operator has confirmed or refused them. No clock of
+// its own.
 class NetworkBoard {
  public:
   // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
   static constexpr std::size_t kMostAgents = 4096;
   // Within so many metres a joint, or a place on a route, is the same.
   static constexpr double kSame_m = 0.05;
+  // Two found so near each other are one, and nobody needs one so near to a joint.
+  static constexpr double kSameMeeting_m = 2.0;
+  // Refused ones counted, and those that became joints.
+  static constexpr std::size_t kMostOfAPair = 8;
 
   // `routes` outlives this.
   [[nodiscard]] static Result<std::unique_ptr<NetworkBoard>> Open(
@@ -41,6 +48,21 @@ class NetworkBoard {
   void Hear(const exchange::AgentStatus& status);
   // What is known of a revision may have changed.
   void Note(const route::RouteInfo& info);
+
+  struct Proposed {
+    std::string line{};  // as it is listed
+    bool taken = false;
+  };
+  // What this adds to what is proposed: nothing where a joint is near, or one was proposed before,
+  // whatever became of it; where a revision is not followed; or where there is no more room.
+  // `take_from`: of this confidence on it is made a joint at once.
+  [[nodiscard]] Result<std::optional<Proposed>> Propose(const Meeting& meeting, double take_from,
+                                                        std::int64_t now_unix_ms);
+  // Whether a revision's meetings were looked for; durable.
+  [[nodiscard]] bool WasSearched(const route::RouteKey& key) const;
+  [[nodiscard]] Result<void> MarkSearched(const route::RouteKey& key);
+  // Proposals that wait for an operator's word, of revisions followed or not.
+  [[nodiscard]] std::size_t open_proposals() const;
 
  private:
   // Of a route the revision that robots follow, if there is one.
@@ -64,6 +86,15 @@ class NetworkBoard {
                                                       const std::string& by,
                                                       std::int64_t now_unix_ms);
   [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
+  // Confirms, or refuses, what is proposed.
+  [[nodiscard]] Result<std::vector<std::string>> Settle(const network::Edit& edit,
+                                                        const std::string& by,
+                                                        std::int64_t now_unix_ms);
+  // Those that wait for a word on them and are listed: of revisions that are followed, where no
+  // joint is. Positions.
+  [[nodiscard]] std::vector<std::size_t> Open() const;
+  [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Joint& joint) const;
+  void DropProposals(const route::RouteKey& key);
   [[nodiscard]] Result<std::vector<std::string>> All();
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
 
@@ -87,6 +118,8 @@ class NetworkBoard {
   std::vector<network::Joint> joints_;           // of revisions: "ID/TEACHING"
   std::vector<network::Condition> conditions_;   // of routes: "ID"
   std::map<std::string, network::Place> named_;  // of revisions
+  std::vector<store::ProposedJoint> proposed_;   // of revisions
+  std::set<std::string> searched_;               // revisions
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision

@@ -21,14 +21,30 @@ namespace trailcast::network {
 //                                               F; neither: no limit any more
 //   name NAME PLACE            it is called so; whatever was called so no longer is
 //   forget NAME
+//   confirm PLACE PLACE        the joint that the server proposes there is made
+//   confirm all [above F]      all that it proposes, or that are so sure
+//   refuse PLACE PLACE         it is not made, and not proposed again
+//   refuse all [below F]
 // A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
 // that is followed; FROM..TO metres along it, either may be missing.
 struct Edit {
-  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit, kName, kForget };
+  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit, kName, kForget, kConfirm, kRefuse };
   Kind kind = Kind::kJoin;
-  Joint joint{};          // of kJoin and kPart
+  Joint joint{};          // of kJoin and kPart; of kConfirm and kRefuse, but for `all`
   Condition condition{};  // of kClose, kOpen and kLimit
   NamedPlace named{};     // of kName; of kForget its name alone
+  struct Sure {
+    double least = 0.0;
+    double most = 1.0;
+  };
+  std::optional<Sure> all{};  // of kConfirm and kRefuse: whatever is so sure, not one joint
+};
+
+// A joint that a server has found by what scouts saw, and nobody has confirmed.
+struct Proposal {
+  Joint joint{};
+  double confidence = 0.0;  // 0.5 to 1
+  bool operator==(const Proposal&) const = default;
 };
 
 // Of a condition that ends where its route does.
@@ -37,16 +53,18 @@ inline constexpr double kToTheEnd_m = 1e7;
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
 
-// A line of what a server lists: a route that it names, "route ROUTE METRES", or what is so, as the
-// edit that brings it about. Of a line that a later version may have, neither.
+// A line of what a server lists: a route that it names, "route ROUTE METRES", what is so, as the
+// edit that brings it about, or what it proposes. Of a line that a later version may have, nothing.
 struct Listed {
   bool used = true;              // false: of a revision that robots do not follow
   std::optional<Route> route{};  // its name and length
   std::optional<Edit> edit{};
+  std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
 // Before an edit that is not used.
 inline constexpr std::string_view kUnused = "unused ";
+inline constexpr std::string_view kProposed = "proposed ";
 
 // A PLACE, or what one is called: then `name` alone is set.
 struct Goal {
@@ -72,6 +90,7 @@ struct Question {
 [[nodiscard]] std::string ToText(const NamedPlace& named);     // "name .."
 [[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
 [[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
+[[nodiscard]] std::string ToText(const Proposal& proposal);    // "proposed join .."
 
 // What holds after such an edit: of one kind, a closed stretch or a limit, one at each place.
 [[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);

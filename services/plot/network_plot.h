@@ -30,7 +30,7 @@ struct NetworkPicture {
     Place from{};
     Place to{};
     bool both = false;
-    bool used = true;  // drawn dashed where not
+    bool used = true;  // drawn dashed where not, or not yet
   };
   struct Name {
     std::string name{};

@@ -3,24 +3,34 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "services/base/result.h"
-#include "services/network/network.h"
+#include "services/network/words.h"
 
 namespace trailcast::store {
 
-// How routes are joined, what holds on parts of them and what places are called, as operators said:
-// a SQLite file of its own, created if missing. What a call has stored is on the disk when it
-// returns. Which routes places and conditions name is the caller's affair. Errors name the file:
-// kUnavailable (disk full, no such folder, too many), kConflict (another process has it open),
-// kCorrupt (no such file of ours, or a damaged one).
+// A joint that was found, and what an operator said of it.
+struct ProposedJoint {
+  enum class Verdict : std::uint8_t { kNone = 0, kRefused = 1, kTaken = 2 };
+  network::Proposal proposal{};
+  Verdict verdict = Verdict::kNone;
+  bool operator==(const ProposedJoint&) const = default;
+};
+
+// How routes are joined, what holds on parts of them and what places are called, as operators said,
+// and which joints are proposed to them: a SQLite file of its own, created if missing. What a call
+// has stored is on the disk when it returns. Which routes places and conditions name is the
+// caller's affair. Errors name the file: kUnavailable (disk full, no such folder, too many),
+// kConflict (another process has it open), kCorrupt (no such file of ours, or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJoints = 100'000;
   static constexpr std::int64_t kMostConditions = 10'000;
   static constexpr std::int64_t kMostNames = 10'000;
+  static constexpr std::int64_t kMostProposals = 20'000;
 
   [[nodiscard]] static Result<std::unique_ptr<NetworkStore>> Open(
       const std::filesystem::path& file);
@@ -32,6 +42,9 @@ class NetworkStore {
   [[nodiscard]] Result<std::vector<network::Joint>> Joints();
   [[nodiscard]] Result<std::vector<network::Condition>> Conditions();
   [[nodiscard]] Result<std::vector<network::NamedPlace>> Names();  // by name
+  [[nodiscard]] Result<std::vector<ProposedJoint>> Proposals();
+  // Revisions whose joints were looked for.
+  [[nodiscard]] Result<std::vector<std::string>> Searched();
 
   // In place of that from and to the same places. `by`: who said so, and when by the caller's
   // clock.
@@ -48,6 +61,12 @@ class NetworkStore {
                                  std::int64_t now_unix_ms);
   // What is called so, if anything is.
   [[nodiscard]] Result<void> Forget(const std::string& name);
+  // In place of those from and to the same places; what is taken becomes a joint. All or nothing.
+  [[nodiscard]] Result<void> Put(std::span<const ProposedJoint> proposed, const std::string& by,
+                                 std::int64_t now_unix_ms);
+  [[nodiscard]] Result<void> MarkSearched(const std::string& revision);
+  // The revision is there no more: no more of its proposals either.
+  [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 
  private:
   struct Database;

@@ -22,7 +22,8 @@ struct NetworkOptions {
 };
 
 constexpr const char* kExamples =
-    "Words; without any, it lists the routes that are joined, joints, what is closed, and names:\n"
+    "Words; without any, it lists the routes that are joined, joints, what is closed, names, and\n"
+    "proposed joints:\n"
     "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
     "                       robots may change over from the first place to the second; both: and\n"
     "                       back; how the second lies there, where it is known\n"
@@ -32,6 +33,12 @@ constexpr const char* kExamples =
     "                       at most F times the taught speed; a metre counts as F when ways are\n"
     "                       compared; with neither, no limit any more\n"
     "  name NAME PLACE      'goto NAME' leads there; forget NAME\n"
+    "  proposals            the joints alone that the server proposes: places where scouts saw, "
+    "it\n"
+    "                       finds, that two routes meet, looking the same way, and how sure it is\n"
+    "  confirm PLACE PLACE  the joint proposed there is made; confirm all [above F]\n"
+    "  refuse PLACE PLACE   it is not, nor proposed again for these revisions; refuse all [below "
+    "F]\n"
     "  way FROM TO          the shortest way, between PLACEs or named ones; FROM may be a robot, "
     "as\n"
     "                       it stands\n"
@@ -39,6 +46,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  trailcast network join hall@12 office@0\n"
     "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
+    "  trailcast network confirm hall@12 office@0.4\n"
+    "  trailcast network confirm all above 0.9     # as 'trailcast-server --joints-auto' does\n"
     "  trailcast network close hall 3..7\n"
     "  trailcast network name loading-bay office@8\n"
     "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
@@ -48,8 +57,27 @@ constexpr const char* kExamples =
     "revisions that robots follow when it is made; while another is followed, it is not used.\n"
     "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
 
+bool AsksForProposals(const NetworkOptions& options) {
+  return options.words.size() == 1 && options.words.front() == "proposals";
+}
+
+bool AsksForAll(const NetworkOptions& options) {
+  return options.words.empty() || AsksForProposals(options);
+}
+
 bool Asks(const NetworkOptions& options) {
-  return options.words.empty() || options.words.front() == "way";
+  return AsksForAll(options) || options.words.front() == "way";
+}
+
+// What an edit has brought about.
+std::string ChangedText(const std::string& edit, const std::vector<std::string>& lines) {
+  const bool settles = edit == "confirm" || edit == "refuse";
+  if (lines.empty()) {
+    return settles ? "none is proposed that is so sure\n"
+                   : "nothing is closed or limited there now\n";
+  }
+  const bool ends = edit == "part" || edit == "forget" || edit == "refuse";
+  return (ends ? "no more: " : "") + fleet::NetworkText(lines);
 }
 
 int Print(const std::string& text) {
@@ -64,7 +92,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
     if (const auto edit = network::ParseEdit(words); !edit) {
       return program::Complain(app, edit.error());
     }
-  } else if (!words.empty()) {
+  } else if (!AsksForAll(options)) {
     if (const auto question = network::ParseQuestion(words); !question) {
       return program::Complain(app, question.error());
     }
@@ -77,9 +105,14 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
       common, Asks(options) ? exchange::NetworkTopics() : exchange::JoinerTopics());
   if (!peer) return program::Complain(app, peer.error());
   const auto timeout = ToMilliseconds(options.timeout_s);
-  if (options.words.empty()) {
-    const auto lines = fleet::AskForNetwork(*peer->exchange, peer->self, timeout);
+  if (AsksForAll(options)) {
+    auto lines = fleet::AskForNetwork(*peer->exchange, peer->self, timeout);
     if (!lines) return program::Complain(app, lines.error());
+    if (AsksForProposals(options)) {
+      std::erase_if(*lines,
+                    [](const std::string& line) { return !line.starts_with(network::kProposed); });
+      if (lines->empty() && !options.json) return Print("no joints are proposed\n");
+    }
     if (!options.plot.empty()) {
       const auto written = PictureOf(*lines).and_then([&](const plot::NetworkPicture& picture) {
         return plot::DrawNetwork(picture).Write(options.plot);
@@ -97,9 +130,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   const auto lines = fleet::AskToJoin(*peer->exchange, peer->self, words, timeout);
   if (!lines) return program::Complain(app, lines.error());
   if (options.json) return Print(fleet::NetworkJson(*lines));
-  const bool parted = options.words.front() == "part" || options.words.front() == "forget";
-  return Print(lines->empty() ? "nothing is closed or limited there now\n"
-                              : (parted ? "no more: " : "") + fleet::NetworkText(*lines));
+  return Print(ChangedText(options.words.front(), *lines));
 }
 
 }  // namespace
@@ -107,7 +138,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
 Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<NetworkOptions>();
   CLI::App* app = parent.add_subcommand(
-      "network", "How routes are joined, what is closed, and which way leads where");
+      "network", "How routes are joined or might be, what is closed, and which way leads where");
   app->footer(kExamples);
   app->add_option("WORDS", options->words, "What to change, or to ask: see below");
   app->add_flag("--json", options->json, "For programs");

@@ -35,6 +35,8 @@ class Reader {
     }
   }
 
+  void TakeProposal(const network::Proposal& proposal) { TakeJoint(proposal.joint, false); }
+
   [[nodiscard]] NetworkPicture picture() && { return std::move(picture_); }
 
  private:
@@ -81,6 +83,7 @@ Result<NetworkPicture> PictureOf(const std::vector<std::string>& lines) {
   for (const auto& [name, route] : routes) reader.TakeRoute(route);
   for (const network::Listed& each : listed) {
     if (each.edit) reader.TakeEdit(*each.edit, each.used);
+    if (each.proposal) reader.TakeProposal(*each.proposal);
   }
   NetworkPicture picture = std::move(reader).picture();
   if (picture.routes.empty()) {

@@ -67,6 +67,14 @@ void Understand(const std::string& line, Made& made) {
     Take(*edit, made);
   }
   (void)network::ParseQuestion(line);
+  if (const auto proposal = network::ParseListed(line).proposal) {
+    const std::string told = network::ToText(*proposal);
+    const auto& joint = proposal->joint;
+    // To the centimetre.
+    if (network::ToText(joint.from) == network::ToText(joint.to)) return;
+    const auto again = network::ParseListed(told).proposal;
+    Require(again && network::ToText(*again) == told, "a proposal is understood again");
+  }
 }
 
 }  // namespace

@@ -43,14 +43,24 @@ std::string PlaceJson(const network::Place& place) {
                      place.along_m);
 }
 
-std::string JointJson(const network::Joint& joint, bool used) {
+// What is between the braces of a joint's object.
+std::string JointFields(const network::Joint& joint) {
   std::string lie = "null";
   if (joint.lie) {
     lie = fmt::format("{{\"ahead_m\": {:.2f}, \"left_m\": {:.2f}, \"turn_rad\": {:.4f}}}",
                       joint.lie->ahead_m, joint.lie->left_m, joint.lie->turn_rad);
   }
-  return fmt::format("{{\"from\": {}, \"to\": {}, \"both\": {}, \"lie\": {}, \"used\": {}}}",
-                     PlaceJson(joint.from), PlaceJson(joint.to), joint.both, lie, used);
+  return fmt::format("\"from\": {}, \"to\": {}, \"both\": {}, \"lie\": {}", PlaceJson(joint.from),
+                     PlaceJson(joint.to), joint.both, lie);
+}
+
+std::string JointJson(const network::Joint& joint, bool used) {
+  return fmt::format("{{{}, \"used\": {}}}", JointFields(joint), used);
+}
+
+std::string ProposalJson(const network::Proposal& proposal) {
+  return fmt::format("{{{}, \"confidence\": {:.2f}}}", JointFields(proposal.joint),
+                     proposal.confidence);
 }
 
 // null: up to the route's end.
@@ -134,9 +144,11 @@ std::string NetworkJson(const Lines& lines) {
   Lines closed;
   Lines limits;
   Lines names;
+  Lines proposed;
   for (const std::string& line : lines) {
-    const auto [used, route, edit] = network::ParseListed(line);
+    const auto [used, route, edit, proposal] = network::ParseListed(line);
     if (route) routes.push_back(RouteJson(*route));
+    if (proposal) proposed.push_back(ProposalJson(*proposal));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
       joints.push_back(JointJson(edit->joint, used));
@@ -148,8 +160,10 @@ std::string NetworkJson(const Lines& lines) {
     }
   }
   return fmt::format(
-      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"names\": {}}}\n",
-      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(names));
+      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"names\": {}, "
+      "\"proposed\": {}}}\n",
+      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(names),
+      JsonList(proposed));
 }
 
 std::string WayText(const Lines& way) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -19,10 +20,11 @@ constexpr double kMostFactor = 1000.0;
 constexpr const char* kEdits =
     "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
     "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]', 'limit ROUTE [FROM..TO] [speed F] [cost F]', "
-    "'name "
-    "NAME PLACE' or 'forget NAME'";
+    "'name NAME PLACE', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', 'refuse "
+    "PLACE PLACE' or 'refuse all [below F]'";
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
+constexpr std::string_view kConfidence = " confidence ";
 
 // To the centimetre.
 std::string Metres(double metres) {
@@ -120,6 +122,32 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
   return edit;
 }
 
+// PLACE PLACE
+Result<Edit> TakePlaces(Words& words, Edit::Kind kind) {
+  auto joint = TakeJoint(words);
+  if (!joint) return tl::unexpected(joint.error());
+  if (!words.empty()) return Wrong(words.Next(), "nothing more");
+  return Edit{.kind = kind, .joint = *std::move(joint)};
+}
+
+// PLACE PLACE, or "all" with a bound
+Result<Edit> TakeVerdict(Words& words, Edit::Kind kind) {
+  if (!words.TakeIf("all")) return TakePlaces(words, kind);
+  Edit edit{.kind = kind, .all = Edit::Sure{}};
+  if (words.empty()) return edit;
+  const bool confirms = kind == Edit::Kind::kConfirm;
+  const char* const bound = confirms ? "above" : "below";
+  if (!words.TakeIf(bound)) {
+    return Wrong(words.Next(), fmt::format("'{} F' or nothing more", bound));
+  }
+  const std::string_view word = words.Take();
+  const auto confidence = ParseNumberWithin(word, 0.0, 1.0);
+  if (!confidence) return Wrong(word, "how sure it is, 0 to 1");
+  if (!words.empty()) return Wrong(words.Next(), "nothing more");
+  (confirms ? edit.all->least : edit.all->most) = *confidence;
+  return edit;
+}
+
 // ROUTE [FROM..TO]
 Result<Condition> TakeStretch(Words& words) {
   Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
@@ -161,12 +189,9 @@ Result<void> TakeLimits(Words& words, Condition& limit) {
 Result<Edit> ParseEdit(std::string_view text) {
   Words words(text);
   if (words.TakeIf("join")) return TakeJoin(words);
-  if (words.TakeIf("part")) {
-    auto joint = TakeJoint(words);
-    if (!joint) return tl::unexpected(joint.error());
-    if (!words.empty()) return Wrong(words.Next(), "nothing more");
-    return Edit{.kind = Edit::Kind::kPart, .joint = *std::move(joint)};
-  }
+  if (words.TakeIf("part")) return TakePlaces(words, Edit::Kind::kPart);
+  if (words.TakeIf("confirm")) return TakeVerdict(words, Edit::Kind::kConfirm);
+  if (words.TakeIf("refuse")) return TakeVerdict(words, Edit::Kind::kRefuse);
   if (words.TakeIf("name")) return TakeName(words, Edit::Kind::kName);
   if (words.TakeIf("forget")) return TakeName(words, Edit::Kind::kForget);
   const std::string_view first = words.Take();
@@ -193,6 +218,19 @@ Result<Edit> ParseEdit(std::string_view text) {
   return edit;
 }
 
+namespace {
+
+std::optional<Proposal> ParseProposal(std::string_view text) {
+  const std::size_t at = text.rfind(kConfidence);
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto confidence = ParseNumberWithin(text.substr(at + kConfidence.size()), 0.0, 1.0);
+  auto edit = ParseEdit(text.substr(0, at));
+  if (!confidence || !edit || edit->kind != Edit::Kind::kJoin) return std::nullopt;
+  return Proposal{std::move(edit->joint), *confidence};
+}
+
+}  // namespace
+
 Listed ParseListed(std::string_view line) {
   Listed listed;
   if (line.starts_with(kRoute)) {
@@ -202,6 +240,10 @@ Listed ParseListed(std::string_view line) {
     if (length_m) {
       listed.route = {.name = std::string(line.substr(0, blank)), .length_m = *length_m};
     }
+    return listed;
+  }
+  if (line.starts_with(kProposed)) {
+    listed.proposal = ParseProposal(line.substr(kProposed.size()));
     return listed;
   }
   listed.used = !line.starts_with(kUnused);
@@ -255,11 +297,10 @@ std::string ToText(const NamedPlace& named) {
 std::string ToText(const Joint& joint) {
   std::string text = "join " + ToText(joint.from) + " " + ToText(joint.to);
   if (joint.both) text += " both";
-  if (joint.lie) {
-    text += fmt::format(" offset {},{} heading {:.1f}", Metres(joint.lie->ahead_m),
-                        Metres(joint.lie->left_m), joint.lie->turn_rad / kPerDegree);
-  }
-  return text;
+  if (!joint.lie) return text;
+  const std::string offset = Metres(joint.lie->ahead_m) + "," + Metres(joint.lie->left_m);
+  if (offset != "0,0") text += " offset " + offset;
+  return text + fmt::format(" heading {:.1f}", joint.lie->turn_rad / kPerDegree);
 }
 
 std::string ToText(const Condition& condition) {
@@ -272,6 +313,13 @@ std::string ToText(const Condition& condition) {
   if (condition.speed != 1.0) text += fmt::format(" speed {:g}", condition.speed);
   if (condition.cost != 1.0) text += fmt::format(" cost {:g}", condition.cost);
   return text;
+}
+
+std::string ToText(const Proposal& proposal) {
+  // No surer than it is.
+  constexpr double kRounding = 1e-6;
+  const double confidence = std::floor(100.0 * proposal.confidence + kRounding) / 100.0;
+  return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.joint), kConfidence, confidence);
 }
 
 std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit) {

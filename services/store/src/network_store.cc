@@ -57,6 +57,26 @@ CREATE TABLE IF NOT EXISTS named_place (
 ) STRICT;
 )";
 
+constexpr const char* kProposals = R"(
+CREATE TABLE IF NOT EXISTS proposed_joint (
+  number INTEGER PRIMARY KEY,
+  from_route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_route TEXT NOT NULL,
+  to_m REAL NOT NULL,
+  both INTEGER NOT NULL,
+  ahead_m REAL,
+  left_m REAL,
+  turn_rad REAL,
+  confidence REAL NOT NULL,
+  verdict INTEGER NOT NULL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL,
+  UNIQUE (from_route, from_m, to_route, to_m)
+) STRICT;
+CREATE TABLE IF NOT EXISTS searched (revision TEXT PRIMARY KEY) STRICT;
+)";
+
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
                        .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
@@ -83,11 +103,33 @@ network::NamedPlace NamedPlaceIn(SQLite::Statement& row) {
           .place = {row.getColumn(1).getString(), row.getColumn(2).getDouble()}};
 }
 
+ProposedJoint ProposedIn(SQLite::Statement& row) {
+  using Verdict = ProposedJoint::Verdict;
+  const int verdict = row.getColumn(9).getInt();
+  return {.proposal = {JointIn(row), row.getColumn(8).getDouble()},
+          .verdict = verdict == 1   ? Verdict::kRefused
+                     : verdict == 2 ? Verdict::kTaken
+                                    : Verdict::kNone};
+}
+
+std::string TextIn(SQLite::Statement& row) { return row.getColumn(0).getString(); }
+
 void BindPlaces(SQLite::Statement& statement, const network::Joint& joint) {
   statement.bind(1, joint.from.route);
   statement.bind(2, joint.from.along_m);
   statement.bind(3, joint.to.route);
   statement.bind(4, joint.to.along_m);
+}
+
+// All of it, as the first columns.
+void BindJoint(SQLite::Statement& statement, const network::Joint& joint) {
+  BindPlaces(statement, joint);
+  statement.bind(5, joint.both ? 1 : 0);
+  const network::Lie lie = joint.lie.value_or(network::Lie{});
+  const double numbers[] = {lie.ahead_m, lie.left_m, lie.turn_rad};
+  for (int i = 0; i < 3; ++i) {
+    joint.lie ? statement.bind(6 + i, numbers[i]) : statement.bind(6 + i);
+  }
 }
 
 }  // namespace
@@ -126,6 +168,35 @@ struct NetworkStore::Database {
     remove->exec();
   }
 
+  Result<void> Insert(const network::Joint& joint, const std::string& by,
+                      std::int64_t now_unix_ms) {
+    Remove(joint);
+    if (Count("SELECT count(*) FROM joint") >= kMostJoints) {
+      return Fail(ErrorCode::kUnavailable, "{} joints are kept already: no more", kMostJoints);
+    }
+    auto insert = compiled.Take(
+        "INSERT INTO joint (from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, "
+        "set_by, set_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
+    BindJoint(*insert, joint);
+    insert->bind(9, by);
+    insert->bind(10, now_unix_ms);
+    insert->exec();
+    return {};
+  }
+
+  void Insert(const ProposedJoint& proposed, const std::string& by, std::int64_t now_unix_ms) {
+    auto put = compiled.Take(
+        "INSERT OR REPLACE INTO proposed_joint (from_route, from_m, to_route, to_m, both, ahead_m, "
+        "left_m, turn_rad, confidence, verdict, set_by, set_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, "
+        "?6, ?7, ?8, ?9, ?10, ?11, ?12)");
+    BindJoint(*put, proposed.proposal.joint);
+    put->bind(9, proposed.proposal.confidence);
+    put->bind(10, static_cast<int>(proposed.verdict));
+    put->bind(11, by);
+    put->bind(12, now_unix_ms);
+    put->exec();
+  }
+
   fs::path file;
   SQLite::Database db;
   CompiledStatements compiled;
@@ -139,6 +210,7 @@ Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
     auto database = std::make_unique<Database>(file);
     PrepareOwnFile(database->db, kFile);
     database->db.exec(kNames);
+    database->db.exec(kProposals);
     return std::unique_ptr<NetworkStore>(new NetworkStore(std::move(database)));
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(ToError(exception, file, "opening it", kWhat));
@@ -169,27 +241,26 @@ Result<std::vector<network::NamedPlace>> NetworkStore::Names() {
   });
 }
 
+Result<std::vector<ProposedJoint>> NetworkStore::Proposals() {
+  return database_->Guarded("reading proposals", [&]() -> Result<std::vector<ProposedJoint>> {
+    return database_->All(
+        "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, confidence, "
+        "verdict FROM proposed_joint ORDER BY number",
+        ProposedIn);
+  });
+}
+
+Result<std::vector<std::string>> NetworkStore::Searched() {
+  return database_->Guarded("reading proposals", [&]() -> Result<std::vector<std::string>> {
+    return database_->All("SELECT revision FROM searched", TextIn);
+  });
+}
+
 Result<void> NetworkStore::Put(const network::Joint& joint, const std::string& by,
                                std::int64_t now_unix_ms) {
   return database_->Guarded("storing a joint", [&]() -> Result<void> {
     SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-    database_->Remove(joint);
-    if (database_->Count("SELECT count(*) FROM joint") >= kMostJoints) {
-      return Fail(ErrorCode::kUnavailable, "{} joints are kept already: no more", kMostJoints);
-    }
-    auto insert = database_->compiled.Take(
-        "INSERT INTO joint (from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, "
-        "set_by, set_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
-    BindPlaces(*insert, joint);
-    insert->bind(5, joint.both ? 1 : 0);
-    const double lie[] = {joint.lie ? joint.lie->ahead_m : 0.0, joint.lie ? joint.lie->left_m : 0.0,
-                          joint.lie ? joint.lie->turn_rad : 0.0};
-    for (int i = 0; i < 3; ++i) {
-      joint.lie ? insert->bind(6 + i, lie[i]) : insert->bind(6 + i);
-    }
-    insert->bind(9, by);
-    insert->bind(10, now_unix_ms);
-    insert->exec();
+    if (auto inserted = database_->Insert(joint, by, now_unix_ms); !inserted) return inserted;
     transaction.commit();
     return {};
   });
@@ -260,6 +331,48 @@ Result<void> NetworkStore::Forget(const std::string& name) {
     auto forget = database_->compiled.Take("DELETE FROM named_place WHERE name = ?1");
     forget->bind(1, name);
     forget->exec();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Put(std::span<const ProposedJoint> proposed, const std::string& by,
+                               std::int64_t now_unix_ms) {
+  return database_->Guarded("storing proposals", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const ProposedJoint& each : proposed) {
+      database_->Insert(each, by, now_unix_ms);
+      if (each.verdict != ProposedJoint::Verdict::kTaken) continue;
+      auto joined = database_->Insert(each.proposal.joint, by, now_unix_ms);
+      if (!joined) return joined;
+    }
+    if (database_->Count("SELECT count(*) FROM proposed_joint") > kMostProposals) {
+      return Fail(ErrorCode::kUnavailable, "{} proposed joints are kept already: no more",
+                  kMostProposals);
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::MarkSearched(const std::string& revision) {
+  return database_->Guarded("storing what was looked at", [&]() -> Result<void> {
+    auto put = database_->compiled.Take("INSERT OR IGNORE INTO searched (revision) VALUES (?1)");
+    put->bind(1, revision);
+    put->exec();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::DropProposals(const std::string& revision) {
+  return database_->Guarded("forgetting proposals", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const char* sql : {"DELETE FROM proposed_joint WHERE from_route = ?1 OR to_route = ?1",
+                            "DELETE FROM searched WHERE revision = ?1"}) {
+      auto remove = database_->compiled.Take(sql);
+      remove->bind(1, revision);
+      remove->exec();
+    }
+    transaction.commit();
     return {};
   });
 }

@@ -88,7 +88,8 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
                                        "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
                                        "close hall 3..",
                                        "limit hall 1..2 speed 0.5",
-                                       "narrow hall 1..2"};
+                                       "narrow hall 1..2",
+                                       "proposed join hall@3 office@4 both confidence 0.93"};
   EXPECT_THAT(NetworkText(lines),
               AllOf(HasSubstr("route hall 20.00 m\n"),
                     HasSubstr("join hall@1@12 office@0 both   (not used:"),
@@ -101,6 +102,11 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
               HasSubstr(R"("ahead_m": 0.10, "left_m": -0.20, "turn_rad": 1.5708}, "used": true})"));
   EXPECT_THAT(json, HasSubstr(R"({"route": "hall", "from_m": 3.00, "to_m": null})"));
   EXPECT_THAT(json, HasSubstr(R"("to_m": 2.00, "speed": 0.5, "cost": 1})"));
+  EXPECT_THAT(
+      json,
+      HasSubstr(
+          R"("proposed": [{"from": {"route": "hall", "along_m": 3.00}, "to": {"route": "office", )"
+          R"("along_m": 4.00}, "both": true, "lie": null, "confidence": 0.93}])"));
   EXPECT_THAT(NetworkText({}), HasSubstr("no routes are joined"));
 
   const std::vector<std::string> way{"follow hall 2..12", "follow office ..8.5 speed 0.5"};

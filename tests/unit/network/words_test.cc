@@ -27,9 +27,10 @@ std::string Listed(const std::string& words) {
 TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
   for (const char* words :
        {"join hall@12 office@0", "join hall@2@12.25 office@0 both",
-        "join hall@12 office@0 both offset 0.1,-0.25 heading 3.5", "close hall", "close hall 3..7",
-        "close hall 3..", "close hall 0..7", "limit hall 3..7 speed 0.5",
-        "limit hall 3.. speed 0.5 cost 2", "limit a3f9c21 cost 0.5", "name loading-bay office@8"}) {
+        "join hall@12 office@0 both offset 0.1,-0.25 heading 3.5",
+        "join hall@12 office@0 heading 3.5", "close hall", "close hall 3..7", "close hall 3..",
+        "close hall 0..7", "limit hall 3..7 speed 0.5", "limit hall 3.. speed 0.5 cost 2",
+        "limit a3f9c21 cost 0.5", "name loading-bay office@8"}) {
     EXPECT_EQ(Listed(words), words);
   }
   EXPECT_EQ(Listed("  join   hall@12.0 office@0.00  "), "join hall@12 office@0");
@@ -69,6 +70,45 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
   EXPECT_THAT(Why("name " + std::string(65, 'x') + " office@8"), HasSubstr("up to 64"));
   EXPECT_THAT(Why("forget bay office@8"), HasSubstr("nothing more"));
+}
+
+TEST(NetworkWords, AProposedJointIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {
+  const auto one = ParseEdit("confirm hall@12 office@0.4");
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->kind, Edit::Kind::kConfirm);
+  EXPECT_EQ(one->joint.to, (Place{"office", 0.4}));
+  EXPECT_FALSE(one->all);
+  const auto sure = ParseEdit("confirm all above 0.9");
+  ASSERT_TRUE(sure && sure->all);
+  EXPECT_EQ(sure->all->least, 0.9);
+  EXPECT_EQ(sure->all->most, 1.0);
+  const auto unsure = ParseEdit("refuse all below 0.8");
+  ASSERT_TRUE(unsure && unsure->all);
+  EXPECT_EQ(unsure->kind, Edit::Kind::kRefuse);
+  EXPECT_EQ(unsure->all->least, 0.0);
+  EXPECT_EQ(unsure->all->most, 0.8);
+  EXPECT_TRUE(ParseEdit("refuse all"));
+  EXPECT_THAT(Why("confirm all below 0.9"), HasSubstr("'below': expected 'above F'"));
+  EXPECT_THAT(Why("refuse all below 1.1"), HasSubstr("'1.1': expected how sure"));
+  EXPECT_THAT(Why("confirm all above 0.9 please"), HasSubstr("'please'"));
+  EXPECT_THAT(Why("confirm hall@12"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("refuse hall@12 office@0 both"), HasSubstr("nothing more"));
+}
+
+TEST(NetworkWords, AProposalIsListedAsTheJointThatItWouldMakeAndNoSurerThanItIs) {
+  const Proposal proposal{{{"hall", 12.3}, {"office", 0.4}, true, Lie{.turn_rad = 0.05}}, 0.9999};
+  const std::string line = ToText(proposal);
+  EXPECT_EQ(line, "proposed join hall@12.3 office@0.4 both heading 2.9 confidence 0.99");
+  const auto listed = ParseListed(line);
+  ASSERT_TRUE(listed.proposal);
+  EXPECT_FALSE(listed.edit);
+  EXPECT_EQ(ToText(*listed.proposal), line);
+  for (const char* other :
+       {"proposed join hall@12.3 office@0.4", "proposed close hall confidence 1",
+        "proposed join hall@1 hall@2 confidence 7"}) {
+    const auto not_one = ParseListed(other);
+    EXPECT_FALSE(not_one.proposal || not_one.edit || not_one.route) << other;
+  }
 }
 
 TEST(NetworkWords, AWayIsAskedForBetweenPlacesNamedOnesOrFromARobot) {

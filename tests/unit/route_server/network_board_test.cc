@@ -11,9 +11,11 @@ namespace trailcast::server {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 // hall of 20 m, office of 10 m, ring of 8 m.
@@ -73,6 +75,17 @@ class NetworkBoardTest : public testing::Test {
     return reply.lines;
   }
 
+  static route::RouteKey Key(unsigned number, std::uint64_t teaching = 1) {
+    return test::KeyNumber(number, teaching);
+  }
+  // What it adds, "taken: .." where it is made at once.
+  std::string Propose(const Meeting& meeting, double take_from = 2.0) {
+    const auto proposed = board_->Propose(meeting, take_from, 1000);
+    EXPECT_TRUE(proposed) << proposed.error().message;
+    if (!proposed || !*proposed) return "";
+    return ((*proposed)->taken ? "taken: " : "") + (*proposed)->line;
+  }
+
   test::TempDir folder_;
   test::MemoryStore routes_;
   std::unique_ptr<NetworkBoard> board_;
@@ -92,6 +105,104 @@ TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
   EXPECT_THAT(Done("part office@0 hall@12"), ElementsAre("join hall@12 office@0"));
   EXPECT_THAT(Refused("part office@0 hall@12"), HasSubstr("no joint of office@0 and hall@12"));
   EXPECT_THAT(Asked(), IsEmpty());
+}
+
+TEST_F(NetworkBoardTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
+  EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, 0.05, 0.93}),
+            "proposed join hall@12 office@0.4 both heading 2.9 confidence 0.93");
+  EXPECT_EQ(board_->open_proposals(), 1U);
+  Restart();
+  EXPECT_THAT(Asked(), ElementsAre("route hall 20.00", "route office 10.00",
+                                   "proposed join hall@12 office@0.4 both heading 2.9 confidence "
+                                   "0.93"));
+  EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("no way leads"));
+  EXPECT_THAT(Refused("confirm hall@12 office@2"),
+              HasSubstr("no joint of hall@12 and office@2 is"));
+  EXPECT_THAT(Done("confirm office@0 hall@12"),
+              ElementsAre("join hall@12 office@0.4 both heading 2.9"));
+  EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));
+  EXPECT_EQ(board_->open_proposals(), 0U);
+  Done("part hall@12 office@0.4");
+  EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, 0.05, 0.93}), "") << "it had its word";
+  Restart();
+  EXPECT_THAT(Asked(), IsEmpty());
+}
+
+TEST_F(NetworkBoardTest, WhatWasRefusedIsNotProposedAgainOfTheseRevisions) {
+  Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
+  EXPECT_THAT(Done("refuse hall@12.3 office@0.7"),
+              ElementsAre("proposed join hall@12 office@0.4 both confidence 0.93"));
+  Restart();
+  EXPECT_EQ(Propose({Key(1), Key(2), 12.9, 1.2, 3.0, {}, 0.99}), "");
+  EXPECT_EQ(Propose({Key(2), Key(1), 0.0, 11.1, 3.0, {}, 0.99}), "") << "nor from the other's side";
+  EXPECT_THAT(Asked(), IsEmpty());
+  EXPECT_NE(Propose({Key(1), Key(2), 17.0, 0.4, 3.0, {}, 0.93}), "") << "another place";
+  // A new revision is another one, until the one of before is followed again.
+  Put(1, "hall", 20.0, 1, route::Standing::kRetired, 2);
+  Put(1, "hall", 20.0, 2, route::Standing::kActive, 2);
+  EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed"))));
+  EXPECT_EQ(Propose({Key(1), Key(2), 17.0, 4.4, 3.0, {}, 0.93}), "") << "not followed";
+  EXPECT_NE(Propose({Key(1, 2), Key(2), 12.0, 0.4, 3.0, {}, 0.93}), "");
+}
+
+TEST_F(NetworkBoardTest, NoneIsProposedBesideAJointAndOneSideOfAPairIsEnough) {
+  Done("join hall@12 office@0");
+  EXPECT_EQ(Propose({Key(1), Key(2), 13.0, 0.9, 3.0, {}, 0.93}), "");
+  EXPECT_NE(Propose({Key(3), Key(2), 1.0, 6.0, 3.0, {}, 0.93}), "");
+  EXPECT_EQ(Propose({Key(2), Key(3), 6.8, 1.7, 3.0, {}, 0.95}), "");
+  EXPECT_EQ(Propose({Key(2), Key(3), 3.0, 0.0, 5.0, {}, 0.95}), "")
+      << "a longer stretch that has it in its middle";
+  Done("join ring@1 office@6");
+  EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed")))) << "an operator made it himself";
+}
+
+TEST_F(NetworkBoardTest, ARouteThatComesBackIsToLeadFromItsEndToItsBeginning) {
+  EXPECT_EQ(Propose({Key(3), Key(3), 0.0, 7.5, 0.5, -0.1, 0.97}),
+            "proposed join ring@7.5 ring@0 both heading 5.7 confidence 0.97");
+}
+
+TEST_F(NetworkBoardTest, AllThatAreSureAreConfirmedAtOnceAndTheOthersRefused) {
+  Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
+  Propose({Key(1), Key(3), 3.0, 1.0, 2.0, {}, 0.7});
+  Propose({Key(2), Key(3), 8.0, 5.0, 2.0, {}, 0.9});
+  EXPECT_THAT(Done("confirm all above 0.9"),
+              ElementsAre("join hall@12 office@0.4 both", "join office@8 ring@5 both"));
+  EXPECT_THAT(Done("confirm all above 0.9"), IsEmpty());
+  EXPECT_THAT(Done("refuse all"), ElementsAre("proposed join hall@3 ring@1 both confidence 0.70"));
+  Restart();
+  EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed"))));
+  EXPECT_THAT(Asked("way hall@2 ring@7"), SizeIs(3));
+}
+
+TEST_F(NetworkBoardTest, SureOnesAreTakenAtOnceWhereThatIsWanted) {
+  EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93}, 0.9),
+            "taken: proposed join hall@12 office@0.4 both confidence 0.93");
+  EXPECT_EQ(Propose({Key(1), Key(3), 3.0, 1.0, 2.0, {}, 0.89}, 0.9),
+            "proposed join hall@3 ring@1 both confidence 0.89");
+  Restart();
+  EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));
+  EXPECT_EQ(board_->open_proposals(), 1U);
+}
+
+TEST_F(NetworkBoardTest, OfAPairOnlySoManyAreProposed) {
+  for (std::size_t i = 0; i < NetworkBoard::kMostOfAPair + 3; ++i) {
+    Propose({Key(1), Key(1), 0.3 * static_cast<double>(i), 19.0 - 2.5 * (i % 7), 0.1, {}, 0.9});
+  }
+  EXPECT_LE(board_->open_proposals(), NetworkBoard::kMostOfAPair);
+  EXPECT_GE(board_->open_proposals(), 4U);
+}
+
+TEST_F(NetworkBoardTest, WhatWasLookedAtIsRememberedUntilItIsDeleted) {
+  EXPECT_FALSE(board_->WasSearched(Key(1)));
+  ASSERT_TRUE(board_->MarkSearched(Key(1)));
+  Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
+  Restart();
+  EXPECT_TRUE(board_->WasSearched(Key(1)));
+  Put(1, "hall", 20.0, 1, route::Standing::kDeleted, 2);
+  EXPECT_FALSE(board_->WasSearched(Key(1)));
+  Restart();
+  EXPECT_FALSE(board_->WasSearched(Key(1)));
+  EXPECT_EQ(board_->open_proposals(), 0U);
 }
 
 TEST_F(NetworkBoardTest, TheSameJointIsMadeOnce) {

@@ -51,6 +51,33 @@ TEST_F(NetworkStoreTest, JointsAreThereAfterARestartInTheirOrderOnceForTheSamePl
   EXPECT_THAT(store_->Joints().value(), ElementsAre(second));
 }
 
+TEST_F(NetworkStoreTest, ProposalsStayWhatTheyAreSaidToBeUntilTheirRevisionGoes) {
+  using Verdict = ProposedJoint::Verdict;
+  const Joint first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{.turn_rad = 0.05}};
+  const Joint second{{"b/7", 3.0}, {"c/1", 1.0}};
+  ASSERT_TRUE(
+      store_->Put(std::vector<ProposedJoint>{{{first, 0.97}}, {{second, 0.8}}}, "server", 1000));
+  ASSERT_TRUE(store_->MarkSearched("b/7"));
+  ASSERT_TRUE(store_->MarkSearched("b/7"));
+  Reopen();
+  EXPECT_THAT(store_->Proposals().value(),
+              ElementsAre(ProposedJoint{{first, 0.97}}, ProposedJoint{{second, 0.8}}));
+  EXPECT_THAT(store_->Searched().value(), ElementsAre("b/7"));
+  EXPECT_THAT(store_->Joints().value(), IsEmpty());
+  const ProposedJoint taken{{first, 0.97}, Verdict::kTaken};
+  const ProposedJoint refused{{second, 0.8}, Verdict::kRefused};
+  ASSERT_TRUE(store_->Put(std::vector<ProposedJoint>{taken, refused}, "desk", 2000));
+  Reopen();
+  EXPECT_THAT(store_->Proposals().value(), ElementsAre(taken, refused));
+  EXPECT_THAT(store_->Joints().value(), ElementsAre(first));
+  ASSERT_TRUE(store_->DropProposals("c/1"));
+  EXPECT_THAT(store_->Proposals().value(), ElementsAre(taken));
+  ASSERT_TRUE(store_->DropProposals("b/7"));
+  EXPECT_THAT(store_->Proposals().value(), IsEmpty());
+  EXPECT_THAT(store_->Searched().value(), IsEmpty());
+  EXPECT_THAT(store_->Joints().value(), ElementsAre(first)) << "an operator's word stays";
+}
+
 TEST_F(NetworkStoreTest, ConditionsOfARouteReplaceThoseOfBefore) {
   const Condition closed{.route = "a", .from_m = 3.0, .to_m = 7.5, .closed = true};
   const Condition slow{.route = "a", .to_m = 1e7, .speed = 0.5, .cost = 2.0};

@@ -13,10 +13,11 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 TEST(NetworkPictureOf, HasWhatTheServerLists) {
-  const auto picture = PictureOf(
-      {"route office 10.00", "route hall 20.00", "join hall@12 office@0 both",
-       "unused join hall@1@15 office@9", "close hall 3..7", "limit office speed 0.5",
-       "name loading-bay office@8", "unused name attic attic@1@3", "what a later server says"});
+  const auto picture =
+      PictureOf({"route office 10.00", "route hall 20.00", "join hall@12 office@0 both",
+                 "unused join hall@1@15 office@9", "close hall 3..7", "limit office speed 0.5",
+                 "name loading-bay office@8", "unused name attic attic@1@3",
+                 "proposed join office@3 hall@4 both confidence 0.93", "what a later server says"});
   ASSERT_TRUE(picture);
   ASSERT_THAT(picture->routes, SizeIs(2));
   EXPECT_EQ(picture->routes[1].name, "office");
@@ -26,12 +27,14 @@ TEST(NetworkPictureOf, HasWhatTheServerLists) {
   EXPECT_EQ(picture->routes[0].marked[0].from_m, 3.0);
   ASSERT_THAT(picture->routes[1].marked, SizeIs(1));
   EXPECT_EQ(picture->routes[1].marked[0].to_m, 10.0) << "up to its end";
-  ASSERT_THAT(picture->joints, SizeIs(2));
+  ASSERT_THAT(picture->joints, SizeIs(3));
   EXPECT_TRUE(picture->joints[0].both && picture->joints[0].used);
   EXPECT_EQ(picture->joints[0].from.along_m, 12.0);
   EXPECT_EQ(picture->joints[0].to.route, 1U);
   EXPECT_FALSE(picture->joints[1].used);
   EXPECT_EQ(picture->joints[1].from.route, 0U) << "another revision's, on the row of this one";
+  EXPECT_FALSE(picture->joints[2].used);
+  EXPECT_EQ(picture->joints[2].to.along_m, 4.0);
   ASSERT_THAT(picture->names, SizeIs(1));
   EXPECT_EQ(picture->names[0].name, "loading-bay");
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "services/route/route.h"
+
+namespace trailcast::server {
+
+// Who does not ask an operator believes what is found from this confidence on.
+inline constexpr double kSure = 0.9;
+
+// Two revisions, or two parts of one, that come to the same place looking the same way, and run on
+// together.
+struct Meeting {
+  route::RouteKey a;
+  route::RouteKey b;
+  double at_a_m = 0.0;  // where they begin to
+  double at_b_m = 0.0;
+  double length_m = 0.0;
+  std::optional<double> heading_rad{};  // how much further left b looks, where that is known
+  double confidence = 0.0;              // 0.5 to 1
+
+  bool operator==(const Meeting&) const = default;
+};
+
+}  // namespace trailcast::server
