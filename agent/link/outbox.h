@@ -60,6 +60,8 @@ class Outbox {
   // Why a server takes nothing of a route, or what it holds in its stead, one line for people; of
   // several the first.
   [[nodiscard]] std::optional<std::string> refusal() const;
+  // What a server has to say of a route, for people; or nothing.
+  [[nodiscard]] const std::string& remark(const route::RouteKey& key) const;
   // Every route is complete and confirmed.
   [[nodiscard]] bool AllReceipted() const;
   // Nothing is left to be sent: all is confirmed, or was deleted by an operator.

@@ -113,6 +113,7 @@ class ScoutLink {
   [[nodiscard]] bool HasAsked() const;
   void HearServer();
   void HearRefusal();
+  void HearRemark();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   ScoutLinkOptions options_;
@@ -126,6 +127,7 @@ class ScoutLink {
   std::optional<AgentId> told_server_;
   std::optional<std::chrono::steady_clock::time_point> server_heard_at_;
   std::optional<std::string> told_refusal_;
+  std::string told_remark_;
   std::vector<route::RouteKey> held_revisions_;
   bool told_no_server_ = false;
 

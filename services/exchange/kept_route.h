@@ -69,6 +69,11 @@ class KeptRoute {
   }
   // Its scout is over a quota, and is told so until then.
   void MarkOver(const std::string& reason, Time until);
+  // Worth knowing for who teaches it, while nothing is refused.
+  void Remark(const std::string& text) {
+    remark_ = text;
+    receipt_due = true;
+  }
   // That time has passed: a receipt is due that says so.
   void LapseOver(Time now);
 
@@ -108,6 +113,7 @@ class KeptRoute {
   // ChainDigest of the first `chained_` segments, kept so that each is hashed in once.
   std::uint32_t chained_ = 0;
   route::Digest chain_{};
+  std::string remark_;              // for who teaches it
   std::string full_;                // why the store takes nothing; empty: it does
   std::optional<Time> over_until_;  // that is a quota, told of until then
 };

@@ -92,7 +92,7 @@ struct Receipt {
   route::Standing standing = route::Standing::kStaged;
   RevisionNumber followed{};  // the revision of its route that is active there; 0: none
   Refusal refusal = Refusal::kNone;
-  std::string reason{};  // for people, with a refusal
+  std::string reason{};  // for people: of a refusal; else what is worth knowing, or nothing
   bool operator==(const Receipt&) const = default;
 };
 

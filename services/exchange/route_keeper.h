@@ -93,6 +93,8 @@ class RouteKeeper {
 
   // The owner takes nothing, or not all, of the revision for now: its scout is told why.
   void TellOverQuota(const route::RouteKey& key, const std::string& why, Time now);
+  // Who teaches the revision reads it in its receipts until another one is made.
+  void Remark(const route::RouteKey& key, const std::string& text, Time now);
 
   // Stores later labels of revisions, in one commit, and has them announced.
   [[nodiscard]] Result<void> Relabel(std::span<const route::RouteInfo> infos, Time now);

@@ -67,6 +67,8 @@ class RouteSender {
   [[nodiscard]] bool Done() const { return AllReceipted() || deleted(); }
   // The last receipt, if it was a refusal.
   [[nodiscard]] const std::optional<Receipt>& refused() const { return refused_; }
+  // What the last receipt that was none has for people, or nothing.
+  [[nodiscard]] const std::string& remark() const { return remark_; }
   // An operator deleted the revision: nobody wants it.
   [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
   // As the last receipt has it.
@@ -97,6 +99,7 @@ class RouteSender {
   std::optional<StandingThere> standing_;
   bool complete_receipted_ = false;
   std::optional<Receipt> refused_;
+  std::string remark_;
   std::vector<SegmentIndex> newly_receipted_;
   std::vector<Error> read_errors_;
 

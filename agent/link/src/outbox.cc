@@ -216,6 +216,10 @@ std::optional<std::string> Outbox::refusal() const {
   return std::nullopt;
 }
 
+const std::string& Outbox::remark(const route::RouteKey& key) const {
+  return sending_.at(key).sender.remark();
+}
+
 std::optional<exchange::StandingThere> Outbox::standing(const route::RouteKey& key) const {
   return sending_.at(key).sender.standing();
 }

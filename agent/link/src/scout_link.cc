@@ -151,7 +151,7 @@ Result<void> ScoutLink::Step() {
     bell_.Wait(milliseconds(200));
     return {};
   }
-  ShowStatus(exchange::AgentMode::kTeaching, "");
+  ShowStatus(exchange::AgentMode::kTeaching, told_remark_);
   return Trade();
 }
 
@@ -189,6 +189,7 @@ Result<void> ScoutLink::Trade() {
   presence_->Tick(now);
   HearServer();
   HearRefusal();
+  HearRemark();
   return outbox_.SaveReceipts();
 }
 
@@ -248,6 +249,15 @@ void ScoutLink::HearRefusal() {
     spdlog::warn("{}; this agent's copy stays in {}", *told_refusal_, options_.store_file);
   } else {
     spdlog::info("the server takes segments again");
+  }
+}
+
+// At once, while operators may want it driven otherwise.
+void ScoutLink::HearRemark() {
+  if (!key_ || outbox_.remark(*key_) == told_remark_) return;
+  told_remark_ = outbox_.remark(*key_);
+  if (!told_remark_.empty()) {
+    spdlog::info("what is being taught {}", PlainText(told_remark_, exchange::kMaxLineBytes));
   }
 }
 

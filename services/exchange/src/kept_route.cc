@@ -166,7 +166,7 @@ Receipt KeptRoute::MakeReceipt(const AgentId& server, const route::RouteKey& key
                   .revision = stored_ ? stored_->revision : RevisionNumber(),
                   .standing = stored_ ? stored_->standing : route::Standing::kStaged,
                   .refusal = Refusal::kNone,
-                  .reason = full_};
+                  .reason = full_.empty() ? remark_ : full_};
   if (deleted()) {
     receipt.durable_state = RouteState::kTeaching;
     receipt.refusal = Refusal::kDeleted;

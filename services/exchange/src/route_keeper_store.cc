@@ -202,6 +202,11 @@ void RouteKeeper::TellOverQuota(const RouteKey& key, const std::string& why, Tim
   kept->MarkOver(PlainText(why, kMaxLineBytes), now + options_.over_quota_told);
 }
 
+void RouteKeeper::Remark(const RouteKey& key, const std::string& text, Time now) {
+  KeptRoute* kept = Find(key, now, Which::kStored);
+  if (kept != nullptr) kept->Remark(PlainText(text, kMaxLineBytes));
+}
+
 void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
   const bool conflict = error.code == ErrorCode::kConflict;
   const bool corrupt = error.code == ErrorCode::kCorrupt;

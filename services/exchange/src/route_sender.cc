@@ -78,7 +78,11 @@ void RouteSender::HandleReceipt(const Receipt& receipt) {
   if (receipt.key != info_.key || deleted()) return;
   standing_ = {receipt.standing, receipt.followed};
   refused_.reset();
-  if (receipt.refusal != Refusal::kNone) refused_ = receipt;
+  if (receipt.refusal != Refusal::kNone) {
+    refused_ = receipt;
+  } else {
+    remark_ = receipt.reason;
+  }
   if (deleted()) {
     to_stream_.clear();
     return;

@@ -309,6 +309,20 @@ TEST_F(RouteKeeperTest, AScoutOverItsQuotaIsToldSoUntilAWhileAfter) {
   EXPECT_EQ(receipt.durable_prefix, 2U);
 }
 
+TEST_F(RouteKeeperTest, AScoutReadsWhatIsWorthKnowingInItsReceipts) {
+  Announce(2);
+  Deliver({pieces_[0]});
+  EXPECT_EQ(Only<Receipt>(Tick()).at(0).reason, "");
+  keeper_->Remark(key_, "crosses hall at 12.3 m", now_);
+  const Receipt receipt = Only<Receipt>(TickAfter(milliseconds(500))).at(0);
+  EXPECT_EQ(receipt.refusal, Refusal::kNone);
+  EXPECT_EQ(receipt.reason, "crosses hall at 12.3 m");
+  keeper_->TellOverQuota(key_, "over quota", now_);
+  EXPECT_EQ(Only<Receipt>(TickAfter(milliseconds(500))).at(0).reason, "over quota");
+  keeper_->Remark({RouteId(std::string(32, 'f')), TeachingId(7)}, "of no stored route", now_);
+  EXPECT_TRUE(Only<Receipt>(TickAfter(milliseconds(500))).empty());
+}
+
 TEST_F(RouteKeeperTest, ReportsTheSameTroubleNowAndThen) {
   store_.full = true;
   for (int i = 0; i < 100; ++i) {

@@ -216,6 +216,18 @@ TEST_F(RouteSenderTest, GoesOnOfferingWhatAFullServerRefuses) {
   EXPECT_FALSE(sender.refused());
 }
 
+TEST_F(RouteSenderTest, HearsWhatAServerSaysOfWhatItTook) {
+  RouteSender sender = Sender();
+  Teach(sender);
+  EXPECT_EQ(sender.remark(), "");
+  Receipt receipt = ReceiptOf(1);
+  receipt.reason = "crosses hall at 12.3 m";
+  sender.Handle(receipt, now_);
+  EXPECT_FALSE(sender.refused());
+  EXPECT_EQ(sender.remark(), "crosses hall at 12.3 m");
+  EXPECT_TRUE(sender.Unreceipted().empty());
+}
+
 TEST_F(RouteSenderTest, StopsSendingWhatAnOperatorDeleted) {
   RouteSender sender = Sender();
   Teach(sender);
