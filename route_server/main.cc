@@ -41,6 +41,7 @@ struct StoreOptions {
   std::string location;
   std::string missions;  // empty: beside the location, if that is a file
   std::string joints;    // likewise
+  bool joints_auto = false;
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // of each scout
   std::uint32_t keep_revisions = 0;
@@ -69,6 +70,11 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "store's name with '.joints' behind it; with PostgreSQL, each server's own: "
                  "without one, it keeps no network of routes")
       ->envname("TRAILCAST_JOINTS");
+  app.add_flag(
+         "--joints-auto", options.joints_auto,
+         "Make joints of the places where the server is sure, at 0.9 or more, that routes meet; "
+         "without, they are proposed, and 'trailcast network confirm' makes them")
+      ->envname("TRAILCAST_JOINTS_AUTO");
   app.add_option("--keep-revisions", options.keep_revisions,
                  "How many complete revisions of a route to keep, the newest, besides the active "
                  "one; older ones are deleted; 0: all")
@@ -160,6 +166,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
        &Server::KeepMissions);
   Keep(OwnFile(options, options.joints, ".joints"), "network of routes", **server,
        &Server::KeepNetwork);
+  if (options.joints_auto) (*server)->TakeSureJoints();
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
       .keep_for = std::chrono::hours(24) * options.keep_days};

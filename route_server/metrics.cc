@@ -72,6 +72,14 @@ std::string Metrics::Text() const {
   lines.Add("segments_stray_dropped_total", kCounter,
             "Stored segments dropped because nobody announced their teaching for a day.",
             dropped_strays);
+  lines.Add("routes_searched_total", kCounter,
+            "Routes for which it was looked where others meet them.", joints.routes_searched);
+  lines.Add("joints_proposed_total", kCounter, "Joints found and proposed.", joints.proposed);
+  lines.Add("joints_taken_total", kCounter, "Joints found and made without asking.", joints.taken);
+  lines.Add("joints_open", kGauge, "Proposed joints that nobody has confirmed or refused.",
+            joints.open);
+  lines.Add("crossings_total", kCounter, "Known routes that scouts were told they cross.",
+            joints.crossings);
   lines.Add("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
   std::string text = lines.text();

@@ -40,6 +40,13 @@ struct Metrics {
     std::uint64_t routes = 0;    // announcements that were not taken
     std::uint64_t requests = 0;
   } over_quota{};
+  struct {
+    std::uint64_t routes_searched = 0;  // that others were looked for near
+    std::uint64_t proposed = 0;         // to operators
+    std::uint64_t taken = 0;            // without asking
+    std::uint64_t crossings = 0;        // that scouts were told of
+    std::size_t open = 0;               // proposals that wait for an operator
+  } joints{};
   std::size_t routes = 0;   // in the store
   std::size_t backlog = 0;  // segments announced, not durable yet
   std::size_t agents = 0;   // present

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "services/base/text.h"
@@ -102,6 +103,8 @@ Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
   auto board = NetworkBoard::Open(presence_.status().agent, std::move(store), *store_);
   if (!board) return tl::unexpected(board.error());
   network_ = std::move(*board);
+  joints_ = std::make_unique<JointDesk>(
+      *store_, views_, [this](const route::RouteKey& key) { return network_->WasSearched(key); });
   return {};
 }
 
@@ -135,7 +138,7 @@ void Server::Receive(exchange::Message message) {
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
     // Another server may have changed it in the store that both share.
-    if (network_ && store_->shared()) network_->Note(announced->info);
+    if (network_ && store_->shared()) NoteOfNetwork(announced->info);
   }
   if (!quotas_) {
     keeper_->Handle(std::move(message), steady_clock::now());
@@ -177,6 +180,7 @@ void Server::Serve() {
   const auto outgoing = Say(now);
   TellTroubles();
   FillViews(outgoing);
+  KeepLookingForJoints(now);
   upkeep_->Tick(now);
   TellAgents();
   TellMissions();
@@ -196,7 +200,11 @@ milliseconds Server::WaitForMessages() const {
   const bool views_due = !views_.Filled() && !views_wait_;
   const bool more = !requests_.empty() || keeper_->AnswersDue(steady_clock::now());
   if (views_due || more) return milliseconds(0);
-  return keeper_->answering() ? kWaitAnswering : kWait;
+  const milliseconds wait = keeper_->answering() ? kWaitAnswering : kWait;
+  const auto joints_due = joints_ ? joints_->due() : std::nullopt;
+  if (!joints_due) return wait;
+  return std::clamp(std::chrono::ceil<milliseconds>(*joints_due - steady_clock::now()),
+                    milliseconds(0), wait);
 }
 
 std::vector<exchange::Message> Server::Say(steady_clock::time_point now) {
@@ -255,11 +263,12 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
       spdlog::warn("left out of the index of views: {}", added.error().message);
     }
     upkeep_->NoteStored(piece.key, piece.index);
+    if (joints_) joints_->NoteStored(piece.key, piece.index);
   }
   for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {
     const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
-    if (announced != nullptr && network_) network_->Note(announced->info);
+    if (announced != nullptr && network_) NoteOfNetwork(announced->info);
     if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
       views_.Forget(announced->info.key);
     }
@@ -305,6 +314,7 @@ void Server::ShowMetrics() {
   metrics_.partial_routes = upkeep_->partial_routes();
   metrics_.lacking_segments = upkeep_->lacking_segments();
   metrics_.dropped_strays = upkeep_->dropped_strays();
+  if (network_) metrics_.joints.open = network_->open_proposals();
   page_->Show({metrics_.Text(), upkeep_->store_trouble(), upkeep_->Degraded()});
 }
 

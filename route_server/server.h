@@ -8,6 +8,7 @@
 #include "route_server/fleet_news.h"
 #include "route_server/holders.h"
 #include "route_server/http_page.h"
+#include "route_server/joint_desk.h"
 #include "route_server/journal.h"
 #include "route_server/metrics.h"
 #include "route_server/mission_board.h"
@@ -41,6 +42,8 @@ class Server {
   [[nodiscard]] Result<void> KeepMissions(std::unique_ptr<store::MissionStore> store);
   // Keeps how routes are joined, likewise.
   [[nodiscard]] Result<void> KeepNetwork(std::unique_ptr<store::NetworkStore> store);
+  // Makes joints of sure proposals without asking an operator.
+  void TakeSureJoints() { takes_sure_joints_ = true; }
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -75,6 +78,10 @@ class Server {
   void TellMissions();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
+  void NoteOfNetwork(const route::RouteInfo& info);
+  void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
+  void Propose(const Meeting& meeting);
+  void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
   void DeleteOutdated();
   void ShowMetrics();
   void ShowWhatItDoes();
@@ -95,6 +102,8 @@ class Server {
   RouteFollowersBoard followers_;
   std::unique_ptr<MissionBoard> missions_;  // none: it keeps none
   std::unique_ptr<NetworkBoard> network_;   // likewise
+  std::unique_ptr<JointDesk> joints_;       // for that
+  bool takes_sure_joints_ = false;
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -46,6 +46,7 @@ class ViewCatalog {
                                               const AgentId& server);
 
   [[nodiscard]] const view::ViewIndex& index() const { return index_; }
+  [[nodiscard]] view::ViewIndex& index() { return index_; }  // to be asked
 
  private:
   using Place = view::ViewIndex::Place;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct JointOptions {
   std::size_t least_views = 3;
   double least_evidence = 8.0;
   std::size_t most_joints = 20;  // of two routes
+  // Asked while views are compared: true, and what is found so far is all.
+  std::function<bool()> give_up{};
 };
 
 // Where two routes come to the same place looking the same way, and run on together.

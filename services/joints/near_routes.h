@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "services/route/route.h"
@@ -26,9 +28,33 @@ struct NearRouteOptions {
   std::size_t most_routes = 50;
 };
 
-// Which of the index's routes are worth comparing with this one (find_joints.h): several of its
-// views have some of their segments among those most like them, in order. Those with the most such
-// views first. Teachings of the same route are left out.
+// Which of an index's routes are worth comparing with this one (find_joints.h): several of its
+// views have some of their segments among those most like them, in order. View after view, for who
+// has little time at once.
+class NearRouteSearch {
+ public:
+  explicit NearRouteSearch(RouteId self, const NearRouteOptions& options = {})
+      : self_(std::move(self)), options_(options) {}
+
+  // The route's next view.
+  void Look(view::ViewIndex& index, std::span<const route::ViewFeature> view);
+  // Only the last so many count.
+  void KeepLast(std::size_t views);
+  // Those with the most such views first. Teachings of the same route are left out.
+  [[nodiscard]] std::vector<NearRoute> Found() const;
+
+ private:
+  struct Hit {
+    std::size_t view = 0;
+    view::ViewIndex::Place place;
+  };
+  RouteId self_;
+  NearRouteOptions options_;
+  std::size_t views_ = 0;
+  std::deque<Hit> hits_;
+};
+
+// The same of a whole route.
 [[nodiscard]] std::vector<NearRoute> NearRoutes(view::ViewIndex& index, const RouteId& self,
                                                 std::span<const route::Segment> route,
                                                 const NearRouteOptions& options = {});

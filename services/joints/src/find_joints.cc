@@ -44,6 +44,7 @@ std::vector<Alike> FindAlike(const RouteViews& a, const RouteViews& b,
   std::vector<Alike> found;
   for (std::size_t i = 0; i < a.views().size(); ++i) {
     if (a.views()[i].reverse) continue;
+    if (options.give_up && options.give_up()) break;
     for (std::size_t j = 0; j < b.views().size(); ++j) {
       if (b.views()[j].reverse) continue;
       const auto comparison =
@@ -61,6 +62,7 @@ std::vector<Alike> FindAlike(const RouteViews& route, const JointOptions& option
   std::vector<Alike> found;
   for (std::size_t i = 0; i < route.views().size(); ++i) {
     if (route.views()[i].reverse) continue;
+    if (options.give_up && options.give_up()) break;
     int unlike = 0;
     for (std::size_t j = i + 1; j < route.views().size(); ++j) {
       if (route.views()[j].reverse) continue;

@@ -270,6 +270,17 @@ TEST(FindJoints, FindsEachOfTwoStretches) {
   ASSERT_THAT(joints, SizeIs(2));
 }
 
+TEST(FindJoints, IsOverSoonWhereItIsGivenUp) {
+  const auto building = Building(1);
+  const RouteViews a = Teach(building, Straight(0.0, 14.0));
+  int asked = 0;
+  JointOptions options;
+  options.give_up = [&] { return ++asked > 0; };
+  EXPECT_THAT(FindJoints(a, a, true, options), IsEmpty());
+  EXPECT_THAT(FindLoops(a, options), IsEmpty());
+  EXPECT_EQ(asked, 2);
+}
+
 TEST(FindLoops, TellsWhereARouteComesBack) {
   const auto joints = FindLoops(Teach(Building(1), Round(1.3)));
   ASSERT_THAT(joints, SizeIs(1));

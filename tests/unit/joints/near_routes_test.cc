@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/view/key_views.h"
 #include "tests/support/seen_segment.h"
 
 namespace trailcast::joints {
@@ -51,6 +52,23 @@ TEST(NearRoutes, PutTheOneFirstThatIsAlikeForLonger) {
   ASSERT_EQ(near.size(), 2U);
   EXPECT_EQ(near[0].key, Key('b'));
   EXPECT_EQ(near[1].first.value(), 0U);
+}
+
+TEST(NearRoutes, OfTheLastViewsAreThoseThatTheRouteIsAtNow) {
+  auto index = IndexOf({{'a', Route(0, 6)}, {'b', Route(100, 106)}});
+  NearRouteSearch search(RouteId("new"), {.most_alike = 1});
+  const auto look = [&](const std::vector<route::Segment>& segments) {
+    for (const route::Segment& segment : segments) {
+      for (const auto& view : view::KeyViewsOf(segment)) search.Look(index, view.features);
+    }
+  };
+  look(Route(0, 6));
+  look(Route(100, 104));
+  EXPECT_EQ(search.Found().size(), 2U);
+  search.KeepLast(3);
+  ASSERT_EQ(search.Found().size(), 1U);
+  EXPECT_EQ(search.Found()[0].key, Key('b'));
+  EXPECT_EQ(search.Found()[0].first.value(), 0U);
 }
 
 TEST(NearRoutes, AreNoneOfAnEmptyIndexNorForAnEmptyRoute) {

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "services/base/mailbox.h"
+#include "services/joints/find_joints.h"
+
+namespace trailcast::server {
+
+// Compares routes view by view, on a thread of its own that gives way to all others.
+class JointComparer {
+ public:
+  // Of processor time; after it, what was found by then is all.
+  static constexpr double kMost_ms = 20'000.0;
+
+  using Views = std::shared_ptr<const joints::RouteViews>;
+  struct Done {
+    std::uint64_t number = 0;
+    std::vector<joints::Joint> joints{};
+    bool gave_up = false;
+  };
+
+  JointComparer();
+  ~JointComparer();  // what is being compared is given up
+  JointComparer(const JointComparer&) = delete;
+  JointComparer& operator=(const JointComparer&) = delete;
+
+  // `b` may be null: a with itself. The number that the answer will have; nothing while too many
+  // wait.
+  [[nodiscard]] std::optional<std::uint64_t> TryPut(Views a, Views b, bool same_camera);
+  [[nodiscard]] std::optional<Done> TryGet() { return done_.TryGet(); }
+
+ private:
+  struct Job {
+    std::uint64_t number = 0;
+    Views a{};
+    Views b{};
+    bool same_camera = false;
+  };
+  void Run();
+  [[nodiscard]] Done Compare(const Job& job) const;
+
+  std::uint64_t jobs_put_ = 0;
+  Mailbox<Job> jobs_{4};
+  Mailbox<Done> done_{8};
+  Bell bell_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace trailcast::server

@@ -1,0 +1,53 @@
+// Where routes meet that this server has.
+#include <spdlog/spdlog.h>
+
+#include "route_server/server.h"
+#include "services/base/unix_time.h"
+#include "services/route/labels.h"
+
+namespace trailcast::server {
+
+void Server::NoteOfNetwork(const route::RouteInfo& info) {
+  network_->Note(info);
+  joints_->Note(info);
+}
+
+void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
+  if (!joints_ || !upkeep_->store_trouble().empty()) return;
+  if (const auto turned = joints_->Turn(now); !turned) {
+    spdlog::debug("looking for joints: {}", turned.error().message);
+  }
+  for (const Crossing& crossing : joints_->TakeCrossings()) Tell(crossing, now);
+  for (const Meeting& meeting : joints_->TakeMeetings()) Propose(meeting);
+  for (const route::RouteKey& key : joints_->TakeSearched()) {
+    ++metrics_.joints.routes_searched;
+    if (const auto marked = network_->MarkSearched(key); !marked) {
+      spdlog::warn("it will be looked for joints of {} again: {}", route::Describe(key),
+                   marked.error().message);
+    }
+  }
+}
+
+void Server::Propose(const Meeting& meeting) {
+  constexpr double kNever = 2.0;
+  const auto proposed =
+      network_->Propose(meeting, takes_sure_joints_ ? kSure : kNever, NowUnixMs());
+  if (!proposed) {
+    spdlog::warn("proposing a joint: {}", proposed.error().message);
+  } else if (*proposed && (*proposed)->taken) {
+    ++metrics_.joints.taken;
+    spdlog::info("{}: taken, as --joints-auto says", (*proposed)->line);
+  } else if (*proposed) {
+    ++metrics_.joints.proposed;
+    spdlog::info("{}: 'trailcast network confirm' makes it one", (*proposed)->line);
+  }
+}
+
+void Server::Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now) {
+  ++metrics_.joints.crossings;
+  const std::string text = fmt::format("crosses {} at {:.1f} m", crossing.known, crossing.along_m);
+  spdlog::info("{}, which is being taught, {}", route::Describe(crossing.teaching), text);
+  keeper_->Remark(crossing.teaching, text, now);
+}
+
+}  // namespace trailcast::server

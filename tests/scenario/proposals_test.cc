@@ -1,0 +1,78 @@
+// Routes of two scouts that come to the same place: found by the server, and an operator's to join.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scenario/programs.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class ProposalsTest : public ProgramsTest {
+ protected:
+  Ended Network(const Words& words) {
+    return End(*Start("trailcast", With({"network"}, words), "tool" + std::to_string(++tools_)));
+  }
+  static void Stop(Process& server) {
+    server.Signal(SIGTERM);
+    EXPECT_EQ(server.Wait(), 0) << server.output();
+  }
+  // Through the laboratory, from so far along one way.
+  Ended Teach(const std::string& route, double from_x_m) {
+    std::ofstream(Path(route + ".csv"))
+        << "x_m,y_m\n"
+        << from_x_m << ",1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n5.8,7\n2.3,7\n";
+    return RunAgent({"teach", "--sim", "indoor", "--path", Path(route + ".csv"), "--speed", "0.8",
+                     "--seed", route == "hall" ? "3" : "5", "--route", route, "--name",
+                     "scout-" + route, "--store", Path(route + ".db"), "--server"});
+  }
+
+  int tools_ = 0;
+};
+
+TEST_F(ProposalsTest, AJointThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
+  auto server = Server();
+  const Ended hall = Teach("hall", 1.0);
+  ASSERT_EQ(hall.status, 0) << hall.output;
+  EXPECT_THAT(hall.output, Not(HasSubstr("crosses")));
+  const Ended office = Teach("office", 3.0);
+  ASSERT_EQ(office.status, 0) << office.output;
+  EXPECT_THAT(office.output, HasSubstr("what is being taught crosses hall at ")) << "at once";
+  ASSERT_TRUE(server->WaitForOutput("proposed join ")) << server->output();
+  const Ended listed = Network({"proposals"});
+  EXPECT_EQ(listed.status, 0) << listed.output;
+  EXPECT_THAT(listed.output,
+              AllOf(HasSubstr("proposed join "), HasSubstr(" office@"), HasSubstr(" hall@"),
+                    HasSubstr(" both"), HasSubstr(" confidence 0.9")));
+  const Ended none = Network({"way", "hall@1", "office@8"});
+  EXPECT_EQ(none.status, 1) << "it is proposed, and no more than that: " << none.output;
+  Stop(*server);
+  std::filesystem::copy(Path("server.db"), Path("other.db"));
+  std::filesystem::copy(Path("server.db.joints"), Path("other.db.joints"));
+
+  server = Server();
+  const Ended confirmed = Network({"confirm", "all", "above", "0.9"});
+  EXPECT_EQ(confirmed.status, 0) << confirmed.output;
+  EXPECT_THAT(confirmed.output, AllOf(HasSubstr("join "), Not(HasSubstr("proposed"))));
+  const Ended way = Network({"way", "hall@1", "office@8"});
+  EXPECT_EQ(way.status, 0) << way.output;
+  EXPECT_THAT(way.output, AllOf(HasSubstr("follow hall 1.."), HasSubstr("follow office ")));
+  EXPECT_THAT(Network({"proposals"}).output, HasSubstr("no joints are proposed"));
+  Stop(*server);
+
+  server = Server("other.db");
+  const Ended refused = Network({"refuse", "all"});
+  EXPECT_EQ(refused.status, 0) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("no more: proposed join "));
+  Stop(*server);
+  server = Server("other.db");
+  EXPECT_THAT(Network({"proposals"}).output, HasSubstr("no joints are proposed"));
+  EXPECT_EQ(Network({"way", "hall@1", "office@8"}).status, 1);
+}
+
+}  // namespace
+}  // namespace trailcast::test
