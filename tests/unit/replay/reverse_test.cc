@@ -13,7 +13,7 @@ namespace trailcast::replay {
 namespace {
 
 // Whose landmarks are ahead of all that is driven below.
-const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 120, 5);
+const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 120, 39);
 constexpr double kFrame_s = 1.0 / 30.0;
 
 // A robot beside a circle of curvature `curvature_per_m`, steered along it by what it knows
@@ -49,6 +49,22 @@ struct TaughtShunt {
   std::vector<motion::Pose2> driven;
 };
 
+// The landmarks of a segment's features, told by where they were seen at its beginning: those in
+// view when it is finished may be fewer, as the robot has gone on the other way by then.
+std::vector<int> Landmarks(const route::Segment& segment,
+                           const std::vector<route::TrackedFeature>& at_begin) {
+  std::vector<int> landmarks;
+  for (const route::Feature& feature : segment.features) {
+    const route::TrackKnot& first = feature.track.front();
+    for (const route::TrackedFeature& seen : at_begin) {
+      if (static_cast<float>(seen.u_px) == first.u_px &&
+          static_cast<float>(seen.v_px) == first.v_px)
+        landmarks.push_back(seen.id);
+    }
+  }
+  return landmarks;
+}
+
 // Drives the arcs, those of a negative length backwards, and teaches what it sees.
 TaughtShunt Teach(const motion::Pose2& start, const std::vector<test::Arc>& arcs) {
   constexpr double kStep_m = 0.01;
@@ -56,9 +72,10 @@ TaughtShunt Teach(const motion::Pose2& start, const std::vector<test::Arc>& arcs
   teach::SegmentRecorder recorder(320);
   motion::Pose2 pose = start;
   int frame = 0;
+  std::vector<route::TrackedFeature> at_begin;
   std::vector<route::TrackedFeature> in_view;
   const auto begin = [&] {
-    in_view = kScene.Look(pose);
+    at_begin = in_view = kScene.Look(pose);
     recorder.Begin(FromSeconds(frame * kFrame_s), test::Describe(in_view), pose);
   };
   const auto finish = [&] {
@@ -66,8 +83,7 @@ TaughtShunt Teach(const motion::Pose2& start, const std::vector<test::Arc>& arcs
     if (!segment) return;
     test::TaughtRun& run = shunt.runs.emplace_back();
     run.segment = std::move(*segment);
-    for (const auto& feature : in_view) run.landmark_of_feature.push_back(feature.id);
-    run.landmark_of_feature.resize(run.segment.features.size());  // the first ones are kept
+    run.landmark_of_feature = Landmarks(run.segment, at_begin);
     run.end = pose;
   };
   begin();
