@@ -35,6 +35,8 @@ struct Feature {
   Descriptor descriptor{};
   // At least two knots in rising s; front() is the first image, back() the milestone.
   std::vector<TrackKnot> track;
+  // Of the last visits that refreshed the route, how many in a row looked for it in vain.
+  std::uint8_t missed = 0;
 
   [[nodiscard]] const TrackKnot& first() const { return track.front(); }
   [[nodiscard]] const TrackKnot& milestone() const { return track.back(); }

@@ -258,6 +258,20 @@ class TrackReader {
   std::int64_t v_ = 0;
 };
 
+Result<void> ReadMissed(const format::v1::Segment& in, Segment& segment) {
+  const std::string& missed = in.missed();
+  if (missed.empty()) return {};
+  if (missed.size() != segment.features.size()) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment says of {} features how often they were missed, of {}", missed.size(),
+                segment.features.size());
+  }
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    segment.features[i].missed = static_cast<std::uint8_t>(missed[i]);
+  }
+  return {};
+}
+
 Result<void> ReadFeatures(const format::v1::Segment& in, Segment& segment) {
   const Result<std::size_t> count = CountFeatures(in);
   if (!count) return tl::unexpected(count.error());
@@ -278,7 +292,7 @@ Result<void> ReadFeatures(const format::v1::Segment& in, Segment& segment) {
     if (!track) return Wrap(track.error(), fmt::format("segment's feature {}", i));
     feature.track = std::move(*track);
   }
-  return {};
+  return ReadMissed(in, segment);
 }
 
 Result<KeyView> ReadKeyView(const format::v1::KeyView& in) {
@@ -345,6 +359,8 @@ Bytes Encode(const Segment& segment) {
   out.set_index(segment.index.value());
   out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
+  const bool missed = std::any_of(segment.features.begin(), segment.features.end(),
+                                  [](const Feature& f) { return f.missed > 0; });
   const bool described =
       version == 1 || std::any_of(segment.features.begin(), segment.features.end(),
                                   [](const Feature& f) { return IsDescribed(f.descriptor); });
@@ -354,6 +370,7 @@ Bytes Encode(const Segment& segment) {
       out.mutable_descriptors()->append(feature.descriptor.begin(), feature.descriptor.end());
     }
     AppendTrack(feature.track, out);
+    if (missed) out.mutable_missed()->push_back(static_cast<char>(feature.missed));
   }
   for (const KeyView& view : segment.key_views) AppendKeyView(view, *out.add_key_views());
   if (segment.terrain.known()) SetTerrain(segment.terrain, *out.mutable_terrain());

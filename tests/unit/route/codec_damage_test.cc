@@ -74,6 +74,12 @@ TEST(CodecDamage, KeyViewsWhoseColumnsDisagreeAreRefused) {
               HasSubstr("65 key views, more than 64"));
 }
 
+TEST(CodecDamage, AsManyFeaturesMissedAsThereAreOrNoneAreSpokenOf) {
+  EXPECT_EQ(ErrorAfter([](auto& m) { m.set_missed("abc"); }), "accepted");
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_missed("ab"); }), HasSubstr("missed"));
+  EXPECT_THAT(ErrorAfter([](auto& m) { m.set_missed("abcd"); }), HasSubstr("of 3"));
+}
+
 TEST(CodecDamage, TerrainOutOfBoundsIsRefused) {
   EXPECT_EQ(ErrorAfter([](auto& m) { m.mutable_terrain()->set_slope_mrad(-1571); }), "accepted");
   EXPECT_THAT(ErrorAfter([](auto& m) { m.mutable_terrain()->set_slope_mrad(-1572); }),

@@ -42,6 +42,19 @@ TEST(Codec, TerrainComesBackUnchangedEachPartOnItsOwnAndTakesAFewBytes) {
   }
 }
 
+TEST(Codec, HowOftenFeaturesWereMissedComesBackAndTakesNoByteWhereNoneWas) {
+  Segment segment = SampleSegmentWithKeyViews(7, 40);
+  const std::size_t without = Encode(segment).size();
+  segment.features[3].missed = 2;
+  segment.features[39].missed = 255;
+  const Bytes bytes = Encode(segment);
+  const Result<Segment> decoded = Decode(bytes);
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
+  EXPECT_EQ(bytes.size(), without + 40 + 2);
+  EXPECT_EQ(bytes[1], 2) << "version 2, whose readers skip it";
+}
+
 TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
   Segment segment = SampleSegment(7, 3);
   segment.terrain = {-1.0, 1e9, -1e9};
