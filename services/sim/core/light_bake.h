@@ -18,6 +18,8 @@ struct Lamp {
 // Works out once how much light arrives at each corner of the scene's triangles, from the lamps
 // with their shadows and from all around, and writes it to the meshes' `shade`. Soft indoor light
 // then costs nothing while rendering. Deterministic.
-[[nodiscard]] Result<void> BakeLight(const std::vector<Lamp>& lamps, Scene& scene);
+// `ambient`: the light that has bounced about the room, where all is open.
+[[nodiscard]] Result<void> BakeLight(const std::vector<Lamp>& lamps, Scene& scene,
+                                     float ambient = 0.55F);
 
 }  // namespace trailcast::sim

@@ -19,6 +19,11 @@ class Furniture {
   // `at` is the piece's left front corner on the floor, seen by who stands before it looking along
   // `yaw_rad` + 90 degrees.
   void Stand(float x, float y, float yaw_rad, float z = 0.0F);
+  // The same of what belongs to the building, which nobody moves.
+  void Build(float x, float y, float yaw_rad, float z = 0.0F);
+  // From here on somebody has moved so large a share of what stands, 0.3 to 0.6 m to its right or
+  // left; of one seed, a larger share moves what a smaller one does, too.
+  void MoveSome(double share, std::uint64_t seed);
 
   void Desk(float width, float depth);
   void DeskThings(float width, float depth);  // on a desk of that size: screens, keyboard, papers
@@ -48,6 +53,8 @@ class Furniture {
 
   SceneBuilder& b_;
   Random random_;
+  Random moves_;
+  double moved_share_ = 0.0;
   MaterialId wood_, light_wood_, metal_, dark_, white_, seat_, paper_, page_, keyboard_;
   MaterialId whiteboard_, cupboard_, leaf_, pot_, view_, red_, blue_;
   std::vector<MaterialId> posters_, screens_, spines_, cartons_, instruments_;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kSkyRays = 20;
 constexpr float kOpen_m = 1.5F;      // what is further away no longer darkens a corner
-constexpr float kAmbient = 0.55F;    // light that has bounced about the room, where all is open
 constexpr float kLift_m = 0.012F;    // keeps samples off the surface and out of its neighbours
 constexpr float kBrightest = 1.25F;  // next to a lamp
 
@@ -31,7 +30,8 @@ std::vector<Eigen::Vector3f> HalfSphere() {
 
 class Baker {
  public:
-  Baker(const World& world, const std::vector<Lamp>& lamps) : world_(world), lamps_(lamps) {}
+  Baker(const World& world, const std::vector<Lamp>& lamps, float ambient)
+      : world_(world), lamps_(lamps), ambient_(ambient) {}
 
   [[nodiscard]] float LightAt(const Eigen::Vector3f& position,
                               const Eigen::Vector3f& normal) const {
@@ -49,7 +49,7 @@ class Baker {
       const auto hit = world_.CastRay(position, direction, kOpen_m);
       open += hit ? std::min(1.0F, static_cast<float>(hit->distance_m) / kOpen_m) : 1.0F;
     }
-    return kAmbient * open / kSkyRays;
+    return ambient_ * open / kSkyRays;
   }
 
   [[nodiscard]] float FromLamps(const Eigen::Vector3f& position,
@@ -69,15 +69,16 @@ class Baker {
 
   const World& world_;
   const std::vector<Lamp>& lamps_;
+  float ambient_;
   std::vector<Eigen::Vector3f> directions_ = HalfSphere();
 };
 
 }  // namespace
 
-Result<void> BakeLight(const std::vector<Lamp>& lamps, Scene& scene) {
+Result<void> BakeLight(const std::vector<Lamp>& lamps, Scene& scene, float ambient) {
   const auto world = World::Build(scene);
   if (!world) return tl::unexpected(world.error());
-  const Baker baker(**world, lamps);
+  const Baker baker(**world, lamps, ambient);
   for (Mesh& mesh : scene.meshes) {
     mesh.shade.assign(mesh.positions.size(), -1.0F);
     if (scene.materials[mesh.material].glows) continue;

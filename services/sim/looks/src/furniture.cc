@@ -21,7 +21,7 @@ float Between(Random& random, double low, double high) {
 }  // namespace
 
 Furniture::Furniture(SceneBuilder& builder, std::uint64_t seed)
-    : b_(builder), random_(seed, "furniture") {
+    : b_(builder), random_(seed, "furniture"), moves_(seed, "moved") {
   const V white(255, 255, 255);
   wood_ = b_.AddMaterial("oak", white, WoodGrain({158, 118, 78}, seed));
   light_wood_ = b_.AddMaterial("birch", white, WoodGrain({206, 182, 146}, seed + 1));
@@ -53,7 +53,21 @@ Furniture::Furniture(SceneBuilder& builder, std::uint64_t seed)
   }
 }
 
-void Furniture::Stand(float x, float y, float yaw_rad, float z) { b_.Place({x, y, z}, yaw_rad); }
+void Furniture::Build(float x, float y, float yaw_rad, float z) { b_.Place({x, y, z}, yaw_rad); }
+
+void Furniture::Stand(float x, float y, float yaw_rad, float z) {
+  Build(x, y, yaw_rad, z);
+  const bool moved = moves_.Uniform() < moved_share_;
+  const float by_m = Between(moves_, 0.3, 0.6);
+  const bool right = moves_.Uniform() < 0.5;
+  const Eigen::Isometry3f stands = b_.place();
+  if (moved) b_.PlaceIn(stands, {right ? by_m : -by_m, 0.0F, 0.0F}, 0.0F);
+}
+
+void Furniture::MoveSome(double share, std::uint64_t seed) {
+  moved_share_ = share;
+  moves_ = Random(seed, "moved");
+}
 
 void Furniture::Desk(float width, float depth) {
   b_.Box(light_wood_, {0, 0, 0.71F}, {width, depth, 0.74F});

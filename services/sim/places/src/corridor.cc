@@ -106,7 +106,7 @@ Result<Place> MakeCorridorWorld() {
   BuildFirstPart(rooms);
   BuildSecondPart(rooms);
   const V2 end = BeyondBend(13.6F, 0.0F);
-  return FinishIndoors(builder, rooms.lamps(), "corridor",
+  return FinishIndoors(builder.Take("corridor"), rooms.lamps(),
                        {{0.7, 0.0}, {kBend_m, 0.0}, {end.x(), end.y()}});
 }
 

@@ -27,6 +27,10 @@ constexpr float kEast = std::numbers::pi_v<float> / 2.0F;
 constexpr float kNorth = std::numbers::pi_v<float>;
 constexpr float kWest = -std::numbers::pi_v<float> / 2.0F;
 
+constexpr double kNightLamp = 2.6;  // light a metre before one that is left on
+constexpr float kAmbient = 0.55F;
+constexpr float kNightAmbient = 0.18F;
+
 const Eigen::Vector3f kWhite = {255.0F, 255.0F, 255.0F};
 
 void AddShell(SceneBuilder& b) {
@@ -71,8 +75,9 @@ void AddShell(SceneBuilder& b) {
   }
 }
 
-// Ceiling panels in two rows a room, and the windows' daylight.
-std::vector<Lamp> AddLamps(SceneBuilder& b) {
+// Ceiling panels in two rows a room, and the windows' daylight; at night next to nothing of either,
+// and lamps that somebody has left on, at the height of desks and shelves.
+std::vector<Lamp> AddLamps(SceneBuilder& b, double night) {
   const auto glow = b.AddMaterial("lamp", {250, 250, 246}, nullptr, true);
   const auto frame = b.AddMaterial("lamp frame", {190, 190, 190});
   std::vector<Lamp> lamps;
@@ -88,15 +93,26 @@ std::vector<Lamp> AddLamps(SceneBuilder& b) {
   for (const float x : {2.0F, 5.6F, 9.2F}) {
     lamps.push_back({{x, 0.2F, 1.6F}, Eigen::Vector3f::UnitY(), 1.3F});
   }
+  if (night == 0.0) return lamps;
+  for (Lamp& lamp : lamps) lamp.strength *= static_cast<float>(1.0 - 0.95 * night);
+  const auto lit = [&](const Eigen::Vector3f& at, const Eigen::Vector3f& towards) {
+    lamps.push_back({at, towards.normalized(), static_cast<float>(kNightLamp * night)});
+  };
+  lit({2.2F, 3.2F, 1.3F}, {1.0F, -0.6F, 0.0F});
+  lit({11.4F, 0.5F, 1.9F}, {-1.0F, 0.6F, -0.2F});
+  lit({8.6F, 4.0F, 1.6F}, {-0.4F, -1.0F, 0.0F});
+  lit({11.5F, 6.8F, 1.4F}, {-1.0F, 0.1F, 0.0F});
+  lit({5.2F, 8.6F, 1.9F}, {0.3F, -1.0F, -0.2F});
+  lit({0.5F, 5.6F, 1.5F}, {1.0F, 0.5F, 0.0F});
   return lamps;
 }
 
 // South: desks under the windows, an island of desks, shelves and the tall things along the east.
 void FurnishSouthRoom(Furniture& f, SceneBuilder& b) {
   for (const float x : {2.7F, 6.3F, 9.9F}) {
-    f.Stand(x, 0.0F, kNorth, 1.0F);
+    f.Build(x, 0.0F, kNorth, 1.0F);
     f.Window(1.5F, 1.3F);
-    f.Stand(x, 0.0F, kNorth);
+    f.Build(x, 0.0F, kNorth);
     f.Radiator(1.5F);
   }
   for (const float x : {1.7F, 3.5F, 5.4F}) {
@@ -146,7 +162,7 @@ void FurnishSouthRoom(Furniture& f, SceneBuilder& b) {
   f.Hang(f.page(), 0.3F, 0.42F);
   f.Stand(kLength_m, 1.3F, kWest, 1.3F);
   f.Hang(f.poster(), 0.6F, 0.85F);
-  f.Stand(0.0F, 1.1F, kEast);
+  f.Build(0.0F, 1.1F, kEast);
   f.Door(b.AddMaterial("door", kWhite, DoorLeaf("EXIT")));
   f.Stand(0.0F, 2.9F, kEast, 1.2F);
   f.Hang(f.poster(), 0.6F, 0.85F);
@@ -195,7 +211,7 @@ void FurnishNorthRoom(Furniture& f, SceneBuilder& b) {
   f.Hang(f.poster(), 0.6F, 0.85F);
   f.Stand(0.35F, 8.5F, kSouth);
   f.Plant();
-  f.Stand(0.0F, 6.55F, kEast);
+  f.Build(0.0F, 6.55F, kEast);
   f.Door(b.AddMaterial("door", kWhite, DoorLeaf("LAB 2")));
   f.Stand(0.36F, 5.0F, kEast);
   f.Shelf(1.3F, 2.0F, 0.34F, 6);
@@ -205,32 +221,46 @@ void FurnishNorthRoom(Furniture& f, SceneBuilder& b) {
   f.Cartons(2);
 }
 
-Result<Place> MakeLaboratory(const std::string& name, Polyline points) {
+Result<Place> MakeLaboratory(const std::string& name, Polyline points, const PlaceChange& change) {
   SceneBuilder builder;
   AddShell(builder);
-  const std::vector<Lamp> lamps = AddLamps(builder);
+  const std::vector<Lamp> lamps = AddLamps(builder, change.night);
   Furniture furniture(builder, kSeed);
+  furniture.MoveSome(change.moved, change.seed);
   FurnishSouthRoom(furniture, builder);
   FurnishNorthRoom(furniture, builder);
-  return FinishIndoors(builder, lamps, name, std::move(points));
+  Scene scene = builder.Take(name);
+  ChangeTextures(change.textures, change.seed, scene);
+  const auto night = static_cast<float>(change.night);
+  for (Material& material : scene.materials) {
+    if (material.name == "lamp" || material.name == "window view") {
+      material.color *= 1.0F - 0.9F * night;
+    }
+  }
+  return FinishIndoors(std::move(scene), lamps, std::move(points),
+                       kAmbient + night * (kNightAmbient - kAmbient));
 }
 
 }  // namespace
 
-Result<Place> MakeIndoorWorld() {
-  return MakeLaboratory("indoor",
-                        {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}});
+Result<Place> MakeIndoorWorld() { return MakeIndoorWorld(PlaceChange{}); }
+
+Result<Place> MakeIndoorWorld(const PlaceChange& change) {
+  return MakeLaboratory(
+      "indoor", {{1.0, 1.5}, {6.0, 1.5}, {7.2, 3.2}, {7.2, 5.6}, {5.8, 7.0}, {2.3, 7.0}}, change);
 }
 
 Result<Place> MakeDeadEndWorld() {
-  return MakeLaboratory("dead-end", {{7.2, 3.2},
-                                     {7.2, 5.6},
-                                     {5.8, 7.0},
-                                     {2.3, 7.0},
-                                     {5.8, 7.0},
-                                     {7.2, 5.6},
-                                     {7.2, 3.2},
-                                     {6.0, 1.5}});
+  return MakeLaboratory("dead-end",
+                        {{7.2, 3.2},
+                         {7.2, 5.6},
+                         {5.8, 7.0},
+                         {2.3, 7.0},
+                         {5.8, 7.0},
+                         {7.2, 5.6},
+                         {7.2, 3.2},
+                         {6.0, 1.5}},
+                        {});
 }
 
 }  // namespace trailcast::sim

@@ -152,7 +152,7 @@ Result<Place> MakeTurnsWorld() {
   BuildTurningCorridor(rooms);
   BuildNorthRoom(rooms, furniture);
   return FinishIndoors(
-      builder, rooms.lamps(), "turns",
+      builder.Take("turns"), rooms.lamps(),
       {{1.3, 1.5}, {6.5, 1.5}, {6.5, 5.45}, {2.0, 5.45}, {2.0, 10.4}, {6.0, 7.7}, {6.0, 11.2}});
 }
 
@@ -162,7 +162,7 @@ Result<Place> MakeDesksWorld() {
   Rooms rooms(builder, furniture, kSeed + 1);
   BuildDeskRoom(rooms);
   FurnishDeskRoom(furniture);
-  return FinishIndoors(builder, rooms.lamps(), "desks",
+  return FinishIndoors(builder.Take("desks"), rooms.lamps(),
                        {{0.9, 3.4}, {3.2, 3.4}, {4.2, 2.2}, {6.4, 2.2}, {7.4, 3.6}, {7.4, 6.0}});
 }
 

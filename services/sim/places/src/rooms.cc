@@ -121,14 +121,13 @@ void Rooms::FitOne(Fitting what) {
   }
 }
 
-Result<Place> FinishIndoors(SceneBuilder& builder, const std::vector<Lamp>& lamps,
-                            const std::string& name, Polyline points) {
-  Scene scene = builder.Take(name);
+Result<Place> FinishIndoors(Scene scene, const std::vector<Lamp>& lamps, Polyline points,
+                            float ambient) {
   scene.ground = GroundMode::kFlat;
   scene.lighting.sun = 0.0F;
   scene.lighting.ambient = 1.0F;
   scene.lighting.ambient_by_direction = false;  // the baked light says it all
-  if (auto baked = BakeLight(lamps, scene); !baked) return tl::unexpected(baked.error());
+  if (auto baked = BakeLight(lamps, scene, ambient); !baked) return tl::unexpected(baked.error());
   auto world = World::Build(std::move(scene));
   if (!world) return tl::unexpected(world.error());
   Place place;

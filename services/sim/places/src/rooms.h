@@ -71,7 +71,8 @@ class Rooms {
 };
 
 // The finished place: the scene with the lamps' light baked into it, and the way through it.
-[[nodiscard]] Result<Place> FinishIndoors(SceneBuilder& builder, const std::vector<Lamp>& lamps,
-                                          const std::string& name, Polyline points);
+// `ambient` as BakeLight has it.
+[[nodiscard]] Result<Place> FinishIndoors(Scene scene, const std::vector<Lamp>& lamps,
+                                          Polyline points, float ambient = 0.55F);
 
 }  // namespace trailcast::sim
