@@ -50,6 +50,9 @@ struct ReplayMethodOptions {
   // How far to either side a robot that has lost its path from view turns on the spot to find it
   // again, before it gives up; by the default method with odometry. 0: it stands.
   double look_around_rad = 0.0;
+  // To note what of the route is found, missed, and seen besides, for a refreshed one; by the
+  // default method with odometry. Changes nothing of how it follows.
+  bool take_experience = false;
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.

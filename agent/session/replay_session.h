@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "agent/session/observation.h"
@@ -8,6 +9,7 @@
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
 #include "services/base/result.h"
+#include "services/refresh/visit.h"
 #include "services/replay/feature_view.h"
 #include "services/route/route.h"
 
@@ -40,6 +42,10 @@ class ReplaySession {
 
   // A frame that a robot which stands need not look at, for those who look on.
   void Pass(const Observation& observation);
+
+  // Of a run that has arrived, and was to take experience: what it met with, to refresh the route
+  // by. Once; nothing otherwise.
+  [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
   // The last frame that was observed, or passed, as the intake makes it. Valid until the next, and
   // as long as that frame is; nullptr before the first.

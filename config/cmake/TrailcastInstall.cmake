@@ -25,7 +25,7 @@ install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.
 
 # The rooms that are offered: to teach and follow, to store, share and look for routes.
 set(rooms services/base services/motion services/image services/route services/view
-          services/vision services/teach services/replay services/belief services/mission services/network
+          services/vision services/teach services/replay services/refresh services/belief services/mission services/network
           services/store services/exchange services/archive services/catalog services/security
           services/dds agent/session)
 set(targets trailcast_route_format trailcast_wire_types trailcast_ros2_types)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "services/motion/motion.h"
+#include "services/replay/camera_place.h"
 #include "services/route/tracked_feature.h"
 
 namespace trailcast::replay {
@@ -102,6 +103,13 @@ class Follower {
   [[nodiscard]] virtual FollowStep Step(const FollowInput& input) = 0;
 
   [[nodiscard]] virtual const route::Segment& segment() const = 0;
+
+  // Where its camera is, as of the last Step; nothing: the method estimates no such thing.
+  [[nodiscard]] virtual std::optional<CameraPlace> camera_place() const { return std::nullopt; }
+  // The inverse depths of a segment's features, by such a method.
+  [[nodiscard]] virtual std::vector<InverseDepth> Depths(const route::Segment& /*segment*/) const {
+    return {};
+  }
 
  protected:
   Follower() = default;

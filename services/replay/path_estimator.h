@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/motion/motion.h"
+#include "services/replay/camera_place.h"
 #include "services/replay/follower.h"
 #include "services/replay/taught_flow.h"
 #include "services/route/tracked_feature.h"
@@ -128,6 +129,11 @@ class PathEstimator {
   // Told, or learnt to half of what it is.
   [[nodiscard]] bool KnowsAhead() const;
   [[nodiscard]] double roll_rad() const { return state_[kRoll]; }
+  [[nodiscard]] CameraPlace camera_place() const;
+  // The inverse depths of a segment's features by what the route says of the scout's camera.
+  [[nodiscard]] std::vector<InverseDepth> Depths(const route::Segment& segment) const {
+    return flow_.Depths(segment);
+  }
   // Where each of the segment's features should be now.
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const { return ExpectIn(state_); }
   // And at the segment's end, for this camera on the path itself.

@@ -58,6 +58,12 @@ class PathFollower final : public Follower {
   }
   [[nodiscard]] FollowStep Step(const FollowInput& input) override;
   [[nodiscard]] const route::Segment& segment() const override { return segment_; }
+  [[nodiscard]] std::optional<CameraPlace> camera_place() const override {
+    return estimator_.camera_place();
+  }
+  [[nodiscard]] std::vector<InverseDepth> Depths(const route::Segment& segment) const override {
+    return estimator_.Depths(segment);
+  }
 
   [[nodiscard]] PathOffset offset() const;
 

@@ -67,7 +67,8 @@ class FeatureTracker {
   [[nodiscard]] TrackLosses losses() const;
 
   // What the current features look like in the last frame; those too near its edge are left out.
-  [[nodiscard]] std::vector<route::DescribedFeature> Describe() const;
+  // `magnification`: as they look to a camera that shows things so many times smaller.
+  [[nodiscard]] std::vector<route::DescribedFeature> Describe(double magnification = 1.0) const;
 
  private:
   struct State;

@@ -36,19 +36,38 @@ ConfidenceOptions ConfidenceOf(ReplayMethod method) {
 
 }  // namespace
 
-FeatureFollower::FeatureFollower(const ReplayMethodOptions& options, int scout_width_px,
-                                 const KnownRoute& route, Eyes& eyes, PlaceKeeper& place)
+FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
+                                 const vision::PictureSize& scout, const KnownRoute& route,
+                                 Eyes& eyes, PlaceKeeper& place)
     : options_(options),
-      scout_width_px_(scout_width_px),
+      scout_width_px_(scout.width),
       route_(route),
       eyes_(eyes),
       place_(place),
-      search_(!AsPrinted(options.method), scout_width_px, eyes, place),
+      search_(!AsPrinted(options.method), scout.width, eyes, place),
       confidence_(ConfidenceOf(options.method)),
       passing_(options.passing),
-      look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad) {}
+      look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad) {
+  if (options.take_experience && !AsPrinted(options.method)) {
+    experience_.emplace(scout.width, scout.height);
+  }
+}
 
 replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
+  const replay::FollowStep step = Steer(seen, standing);
+  if (experience_ && follower_) {
+    experience_->Look(seen, *follower_, eyes_.tracker().Current(),
+                      standing.trust == Trust::kSure && !confidence_.recognised_only());
+  }
+  return step;
+}
+
+std::optional<refresh::Visit> FeatureFollower::TakeVisit() {
+  if (!experience_ || !follower_) return std::nullopt;
+  return experience_->Take(*follower_);
+}
+
+replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) {
   search_.Open(*seen.frame);
   if (const auto magnification = place_.Magnification(seen.frame->width)) {
     search_.hand_over().SetRunMagnification(*magnification);

@@ -10,6 +10,7 @@
 #include "agent/session/place_finder.h"
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
+#include "agent/session/src/experience_taker.h"
 #include "agent/session/src/eyes.h"
 #include "agent/session/src/feature_search.h"
 #include "agent/session/src/known_route.h"
@@ -29,8 +30,8 @@ namespace trailcast::agent {
 class FeatureFollower {
  public:
   // `route`, `eyes` and `place` outlive it.
-  FeatureFollower(const ReplayMethodOptions& options, int scout_width_px, const KnownRoute& route,
-                  Eyes& eyes, PlaceKeeper& place);
+  FeatureFollower(const ReplayMethodOptions& options, const vision::PictureSize& scout,
+                  const KnownRoute& route, Eyes& eyes, PlaceKeeper& place);
 
   // A segment that has just been added to the route.
   void Learn(const route::Segment& segment);
@@ -43,6 +44,9 @@ class FeatureFollower {
 
   // What is told of such a step; {}: that nothing is followed yet.
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
+
+  // What it met with on the way, if it was to note that, from its beginning or the last call on.
+  [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
   // Driven backwards, it comes along the route.
   [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
@@ -71,6 +75,7 @@ class FeatureFollower {
   void EndSegment(Standing& standing);
   [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
 
+  [[nodiscard]] replay::FollowStep Steer(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
   [[nodiscard]] bool EndsAtTheAxle() const;
@@ -100,6 +105,7 @@ class FeatureFollower {
   double look_again_at_s_ = 0.0;             // of being unsure
   std::optional<PlaceFinder> place_finder_;  // until it has found the place
   std::string not_there_;  // where it looks along the whole route: where it is not
+  std::optional<ExperienceTaker> experience_;
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };
 

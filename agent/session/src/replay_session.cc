@@ -34,7 +34,7 @@ struct ReplaySession::State {
         eyes(method.intake),
         upright(method.intake),
         place(info.image_width_px),
-        by_features(method, info.image_width_px, route, eyes, place),
+        by_features(method, {info.image_width_px, info.image_height_px}, route, eyes, place),
         by_views(method, route, place) {}
 
   // Without odometry, in the route or on the robot, our own method goes by what is recognised.
@@ -189,6 +189,11 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
 void ReplaySession::Pass(const Observation& observation) {
   state_->picture = state_->eyes.Pass(observation);
   state_->passed = true;
+}
+
+std::optional<refresh::Visit> ReplaySession::TakeVisit() {
+  if (state_->standing.state != ReplayState::kArrived) return std::nullopt;
+  return state_->by_features.TakeVisit();
 }
 
 const image::GrayImage* ReplaySession::picture() const { return state_->picture; }

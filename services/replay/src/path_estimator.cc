@@ -265,6 +265,22 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   return p;
 }
 
+CameraPlace PathEstimator::camera_place() const {
+  CameraPlace place;
+  place.scout = flow_.camera();
+  place.scout_width_px = scout_width_px_;
+  place.along_m = state_[kAlong];
+  place.left_m = state_[kLeft];
+  place.left_sigma_m = std::sqrt(covariance_(kLeft, kLeft));
+  place.yaw_rad = state_[kHeading] + state_[kMountYaw];
+  place.height_m = state_[kHeight];
+  place.roll_rad = state_[kRoll];
+  place.pitch_rad = state_[kPitch];
+  place.magnification = state_[kMagnification];
+  place.distortion = state_[kDistortion];
+  return place;
+}
+
 PathEstimator::Prior::Prior(const State& state, const Covariance& uncertainty)
     : mean(state), covariance(uncertainty), information(uncertainty.inverse()) {}
 

@@ -246,12 +246,22 @@ int FeatureTracker::count() const { return static_cast<int>(state_->points.size(
 
 TrackLosses FeatureTracker::losses() const { return state_->losses; }
 
-std::vector<route::DescribedFeature> FeatureTracker::Describe() const {
-  const cv::Mat& frame = state_->last.front();
+std::vector<route::DescribedFeature> FeatureTracker::Describe(double magnification) const {
+  const cv::Mat& own = state_->last.front();
+  cv::Mat resized;
+  if (magnification != 1.0) {
+    cv::resize(own, resized, {}, 1.0 / magnification, 1.0 / magnification,
+               magnification > 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  }
+  const auto place_of = [&](const cv::Point2f& point) {
+    if (resized.empty()) return point;
+    return Centre(resized.size()) +
+           (point - Centre(own.size())) * (1.0F / static_cast<float>(magnification));
+  };
   const std::vector<route::TrackedFeature> current = state_->Current();
   std::vector<route::DescribedFeature> described;
   for (std::size_t i = 0; i < current.size(); ++i) {
-    const auto patch = CutPatch(frame, state_->points[i]);
+    const auto patch = CutPatch(resized.empty() ? own : resized, place_of(state_->points[i]));
     if (patch) described.push_back({current[i], *patch});
   }
   return described;

@@ -135,6 +135,35 @@ TEST(FeatureTracker, SaysHowManyLeftThePictureAndHowManyDidNotReturn) {
   EXPECT_EQ(tracker.losses().not_returned, 0) << "of the last frame only";
 }
 
+TEST(FeatureTracker, DescribesWhatACameraThatMagnifiesLessWouldSee) {
+  constexpr double kMagnification = 1.3;
+  FeatureTracker larger;
+  larger.Track(kWall.Photograph({.scale = kMagnification}));
+  std::vector<route::TrackedFeature> features = larger.Detect();
+  const std::vector<route::DescribedFeature> described = larger.Describe(kMagnification);
+  EXPECT_GE(described.size(), 40U);
+  FeatureTracker smaller;
+  smaller.Track(kWall.Photograph({}));
+  for (route::TrackedFeature& feature : features) {
+    feature.u_px /= kMagnification;
+    feature.v_px /= kMagnification;
+  }
+  smaller.Follow(features);
+  const std::vector<route::DescribedFeature> there = smaller.Describe();
+  double apart = 0.0;
+  int samples = 0;
+  for (const route::DescribedFeature& a : described) {
+    const auto b = std::find_if(there.begin(), there.end(),
+                                [&](const auto& each) { return each.at.id == a.at.id; });
+    if (b == there.end()) continue;
+    for (std::size_t i = 0; i < a.patch.size(); ++i, ++samples) {
+      apart += std::abs(static_cast<double>(a.patch[i]) - b->patch[i]);
+    }
+  }
+  ASSERT_GT(samples, 0);
+  EXPECT_LT(apart / samples, 1.0) << "of sixteen levels";
+}
+
 TEST(FeatureTracker, FindsNothingInANoisyBlankOrDarkImage) {
   for (const double gain : {0.0, 1.0}) {
     FeatureTracker tracker;

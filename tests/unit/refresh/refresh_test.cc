@@ -1,0 +1,198 @@
+#include "services/refresh/refresh.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "services/route/codec.h"
+#include "tests/unit/route/sample_segment.h"
+
+namespace trailcast::refresh {
+namespace {
+
+using route::Feature;
+using route::Segment;
+using testing::HasSubstr;
+
+constexpr int kFeatures = 20;
+
+std::vector<Segment> SampleRoute(int segments = 2) {
+  std::vector<Segment> route;
+  for (int i = 0; i < segments; ++i) {
+    route.push_back(route::SampleSegmentWithKeyViews(static_cast<std::uint32_t>(i), kFeatures));
+  }
+  return route;
+}
+
+Feature NewFeature(int number) {
+  Feature feature = route::SampleSegment(99, number + 1).features.back();
+  feature.descriptor = {};
+  return feature;
+}
+
+// Of `route`: all its features are found, and these are offered in each segment.
+Visit VisitOf(const std::vector<Segment>& route, int offered = 0) {
+  Visit visit;
+  for (const Segment& segment : route) {
+    SegmentVisit& each = visit.segments.emplace_back();
+    each.index = segment.index;
+    each.features.assign(segment.features.size(), Sought::kFound);
+    for (int i = 0; i < offered; ++i) each.offered.push_back(NewFeature(i));
+  }
+  return visit;
+}
+
+std::size_t BytesOf(const std::vector<Segment>& route) {
+  std::size_t bytes = 0;
+  for (const Segment& segment : route) bytes += route::Encode(segment).size();
+  return bytes;
+}
+
+RefreshOptions WithRoom() {
+  RefreshOptions options;
+  options.most_bytes_per_m = 1e6;
+  return options;
+}
+
+TEST(Refresh, AVisitThatFindsAllAndOffersNothingLeavesTheRouteAsItIs) {
+  const std::vector<Segment> route = SampleRoute();
+  const auto refreshed = Refresh(route, VisitOf(route), WithRoom());
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  EXPECT_EQ(refreshed->segments, route);
+  EXPECT_EQ(refreshed->counts, (RefreshCounts{2 * kFeatures, 0, 0, 0, 0}));
+}
+
+TEST(Refresh, NewFeaturesComeUpToAShareOfASegmentsAndAllElseStays) {
+  const std::vector<Segment> route = SampleRoute();
+  const auto refreshed = Refresh(route, VisitOf(route, 30), WithRoom());
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  EXPECT_EQ(refreshed->counts.added, 2 * 5) << "a quarter of 20, in each of two";
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    Segment rest = refreshed->segments[i];
+    ASSERT_EQ(rest.features.size(), 25U);
+    rest.features.resize(kFeatures);
+    EXPECT_EQ(rest, route[i]);
+    EXPECT_EQ(refreshed->segments[i].features[kFeatures], NewFeature(0));
+  }
+}
+
+TEST(Refresh, AFeatureGoesAfterThreeVisitsInARowThatMissedIt) {
+  std::vector<Segment> route = SampleRoute(1);
+  const Feature gone = route[0].features[7];
+  Visit visit = VisitOf(route);
+  visit.segments[0].features[7] = Sought::kMissed;
+  for (int missed = 1; missed <= 2; ++missed) {
+    auto refreshed = Refresh(route, visit, WithRoom());
+    ASSERT_TRUE(refreshed);
+    route = refreshed->segments;
+    EXPECT_EQ(route[0].features[7].missed, missed);
+    EXPECT_EQ(refreshed->counts.dropped, 0);
+  }
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->counts.dropped, 1);
+  ASSERT_EQ(refreshed->segments[0].features.size(), kFeatures - 1U);
+  for (const Feature& left : refreshed->segments[0].features) EXPECT_NE(left.patch, gone.patch);
+}
+
+TEST(Refresh, OneThatIsFoundAgainBeginsAnewAndOneUnjudgedStaysAsItWas) {
+  std::vector<Segment> route = SampleRoute(1);
+  route[0].features[3].missed = 2;
+  route[0].features[4].missed = 2;
+  Visit visit = VisitOf(route);
+  visit.segments[0].features[4] = Sought::kUnjudged;
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->segments[0].features[3].missed, 0);
+  EXPECT_EQ(refreshed->segments[0].features[4].missed, 2);
+}
+
+TEST(Refresh, OneVisitTakesAwayNoMoreThanAShareAndAFewAreAlwaysLeft) {
+  std::vector<Segment> route = SampleRoute(2);
+  for (Feature& feature : route[0].features) feature.missed = 200;
+  Visit visit = VisitOf(route);
+  visit.segments[0].features.assign(kFeatures, Sought::kUnjudged);
+  for (int i = 0; i < 10; ++i) {
+    const std::size_t before = route[0].features.size();
+    auto refreshed = Refresh(route, visit, WithRoom());
+    ASSERT_TRUE(refreshed) << refreshed.error().message;
+    route = refreshed->segments;
+    EXPECT_GE(route[0].features.size() + std::ceil(0.25 * static_cast<double>(before)), before);
+    visit.segments[0].features.assign(route[0].features.size(), Sought::kUnjudged);
+  }
+  EXPECT_EQ(route[0].features.size(), RefreshOptions{}.fewest_left);
+}
+
+TEST(Refresh, ARouteGrowsNoLargerThanItsBudgetAndALargerOneNoLargerThanItIs) {
+  std::vector<Segment> route = SampleRoute(2);
+  const double length_m = route[0].length_m + route[1].length_m;
+  const double is = static_cast<double>(BytesOf(route)) / length_m;
+  RefreshOptions options;
+  options.most_bytes_per_m = is + 100.0;  // three features a segment
+  auto refreshed = Refresh(route, VisitOf(route, 10), options);
+  ASSERT_TRUE(refreshed);
+  EXPECT_GT(refreshed->counts.added, 0);
+  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), options.most_bytes_per_m * length_m);
+
+  options.most_bytes_per_m = 0.5 * is;
+  route[0].features[0].missed = 3;
+  Visit visit = VisitOf(route, 10);
+  visit.segments[0].features[0] = Sought::kMissed;
+  refreshed = Refresh(route, visit, options);
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->counts.dropped, 1);
+  EXPECT_EQ(refreshed->counts.added, 1) << "in the other's place";
+  EXPECT_LE(BytesOf(refreshed->segments), BytesOf(route));
+}
+
+TEST(Refresh, AVisitThatFoundLittleIsNotBelieved) {
+  const std::vector<Segment> route = SampleRoute(1);
+  Visit visit = VisitOf(route, 3);
+  visit.segments[0].features.assign(kFeatures, Sought::kMissed);
+  visit.segments[0].features[0] = Sought::kFound;
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_FALSE(refreshed);
+  EXPECT_EQ(refreshed.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(refreshed.error().message, HasSubstr("5 % were found"));
+}
+
+TEST(Refresh, NorOneThatCouldJudgeLittle) {
+  const std::vector<Segment> route = SampleRoute(1);
+  Visit visit = VisitOf(route);
+  visit.segments[0].features.assign(kFeatures, Sought::kUnjudged);
+  visit.segments[0].features[0] = Sought::kFound;
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_FALSE(refreshed);
+  EXPECT_THAT(refreshed.error().message, HasSubstr("1 of 20 features could be judged"));
+  EXPECT_FALSE(Refresh(route, Visit{}, WithRoom()));
+}
+
+TEST(Refresh, AVisitOfAnotherRouteIsAnError) {
+  const std::vector<Segment> route = SampleRoute(2);
+  Visit visit = VisitOf(route);
+  visit.segments[1].features.pop_back();
+  EXPECT_EQ(Refresh(route, visit).error().code, ErrorCode::kInvalidArgument);
+  visit = VisitOf(SampleRoute(3));
+  EXPECT_EQ(Refresh(route, visit).error().code, ErrorCode::kInvalidArgument);
+  visit = VisitOf(route);
+  std::swap(visit.segments[0], visit.segments[1]);
+  EXPECT_EQ(Refresh(route, visit).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(Refresh, WhatNoScoutCouldHaveTaughtIsNotTaken) {
+  const std::vector<Segment> route = SampleRoute(1);
+  Visit visit = VisitOf(route);
+  std::vector<Feature>& offered = visit.segments[0].offered;
+  for (int i = 0; i < 4; ++i) offered.push_back(NewFeature(i));
+  offered[0].track.clear();
+  offered[1].track[1].u_px = std::nanf("");
+  offered[2].track[1].s = 0.0F;
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->counts.added, 1);
+  EXPECT_EQ(refreshed->segments[0].features.back(), NewFeature(3));
+}
+
+}  // namespace
+}  // namespace trailcast::refresh
