@@ -12,6 +12,7 @@
 #include "services/tool/command.h"
 #include "services/trial/flaws.h"
 #include "services/trial/scenario.h"
+#include "services/trial/spoiled_eyes.h"
 #include "services/trial/trial_batch.h"
 #include "services/trial/trial_csv.h"
 #include "services/trial/trial_plot.h"
@@ -34,6 +35,7 @@ constexpr const char* kExamples =
     "  trailcast trial --scenario rough --method paper,icra2006 --same-robot   # as the paper did\n"
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --scenario loop --laps 10 --trials 1   # does it drift from lap to lap?\n"
+    "  trailcast trial --scenario seasons --visits 10 --refresh --trials 3\n"
     "  trailcast trial --flaw upside-down,late,all --trials 3   # as real robots are\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.log\n"
@@ -112,6 +114,20 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
                  "Followers are set down at so many drawn places along each taught route, told of "
                  "none, and judged by where they take themselves to be and by the metres after")
       ->check(CLI::Range(1, 1000));
+  CLI::Option* visits =
+      app.add_option("--visits", options.visits,
+                     "Each taught route is followed so many times, by one robot after the other, "
+                     "while the scenario's change (night, seasons, moved) grows to all of it")
+          ->check(CLI::Range(1, 1000));
+  app.add_option("--spoiled", options.spoiled,
+                 "What is wrong with all of these visitors; after them comes one more with whom "
+                 "nothing is, and shows what they have made of the route")
+      ->check(CLI::IsMember(trial::SpoiledNames()))
+      ->needs(visits);
+  app.add_flag("--refresh", options.refresh,
+               "Each visit refreshes the route for the next one: features long missed are "
+               "dropped, some of those it saw are added")
+      ->needs(visits);
   app.add_option("--seed", options.seed, "Trial i is drawn from this plus i - 1");
   app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
       ->check(CLI::Range(1, 256));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/sim/places/place_change.h"
 
 namespace trailcast::trial {
 
@@ -30,6 +31,9 @@ struct Scenario {
   std::vector<CameraPair> cameras = {{}};
   // The follower is shoved this far to the side, half way; its odometry does not notice.
   std::vector<double> pushes_m = {0.0};
+  // What has become of the place when it is followed; of several visits, by the last of them: until
+  // then it comes bit by bit.
+  std::optional<sim::PlaceChange> change;
   bool through_server = false;  // followers replay what a route server gives them
   // What the follower has of real robots' flaws, each in trials of its own; empty: none.
   std::vector<std::string> flaws = {""};

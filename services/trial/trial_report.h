@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/refresh/refresh.h"
 #include "services/trial/path_judge.h"
 #include "services/trial/scenario.h"
 
@@ -52,7 +53,10 @@ struct TrialRow {
   std::optional<ScanFigures> scan;    // in no CSV
   bool set_down = false;              // somewhere, and told no place; in no CSV
   std::optional<FoundFigures> found;  // in no CSV; nothing: it never set off
-  std::string reason;                 // why it ended, if it did not arrive
+  int visit = 0;                      // from 1; 0: there is but one; in no CSV
+  // What it made of the route for the next visit; nothing: it left that as it was; in no CSV.
+  std::optional<refresh::RefreshCounts> refreshed;
+  std::string reason;  // why it ended, if it did not arrive
 };
 
 // Over all trials; a failed one counts with the distance at which it ended.

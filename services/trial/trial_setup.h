@@ -14,6 +14,7 @@
 #include "services/sim/core/path.h"
 #include "services/sim/core/world.h"
 #include "services/sim/places/place.h"
+#include "services/trial/spoiled_eyes.h"
 #include "services/trial/trial_options.h"
 
 namespace trailcast::trial {
@@ -48,7 +49,10 @@ struct TrialSetup {
   // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
   std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
       [](sim::Role, std::uint64_t) { return sim::Actors{}; };
-  bool scanner = false;          // followers have one
+  bool scanner = false;                 // followers have one
+  Spoiled spoiled = Spoiled::kNothing;  // of several visits, all but one more at the end
+  // The world after that share of the scenario's change; nothing: it does not change.
+  std::function<Result<std::shared_ptr<const sim::World>>(double share)> world_after{};
   std::vector<TrialCase> cases;  // at least one
 };
 

@@ -77,6 +77,10 @@ std::vector<Scenario> MakeScenarios() {
   Scenario& robots_paved = add("robots-paved", "the same on a parking lot", "paved");
   robots_paved.flaws = robots.flaws;
   robots_paved.traffic = true;
+  add("night", "indoor, followed by lamps that stand elsewhere", "indoor").change = {.night = 1.0};
+  add("seasons", "indoor, a third of its textures changed", "indoor").change = {.textures =
+                                                                                    1.0 / 3.0};
+  add("moved", "indoor, a third of its furniture moved", "indoor").change = {.moved = 1.0 / 3.0};
   add("dusk", "indoor, taught at noon and followed at dusk", "indoor").gain = 0.4;
   return all;
 }

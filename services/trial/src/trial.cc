@@ -15,6 +15,7 @@
 #include "services/trial/src/served_route.h"
 #include "services/trial/src/standstill_watch.h"
 #include "services/trial/src/trial_log.h"
+#include "services/trial/src/visits.h"
 #include "services/trial/trial_teach.h"
 
 namespace trailcast::trial {
@@ -33,8 +34,9 @@ constexpr double kLeftAtLeast_m = 2.0;
 constexpr double kGoesOn_m = 5.0;
 constexpr double kBeside_m = 1.0;
 constexpr double kAbout_m = 0.1;
+constexpr double kPutAside_m = 0.6;
 
-Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
+Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup, const sim::World& world,
                                                    const sim::CameraModel& camera,
                                                    const TrialSeeds& seeds,
                                                    const motion::Pose2& start) {
@@ -49,7 +51,7 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup,
   if (!actors) return tl::unexpected(actors.error());
   options.actors = std::move(*actors);
   if (setup.sun_moves) {
-    options.lighting = sim::WithMovedSun(setup.world->lighting(), seeds.follower);
+    options.lighting = sim::WithMovedSun(world.lighting(), seeds.follower);
   }
   return options;
 }
@@ -69,7 +71,7 @@ class Replaying {
   Replaying(sim::SimulatedRobot& robot, std::optional<FlawedRobot> flawed, const Taught& taught,
             agent::ReplaySession session, SessionOpener open_next, int laps,
             agent::Diagnosis diagnosis, double push_m, std::optional<double> set_down_m,
-            std::optional<ScannedWay> way)
+            std::optional<ScannedWay> way, Spoiled spoiled, std::uint64_t seed)
       : robot_(robot),
         flawed_(std::move(flawed)),
         truth_(robot),
@@ -82,6 +84,8 @@ class Replaying {
         push_m_(push_m),
         set_down_m_(set_down_m),
         way_(std::move(way)),
+        spoiled_(spoiled),
+        seed_(seed),
         limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
   // One frame. False when the replay is over; `state` and `reason` then say how.
@@ -89,6 +93,7 @@ class Replaying {
     if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
     std::optional<agent::Observation> observation = See();
     if (!observation) return !End("blind", "no picture came for long");
+    Spoil(spoiled_, seed_, observation->image);
     if (Waits()) return !Ended(motion::Position(truth_.true_pose()));
     if (way_) observation->stands = way_->scanned();
     const double began_ms = ThreadCpuMs();
@@ -127,6 +132,9 @@ class Replaying {
     row.arrived = state_ == (set_down_m_ ? "found" : "arrived");
   }
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
+  [[nodiscard]] std::optional<refresh::Visit> TakeVisit() {
+    return state_ == "arrived" ? session_.TakeVisit() : std::nullopt;
+  }
   [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
 
  private:
@@ -243,6 +251,8 @@ class Replaying {
   std::optional<FoundFigures> found_;
   double found_after_m_ = 0.0;     // driven
   std::optional<ScannedWay> way_;  // of one with a scanner
+  Spoiled spoiled_;
+  std::uint64_t seed_;
   bool waits_ = false;
   std::string passing_;  // as it says it
   double limit_s_;
@@ -277,28 +287,30 @@ TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uin
 
 }  // namespace
 
-Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
-                              const TrialOptions& options, int trial, Teachings& teachings,
-                              const TrialProgress& on_progress) {
+Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
+                        const TrialOptions& options, int trial, const Taught& taught,
+                        const TaughtRoute& route, const TrialVisit& visit,
+                        const TrialProgress& on_progress) {
   const std::uint64_t seed = SeedOf(options, trial);
-  const auto taught = teachings.Get(trial_case, trial,
-                                    [&](double share) { return on_progress(kTeachShare * share); });
-  if (!taught) return tl::unexpected(taught.error());
-  const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
   TrialSeeds seeds = SeedsOf(options, trial);
+  if (visit.number > 1) {
+    seeds.follower = sim::Random(seeds.follower, fmt::format("visit {}", visit.number)).Bits();
+  }
   std::optional<double> set_down_m;
   if (trial_case.start > 0) {
     seeds.follower = sim::Random(seeds.follower, fmt::format("start {}", trial_case.start)).Bits();
-    set_down_m = DrawStart((*taught)->path, seeds.follower);
+    set_down_m = DrawStart(taught.path, seeds.follower);
   }
-  const motion::Pose2 start =
-      set_down_m ? sim::PoseAlong((*taught)->path.points_m(), *set_down_m, kAbout_m)
-                 : sim::StartPose(setup.path);
+  motion::Pose2 start = set_down_m ? sim::PoseAlong(taught.path.points_m(), *set_down_m, kAbout_m)
+                                   : sim::StartPose(setup.path);
+  if (visit.spoiled == Spoiled::kAside) {
+    start = motion::Compose(start, {0.0, kPutAside_m, 0.0});
+  }
   const RobotFlaws flaws =
-      DrawFlaws(trial_case.flaw, trial_case.follower_camera, (*taught)->duration_s, seeds.follower);
-  const auto options_of_follower = FollowerOptions(setup, flaws.camera, seeds, start);
+      DrawFlaws(trial_case.flaw, trial_case.follower_camera, taught.duration_s, seeds.follower);
+  const auto options_of_follower = FollowerOptions(setup, *visit.world, flaws.camera, seeds, start);
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
-  const auto robot = sim::SimulatedRobot::Create(setup.world, *options_of_follower);
+  const auto robot = sim::SimulatedRobot::Create(visit.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");
   const Result<TaughtRoute> served =
       trial_case.through_server ? FetchFromServer(route) : Result<TaughtRoute>(route);
@@ -310,27 +322,52 @@ Result<TrialOutcome> RunTrial(const TrialSetup& setup, const TrialCase& trial_ca
   const auto open = [&] { return OpenSession(*served, follower); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
-  auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, route.info);
+  auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, visit.number, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   std::optional<FlawedRobot> flawed;
   if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
-  Replaying replaying(**robot, std::move(flawed), **taught, std::move(*session), open, setup.laps,
+  Replaying replaying(**robot, std::move(flawed), taught, std::move(*session), open, setup.laps,
                       std::move(*diagnosis), trial_case.push_m, set_down_m,
-                      setup.scanner ? std::optional<ScannedWay>(setup.world) : std::nullopt);
+                      setup.scanner ? std::optional<ScannedWay>(visit.world) : std::nullopt,
+                      visit.spoiled, seeds.follower);
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");
     if (!*more) break;
-    const double share = kTeachShare + (1.0 - kTeachShare) * replaying.progress();
-    if (frame % kProgressEvery == 0 && !on_progress(share)) {
+    if (frame % kProgressEvery == 0 && !on_progress(replaying.progress())) {
       return Fail(ErrorCode::kUnavailable, "interrupted");
     }
   }
   if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
-  TrialOutcome outcome{BeginRow(setup, trial_case, seed, trial, **taught, route), (*taught)->path,
-                       replaying.path(), route.ground.stretches()};
-  replaying.Fill(outcome.row);
-  return outcome;
+  Followed followed{{BeginRow(setup, trial_case, seed, trial, taught, route), taught.path,
+                     replaying.path(), route.ground.stretches()},
+                    replaying.TakeVisit()};
+  followed.outcome.row.visit = visit.number;
+  replaying.Fill(followed.outcome.row);
+  return followed;
+}
+
+Result<std::vector<TrialOutcome>> RunTrial(const TrialSetup& setup, const TrialCase& trial_case,
+                                           const TrialOptions& options, int trial,
+                                           Teachings& teachings, const TrialProgress& on_progress) {
+  const auto taught = teachings.Get(trial_case, trial,
+                                    [&](double share) { return on_progress(kTeachShare * share); });
+  if (!taught) return tl::unexpected(taught.error());
+  const TaughtRoute& route = teachings.RouteFor(trial_case.method, **taught);
+  const auto on_follow = [&](double share) {
+    return on_progress(kTeachShare + (1.0 - kTeachShare) * share);
+  };
+  if (options.visits > 0) {
+    return RunVisits(setup, trial_case, options, trial, **taught, route, on_follow);
+  }
+  auto world = WorldAfter(setup, 1.0);
+  if (!world) return tl::unexpected(world.error());
+  auto followed =
+      Follow(setup, trial_case, options, trial, **taught, route, {0, std::move(*world)}, on_follow);
+  if (!followed) return tl::unexpected(followed.error());
+  std::vector<TrialOutcome> outcomes;
+  outcomes.push_back(std::move(followed->outcome));
+  return outcomes;
 }
 
 }  // namespace trailcast::trial

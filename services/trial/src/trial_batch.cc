@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -26,7 +27,7 @@ class Batch {
       const std::size_t index = next_.fetch_add(1);
       if (index >= outcomes_.size()) return;
       const auto trials = static_cast<std::size_t>(options_.trials);
-      Result<TrialOutcome> outcome =
+      Result<std::vector<TrialOutcome>> outcome =
           RunTrial(setup_, setup_.cases[index / trials], options_,
                    static_cast<int>(index % trials) + 1, teachings_, [&](double share) {
                      Note(index, share, nullptr);
@@ -39,21 +40,24 @@ class Batch {
 
   Result<std::vector<TrialOutcome>> Take() {
     std::vector<TrialOutcome> outcomes;
-    for (std::optional<Result<TrialOutcome>>& outcome : outcomes_) {
+    for (std::optional<Result<std::vector<TrialOutcome>>>& outcome : outcomes_) {
       if (!outcome) continue;  // never begun, after another one's error
       if (!*outcome) return tl::unexpected(outcome->error());
-      outcomes.push_back(std::move(**outcome));
+      std::move((*outcome)->begin(), (*outcome)->end(), std::back_inserter(outcomes));
     }
     return outcomes;
   }
 
  private:
-  void Note(std::size_t index, double share, Result<TrialOutcome>* outcome) {
+  void Note(std::size_t index, double share, Result<std::vector<TrialOutcome>>* outcome) {
     const std::scoped_lock lock(mutex_);
     shares_[index] = share;
     if (outcome != nullptr) {
       ++ended_;
-      arrived_ += *outcome && (*outcome)->row.arrived ? 1 : 0;
+      arrived_ += *outcome && std::all_of((*outcome)->begin(), (*outcome)->end(),
+                                          [](const TrialOutcome& each) { return each.row.arrived; })
+                      ? 1
+                      : 0;
       outcomes_[index].emplace(std::move(*outcome));
     }
     double sum = 0.0;
@@ -68,7 +72,7 @@ class Batch {
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> broken_{false};
   std::mutex mutex_;  // guards what follows
-  std::vector<std::optional<Result<TrialOutcome>>> outcomes_;
+  std::vector<std::optional<Result<std::vector<TrialOutcome>>>> outcomes_;
   std::vector<double> shares_;
   int ended_ = 0;
   int arrived_ = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace trailcast::trial {
@@ -116,6 +117,7 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
       text += fmt::format("  set down at {:.2f} m, found after {:.1f} s, {:+.2f} m off",
                           row.found->at_m, row.found->after_s, row.found->off_m);
     }
+    if (row.visit > 0) text += fmt::format("  visit {}", row.visit);
     text += row.reason.empty() ? "\n" : fmt::format("  {}\n", row.reason);
   }
   return text;
@@ -173,6 +175,37 @@ std::string FoundTable(const std::vector<TrialRow>& rows) {
   return text;
 }
 
+// One visit after the other, over all teachings.
+std::string VisitTable(const std::vector<TrialRow>& rows) {
+  int last = 0;
+  for (const TrialRow& row : rows) last = std::max(last, row.visit);
+  std::string text =
+      fmt::format("{:>5}{:>9}{:>9}{:>9}{:>9}{:>7}{:>8}{:>11}{:>8}{:>9}\n", "visit", "arrived",
+                  "end m", "mean m", "max m", "found", "B/m", "refreshed", "added", "dropped");
+  for (int visit = 1; visit <= last; ++visit) {
+    std::vector<TrialRow> of_visit;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(of_visit),
+                 [&](const TrialRow& row) { return row.visit == visit; });
+    if (of_visit.empty()) continue;
+    const TrialSummary summary = Summarize(of_visit);
+    int refreshed = 0;
+    int added = 0;
+    int dropped = 0;
+    for (const TrialRow& row : of_visit) {
+      if (!row.refreshed) continue;
+      ++refreshed;
+      added += row.refreshed->added;
+      dropped += row.refreshed->dropped;
+    }
+    text +=
+        fmt::format("{:>5}{:>9}{:>9.3f}{:>9.3f}{:>9.3f}{:>6.0f}%{:>8.0f}{:>11}{:>8}{:>9}\n", visit,
+                    fmt::format("{}/{}", summary.arrived, summary.trials), summary.accuracy_m,
+                    summary.mean_path_error_m, summary.max_path_error_m,
+                    100.0 * summary.found_share, summary.bytes_per_m, refreshed, added, dropped);
+  }
+  return text;
+}
+
 std::string SummaryTable(const std::vector<TrialRow>& rows) {
   const bool set_down =
       std::any_of(rows.begin(), rows.end(), [](const TrialRow& row) { return row.set_down; });
@@ -216,6 +249,10 @@ std::string TrialTable(const std::vector<TrialRow>& rows) {
   for (const std::vector<TrialRow>& each : cases) {
     if (cases.size() > 1) text += CaseName(each.front()) + "\n";
     text += RowTable(each);
+    if (each.front().visit > 0) {
+      text += '\n';
+      text += VisitTable(each);
+    }
     text += '\n';
   }
   if (cases.size() == 1) return text + SummaryTable(rows);

@@ -7,6 +7,7 @@
 #include "agent/session/look_around.h"
 #include "agent/simulated/camera_file.h"
 #include "services/base/angles.h"
+#include "services/sim/places/place_change.h"
 #include "services/sim/places/traffic.h"
 #include "services/trial/flaws.h"
 #include "services/trial/scenario.h"
@@ -118,6 +119,15 @@ Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, Tr
   setup.actors = [scenario, place = *place](sim::Role role, std::uint64_t seed) {
     return DrawActors(scenario, place, role, seed);
   };
+  if (scenario.change) {
+    setup.world_after = [name = scenario.place, full = *scenario.change](
+                            double share) -> Result<std::shared_ptr<const sim::World>> {
+      auto changed = sim::OpenChangedPlace(
+          name, {share * full.night, share * full.textures, share * full.moved, full.seed});
+      if (!changed) return tl::unexpected(changed.error());
+      return std::move(changed->world);
+    };
+  }
   setup.sun_moves =
       options.place.world.empty() && !options.same_robot && setup.world->lighting().sun > 0.0F;
   return {};
@@ -147,6 +157,17 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   TrialSetup setup;
   auto scenario = ScenarioOf(options);
   if (!scenario) return tl::unexpected(scenario.error());
+  if (options.refresh && options.visits == 0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "a route is refreshed for the next visit: how many visits are there to be?");
+  }
+  const auto spoiled = FindSpoiled(options.spoiled);
+  if (!spoiled) return tl::unexpected(spoiled.error());
+  if (*spoiled != Spoiled::kNothing && options.visits == 0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "what is spoiled is seen by who comes after: how many visits are there to be?");
+  }
+  setup.spoiled = *spoiled;
   setup.scenario = scenario->name;
   auto cases = MakeCases(*scenario, options);
   if (!cases) return tl::unexpected(cases.error());
@@ -155,6 +176,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
   setup.follower_options.anywhere = options.starts > 0;
+  setup.follower_options.take_experience = options.refresh;
   setup.scout_roll_deg = options.scout_roll_deg;
   setup.follower_options.intake.roll_deg = options.follower_roll_deg;
   setup.follower_options.camera_ahead_m = options.follower_ahead_m;

@@ -42,6 +42,19 @@ TEST(TrialTable, ShowsThePapersFiguresOnlyForThePapersScenarios) {
   EXPECT_THAT(TrialTable({row}), Not(HasSubstr("the paper")));
 }
 
+TEST(TrialTable, TellsVisitsOneAfterTheOther) {
+  std::vector<TrialRow> rows = {EndedAt(0.3, 0.4), EndedAt(0.0, 0.0), EndedAt(0.0, 0.0)};
+  rows[0].visit = 1;
+  rows[0].refreshed = refresh::RefreshCounts{10, 2, 0, 3, 4};
+  rows[1].visit = rows[2].visit = 2;
+  rows[2].arrived = false;
+  const std::string text = TrialTable(rows);
+  EXPECT_THAT(text, HasSubstr("    1      1/1    0.500"));
+  EXPECT_THAT(text, HasSubstr("       4        3\n"));
+  EXPECT_THAT(text, HasSubstr("    2      1/2    0.000"));
+  EXPECT_THAT(TrialTable({EndedAt(0.0, 0.0)}), Not(HasSubstr("refreshed")));
+}
+
 TEST(TrialMarkdown, PutsTableOneBesideThePaperAndEveryCaseBelow) {
   TrialRow ours = EndedAt(0.3, 0.4);
   TrialRow paper = ours;
