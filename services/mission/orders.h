@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +19,14 @@ namespace trailcast::mission {
 //   teach ROUTE [TAG ...]    a person drives until it is told to be ended; no tag is called as what
 //                            an order begins with
 //   wait SECONDS
-// as in "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel".
+// as in "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel". Of a robot that is sent to a
+// place they are the way there, of 'follow' alone:
+//   goto PLACE [way N] FOLLOW ... [because WORDS ...]
+// A server that finds another way while it is going sends the same mission with a higher N, and
+// why. Where there is none, it ends in
+//   wait way                 for such a one
 struct Task {
-  enum class Kind : std::uint8_t { kFollow, kWait, kTeach };
+  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kWaitWay };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
   double from_m = 0.0;  // where the robot stands at first; 0: at the route's beginning
@@ -30,13 +37,25 @@ struct Task {
   std::vector<std::string> tags{};  // of what is taught, in any order
 };
 
+// What a robot is going to, beside the way there.
+struct Going {
+  std::string to{};       // as its sender calls it: one word, up to 96 bytes
+  std::uint32_t way = 1;  // which of the ways that it was sent
+  std::string because{};  // of the first none
+};
+
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<std::vector<Task>> ParseOrders(std::string_view orders);
+
+// None: they are no way to a place, or not understood.
+[[nodiscard]] std::optional<Going> GoingIn(std::string_view orders);
 
 // Those that they name; none where they are not understood.
 [[nodiscard]] std::set<std::string> RoutesIn(std::string_view orders);
 
 // "follow hall 3..10": as ParseOrders takes it, without what is as usual.
 [[nodiscard]] std::string ToText(const Task& task);
+[[nodiscard]] std::string ToText(std::span<const Task> tasks);
+[[nodiscard]] std::string ToText(const Going& going, std::span<const Task> tasks);
 
 }  // namespace trailcast::mission

@@ -15,19 +15,18 @@ namespace {
 namespace fs = std::filesystem;
 using trailcast::fuzz::Require;
 
-std::string TextOf(const std::vector<trailcast::mission::Task>& tasks) {
-  std::string text;
-  for (const auto& task : tasks) text += (text.empty() ? "" : " ") + ToText(task);
-  return text;
+std::string TextOf(const std::string& orders, const std::vector<trailcast::mission::Task>& tasks) {
+  const auto going = trailcast::mission::GoingIn(orders);
+  return going ? ToText(*going, tasks) : trailcast::mission::ToText(tasks);
 }
 
 void ReadOrders(const std::string& orders) {
   const auto tasks = trailcast::mission::ParseOrders(orders);
   if (!tasks) return;
   Require(!tasks->empty(), "there is something to do");
-  const std::string text = TextOf(*tasks);
+  const std::string text = TextOf(orders, *tasks);
   const auto again = trailcast::mission::ParseOrders(text);
-  Require(again && TextOf(*again) == text, "orders are what their text says");
+  Require(again && TextOf(text, *again) == text, "orders are what their text says");
 }
 
 void ReadKept(const std::string& text) {

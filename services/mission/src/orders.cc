@@ -19,6 +19,9 @@ namespace {
 constexpr const char* kGrammar =
     "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' or 'wait "
     "SECONDS', one after the other";
+constexpr const char* kWay = "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone";
+constexpr std::size_t kLongestPlace = 96;
+constexpr std::uint32_t kMostWays = 1'000'000'000;
 constexpr std::uint32_t kMostLaps = 10'000;
 constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
 constexpr double kLeastSpeed = 0.1;
@@ -43,17 +46,56 @@ class Parser {
   explicit Parser(std::string_view orders) : words_(Words(orders)) {}
 
   [[nodiscard]] Result<std::vector<Task>> All() {
+    if (Next() == "goto") {
+      if (auto taken = Goto(); !taken) return tl::unexpected(taken.error());
+    }
     std::vector<Task> tasks;
-    while (!rest().empty()) {
+    while (!rest().empty() && !TakeReason()) {
       auto task = Next() == "wait" ? Wait() : Next() == "teach" ? Teach() : Follow();
       if (!task) return tl::unexpected(task.error());
+      if (auto fits = CheckOnWay(*task, tasks); !fits) return tl::unexpected(fits.error());
       tasks.push_back(*std::move(task));
     }
     if (tasks.empty()) return Fail(ErrorCode::kInvalidArgument, "no orders: say {}", kGrammar);
     return tasks;
   }
+  // After All.
+  [[nodiscard]] const std::optional<Going>& going() const { return going_; }
 
  private:
+  [[nodiscard]] Result<void> Goto() {
+    (void)Take();
+    going_.emplace().to = Take();
+    if (going_->to.empty() || going_->to.size() > kLongestPlace) {
+      return Wrong(going_->to, "a place to go to");
+    }
+    if (Next() != "way") return {};
+    (void)Take();
+    const std::string word = Take();
+    const auto way = ParseNumber<std::uint32_t>(word);
+    if (!way || *way < 2 || *way > kMostWays) return Wrong(word, "which way it is, 2 or more");
+    going_->way = *way;
+    return {};
+  }
+
+  // To the end.
+  [[nodiscard]] bool TakeReason() {
+    if (!going_ || Next() != "because") return false;
+    (void)Take();
+    going_->because = fmt::format("{}", fmt::join(rest(), " "));
+    at_ = words_.size();
+    return true;
+  }
+
+  // Of a way there are stretches, and in the end none.
+  [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
+    if (!going_) return {};
+    const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
+    const bool is_stretch = task.kind == Task::Kind::kFollow && task.to_m > 0.0 && task.laps == 1;
+    if (!ends && (is_stretch || task.kind == Task::Kind::kWaitWay)) return {};
+    return Wrong(ToText(task), kWay);
+  }
+
   [[nodiscard]] std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
   [[nodiscard]] std::string Next() const { return rest().empty() ? "" : rest().front(); }
   std::string Take() { return rest().empty() ? "" : words_[at_++]; }
@@ -61,6 +103,7 @@ class Parser {
   [[nodiscard]] Result<Task> Wait() {
     (void)Take();
     const std::string word = Take();
+    if (going_ && word == "way") return Task{.kind = Task::Kind::kWaitWay};
     const auto seconds = ParseNumberWithin(word, 0.0, kLongestWait_s);
     if (!seconds) return Wrong(word, "seconds, a week at most");
     return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
@@ -139,23 +182,30 @@ class Parser {
 
   std::vector<std::string> words_;
   std::size_t at_ = 0;
+  std::optional<Going> going_;
 };
 
 }  // namespace
 
 Result<std::vector<Task>> ParseOrders(std::string_view orders) { return Parser(orders).All(); }
 
+std::optional<Going> GoingIn(std::string_view orders) {
+  Parser parser(orders);
+  return parser.All() ? parser.going() : std::nullopt;
+}
+
 std::set<std::string> RoutesIn(std::string_view orders) {
   std::set<std::string> routes;
   const auto tasks = ParseOrders(orders);
   if (!tasks) return routes;
   for (const Task& task : *tasks) {
-    if (task.kind != Task::Kind::kWait) routes.insert(task.route.route);
+    if (!task.route.route.empty()) routes.insert(task.route.route);
   }
   return routes;
 }
 
 std::string ToText(const Task& task) {
+  if (task.kind == Task::Kind::kWaitWay) return "wait way";
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
   if (task.kind == Task::Kind::kTeach) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",
@@ -170,6 +220,21 @@ std::string ToText(const Task& task) {
   if (task.laps > 1) text += fmt::format(" laps {}", task.laps);
   if (task.speed_factor != 1.0) text += fmt::format(" speed {:g}", task.speed_factor);
   return text;
+}
+
+std::string ToText(std::span<const Task> tasks) {
+  std::string text;
+  for (const Task& task : tasks) {
+    if (!text.empty()) text += ' ';
+    text += ToText(task);
+  }
+  return text;
+}
+
+std::string ToText(const Going& going, std::span<const Task> tasks) {
+  return fmt::format("goto {}{} {}{}{}", going.to,
+                     going.way > 1 ? fmt::format(" way {}", going.way) : "", ToText(tasks),
+                     going.because.empty() ? "" : " because ", going.because);
 }
 
 const char* ToString(State state) {

@@ -42,6 +42,26 @@ TEST(Orders, AsTextAreTheSameOrders) {
   }
 }
 
+TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
+  for (const char* text :
+       {"goto office@3 follow hall 0..1.5 follow office 1.5..3",
+        "goto loading-bay way 2 follow hall 0.4..1.5 follow yard 0..3 because hall 3..7 was closed",
+        "goto way way 3 wait way because every way there is closed",
+        "goto office@3 way 2 follow because 0..2 wait way"}) {
+    const auto tasks = ParseOrders(text);
+    const auto going = GoingIn(text);
+    ASSERT_TRUE(tasks && going) << text;
+    EXPECT_EQ(ToText(*going, *tasks), text);
+  }
+  const auto going = GoingIn("goto bay way 7 follow hall 0..1 because  it   was so");
+  ASSERT_TRUE(going);
+  EXPECT_EQ(going->to, "bay");
+  EXPECT_EQ(going->way, 7U);
+  EXPECT_EQ(going->because, "it was so");
+  EXPECT_FALSE(GoingIn("follow hall"));
+  EXPECT_FALSE(GoingIn("goto bay teach yard"));
+}
+
 // Routes may be called as the words of orders are.
 TEST(Orders, OfARouteCalledLikeAWord) {
   const auto tasks = ParseOrders("follow follow follow wait wait 1");
@@ -85,6 +105,14 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("teach hall@2"), HasSubstr("hall@2"));
   EXPECT_THAT(why("teach hall a/b"), HasSubstr("'a/b' was not understood: expected a tag"));
   EXPECT_THAT(why("teach hall 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17"), HasSubstr("tags"));
+  EXPECT_THAT(why("goto"), HasSubstr("a place to go to"));
+  EXPECT_THAT(why("goto bay"), HasSubstr("no orders"));
+  EXPECT_THAT(why("goto bay way 1 follow hall"), HasSubstr("which way it is, 2 or more"));
+  EXPECT_THAT(why("goto bay follow hall"), HasSubstr("'follow ROUTE FROM..TO' alone"));
+  EXPECT_THAT(why("goto bay wait 3"), HasSubstr("'follow ROUTE FROM..TO' alone"));
+  EXPECT_THAT(why("goto bay wait way follow hall 0..1"), HasSubstr("FROM..TO' alone"));
+  EXPECT_THAT(why("follow hall because"), HasSubstr("'because' was not understood"));
+  EXPECT_THAT(why("wait way"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait -1"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));
