@@ -94,6 +94,15 @@ class Network {
   // where.
   [[nodiscard]] Result<Way> ShortestWay(const Place& from, const Place& to) const;
 
+  // The same for a robot that is under way there: from within a part that is closed it drives on
+  // out of that, or to its goal in it. Who has come no further into it than kBarelyIn_m does not.
+  [[nodiscard]] Result<Way> WayOn(const Place& from, const Place& to) const;
+  static constexpr double kBarelyIn_m = 0.5;
+  // What such a robot at the beginning of this meets first of what is closed, up to its end.
+  [[nodiscard]] std::optional<Condition> FirstClosed(const Stretch& stretch) const;
+  // The closed part that such a robot is on, if it is on one.
+  [[nodiscard]] std::optional<Condition> ClosedAround(const Place& place) const;
+
   [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }
 
  private:
@@ -130,12 +139,23 @@ class Network {
   void Link(const std::vector<Joint>& joints);
   [[nodiscard]] Index NodeAt(const Spot& spot) const;  // the last at or before it
   // Of a part of what is ahead of a node.
-  [[nodiscard]] double Costs(Index node, double from_m, double to_m) const;
+  [[nodiscard]] double Costs(Index node, double from_m, double to_m,
+                             bool though_closed = false) const;
   struct Found {
     double cost = 0.0;  // infinite: there is no way
     std::vector<Drive> drives{};
   };
-  [[nodiscard]] Found Search(const Spot& from, const Spot& to) const;
+  // What is closed counts as open up to this node.
+  [[nodiscard]] Found Search(const Spot& from, const Spot& to, Index open_until) const;
+  [[nodiscard]] Result<Way> WayFound(const Spot& from, const Spot& to, const Found& found) const;
+  // Of a robot within a closed part, the node where that ends, and of one that has barely come in
+  // the place where it begins.
+  struct WayOut {
+    Index open_until = 0;
+    Spot from{};
+  };
+  [[nodiscard]] WayOut OutOf(const Spot& spot) const;
+  [[nodiscard]] Condition ClosedBetween(Index first, Index end) const;
   [[nodiscard]] Way WayOf(const std::vector<Drive>& drives) const;
   [[nodiscard]] std::string ClosedOn(const std::vector<Drive>& drives) const;
   [[nodiscard]] std::string Text(const Spot& spot) const;

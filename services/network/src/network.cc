@@ -121,14 +121,14 @@ Network::Index Network::NodeAt(const Spot& spot) const {
   return static_cast<Index>(after - nodes_.begin()) - 1;
 }
 
-double Network::Costs(Index node, double from_m, double to_m) const {
+double Network::Costs(Index node, double from_m, double to_m, bool though_closed) const {
   if (to_m <= from_m) return 0.0;
   const Node& of = nodes_[node];
-  return (of.closed ? kClosedCosts : 0.0) + (to_m - from_m) * of.cost / of.speed;
+  return (of.closed && !though_closed ? kClosedCosts : 0.0) + (to_m - from_m) * of.cost / of.speed;
 }
 
 // Dijkstra's, from node to node; that of the goal is left on the way to it.
-Network::Found Network::Search(const Spot& from, const Spot& to) const {
+Network::Found Network::Search(const Spot& from, const Spot& to, Index open_until) const {
   constexpr Index kNone = std::numeric_limits<Index>::max();
   struct Reached {
     double cost = kNever;
@@ -146,27 +146,35 @@ Network::Found Network::Search(const Spot& from, const Spot& to) const {
 
   const Index goal = NodeAt(to);
   const Index begin = NodeAt(from);
+  const auto costs = [&](Index node, double from_m, double to_m) {
+    return Costs(node, from_m, to_m, node >= begin && node < open_until);
+  };
   double best = kNever;
-  if (begin == goal && from.along_m <= to.along_m) best = Costs(begin, from.along_m, to.along_m);
+  if (begin == goal && from.along_m <= to.along_m) best = costs(begin, from.along_m, to.along_m);
   bool over_goal = false;
   if (nodes_[begin].along_m >= from.along_m) {
     reach(begin, 0.0, kNone, false);
   } else {
-    reach(begin + 1, Costs(begin, from.along_m, nodes_[begin + 1].along_m), kNone, false);
+    reach(begin + 1, costs(begin, from.along_m, nodes_[begin + 1].along_m), kNone, false);
   }
   while (!due.empty() && due.top().first < best) {
     const auto [cost, node] = due.top();
     due.pop();
     if (cost > reached[node].cost) continue;
     if (node == goal) {
-      const double all = cost + Costs(node, nodes_[node].along_m, to.along_m);
+      const double all = cost + costs(node, nodes_[node].along_m, to.along_m);
       if (all < best) {
         best = all;
         over_goal = true;
       }
     }
     const Exits& exits = exits_[node];
-    if (exits.ahead < kNever) reach(node + 1, cost + exits.ahead, node, false);
+    if (exits.ahead < kNever) {
+      const bool is_own = node >= begin && node < open_until;
+      const double ahead =
+          is_own ? costs(node, nodes_[node].along_m, nodes_[node + 1].along_m) : exits.ahead;
+      reach(node + 1, cost + ahead, node, false);
+    }
     for (Index i = exits.first_leap; i < exits_[node + 1].first_leap; ++i) {
       reach(leaps_[i], cost + kChangeCosts_m, node, true);
     }
@@ -230,14 +238,9 @@ std::string Network::Text(const Spot& spot) const {
   return fmt::format("{}@{:g}", routes_[spot.route].name, spot.along_m);
 }
 
-Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {
-  const auto begin = Find(from);
-  if (!begin) return tl::unexpected(begin.error());
-  const auto end = Find(to);
-  if (!end) return tl::unexpected(end.error());
-  const Found found = Search(*begin, *end);
+Result<Way> Network::WayFound(const Spot& from, const Spot& to, const Found& found) const {
   if (found.cost < kClosedCosts) return WayOf(found.drives);
-  const std::string ends = fmt::format("from {} to {}", Text(*begin), Text(*end));
+  const std::string ends = fmt::format("from {} to {}", Text(from), Text(to));
   if (found.cost < kNever) {
     return Fail(ErrorCode::kNotFound, "every way {} is closed; on the least closed: {}", ends,
                 ClosedOn(found.drives));
@@ -245,6 +248,70 @@ Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {
   return Fail(ErrorCode::kNotFound,
               "no way leads {}: routes are followed as they were taught, and no joints lead there",
               ends);
+}
+
+Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {
+  const auto begin = Find(from);
+  if (!begin) return tl::unexpected(begin.error());
+  const auto end = Find(to);
+  if (!end) return tl::unexpected(end.error());
+  return WayFound(*begin, *end, Search(*begin, *end, 0));
+}
+
+Result<Way> Network::WayOn(const Place& from, const Place& to) const {
+  const auto begin = Find(from);
+  if (!begin) return tl::unexpected(begin.error());
+  const auto end = Find(to);
+  if (!end) return tl::unexpected(end.error());
+  const WayOut out = OutOf(*begin);
+  return WayFound(out.from, *end, Search(out.from, *end, out.open_until));
+}
+
+Network::WayOut Network::OutOf(const Spot& spot) const {
+  const Index at = NodeAt(spot);
+  Index first = at;
+  while (first > 0 && nodes_[first - 1].closed && nodes_[first - 1].route == spot.route) --first;
+  const bool is_in = nodes_[at].closed && spot.along_m > nodes_[first].along_m;
+  if (!is_in) return {.open_until = at, .from = spot};
+  if (spot.along_m <= nodes_[first].along_m + kBarelyIn_m) {
+    return {.open_until = first, .from = {spot.route, nodes_[first].along_m}};
+  }
+  Index end = at;
+  while (nodes_[end].closed) ++end;
+  return {.open_until = end, .from = spot};
+}
+
+std::optional<Condition> Network::FirstClosed(const Stretch& stretch) const {
+  const auto begin = Find({stretch.route, stretch.from_m});
+  if (!begin) return std::nullopt;
+  const WayOut out = OutOf(*begin);
+  Index i = std::max(NodeAt(out.from), out.open_until);
+  while (i + 1 < nodes_.size() && nodes_[i].route == begin->route &&
+         nodes_[i].along_m < stretch.to_m) {
+    Index end = i;
+    while (nodes_[end].closed) ++end;
+    if (end > i) return ClosedBetween(i, end);
+    ++i;
+  }
+  return std::nullopt;
+}
+
+std::optional<Condition> Network::ClosedAround(const Place& place) const {
+  const auto spot = Find(place);
+  if (!spot) return std::nullopt;
+  const Index at = NodeAt(*spot);
+  const Index end = OutOf(*spot).open_until;
+  if (end <= at) return std::nullopt;
+  Index first = at;
+  while (first > 0 && nodes_[first - 1].closed && nodes_[first - 1].route == spot->route) --first;
+  return ClosedBetween(first, end);
+}
+
+Condition Network::ClosedBetween(Index first, Index end) const {
+  return {.route = routes_[nodes_[first].route].id,
+          .from_m = nodes_[first].along_m,
+          .to_m = nodes_[end].along_m,
+          .closed = true};
 }
 
 }  // namespace trailcast::network

@@ -90,6 +90,35 @@ TEST_F(NetworkTest, AClosedStretchIsAvoidedOrNamed) {
   EXPECT_THAT(Why({"h", 17.0}, {"h", 18.0}), HasSubstr("hall 16..20"));
 }
 
+TEST_F(NetworkTest, ARobotThatIsOnAClosedPartDrivesOutOfItAndIntoNoOther) {
+  conditions_ = {{.route = "h", .from_m = 4.0, .to_m = 14.0, .closed = true}};
+  const auto way = [this](const Place& from, const Place& to) { return Made().WayOn(from, to); };
+  EXPECT_THAT(way({"h", 6.0}, {"o", 8.0})->stretches,
+              ElementsAre(Stretch{"h", 6.0, 12.0}, Stretch{"o", 0.0, 8.0}))
+      << "by a joint within it";
+  EXPECT_THAT(way({"h", 6.0}, {"h", 9.0})->stretches, ElementsAre(Stretch{"h", 6.0, 9.0}));
+  EXPECT_THAT(way({"h", 6.0}, {"y", 1.0})->stretches,
+              ElementsAre(Stretch{"h", 6.0, 20.0}, Stretch{"y", 0.0, 1.0}));
+  for (const double barely_m : {3.0, 4.0, 4.3}) {
+    EXPECT_THAT(way({"h", barely_m}, {"o", 8.0}).error().message, HasSubstr("hall 4..14"));
+  }
+  const auto closed = [this](double from_m, double to_m) {
+    const auto first = Made().FirstClosed({"h", from_m, to_m});
+    return first ? first->from_m : -1.0;
+  };
+  EXPECT_EQ(closed(1.0, 4.0), -1.0) << "its ends are no part of it";
+  EXPECT_EQ(closed(1.0, 4.1), 4.0);
+  EXPECT_EQ(closed(4.3, 20.0), 4.0) << "it has barely come in";
+  EXPECT_EQ(closed(6.0, 20.0), -1.0);
+  EXPECT_EQ(Made().ClosedAround({"h", 6.0}), conditions_.front());
+  EXPECT_EQ(Made().ClosedAround({"h", 13.0}), conditions_.front());
+  for (const double out_m : {3.0, 4.0, 4.3, 14.0}) EXPECT_FALSE(Made().ClosedAround({"h", out_m}));
+  EXPECT_EQ(closed(14.0, 20.0), -1.0);
+  conditions_.push_back({.route = "h", .from_m = 15.0, .to_m = 16.0, .closed = true});
+  EXPECT_EQ(closed(6.0, 20.0), 15.0);
+  EXPECT_THAT(way({"h", 6.0}, {"y", 1.0}).error().message, HasSubstr("hall 15..16"));
+}
+
 TEST_F(NetworkTest, SpeedAndCostDecideAndSpeedIsToldOfEachStretch) {
   conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 3.0, .speed = 0.5}};
   EXPECT_THAT(Found({"h", 11.0}, {"o", 8.0}).stretches,
