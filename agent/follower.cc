@@ -250,8 +250,9 @@ Result<bool> Loop::Step(const Observation& observation) {
 }
 
 bool Loop::PassedEnd() const {
-  return options_.end_m > 0.0 && last_->state == ReplayState::kFollowing && last_->along_m &&
-         *last_->along_m >= options_.end_m;
+  const double end_m = options_.end_m();
+  return end_m > 0.0 && last_->state == ReplayState::kFollowing && last_->along_m &&
+         *last_->along_m >= end_m;
 }
 
 // After the command: who looks delays no more than the next frame, by the time of a copy.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +24,8 @@ struct FollowerOptions {
   DiagnosisOptions diagnosis;
   // The device is a recording: every frame is looked at, whatever the follower makes of it.
   bool open_loop = false;
-  double end_m = 0.0;  // how far along the route it has arrived; 0: at its end
+  // How far along the route it has arrived; 0: at its end. The control loop asks at each frame.
+  std::function<double()> end_m = [] { return 0.0; };
   // From followers ahead on the same revision of the route; without `exchange` nobody is heard.
   KeepDistanceOptions keep_distance;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
 #include "agent/link/outbox.h"
+#include "agent/other_way.h"
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/publish.h"
@@ -75,10 +77,13 @@ class OnDuty {
   void AddDuty(exchange::AgentStatus& status) const;
   void NoteAilment(steady_clock::time_point now);
   void TellNews();
+  [[nodiscard]] bool WaitsForWay() const;
   [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
 
   void Work();
   void WaitOn(const mission::Task& task);
+  void WaitForWay();
+  void GoOtherWay();
   void Follow(const mission::Task& task);
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
@@ -106,6 +111,11 @@ class OnDuty {
   std::optional<State> told_;  // of the mission under way
   std::string told_why_;
   bool was_under_way_ = false;  // in this following
+  mission::Task driven_;        // what is followed
+  // Of that: where it ends, and that it ends at once, since it goes another way.
+  std::atomic<double> end_m_ = 0.0;
+  std::atomic<bool> turned_off_ = false;
+  std::string missed_;  // why it stands until it is told another way; empty: it need not
   std::optional<steady_clock::time_point> wait_until_;
   std::string on_route_;  // where the last following ended
   std::optional<exchange::PlaceOnRoute> place_;
@@ -117,6 +127,7 @@ class OnDuty {
 
 void OnDuty::Hear(const exchange::Message& message) {
   desk_.Handle(message);
+  if (desk_.TakeAmended()) GoOtherWay();
   if (claimed_) presence_.Handle(message);
   if (following_) return;
   const bool teaches = hands_ != nullptr;
@@ -152,7 +163,8 @@ void OnDuty::TellNews() {
 void OnDuty::ShowFree() {
   exchange::AgentStatus status;
   status.mode = exchange::AgentMode::kWaiting;
-  status.detail = last_;
+  const bool waits_for_way = WaitsForWay();
+  status.detail = waits_for_way ? told_why_ : last_;
   AddDuty(status);
   if (!ailment_.empty() && Held()) {
     status.detail += "; " + ailment_;
@@ -160,7 +172,7 @@ void OnDuty::ShowFree() {
     status.mode = exchange::AgentMode::kFault;
     status.detail = ailment_;
   }
-  if (steady_clock::now() < stands_until_) {
+  if (waits_for_way || steady_clock::now() < stands_until_) {
     status.route = on_route_;
     status.place = place_;
   }
@@ -261,6 +273,8 @@ void OnDuty::Work() {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
     TellState(State::kPaused, now_desk_.hold().text);
+  } else if (WaitsForWay()) {
+    WaitForWay();
   } else if (task.kind == mission::Task::Kind::kWait) {
     WaitOn(task);
   } else if (task.kind == mission::Task::Kind::kTeach) {
@@ -277,6 +291,42 @@ void OnDuty::WaitOn(const mission::Task& task) {
   if (now >= *wait_until_) Done();
 }
 
+bool OnDuty::WaitsForWay() const {
+  const auto& current = desk_.current();
+  return current && (!missed_.empty() || Kind(*current) == mission::Task::Kind::kWaitWay);
+}
+
+void OnDuty::WaitForWay() {
+  TellState(State::kFetching,
+            "waits for a way: " + (missed_.empty() ? desk_.current()->because : missed_));
+}
+
+// In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.
+void OnDuty::GoOtherWay() {
+  missed_.clear();
+  if (!following_) {
+    told_.reset();
+    return;
+  }
+  const auto& tasks = desk_.current()->tasks;
+  const auto along_m = place_ ? std::optional(place_->along_m) : std::nullopt;
+  const OtherWay other = FindOnWay(tasks, driven_, along_m);
+  desk_.GoOnAt(other.task);
+  const mission::Task& task = tasks[other.task];
+  if (other.kind == OtherWay::Kind::kGoesOn) {
+    driven_ = task;
+    end_m_ = task.to_m;
+    return;
+  }
+  if (other.kind == OtherWay::Kind::kMissed) {
+    missed_ = fmt::format("it was told at {:.1f} m to leave {} at {:.1f} m", *along_m,
+                          task.route.route, task.to_m);
+  } else if (along_m && task.route.route == driven_.route.route) {
+    desk_.BeginAt(*along_m);
+  }
+  turned_off_ = true;
+}
+
 void OnDuty::Follow(const mission::Task& task) {
   const MissionDesk::Current& current = *desk_.current();
   FollowerOptions follower = options_.follower(task);
@@ -285,7 +335,9 @@ void OnDuty::Follow(const mission::Task& task) {
   follower.link.vitals = options_.vitals;
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
-  follower.end_m = task.to_m;
+  end_m_ = task.to_m;
+  follower.end_m = [this] { return end_m_.load(); };
+  follower.link.stop = [this] { return options_.stop() || turned_off_; };
   // Of a stretch it is not to do another part.
   if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
   follower.glances = &glances_;
@@ -302,11 +354,18 @@ void OnDuty::Follow(const mission::Task& task) {
   was_under_way_ = false;
   ails_since_.reset();
   ailment_.clear();
+  driven_ = task;
+  place_.reset();
   following_ = true;
   const auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
   following_ = false;
   const bool arrived = outcome && outcome->success;
   stands_until_ = arrived ? steady_clock::time_point() : steady_clock::now() + kStandsThere;
+  if (turned_off_.exchange(false)) return;
+  // It had arrived when it heard that its order ends further on.
+  const bool goes_on =
+      arrived && end_m_ != task.to_m && place_ && end_m_ > place_->along_m + kOnWay_m;
+  if (goes_on) return desk_.BeginAt(place_->along_m);
   Judge(outcome);
 }
 

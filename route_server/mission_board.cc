@@ -19,10 +19,25 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSoon{1000};
 constexpr milliseconds kLate{30'000};
 constexpr milliseconds kExpireEvery{1000};
+// How soon a robot is told again of another way, which it does not answer.
+constexpr milliseconds kAmendedEvery{2000};
 
 std::string Describe(const mission::Mission& mission) {
   return fmt::format("mission {} of '{}': {}", mission.id, mission.agent.value(),
                      PlainText(mission.orders, 200));
+}
+
+std::uint32_t WayOf(const mission::Mission& mission) {
+  const auto going = mission::GoingIn(mission.orders);
+  return going ? going->way : 0;
+}
+
+// Another way to the same place is the same mission.
+bool AreSame(const std::string& orders, const std::string& others) {
+  if (orders == others) return true;
+  const auto going = mission::GoingIn(orders);
+  const auto other = mission::GoingIn(others);
+  return going && other && going->to == other->to && (going->way > 1 || other->way > 1);
 }
 
 bool IsMeant(const exchange::NowCommand& command, const mission::Mission& mission) {
@@ -47,7 +62,27 @@ Result<std::unique_ptr<MissionBoard>> MissionBoard::Open(
   for (mission::Record& record : *unanswered) {
     board->unanswered_[record.mission.agent].push_back(std::move(record));
   }
+  if (auto loaded = board->LoadCurrent(); !loaded) return tl::unexpected(loaded.error());
   return board;
+}
+
+Result<void> MissionBoard::LoadCurrent() {
+  mission::Query query;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const auto state = static_cast<mission::State>(i);
+    if (state != mission::State::kSent && !mission::HasEnded(state)) query.states |= 1U << i;
+  }
+  while (current_.size() < kMostAgents) {
+    auto page = store_->Find(query);
+    if (!page) return tl::unexpected(page.error());
+    for (mission::Record& record : page->missions) {
+      if (current_.Find(record.mission.agent) != nullptr) continue;
+      current_.Touch(record.mission.agent).record = std::move(record);
+    }
+    if (page->next == 0) break;
+    query.before = page->next;
+  }
+  return {};
 }
 
 std::size_t MissionBoard::unanswered() const {
@@ -97,7 +132,7 @@ void MissionBoard::On(const mission::Mission& mission, std::int64_t now_unix_ms)
     Refuse(mission, stored.error().message);
     return;
   }
-  if (stored->mission.orders != mission.orders) {
+  if (!AreSame(stored->mission.orders, mission.orders)) {
     Refuse(mission, fmt::format("the robot's mission {} is another one: {}", mission.id,
                                 stored->mission.orders));
     return;
@@ -131,9 +166,51 @@ void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
     if (pending->second.empty()) unanswered_.erase(pending);
   }
   if (!*is_news) return;
+  NoteCurrent(report);
   notes_.push_back({fmt::format("mission {} of '{}': {}{}{}", report.mission, report.agent.value(),
                                 mission::ToString(report.state), report.detail.empty() ? "" : ": ",
                                 PlainText(report.detail, 200))});
+}
+
+void MissionBoard::NoteCurrent(const mission::Report& report) {
+  Current* known = current_.Find(report.agent);
+  const bool is_known = known != nullptr && known->record.mission.id == report.mission;
+  if (mission::HasEnded(report.state)) {
+    if (is_known) current_.Erase(report.agent);
+    return;
+  }
+  if (is_known) {
+    known->record.last = report;
+    return;
+  }
+  auto found = store_->Find({.agent = report.agent.value(), .id = report.mission});
+  if (!found) return Warn(found.error());
+  if (found->missions.empty()) return;
+  current_.Touch(report.agent) = {.record = std::move(found->missions.front())};
+}
+
+const mission::Record* MissionBoard::CurrentOf(const AgentId& agent) const {
+  const Current* current = current_.Find(agent);
+  return current == nullptr ? nullptr : &current->record;
+}
+
+std::vector<AgentId> MissionBoard::AtWork() const {
+  std::vector<AgentId> agents;
+  for (const auto& [agent, current] : current_) agents.push_back(agent);
+  return agents;
+}
+
+Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders) {
+  Current* current = current_.Find(agent);
+  if (current == nullptr) return Fail(ErrorCode::kNotFound, "'{}' has no mission", agent.value());
+  mission::Mission& mission = current->record.mission;
+  if (auto stored = store_->Amend(agent, mission.id, orders); !stored) {
+    return tl::unexpected(stored.error());
+  }
+  mission.orders = orders;
+  current->tell_at = {};
+  notes_.push_back({Describe(mission)});
+  return {};
 }
 
 Result<void> MissionBoard::LookUp(const exchange::MissionRequest& request,
@@ -249,6 +326,14 @@ std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_uni
     heard->tell_at = now + heard->pause;
     heard->pause = std::min(2 * heard->pause, kLate);
     mission::Mission copy = missions.front().mission;
+    copy.relayed = true;
+    outgoing_.emplace_back(std::move(copy));
+  }
+  for (auto& [agent, current] : current_) {
+    if (now < current.tell_at || heard_.Find(agent) == nullptr) continue;
+    current.tell_at = now + kAmendedEvery;
+    if (WayOf(current.record.mission) < 2) continue;
+    mission::Mission copy = current.record.mission;
     copy.relayed = true;
     outgoing_.emplace_back(std::move(copy));
   }

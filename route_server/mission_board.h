@@ -39,6 +39,13 @@ class MissionBoard {
   [[nodiscard]] std::vector<Note> TakeNotes() { return std::exchange(notes_, {}); }
   [[nodiscard]] std::size_t unanswered() const;
 
+  // What a robot is at, by its own word; null: nothing, or nothing that is known here.
+  [[nodiscard]] const mission::Record* CurrentOf(const AgentId& agent) const;
+  [[nodiscard]] std::vector<AgentId> AtWork() const;
+  // It goes another way (mission::Going): on the disk when it returns, and told to the robot, again
+  // and again, as long as the mission lasts.
+  [[nodiscard]] Result<void> Amend(const AgentId& agent, const std::string& orders);
+
  private:
   MissionBoard(AgentId server, std::unique_ptr<store::MissionStore> store)
       : server_(std::move(server)), store_(std::move(store)) {}
@@ -52,6 +59,8 @@ class MissionBoard {
   void On(const exchange::NowAnswer& answer);
   void On(const exchange::AgentStatus& status, Time now);
   void On(const exchange::AgentGone& gone);
+  [[nodiscard]] Result<void> LoadCurrent();
+  void NoteCurrent(const mission::Report& report);
   void Refuse(const mission::Mission& mission, const std::string& why);
   void Drop(const mission::Mission& mission, mission::State state, const std::string& why,
             std::int64_t now_unix_ms);
@@ -63,6 +72,11 @@ class MissionBoard {
   std::unique_ptr<store::MissionStore> store_;
   // Of each robot the oldest first: it is told of that one.
   std::map<AgentId, std::deque<mission::Record>> unanswered_;
+  struct Current {
+    mission::Record record{};
+    Time tell_at{};  // if it goes another way than at first
+  };
+  NewestMap<AgentId, Current> current_{kMostAgents};
   struct Heard {
     std::uint64_t instance = 0;
     Time tell_at{};

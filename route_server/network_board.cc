@@ -52,13 +52,6 @@ std::string ListedText(const std::string& edit, bool used) {
   return used ? edit : std::string(network::kUnused) + edit;
 }
 
-std::string OrdersFor(const network::Stretch& stretch, const std::string& called) {
-  return mission::ToText({.route = {.route = called},
-                          .from_m = ToCentimetre(stretch.from_m),
-                          .to_m = ToCentimetre(stretch.to_m),
-                          .speed_factor = stretch.speed});
-}
-
 }  // namespace
 
 Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
@@ -125,7 +118,8 @@ exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& requ
 
 void NetworkBoard::Hear(const exchange::AgentStatus& status) {
   if (status.role != exchange::AgentRole::kFollower || !status.place) return;
-  places_.Touch(status.agent) = *status.place;
+  places_.Touch(status.agent) = {{IdOf(status.place->key), status.place->along_m},
+                                 status.speed_mps};
 }
 
 void NetworkBoard::Note(const route::RouteInfo& info) {
@@ -141,7 +135,7 @@ void NetworkBoard::Note(const route::RouteInfo& info) {
     if (is_followed ? *followed == info : !IsFollowable(info)) return;
     known_.erase(at);
   }
-  network_.reset();
+  NoteChange();
 }
 
 Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
@@ -182,7 +176,7 @@ Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_
   if (auto put = store_->Put(joint, by, now_unix_ms); !put) return tl::unexpected(put.error());
   if (before != joints_.end()) joints_.erase(before);
   joints_.push_back(joint);
-  network_.reset();
+  NoteChange();
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   const auto called = Called(joint);
   if (!called) return tl::unexpected(called.error());
@@ -214,7 +208,7 @@ Result<Lines> NetworkBoard::Part(const Joint& joint) {
   for (const Joint& each : parted) {
     if (auto dropped = store_->Drop(each); !dropped) return tl::unexpected(dropped.error());
     std::erase(joints_, each);
-    network_.reset();
+    NoteChange();
   }
   return lines;
 }
@@ -236,7 +230,7 @@ Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t n
     return tl::unexpected(stored.error());
   }
   conditions_ = std::move(after);
-  network_.reset();
+  NoteChange();
   if (auto known = Know({meant->key.route}); !known) return tl::unexpected(known.error());
   Lines lines;
   for (Condition& each : its) {
@@ -253,7 +247,7 @@ Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
   named.place = *std::move(place);
   if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
   named_[named.name] = named.place;
-  network_.reset();
+  NoteChange();
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   const auto called = Called(named);
   if (!called) return tl::unexpected(called.error());
@@ -268,7 +262,7 @@ Result<Lines> NetworkBoard::Forget(const std::string& name) {
   if (!called) return tl::unexpected(called.error());
   if (auto forgotten = store_->Forget(name); !forgotten) return tl::unexpected(forgotten.error());
   named_.erase(at);
-  network_.reset();
+  NoteChange();
   return Lines{network::ToText(*called)};
 }
 
@@ -316,8 +310,7 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
         "a place called so: say from where it is to go",
         robot);
   }
-  const auto from = stands == nullptr ? Resolve(question.from)
-                                      : Result<Place>(Place{IdOf(stands->key), stands->along_m});
+  const auto from = stands == nullptr ? Resolve(question.from) : Result<Place>(stands->place);
   if (!from) return tl::unexpected(from.error());
   if (auto known = Know({KeyOf(from->route).route, KeyOf(to->route).route}); !known) {
     return tl::unexpected(known.error());
@@ -335,9 +328,62 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   Lines lines;
   for (const network::Stretch& stretch : way->stretches) {
     if (IsNear(stretch.from_m, stretch.to_m)) continue;
-    lines.push_back(OrdersFor(stretch, Called(KeyOf(stretch.route).route)));
+    lines.push_back(mission::ToText(TaskOf(stretch)));
   }
   return lines;
+}
+
+mission::Task NetworkBoard::TaskOf(const network::Stretch& stretch) const {
+  return {.route = {.route = Called(KeyOf(stretch.route).route)},
+          .from_m = ToCentimetre(stretch.from_m),
+          .to_m = ToCentimetre(stretch.to_m),
+          .speed_factor = stretch.speed};
+}
+
+Result<network::Stretch> NetworkBoard::StretchOf(const mission::Task& task) {
+  const auto& [name, revision] = task.route;
+  const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
+  if (!meant) return tl::unexpected(meant.error());
+  return network::Stretch{.route = IdOf(meant->key),
+                          .from_m = task.from_m,
+                          .to_m = task.to_m > 0.0 ? task.to_m : meant->length_m,
+                          .speed = task.speed_factor};
+}
+
+Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Stretch& stretch) {
+  if (auto known = Know({KeyOf(stretch.route).route}); !known) return tl::unexpected(known.error());
+  return network_->FirstClosed(stretch);
+}
+
+Result<std::optional<Condition>> NetworkBoard::ClosedAround(const Place& place) {
+  if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
+  return network_->ClosedAround(place);
+}
+
+std::string NetworkBoard::Called(const Condition& closed) const {
+  return fmt::format("{} {:g}..{:g}", Called(KeyOf(closed.route).route),
+                     ToCentimetre(closed.from_m), ToCentimetre(closed.to_m));
+}
+
+Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
+                                                          const std::string& goal) {
+  const auto parsed = network::ParseGoal(goal);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const auto to = Resolve(*parsed);
+  if (!to) return tl::unexpected(to.error());
+  if (auto known = Know({KeyOf(from.route).route, KeyOf(to->route).route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  auto way = network_->WayOn(from, *to);
+  if (!way) return tl::unexpected(way.error());
+  std::erase_if(way->stretches,
+                [](const network::Stretch& each) { return IsNear(each.from_m, each.to_m); });
+  return std::move(way->stretches);
+}
+
+void NetworkBoard::NoteChange() {
+  network_.reset();
+  ++changes_;
 }
 
 Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {

@@ -12,6 +12,7 @@
 #include "route_server/meeting.h"
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
+#include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/store/network_store.h"
 #include "services/store/route_store.h"
@@ -63,6 +64,26 @@ class NetworkBoard {
   [[nodiscard]] Result<void> MarkSearched(const route::RouteKey& key);
   // Proposals that wait for an operator's word, of revisions followed or not.
   [[nodiscard]] std::size_t open_proposals() const;
+  // For robots under way. Places and stretches are of revisions that are followed ("ID/TEACHING").
+  //
+  // Counts up with whatever may have changed a way.
+  [[nodiscard]] std::uint64_t changes() const { return changes_; }
+  struct Stand {
+    network::Place place{};
+    double speed_mps = 0.0;
+  };
+  // Where a robot last said that it is; null: it has not.
+  [[nodiscard]] const Stand* StandOf(const AgentId& agent) const { return places_.Find(agent); }
+  // Of an order to follow a part of a route.
+  [[nodiscard]] Result<network::Stretch> StretchOf(const mission::Task& task);
+  [[nodiscard]] mission::Task TaskOf(const network::Stretch& stretch) const;
+  // As the network has them.
+  [[nodiscard]] Result<std::optional<network::Condition>> FirstClosed(
+      const network::Stretch& stretch);
+  [[nodiscard]] Result<std::optional<network::Condition>> ClosedAround(const network::Place& place);
+  [[nodiscard]] std::string Called(const network::Condition& closed) const;  // "hall 3..7"
+  [[nodiscard]] Result<std::vector<network::Stretch>> WayOn(const network::Place& from,
+                                                            const std::string& goal);
 
  private:
   // Of a route the revision that robots follow, if there is one.
@@ -105,6 +126,7 @@ class NetworkBoard {
   // Looks up what is not known of the routes that are joined or have named places, and of these.
   [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
   [[nodiscard]] Result<Known> LookUp(const RouteId& route) const;
+  void NoteChange();
   [[nodiscard]] bool IsUsed(const network::Place& place) const;
   // As people are shown it: "hall@12", "hall@1@12" of a revision that is not followed.
   [[nodiscard]] Result<network::Place> Called(const network::Place& place) const;
@@ -123,7 +145,8 @@ class NetworkBoard {
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision
-  NewestMap<AgentId, exchange::PlaceOnRoute> places_{kMostAgents};
+  std::uint64_t changes_ = 1;
+  NewestMap<AgentId, Stand> places_{kMostAgents};
   // What the last edits were answered with.
   NewestMap<std::pair<AgentId, std::uint64_t>, std::optional<exchange::NetworkReply>> answered_{64};
 };

@@ -87,7 +87,7 @@ Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meetin
   if (!called) return tl::unexpected(called.error());
   if (taken) joints_.push_back(joint);
   proposed_.push_back(found);
-  network_.reset();
+  NoteChange();
   return Proposed{network::ToText(network::Proposal{*std::move(called), meeting.confidence}),
                   taken};
 }
@@ -114,7 +114,7 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
     return each.proposal.joint.from.route == id || each.proposal.joint.to.route == id;
   });
   if (searched_.erase(id) == 0 && dropped == 0) return;
-  network_.reset();
+  NoteChange();
   // What stays on the disk is of a revision that is not there, and is listed nowhere.
   (void)store_->DropProposals(id);
 }
@@ -184,7 +184,7 @@ Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const st
     proposed_[(*open)[i]] = settled[i];
     if (taken) joints_.push_back(settled[i].proposal.joint);
   }
-  network_.reset();
+  NoteChange();
   return lines;
 }
 

@@ -96,6 +96,7 @@ Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
   auto board = MissionBoard::Open(presence_.status().agent, std::move(store));
   if (!board) return tl::unexpected(board.error());
   missions_ = std::move(*board);
+  if (network_) replanning_.emplace(*missions_, *network_);
   return {};
 }
 
@@ -105,6 +106,7 @@ Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
   network_ = std::move(*board);
   joints_ = std::make_unique<JointDesk>(
       *store_, views_, [this](const route::RouteKey& key) { return network_->WasSearched(key); });
+  if (missions_) replanning_.emplace(*missions_, *network_);
   return {};
 }
 
@@ -134,6 +136,10 @@ void Server::Receive(exchange::Message message) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     holders_.Note(*status, steady_clock::now());
     if (network_) network_->Hear(*status);
+    if (replanning_) {
+      const std::string line = replanning_->Look(status->agent, steady_clock::now());
+      if (!line.empty()) spdlog::warn("{}", line);
+    }
   }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);

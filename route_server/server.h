@@ -14,6 +14,7 @@
 #include "route_server/mission_board.h"
 #include "route_server/network_board.h"
 #include "route_server/quotas.h"
+#include "route_server/replanning.h"
 #include "route_server/request_queue.h"
 #include "route_server/route_followers.h"
 #include "route_server/upkeep.h"
@@ -104,6 +105,7 @@ class Server {
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
+  std::optional<Replanning> replanning_;  // with both
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

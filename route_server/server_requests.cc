@@ -85,7 +85,13 @@ void Server::Serve(const exchange::Message& request) {
   } else if (question != nullptr) {
     replies_.emplace_back(network_->Answer(*question));
   } else {
-    replies_.emplace_back(network_->Change(*edit, NowUnixMs()));
+    exchange::NetworkReply reply = network_->Change(*edit, NowUnixMs());
+    if (reply.error.empty() && replanning_) {
+      for (std::string& line : replanning_->LookAtAll(steady_clock::now())) {
+        if (reply.lines.size() < exchange::kMaxNetworkLines) reply.lines.push_back(std::move(line));
+      }
+    }
+    replies_.emplace_back(std::move(reply));
   }
 }
 

@@ -39,9 +39,17 @@ class MissionDesk {
     std::uint32_t task = 0;  // which of these is to be done,
     std::uint32_t lap = 0;   // and what of its laps is done
     bool begun = false;      // an earlier run was at it
+    std::string because{};   // of another way than at first: why
   };
   // What is to be done; none: the robot is free.
   [[nodiscard]] const std::optional<Current>& current() const { return current_; }
+
+  // Whether a server has sent another way to where the current one leads (mission::Going), since
+  // this was asked last: its tasks are to be done from their beginning, or from there on.
+  [[nodiscard]] bool TakeAmended() { return std::exchange(amended_, false); }
+  void GoOnAt(std::uint32_t task);
+  // The robot stands there when it begins the task that is to be done.
+  void BeginAt(double along_m) { current_->tasks[current_->task].from_m = along_m; }
 
   // Of the current one. What has ended is no longer current.
   void Tell(mission::State state, const std::string& detail = {});
@@ -63,6 +71,7 @@ class MissionDesk {
   };
 
   void Take(const mission::Mission& mission);
+  void Amend(Kept& kept, const mission::Mission& mission);
   void Confirm(const mission::Report& report);
   [[nodiscard]] Kept* Find(const std::string& id);
   [[nodiscard]] Kept& CurrentKept();
@@ -75,6 +84,7 @@ class MissionDesk {
   std::filesystem::path file_;
   std::deque<Kept> kept_;  // the newest last
   std::optional<Current> current_;
+  bool amended_ = false;
   Time again_at_{};
   std::vector<std::string> news_;
 };

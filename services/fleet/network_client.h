@@ -24,8 +24,10 @@ namespace trailcast::fleet {
                                                          const std::string& to,
                                                          std::chrono::milliseconds timeout);
 
-// A way as one mission's orders. kInvalidArgument: it has more stretches than one holds.
-[[nodiscard]] Result<std::string> OrdersAlong(const std::vector<std::string>& way);
+// A way to a place as one mission's orders; none: it is there already. kInvalidArgument: it has
+// more stretches than one holds.
+[[nodiscard]] Result<std::string> OrdersAlong(const std::vector<std::string>& way,
+                                              const std::string& to);
 
 // Has the servers in reach change it, in words; the first reply has what is so now, or, of joints
 // that are parted, was so.

@@ -36,6 +36,10 @@ class MissionStore {
   // False: it was no news (Report::change), or the mission is not there.
   [[nodiscard]] Result<bool> Change(const mission::Report& report, std::int64_t now_unix_ms);
 
+  // A mission that is there gets other orders. False: it is not there.
+  [[nodiscard]] Result<bool> Amend(const AgentId& agent, const std::string& id,
+                                   const std::string& orders);
+
   // Those that no robot has answered and no server has dropped, the oldest first.
   [[nodiscard]] Result<std::vector<mission::Record>> Unanswered();
 

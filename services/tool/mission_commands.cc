@@ -51,7 +51,8 @@ constexpr const char* kSendExamples =
     "of\n"
     "                       routes ('trailcast network'), as 'follow' after 'follow'; from where "
     "the\n"
-    "                       robot last said that it stands, or --from\n"
+    "                       robot last said that it stands, or --from; round what is closed, also\n"
+    "                       meanwhile\n"
     "Examples:\n"
     "  trailcast send robot1 follow hall\n"
     "  trailcast send robot1 follow hall 3..10 speed 0.5 wait 20 follow yard laps 2\n"
@@ -95,7 +96,7 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
   } else if (way->empty()) {
     fmt::print("{}", fleet::WayJson(*way));
   }
-  return fleet::OrdersAlong(*way);
+  return fleet::OrdersAlong(*way, goal);
 }
 
 int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {

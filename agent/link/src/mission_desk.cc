@@ -89,6 +89,7 @@ Result<void> MissionDesk::Load() {
 void MissionDesk::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
   current_ = Current{
       .mission = kept.mission, .tasks = std::move(tasks), .task = kept.last.task, .lap = kept.lap};
+  if (auto going = mission::GoingIn(kept.mission.orders)) current_->because = going->because;
 }
 
 Result<void> MissionDesk::Keep() const {
@@ -140,9 +141,13 @@ void MissionDesk::Answer(Kept& kept, State state, const std::string& detail) {
 
 void MissionDesk::Take(const mission::Mission& mission) {
   if (Kept* known = Find(mission.id)) {
+    if (mission.relayed && current_ && current_->mission.id == mission.id) Amend(*known, mission);
     known->due = true;  // whoever sends it has not heard the answer
     return;
   }
+  // Another way than at first is for who has begun: whoever forgot that moves nowhere unasked.
+  const auto going = mission::GoingIn(mission.orders);
+  if (going && going->way > 1) return;
   // Those that ended first go first; the current one stays.
   if (kept_.size() >= kMostKept) {
     kept_.erase(std::find_if(kept_.begin(), kept_.end(),
@@ -165,6 +170,28 @@ void MissionDesk::Take(const mission::Mission& mission) {
     Answer(kept, State::kRefused, remembered.error().message);
   }
   if (kept.last.state == State::kAccepted) Begin(kept, *std::move(tasks));
+}
+
+// A way that comes late is an old one.
+void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
+  const auto before = mission::GoingIn(kept.mission.orders);
+  const auto going = mission::GoingIn(mission.orders);
+  if (!before || !going || going->to != before->to || going->way <= before->way) return;
+  const bool begun = current_->begun;
+  kept.mission.orders = mission.orders;
+  kept.last.task = 0;
+  kept.lap = 0;
+  Begin(kept, *mission::ParseOrders(mission.orders));
+  current_->begun = begun;
+  amended_ = true;
+  Answer(kept, kept.last.state, "re-planned: " + going->because);
+  KeepOrSay();
+}
+
+void MissionDesk::GoOnAt(std::uint32_t task) {
+  current_->task = task;
+  CurrentKept().last.task = task;
+  KeepOrSay();
 }
 
 void MissionDesk::Confirm(const mission::Report& report) {

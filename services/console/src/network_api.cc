@@ -28,7 +28,7 @@ void FindWay(Desk& desk, const Request& request, Response& response) {
   if (!question) return Refuse(response, question.error());
   const auto answer = AskForNetwork(desk, *question);
   if (!answer) return Refuse(response, answer.error());
-  const auto orders = fleet::OrdersAlong(answer->lines);
+  const auto orders = fleet::OrdersAlong(answer->lines, request.get_param_value("to"));
   if (!orders) return Refuse(response, 409, orders.error().message);
   Answer(response, 200,
          fmt::format("{{\"way\": {}, \"orders\": {}}}", fleet::WayJson(answer->lines),

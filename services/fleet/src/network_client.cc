@@ -104,8 +104,9 @@ Result<Lines> AskForWay(exchange::RouteExchange& exchange, const AgentId& client
   return AskForLines(exchange, {.client = client, .words = "way " + from + " " + to}, timeout);
 }
 
-Result<std::string> OrdersAlong(const Lines& way) {
-  std::string orders = fmt::format("{}", fmt::join(way, " "));
+Result<std::string> OrdersAlong(const Lines& way, const std::string& to) {
+  if (way.empty()) return std::string();
+  std::string orders = fmt::format("goto {} {}", to, fmt::join(way, " "));
   if (orders.size() <= exchange::kMaxLineBytes) return orders;
   return Fail(ErrorCode::kInvalidArgument,
               "the way has {} stretches, more than one mission holds: send it to a place on the "

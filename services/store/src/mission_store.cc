@@ -164,8 +164,11 @@ struct MissionStore::Database {
     insert->bind(6, mission.goes_on ? 1 : 0);
     insert->bind(7, now_unix_ms);
     insert->exec();
-    const std::int64_t number = db.getLastInsertRowid();
-    for (const std::string& route : mission::RoutesIn(mission.orders)) {
+    NameRoutes(db.getLastInsertRowid(), mission.orders);
+  }
+
+  void NameRoutes(std::int64_t number, const std::string& orders) {
+    for (const std::string& route : mission::RoutesIn(orders)) {
       auto name =
           compiled.Take("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)");
       name->bind(1, number);
@@ -245,6 +248,24 @@ Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
     database_->Thin();
     transaction.commit();
     return database_->Get(mission.agent, mission.id).value();
+  });
+}
+
+Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
+                                 const std::string& orders) {
+  return database_->Guarded("storing other orders of mission " + id, [&]() -> Result<bool> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto update = database_->compiled.Take(
+        "UPDATE mission SET orders = ?3 WHERE agent = ?1 AND id = ?2 RETURNING number");
+    update->bind(1, agent.value());
+    update->bind(2, id);
+    update->bind(3, orders);
+    if (!update->executeStep()) return false;
+    const std::int64_t number = update->getColumn(0).getInt64();
+    while (update->executeStep()) continue;
+    database_->NameRoutes(number, orders);
+    transaction.commit();
+    return true;
   });
 }
 

@@ -126,7 +126,7 @@ TEST_F(NetworkApiTest, AWayIsTheOrdersOfAMission) {
   ASSERT_EQ(found.status, 200) << found.body;
   EXPECT_EQ(found.body["way"]["length_m"], 18.0);
   EXPECT_EQ(found.body["way"]["stretches"].size(), 2U);
-  EXPECT_EQ(found.body["orders"], "follow hall 2..12 follow office 0..8");
+  EXPECT_EQ(found.body["orders"], "goto office@8 follow hall 2..12 follow office 0..8");
   const Replied there = Get("/api/network/way?from=hall@2&to=hall@2");
   EXPECT_EQ(there.body["orders"], "");
   const Replied none = Get("/api/network/way?from=office@2&to=hall@2");

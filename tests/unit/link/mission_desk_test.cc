@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <utility>
 
 #include "tests/support/temp_dir.h"
 
@@ -136,6 +137,47 @@ TEST_F(MissionDeskTest, SaysItUntilAServerHasIt) {
   ServerSays(last);
   now_ += seconds(1);
   EXPECT_THAT(Due(true), IsEmpty());
+}
+
+TEST_F(MissionDeskTest, AServerSendsItAnotherWayToTheSamePlace) {
+  const auto way = [](const std::string& orders, bool relayed = true) {
+    Mission mission = For("m1", orders);
+    mission.relayed = relayed;
+    return mission;
+  };
+  desk_->Handle(way("goto bay way 2 follow hall 0..1"));
+  EXPECT_FALSE(desk_->current()) << "it has not begun, or has forgotten that it has";
+  (void)Answer(way("goto bay follow hall 0..2 follow office 0..1", false));
+  desk_->Tell(State::kUnderWay);
+  desk_->NoteDone();
+  (void)Due();
+  const std::string round = "goto bay way 3 follow hall 1..1.5 follow yard 0..2 because it was so";
+  const Report amended = Answer(way(round));
+  EXPECT_EQ(amended.state, State::kUnderWay);
+  EXPECT_EQ(amended.detail, "re-planned: it was so");
+  EXPECT_EQ(amended.task, 0U);
+  EXPECT_TRUE(desk_->TakeAmended());
+  EXPECT_FALSE(desk_->TakeAmended());
+  EXPECT_EQ(desk_->current()->because, "it was so");
+  EXPECT_EQ(desk_->current()->tasks.at(1).route.route, "yard");
+  desk_->GoOnAt(1);
+  Restart();
+  ASSERT_TRUE(desk_->current());
+  EXPECT_EQ(desk_->current()->mission.orders, round);
+  EXPECT_EQ(desk_->current()->task, 1U);
+  for (const auto& [orders, relayed] :
+       {std::pair{"goto bay way 3 follow hall 0..1", true},
+        std::pair{"goto bay way 2 follow hall 0..1", true},
+        std::pair{"goto bay follow hall 0..2 follow office 0..1", false},
+        std::pair{"goto bay way 4 follow hall 0..1", false},
+        std::pair{"goto dock way 4 follow hall 0..1", true}, std::pair{"follow hall", true}}) {
+    desk_->Handle(way(orders, relayed));
+    EXPECT_FALSE(desk_->TakeAmended()) << orders;
+    EXPECT_EQ(desk_->current()->mission.orders, round) << orders;
+  }
+  desk_->Tell(State::kArrived);
+  desk_->Handle(way("goto bay way 4 follow hall 0..1"));
+  EXPECT_FALSE(desk_->current()) << "it is over";
 }
 
 TEST_F(MissionDeskTest, AnswersOthersNot) {

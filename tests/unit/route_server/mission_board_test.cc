@@ -248,5 +248,43 @@ TEST_F(MissionBoardTest, LeavesToOtherServersWhatTheyPassOn) {
   EXPECT_THAT(Say(), IsEmpty());
 }
 
+TEST_F(MissionBoardTest, TellsOfAnotherWayAgainAndAgainUntilTheMissionHasEnded) {
+  const std::string first = "goto bay follow hall 0..2";
+  const std::string other = "goto bay way 2 follow hall 0..1 follow yard 0..3 because it was so";
+  EXPECT_FALSE(board_->Amend(AgentId("robot1"), other)) << "of nothing";
+  Hear(For("m1", first));
+  RobotIsThere();
+  EXPECT_THAT(board_->AtWork(), IsEmpty()) << "it has not answered";
+  RobotSays("m1", 1, State::kAccepted);
+  (void)Say();
+  ASSERT_THAT(board_->AtWork(), SizeIs(1));
+  EXPECT_EQ(board_->CurrentOf(AgentId("robot1"))->last.state, State::kAccepted);
+  Pass(seconds(5));
+  EXPECT_FALSE(HandedOver()) << "it goes the way that it was sent";
+  ASSERT_TRUE(board_->Amend(AgentId("robot1"), other));
+  for (int i = 0; i < 2; ++i) {
+    const auto told = HandedOver();
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->orders, other);
+    EXPECT_TRUE(told->relayed);
+    EXPECT_FALSE(HandedOver()) << "at once again";
+    Pass(seconds(3));
+    Restart();
+    RobotIsThere();
+  }
+  Hear(For("m1", first));
+  const auto same = Said();
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->state, State::kAccepted) << "whoever sent it says it once more";
+  Hear(For("m1", "goto dock follow hall 0..2"));
+  const auto another = Said();
+  ASSERT_TRUE(another);
+  EXPECT_EQ(another->state, State::kRefused);
+  RobotSays("m1", 2, State::kArrived);
+  Pass(seconds(5));
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(board_->CurrentOf(AgentId("robot1")), nullptr);
+}
+
 }  // namespace
 }  // namespace trailcast::server

@@ -1,0 +1,225 @@
+#include "route_server/replanning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+
+namespace trailcast::server {
+namespace {
+
+using mission::Task;
+using network::Stretch;
+
+// A robot's word on where it is, and where it began or was to end, are the same within this.
+constexpr double kOnWay_m = 0.5;
+
+bool Holds(const Stretch& stretch, const network::Place& place) {
+  return place.route == stretch.route && place.along_m >= stretch.from_m - kOnWay_m &&
+         place.along_m <= stretch.to_m + kOnWay_m;
+}
+
+// Two stretches of which one goes on where the other ends are one to a robot.
+void Append(std::vector<Stretch>& way, const Stretch& next) {
+  if (next.to_m - next.from_m <= NetworkBoard::kSame_m && !way.empty()) return;
+  const bool goes_on = !way.empty() && way.back().route == next.route &&
+                       way.back().speed == next.speed &&
+                       std::abs(way.back().to_m - next.from_m) <= NetworkBoard::kSame_m;
+  if (goes_on) {
+    way.back().to_m = next.to_m;
+  } else {
+    way.push_back(next);
+  }
+}
+
+}  // namespace
+
+// What is left of a robot's way.
+struct Replanning::Rest {
+  mission::Going going{};  // to nowhere: it is sent along routes by hand
+  std::vector<Stretch> stretches{};
+  std::optional<NetworkBoard::Stand> stand{};  // where it is, if it has said so
+  bool missed = false;                         // it has passed where it was to leave its route
+  bool waits = false;                          // for a way
+  std::optional<network::Condition> closed{};  // the first that it leads over
+  std::optional<network::Condition> around{};  // that it is on
+};
+
+// From where it is.
+struct Replanning::Plan {
+  std::vector<Stretch> way{};
+  std::string no_way{};  // not empty: there is none, and the stretches lead to where it waits
+};
+
+std::vector<std::string> Replanning::LookAtAll(Time now) {
+  std::vector<std::string> lines;
+  for (const AgentId& agent : missions_.AtWork()) {
+    if (std::string line = Look(agent, now); !line.empty()) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::string Replanning::Look(const AgentId& agent, Time now) {
+  const mission::Record* record = missions_.CurrentOf(agent);
+  if (record == nullptr) return {};
+  Seen& seen = seen_.Touch(agent);
+  if (seen.mission != record->mission.id) seen = {.mission = record->mission.id};
+  const bool is_news = seen.changes != network_.changes();
+  if (!is_news && (seen.settled || now - seen.looked_at < kLookEvery)) return {};
+  const std::string who = fmt::format("{}: mission {} ", agent.value(), record->mission.id);
+  const auto said = [&](const std::string& text) {
+    return PlainText(who + text, exchange::kMaxLineBytes);
+  };
+  const auto rest = RestOf(*record);
+  seen.changes = network_.changes();
+  seen.looked_at = now;
+  seen.settled = true;
+  if (!rest) return said("cannot be planned anew: " + rest.error().message);
+  if (rest->going.to.empty()) {
+    if (!rest->closed) return {};
+    return said(fmt::format("leads over {} and was sent by hand: it is not stopped",
+                            network_.Called(*rest->closed)));
+  }
+  seen.settled = rest->stand && (rest->waits || rest->going.way == 1);
+  if (rest->missed && now - seen.amended_at < kAgainAfter) return {};
+  if (!rest->closed && !rest->waits && !rest->missed) {
+    if (!rest->around || !is_news) return {};
+    return said("is on " + network_.Called(*rest->around) + " and drives on out of it");
+  }
+  const auto text = Replan(*record, *rest);
+  if (!text) return is_news ? said(text.error().message) : "";
+  if (text->empty()) return {};
+  seen.amended_at = now;
+  seen.settled = false;
+  return said(*text);
+}
+
+Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
+  const auto tasks = mission::ParseOrders(record.mission.orders);
+  if (!tasks) return tl::unexpected(tasks.error());
+  Rest rest;
+  rest.going = mission::GoingIn(record.mission.orders).value_or(mission::Going{});
+  rest.waits = tasks->back().kind == Task::Kind::kWaitWay;
+  std::vector<Stretch> all;
+  std::size_t said = 0;  // which of these it is at by its own word
+  bool laps = false;
+  for (std::size_t i = 0; i < tasks->size(); ++i) {
+    if (i == record.last.task) said = all.size();
+    if ((*tasks)[i].kind != Task::Kind::kFollow) continue;
+    auto stretch = network_.StretchOf((*tasks)[i]);
+    if (!stretch) return tl::unexpected(stretch.error());
+    laps |= i == record.last.task && (*tasks)[i].laps > 1;
+    all.push_back(*std::move(stretch));
+  }
+  if (const auto* stand = network_.StandOf(record.mission.agent)) rest.stand = *stand;
+  auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
+  if (rest.stand && at != all.end()) {
+    const auto holds = [&](const Stretch& each) { return Holds(each, rest.stand->place); };
+    rest.missed = rest.going.way > 1 && rest.stand->place.route == all.front().route &&
+                  rest.stand->place.along_m > all.front().to_m + kBeyond_m &&
+                  std::none_of(all.begin(), all.end(), holds);
+    // Before it drives it may have said where it was before.
+    const bool drives = record.last.state == mission::State::kUnderWay ||
+                        record.last.state == mission::State::kPaused;
+    const auto found = holds(*at) || !drives ? at : std::find_if(all.begin(), all.end(), holds);
+    if (found != all.end()) at = found;
+    if (!rest.missed && !holds(*at)) rest.stand.reset();
+  }
+  rest.stretches.assign(at, all.end());
+  if (!rest.stretches.empty() && rest.stand && !rest.missed && !laps) {
+    Stretch& first = rest.stretches.front();
+    first.from_m = std::clamp(rest.stand->place.along_m, first.from_m, first.to_m);
+  }
+  for (const Stretch& stretch : rest.stretches) {
+    auto closed = network_.FirstClosed(stretch);
+    if (!closed) return tl::unexpected(closed.error());
+    if (!*closed) continue;
+    rest.closed = **closed;
+    break;
+  }
+  if (rest.stand) {
+    auto around = network_.ClosedAround(rest.stand->place);
+    if (!around) return tl::unexpected(around.error());
+    rest.around = *std::move(around);
+  }
+  return rest;
+}
+
+Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
+  Plan plan;
+  network::Place from;
+  if (rest.missed || rest.stretches.empty()) {
+    if (!rest.stand)
+      return Fail(ErrorCode::kUnavailable, "waits for a way, and has not said where it stands");
+    from = rest.stand->place;
+  } else {
+    for (const Stretch& stretch : rest.stretches) {
+      const auto closed = network_.FirstClosed(stretch);
+      if (!closed) return tl::unexpected(closed.error());
+      Stretch kept = stretch;
+      if (*closed) kept.to_m = std::clamp((**closed).from_m, kept.from_m, kept.to_m);
+      kept.to_m = std::min(kept.to_m, kept.from_m + ahead_m);
+      from = {kept.route, kept.to_m};
+      if (kept.to_m > kept.from_m) Append(plan.way, kept);
+      ahead_m -= kept.to_m - kept.from_m;
+      if (kept.to_m < stretch.to_m || ahead_m <= 0.0) break;
+    }
+  }
+  auto on = network_.WayOn(from, rest.going.to);
+  if (on) {
+    for (const Stretch& stretch : *on) Append(plan.way, stretch);
+    return plan;
+  }
+  plan.no_way = on.error().message;
+  plan.way.clear();
+  if (rest.around) {
+    plan.way = {{rest.around->route, rest.stand->place.along_m, rest.around->to_m}};
+  }
+  return plan;
+}
+
+Result<std::string> Replanning::Replan(const mission::Record& record, const Rest& rest) {
+  // What it drives before it can have heard of another way stays as it is; unless that leads
+  // nowhere: perhaps it does hear of it sooner.
+  const double speed_mps = rest.stand ? rest.stand->speed_mps : 0.0;
+  auto plan = PlanOn(rest, speed_mps > 0.0 ? kHearsWithin_s * speed_mps + kTakesPlace_m : 0.0);
+  if (plan && !plan->no_way.empty() && speed_mps > 0.0) plan = PlanOn(rest, 0.0);
+  if (!plan) return tl::unexpected(plan.error());
+  const bool has_way = plan->no_way.empty();
+  // It begins where it is sent to begin, and is looked at again then.
+  if (!has_way && !rest.stand) return std::string();
+  if (!has_way && rest.waits && !rest.closed && !rest.missed) return std::string();
+  std::string because = rest.closed   ? network_.Called(*rest.closed) + " was closed"
+                        : rest.missed ? "it had passed where it was to leave its route"
+                                      : "there is a way";
+  if (!has_way) because += "; " + plan->no_way;
+  std::vector<Task> tasks;
+  for (const Stretch& stretch : plan->way) tasks.push_back(network_.TaskOf(stretch));
+  if (!has_way) tasks.push_back({.kind = Task::Kind::kWaitWay});
+  if (tasks.empty()) return std::string();  // it is there
+  mission::Going going = rest.going;
+  ++going.way;
+  going.because.clear();
+  if (ToText(going, tasks).size() > exchange::kMaxLineBytes) {
+    because +=
+        fmt::format("; the other way has {} stretches, more than one mission holds", tasks.size());
+    tasks = {{.kind = Task::Kind::kWaitWay}};
+  }
+  constexpr std::string_view kBecause = " because ";
+  const std::size_t length = ToText(going, tasks).size() + kBecause.size();
+  if (length < exchange::kMaxLineBytes) {
+    going.because = PlainText(because, exchange::kMaxLineBytes - length);
+  }
+  if (auto amended = missions_.Amend(record.mission.agent, ToText(going, tasks)); !amended) {
+    return tl::unexpected(amended.error());
+  }
+  const bool waits = tasks.back().kind == Task::Kind::kWaitWay;
+  return fmt::format("{}: {}: {}", waits ? "waits for a way" : "is re-planned", because,
+                     mission::ToText(tasks));
+}
+
+}  // namespace trailcast::server
