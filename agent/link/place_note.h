@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "agent/session/place_finder.h"
 #include "services/base/result.h"
 #include "services/route/route.h"
 
@@ -13,8 +12,9 @@ namespace trailcast::agent {
 // How far along its route a follower got.
 struct NotedPlace {
   route::RouteKey key;
-  LeftAt left;
-  std::int64_t unix_ms = 0;  // when, by the robot's clock: for people
+  double along_m = 0.0;
+  double magnification = 1.0;  // this robot's pixels per scout's
+  std::int64_t unix_ms = 0;    // when, by the robot's clock: for people
 };
 
 // A small file beside a follower's store: what a run that does not arrive leaves to the next one.

@@ -34,12 +34,13 @@ class HandOver {
                                                              replay::Follower& follower,
                                                              const Recognise& recognise);
 
-  // A segment's features as a robot sees them that stands at its fraction `s`. `grown`: their
-  // patterns as much larger as the features are there; finds them late in a segment before a near
-  // wall, and elsewhere tells the place less exactly.
+  // A segment's features as a robot sees them that stands at its fraction `s`; without a
+  // `magnification`, at any that finds them. `grown`: their patterns as much larger as the features
+  // are there; finds them late in a segment before a near wall, and elsewhere tells the place less
+  // exactly.
   [[nodiscard]] vision::FindResult SeeFrom(const image::GrayImage& frame,
                                            const route::Segment& segment, double s,
-                                           double magnification, bool grown) const;
+                                           std::optional<double> magnification, bool grown) const;
   // What was seen so counts as the hand-over to the segment that `follower` has just begun.
   void TakeUp(const vision::FindResult& seen, replay::Follower& follower);
 

@@ -12,15 +12,18 @@
 
 namespace trailcast::agent {
 
-// Where an earlier run has left the robot.
+// Where an earlier run has left the robot, or where somebody says that it stands.
 struct LeftAt {
-  double along_m = 0.0;        // of the route
-  double magnification = 1.0;  // this robot's pixels per scout's, as that run knew it
+  double along_m = 0.0;  // of the route
+  // This robot's pixels per scout's, as that run knew it; nothing: nobody knows it.
+  std::optional<double> magnification{};
 };
 
 // Tells whether a robot that stands is where it was left, or up to a metre and a half further, or
 // else back at the route's start, by the features that were taught there. One place a frame, by
-// turns, and of those that are in view the likest.
+// turns, and of those that are in view the likest. Where the magnification is not known, which a
+// place further on would explain as well as another camera: the first place about where it is said
+// to stand, and no other, at whatever magnification.
 class PlaceFinder {
  public:
   struct Found {
@@ -47,6 +50,10 @@ class PlaceFinder {
  private:
   static constexpr int kRounds = 3;
 
+  // What is seen of that place, if it is on the route.
+  [[nodiscard]] std::optional<Found> LookFrom(const image::GrayImage& frame,
+                                              std::span<const route::Segment> segments,
+                                              const HandOver& hand_over, double along_m);
   [[nodiscard]] double Likeness(const Found& found) const;
 
   LeftAt left_;

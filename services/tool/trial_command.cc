@@ -128,6 +128,11 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
                "Each visit refreshes the route for the next one: features long missed are "
                "dropped, some of those it saw are added")
       ->needs(visits);
+  app.add_option("--told", options.told_m,
+                 "They are told their places, off by so many metres (one sigma), as by who sends "
+                 "them along a part of a route")
+      ->needs("--starts")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--seed", options.seed, "Trial i is drawn from this plus i - 1");
   app.add_option("--jobs", options.jobs, "Trials run at a time; the results do not depend on it")
       ->check(CLI::Range(1, 256));

@@ -39,8 +39,11 @@ struct TrialOptions {
   // Each taught route is followed so many times, one follower after the other, while the
   // scenario's change grows from visit to visit; 0: once, in the place as it is by then.
   int visits = 0;
-  std::string spoiled;     // what is wrong with all visitors; one more comes, with whom nothing is
-  bool refresh = false;    // and each follower gets the route as the one before has left it
+  std::string spoiled;   // what is wrong with all visitors; one more comes, with whom nothing is
+  bool refresh = false;  // and each follower gets the route as the one before has left it
+  // Those robots are told their places, off by so much (one sigma), as by who sends them along a
+  // part of a route; nothing: they are told none.
+  std::optional<double> told_m;
   std::string log_folder;  // one log a trial goes here; empty: none
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };

@@ -66,11 +66,13 @@ class FeatureFinder {
                                       double magnification, const SearchRadius& radius) const;
 
   // The same by a robot that stands where the scout stood at fraction `s` of the segment, give or
-  // take the radius, and whose camera nothing is known of: at every magnification. Nothing found
-  // that is not beyond chance.
+  // take the radius, and whose camera nothing is known of: at every magnification. `growth`: how
+  // much larger the patterns are there than where the scout took them. Nothing found that is not
+  // beyond chance.
   [[nodiscard]] FindResult FindAtAnyMagnification(const image::GrayImage& frame,
                                                   std::span<const route::Feature> sought, double s,
-                                                  const SearchRadius& radius) const;
+                                                  const SearchRadius& radius,
+                                                  double growth = 1.0) const;
 
  private:
   FeatureFinderOptions options_;

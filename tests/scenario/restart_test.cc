@@ -131,6 +131,27 @@ TEST(RestartTest, GoesOnFromAMetreFurtherAndFromBesideThePath) {
   ExpectItArrives(robot, GoingOn(left));
 }
 
+// Who says where it stands knows it by eye, and nothing of its camera.
+TEST(RestartTest, BeginsWhereItIsToldWithWhateverCamera) {
+  for (const auto& [camera, off_m] : {std::pair("wide", -0.3), std::pair("firewire", 0.2)}) {
+    SCOPED_TRACE(camera);
+    Robot robot(camera, 26);
+    const double stands_m = Killed(robot, Session(), 3.0).along_m;
+    (void)Killed(robot, GoingOn({stands_m + off_m, std::nullopt}), 7.0);
+    EXPECT_LT(robot.commanded_m(), 5.0) << "it did not begin anew";
+    EXPECT_LT(robot.DistanceTo(7.0), 0.3);
+  }
+}
+
+TEST(RestartTest, BeginsNowhereElseThanWhereItIsTold) {
+  Robot robot("wide", 27);
+  agent::ReplaySession session = GoingOn({7.0, std::nullopt});
+  const ReplayStep last = robot.Drive(session);
+  EXPECT_EQ(last.state, ReplayState::kLost);
+  EXPECT_THAT(last.reason, testing::HasSubstr("not where it is said to stand, 7.0 m along"));
+  EXPECT_EQ(robot.commanded_m(), 0.0) << "it does not drive";
+}
+
 TEST(RestartTest, BeginsAnewWhereItWasPutBackToTheStart) {
   Robot robot("webcam", 23);
   ExpectItArrives(robot, GoingOn({9.0, 1.0}));

@@ -40,14 +40,14 @@ std::optional<LeftAt> FollowerLink::ReadPlace() const {
   spdlog::info(
       "the last run got {:.1f} m along the route, {:.0f} s ago: looking whether the robot "
       "is still there",
-      place.left.along_m, 1e-3 * static_cast<double>(NowUnixMs() - place.unix_ms));
-  return place.left;
+      place.along_m, 1e-3 * static_cast<double>(NowUnixMs() - place.unix_ms));
+  return LeftAt{place.along_m, place.magnification};
 }
 
 void FollowerLink::TakeReports() {
   while (auto report = reports_.TryGet()) latest_ = std::move(*report);
   if (latest_.state == ReplayState::kFollowing && latest_.along_m && route_) {
-    place_ = {route_->key, {*latest_.along_m, latest_.magnification}, NowUnixMs()};
+    place_ = {route_->key, *latest_.along_m, latest_.magnification, NowUnixMs()};
   }
 }
 

@@ -20,11 +20,9 @@ constexpr double kLongest_m = 1e7;
 constexpr double kMostMagnification = 100.0;
 
 bool IsGood(const NotedPlace& place) {
-  const double along_m = place.left.along_m;
-  const double magnification = place.left.magnification;
-  return place.key.route.value().size() == 32 && place.key.teaching.value() > 0 && along_m >= 0.0 &&
-         along_m <= kLongest_m && magnification > 1.0 / kMostMagnification &&
-         magnification < kMostMagnification;
+  return place.key.route.value().size() == 32 && place.key.teaching.value() > 0 &&
+         place.along_m >= 0.0 && place.along_m <= kLongest_m &&
+         place.magnification > 1.0 / kMostMagnification && place.magnification < kMostMagnification;
 }
 
 // The lines that Write makes.
@@ -40,9 +38,8 @@ std::optional<NotedPlace> Parse(const std::string& text) {
     return static_cast<bool>(lines >> word >> value) && word == name;
   };
   const bool whole = first == kFirstLine && named("route", route) && named("teaching", teaching) &&
-                     named("along_m", place.left.along_m) &&
-                     named("magnification", place.left.magnification) &&
-                     named("unix_ms", place.unix_ms);
+                     named("along_m", place.along_m) &&
+                     named("magnification", place.magnification) && named("unix_ms", place.unix_ms);
   if (!whole) return std::nullopt;
   place.key = {RouteId(route), TeachingId(teaching)};
   return IsGood(place) ? std::optional(place) : std::nullopt;
@@ -65,8 +62,8 @@ Result<std::optional<NotedPlace>> PlaceNote::Read() const {
 Result<void> PlaceNote::Write(const NotedPlace& place) const {
   const std::string text =
       fmt::format("{}\nroute {}\nteaching {}\nalong_m {:.3f}\nmagnification {:.5f}\nunix_ms {}\n",
-                  kFirstLine, place.key.route.value(), place.key.teaching.value(),
-                  place.left.along_m, place.left.magnification, place.unix_ms);
+                  kFirstLine, place.key.route.value(), place.key.teaching.value(), place.along_m,
+                  place.magnification, place.unix_ms);
   std::filesystem::path fresh = file_;
   fresh += ".new";
   if (auto written = WriteTextFile(fresh, text); !written) return written;

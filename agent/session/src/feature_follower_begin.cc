@@ -37,20 +37,19 @@ void FeatureFollower::Learn(const route::Segment& segment) {
 
 void FeatureFollower::GoOnFrom(const LeftAt& left) {
   place_finder_.emplace(left);
-  search_.hand_over().KnowMagnification(left.magnification);
+  if (left.magnification) search_.hand_over().KnowMagnification(*left.magnification);
   ConfidenceOptions confidence = confidence_.options();
   confidence.not_found = "the place where it was left is not found";
   confidence_ = Confidence(confidence);
 }
 
 void FeatureFollower::Make(const route::Segment& first) {
-  const double magnification = place_finder_
-                                   ? place_finder_->left().magnification
-                                   : static_cast<double>(search_.frame().width) / scout_width_px_;
+  const auto known = place_finder_ ? place_finder_->left().magnification : std::nullopt;
+  const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
   follower_ = MakeFollower(options_, eyes_.has_odometry() && first.has_odometry, scout_width_px_,
-                           magnification, place_finder_.has_value());
-  const std::size_t known = std::min(route_.segments().size(), kMostLearnt);
-  for (std::size_t i = 0; i < known; ++i) follower_->Learn(route_.segments()[i]);
+                           known.value_or(alike), known.has_value());
+  const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
+  for (std::size_t i = 0; i < learnt; ++i) follower_->Learn(route_.segments()[i]);
 }
 
 // Hand-over: the segment's stored features are found in this frame and followed from here.
@@ -94,17 +93,23 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
     return true;
   }
   if (place_finder_->given_up() && LooksElsewhere(standing)) return false;
+  const LeftAt& left = place_finder_->left();
+  const std::string there =
+      fmt::format("where it {}, {:.1f} m along the route",
+                  left.magnification ? "was left" : "is said to stand", left.along_m);
   standing.state = ReplayState::kBlind;
-  const double left_m = place_finder_->left().along_m;
-  standing.reason =
-      fmt::format("looks whether it is where it was left, {:.1f} m along the route", left_m);
+  standing.reason = "looks whether it is " + there;
   if (!place_finder_->given_up()) return false;
+  const char* elsewhere =
+      left.magnification ? "nor at the route's start: " : "nor within half a metre: ";
+  const char* what_to_do = left.magnification
+                               ? "Put it back to either, or begin at the start all the same with "
+                                 "--from-start"
+                               : "Put it there, or send it from where it stands";
   standing.state = ReplayState::kLost;
   standing.trust = Trust::kLost;
-  standing.reason = fmt::format(
-      "not where it was left, {:.1f} m along the route, nor at the route's start: {} in view at "
-      "best. Put it back to either, or begin at the start all the same with --from-start",
-      left_m, place_finder_->MostSeen());
+  standing.reason = fmt::format("not {}, {}{} in view at best. {}", there, elsewhere,
+                                place_finder_->MostSeen(), what_to_do);
   return false;
 }
 

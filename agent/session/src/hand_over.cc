@@ -100,11 +100,17 @@ std::vector<route::TrackedFeature> HandOver::ToSegment(const image::GrayImage& f
 }
 
 vision::FindResult HandOver::SeeFrom(const image::GrayImage& frame, const route::Segment& segment,
-                                     double s, double magnification, bool grown) const {
+                                     double s, std::optional<double> magnification,
+                                     bool grown) const {
   const double growth = grown ? Growth(segment, s) : 1.0;
-  vision::FindResult seen = finder_.FindNear(
-      frame, segment.features, vision::TaughtPlaces(segment.features, s, {magnification, 0.0, 0.0}),
-      magnification * growth, Around(kStart_px, scout_width_px_));
+  const vision::SearchRadius radius = Around(kStart_px, scout_width_px_);
+  if (!magnification) {
+    return finder_.FindAtAnyMagnification(frame, segment.features, s, radius, growth);
+  }
+  vision::FindResult seen =
+      finder_.FindNear(frame, segment.features,
+                       vision::TaughtPlaces(segment.features, s, {*magnification, 0.0, 0.0}),
+                       *magnification * growth, radius);
   seen.magnification /= growth;
   return seen;
 }

@@ -13,6 +13,8 @@ namespace {
 // Metres from where it was left. More of them ahead: what was noted may be a second old, and a
 // robot whose agent was killed rolls on for a while.
 constexpr std::array kAround_m = {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6};
+// How many of these a robot may be at whose camera is not known.
+constexpr std::size_t kToldPlaces = 5;
 // It is there if it sees so many, and such a share, of the features that should be in its picture:
 // more than at a hand-over, where it is known to be near.
 constexpr std::size_t kLeastFeatures = 8;
@@ -49,8 +51,26 @@ bool IsThere(const vision::FindResult& seen, bool recognised) {
 }  // namespace
 
 double PlaceFinder::Likeness(const Found& found) const {
-  const double other_size = std::abs(std::log(found.seen.magnification / left_.magnification));
+  const double other_size = std::abs(std::log(found.seen.magnification / *left_.magnification));
   return Share(found.seen) * std::max(0.0, 1.0 - other_size / kOtherSize);
+}
+
+std::optional<PlaceFinder::Found> PlaceFinder::LookFrom(const image::GrayImage& frame,
+                                                        std::span<const route::Segment> segments,
+                                                        const HandOver& hand_over, double along_m) {
+  const auto place = PlaceAt(segments, along_m);
+  if (!place) return std::nullopt;
+  const auto see = [&](bool grown) {
+    return hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown);
+  };
+  // As grown where nothing was found as it was taught.
+  Found found{place->segment->index, place->fraction, see(rounds_ > 0)};
+  if (!left_.magnification) {  // of which more are found at the one that it is
+    vision::FindResult grown = see(true);
+    if (grown.AboveChance() > found.seen.AboveChance()) found.seen = std::move(grown);
+  }
+  if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
+  return found;
 }
 
 std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& frame,
@@ -58,26 +78,20 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
                                                     const HandOver& hand_over,
                                                     std::optional<double> recognised_m) {
   if (given_up()) return std::nullopt;
-  const bool at_start = turn_ == kAround_m.size();
+  const bool told = !left_.magnification;
+  const bool at_start = !told && turn_ == kAround_m.size();
   const double along_m = at_start ? 0.0 : left_.along_m + kAround_m.at(turn_);
-  const auto place = PlaceAt(segments, along_m);
-  if (place) {
-    const bool grown = rounds_ > 0;  // where nothing was found as it was taught
-    Found found{
-        place->segment->index, place->fraction,
-        hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown)};
-    if (!most_seen_ || Share(found.seen) > Share(most_seen_->seen)) most_seen_ = found;
+  auto found = LookFrom(frame, segments, hand_over, along_m);
+  const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
+  if (found && IsThere(found->seen, recognised)) {
+    if (told) return found;
     // It is back at the start only if it is nowhere about the other place.
-    const bool likest = !likest_ || (!at_start && Likeness(found) > Likeness(*likest_));
-    const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
-    if (IsThere(found.seen, recognised) && Likeness(found) > 0.0 && likest)
-      likest_ = std::move(found);
+    const bool likest = !likest_ || (!at_start && Likeness(*found) > Likeness(*likest_));
+    if (Likeness(*found) > 0.0 && likest) likest_ = std::move(found);
   }
-  if (!at_start) {
-    ++turn_;
-    return std::nullopt;
-  }
-  turn_ = 0;
+  const bool last = told ? turn_ + 1 == kToldPlaces : at_start;
+  turn_ = last ? 0 : turn_ + 1;
+  if (!last) return std::nullopt;
   ++rounds_;
   return std::exchange(likest_, std::nullopt);
 }

@@ -95,7 +95,7 @@ void ReplaySession::State::NoteTime(SensorTime stamp) {
 void ReplaySession::State::StartPlace(int width_px) {
   begun = true;
   if (left) {
-    place.KnowMagnification(left->magnification, width_px);
+    if (left->magnification) place.KnowMagnification(*left->magnification, width_px);
     place.StartAt(left->along_m, kLeft_m);
   } else if (options.anywhere) {
     place.StartAnywhere();

@@ -35,6 +35,7 @@ constexpr double kGoesOn_m = 5.0;
 constexpr double kBeside_m = 1.0;
 constexpr double kAbout_m = 0.1;
 constexpr double kPutAside_m = 0.6;
+constexpr double kLeastTold_m = 0.01;
 
 Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup, const sim::World& world,
                                                    const sim::CameraModel& camera,
@@ -54,6 +55,11 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup, cons
     options.lighting = sim::WithMovedSun(world.lighting(), seeds.follower);
   }
   return options;
+}
+
+// A place on it that a robot is told which stands elsewhere by about so much.
+double DrawTold(double set_down_m, double sigma_m, std::uint64_t seed) {
+  return std::max(kLeastTold_m, set_down_m + sigma_m * sim::Random(seed, "told").Normal());
 }
 
 // Somewhere along the taught path.
@@ -322,6 +328,9 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   const auto open = [&] { return OpenSession(*served, follower); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
+  if (set_down_m && options.told_m) {
+    session->GoOnFrom({.along_m = DrawTold(*set_down_m, *options.told_m, seeds.follower)});
+  }
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, visit.number, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   std::optional<FlawedRobot> flawed;

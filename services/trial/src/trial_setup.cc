@@ -175,7 +175,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (options.same_robot) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
-  setup.follower_options.anywhere = options.starts > 0;
+  setup.follower_options.anywhere = options.starts > 0 && !options.told_m;
   setup.follower_options.take_experience = options.refresh;
   setup.scout_roll_deg = options.scout_roll_deg;
   setup.follower_options.intake.roll_deg = options.follower_roll_deg;

@@ -40,22 +40,28 @@ std::optional<ViewFit> FitTo(const FindResult& found, std::span<const route::Fea
 
 FindResult FeatureFinder::FindAtAnyMagnification(const image::GrayImage& frame,
                                                  std::span<const route::Feature> sought, double s,
-                                                 const SearchRadius& radius) const {
+                                                 const SearchRadius& radius, double growth) const {
   FeatureFinderOptions options = options_;
   options.agree_u_px *= kCloserAgreement;
   options.agree_v_px *= kCloserAgreement;
   options.min_correlation = std::max(options.min_correlation, kCloserCorrelation);
+  const auto find = [&](const FeatureFinder& finder, const ViewFit& fit,
+                        const SearchRadius& within) {
+    FindResult found =
+        finder.FindNear(frame, sought, TaughtPlaces(sought, s, fit), growth * fit.scale, within);
+    found.magnification /= growth;
+    return found;
+  };
   const FeatureFinder closer(options);
   FindResult best;
   for (double magnification = options_.least_magnification;
        magnification <= options_.most_magnification; magnification *= kStep) {
-    const FindResult coarse = FindNear(
-        frame, sought, TaughtPlaces(sought, s, {magnification, 0.0, 0.0}), magnification, radius);
+    const FindResult coarse = find(*this, {magnification, 0.0, 0.0}, radius);
     if (coarse.features.size() < kFewestToFit) continue;
     const std::optional<ViewFit> fit = FitTo(coarse, sought, s);
     if (!fit) continue;
-    FindResult found = closer.FindNear(frame, sought, TaughtPlaces(sought, s, *fit), fit->scale,
-                                       {kCloserRadius * radius.u_px, kCloserRadius * radius.v_px});
+    FindResult found =
+        find(closer, *fit, {kCloserRadius * radius.u_px, kCloserRadius * radius.v_px});
     if (found.BeyondChance() && found.AboveChance() > best.AboveChance()) best = std::move(found);
   }
   return best;

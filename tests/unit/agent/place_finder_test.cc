@@ -49,7 +49,7 @@ class PlaceFinderTest : public testing::Test {
 
   std::vector<route::Segment> segments_;
   HandOver hand_over_{true, 160};
-  PlaceFinder finder_{LeftAt{.along_m = kStep_m * kLeft}};
+  PlaceFinder finder_{LeftAt{kStep_m * kLeft, 1.0}};
 };
 
 // Also late in a segment, where everything has grown since the scout took its patterns. How well
@@ -57,7 +57,7 @@ class PlaceFinderTest : public testing::Test {
 TEST_F(PlaceFinderTest, FindsTheRobotWhereverItWasLeft) {
   ASSERT_GE(segments_.size(), 2U);
   for (int left = 20; left < 140; left += 10) {
-    finder_ = PlaceFinder(LeftAt{.along_m = kStep_m * left});
+    finder_ = PlaceFinder(LeftAt{kStep_m * left, 1.0});
     const auto along_m = LookAt(test::WalkFrame(left));
     ASSERT_TRUE(along_m) << left << ": " << finder_.MostSeen();
     EXPECT_NEAR(*along_m, kStep_m * left, 0.5);
@@ -91,7 +91,7 @@ TEST_F(PlaceFinderTest, WhereTheViewIsRecognisedFewFeaturesAreEnough) {
     if (segment.features.size() > kFew) segment.features.resize(kFew);
   }
   EXPECT_EQ(LookAt(test::WalkFrame(kLeft)), std::nullopt);
-  finder_ = PlaceFinder(LeftAt{.along_m = kStep_m * kLeft});
+  finder_ = PlaceFinder(LeftAt{kStep_m * kLeft, 1.0});
   std::optional<double> along_m;
   for (int i = 0; i < kMostLooks && !along_m && !finder_.given_up(); ++i) {
     const auto found = finder_.Look(test::WalkFrame(kLeft), segments_, hand_over_, kStep_m * kLeft);
@@ -102,11 +102,24 @@ TEST_F(PlaceFinderTest, WhereTheViewIsRecognisedFewFeaturesAreEnough) {
 }
 
 TEST_F(PlaceFinderTest, APlaceBeyondWhatIsKnownOfTheRouteIsLookedForAtTheStartAlone) {
-  PlaceFinder beyond(LeftAt{.along_m = 100.0});
+  PlaceFinder beyond(LeftAt{100.0, 1.0});
   finder_ = beyond;
   EXPECT_EQ(LookAt(test::WalkFrame(kLeft)), std::nullopt);
   finder_ = beyond;
   EXPECT_EQ(LookAt(test::WalkFrame(0)), 0.0) << finder_.MostSeen();
+}
+
+// Another place further on looks as another camera does: who is told where it stands believes that.
+TEST_F(PlaceFinderTest, ARobotWhoseCameraNobodyKnowsIsWhereItIsTold) {
+  constexpr int kFurther = 41;  // as a camera sees it that shows things half as large again
+  finder_ = PlaceFinder(LeftAt{kStep_m * kLeft, std::nullopt});
+  std::optional<PlaceFinder::Found> found;
+  for (int i = 0; i < kMostLooks && !found && !finder_.given_up(); ++i) {
+    found = finder_.Look(test::WalkFrame(kLeft + kFurther), segments_, hand_over_);
+  }
+  ASSERT_TRUE(found) << finder_.MostSeen();
+  EXPECT_NEAR(Along(*found), kStep_m * kLeft, 0.21);
+  EXPECT_NEAR(found->seen.magnification, 1.5, 0.2);
 }
 
 }  // namespace

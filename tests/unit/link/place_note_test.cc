@@ -28,17 +28,17 @@ class PlaceNoteTest : public testing::Test {
   test::TempDir folder_;
   std::filesystem::path file_ = folder_ / "robot.db.place";
   PlaceNote note_{file_};
-  NotedPlace place_{test::KeyNumber(7, 3), {12.345, 0.75}, 1700000000123};
+  NotedPlace place_{test::KeyNumber(7, 3), 12.345, 0.75, 1700000000123};
 };
 
 TEST_F(PlaceNoteTest, TellsTheNextRunWhatTheLastOneNoted) {
-  ASSERT_TRUE(note_.Write({test::KeyNumber(1), {1.0, 1.0}, 1}));
+  ASSERT_TRUE(note_.Write({test::KeyNumber(1), 1.0, 1.0, 1}));
   ASSERT_TRUE(note_.Write(place_));
   const auto read = PlaceNote(file_).Read();
   ASSERT_TRUE(read && *read) << read.error().message;
   EXPECT_EQ((*read)->key, place_.key);
-  EXPECT_DOUBLE_EQ((*read)->left.along_m, 12.345);
-  EXPECT_DOUBLE_EQ((*read)->left.magnification, 0.75);
+  EXPECT_DOUBLE_EQ((*read)->along_m, 12.345);
+  EXPECT_DOUBLE_EQ((*read)->magnification, 0.75);
   EXPECT_EQ((*read)->unix_ms, 1700000000123);
 }
 
