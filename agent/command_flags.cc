@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "agent/commands.h"
+#include "agent/refreshing.h"
 #include "services/program/place_options.h"
 
 namespace trailcast::agent {
@@ -86,6 +87,15 @@ void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
                   "would give up, turns on the spot to find it again, by odometry and the default "
                   "method; cars and recordings do not. 0: it stands")
       ->check(CLI::Range(0.0, 180.0));
+  command
+      .add_option("--refresh", replay.refresh,
+                  "What becomes of a route that has changed since it was taught, once the robot "
+                  "has arrived on it, by odometry and the default method: nothing (off); a "
+                  "revision of it with what is seen today in place of what is long gone, which "
+                  "robots follow once an operator has looked at it and activates it (review); the "
+                  "same, which needs no look (auto)")
+      ->check(CLI::IsMember(RefreshingNames()))
+      ->capture_default_str();
   AddDeviceOptions(command, replay.device, use);
   AddTerrainOptions(command, replay);
 }

@@ -11,6 +11,7 @@
 #include "agent/fetch.h"
 #include "agent/glances.h"
 #include "agent/on_duty.h"
+#include "agent/refreshing.h"
 #include "agent/teachings.h"
 #include "services/base/angles.h"
 #include "services/base/time.h"
@@ -126,6 +127,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   const bool turns_on_the_spot =
       !replay.device.is_recorded() && replay.device.ros2.limits.turn_radius_m == 0.0;
   follower.session.look_around_rad = turns_on_the_spot ? Radians(replay.look_around_deg) : 0.0;
+  follower.session.take_experience = RefreshingOf(replay.refresh) != Refreshing::kOff;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;
@@ -164,10 +166,34 @@ OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeComman
     scout.intake = serve.replay.device.intake;
     return scout;
   };
+  duty.refreshing = RefreshingOf(serve.replay.refresh);
   duty.open_scouts_store = [&] { return store::OpenSqliteStore(options.store_file); };
   duty.open_store = [&] { return store::OpenSqliteStore(options.store_file, kOfCopies); };
   duty.stop = [] { return program::StopSignal::requested(); };
   return duty;
+}
+
+// After a run that has arrived: whatever fails of it, the run has not.
+void RefreshRoute(const CommandOptions& options, const ReplayCommand& replay,
+                  const ReplayOutcome& outcome) {
+  const Refreshing how = RefreshingOf(replay.refresh);
+  if (how == Refreshing::kOff || !outcome.visit) return;
+  auto store = store::OpenSqliteStore(options.store_file);
+  if (!store) return spdlog::warn("the route is not refreshed: {}", store.error().message);
+  const AgentId self(options.common.name);
+  const auto refreshed = StoreRefreshed(self, *outcome.followed, *outcome.visit, how, **store);
+  TellRefreshed(refreshed);
+  if (!refreshed || !options.server) return;
+  if (!program::KeysAllow(options.common, exchange::TeachingTopics())) {
+    return spdlog::warn("with a follower's keys it cannot be sent: it is in {}",
+                        options.store_file);
+  }
+  auto exchange =
+      program::OpenExchange(options.common, program::WithAgents(exchange::ScoutTopics()));
+  if (!exchange) return spdlog::warn("it is not sent: {}", exchange.error().message);
+  const auto sent =
+      DeliverBacklog(LinkOptions(options, replay.wait_s), std::move(*store), std::move(*exchange));
+  if (!sent) spdlog::warn("{}", sent.error().message);
 }
 
 }  // namespace
@@ -286,6 +312,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (written) written = outcome->diagnosed;
   if (outcome->error) return tl::unexpected(*outcome->error);
   if (!written) return tl::unexpected(written.error());
+  RefreshRoute(options, replay, *outcome);
   if (outcome->success) return program::kExitOk;
   spdlog::warn("not arrived: {} ({})", outcome->state, outcome->reason);
   return program::kExitNotArrived;

@@ -57,6 +57,7 @@ struct ReplayCommand {
   std::optional<double> max_slope_deg;
   std::string max_roughness;  // empty: any
   bool comfort = false;
+  std::string refresh = "off";
 };
 
 struct ServeCommand {

@@ -322,6 +322,10 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   outcome.state = state_;
   outcome.reason = reason_;
   outcome.diagnosed = diagnosis_.End(state_, reason_);
+  if (arrived && session_ && complete_ && route) {
+    outcome.visit = session_->TakeVisit();
+    if (outcome.visit) outcome.followed = route;
+  }
   const ReplayStep last = last_.value_or(ReplayStep{});
   Summary& summary = outcome.summary;
   summary.Add("arrived", arrived ? "1" : "0");

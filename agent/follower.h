@@ -13,6 +13,7 @@
 #include "agent/keep_distance.h"
 #include "agent/link/follower_link.h"
 #include "agent/terrain_check.h"
+#include "services/refresh/visit.h"
 
 namespace trailcast::agent {
 
@@ -43,6 +44,9 @@ struct ReplayOutcome {
   std::string reason;          // one line for people
   std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;
+  // Of a route that it has arrived on, if it was to take experience: what it met with.
+  std::optional<route::RouteInfo> followed;
+  std::optional<refresh::Visit> visit;
   Result<void> diagnosed;  // whether log and pictures are complete
   ReplayLog log;
 };

@@ -85,6 +85,7 @@ class OnDuty {
   void WaitForWay();
   void GoOtherWay();
   void Follow(const mission::Task& task);
+  void Refresh(const ReplayOutcome& outcome);
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
   void FindUndelivered();
@@ -366,7 +367,21 @@ void OnDuty::Follow(const mission::Task& task) {
   const bool goes_on =
       arrived && end_m_ != task.to_m && place_ && end_m_ > place_->along_m + kOnWay_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
+  if (arrived) Refresh(*outcome);
   Judge(outcome);
+}
+
+// A server gets it while the robot is free.
+void OnDuty::Refresh(const ReplayOutcome& outcome) {
+  if (options_.refreshing == Refreshing::kOff || !outcome.visit) return;
+  auto store = options_.open_scouts_store();
+  if (!store) return spdlog::error("{}", store.error().message);
+  const auto refreshed = StoreRefreshed(options_.agent, *outcome.followed, *outcome.visit,
+                                        options_.refreshing, **store);
+  TellRefreshed(refreshed);
+  if (!refreshed || !options_.why_no_scout.empty()) return;
+  undelivered_ = true;
+  deliver_at_ = {};
 }
 
 ScoutOptions OnDuty::ScoutFor(const mission::Task& task) {

@@ -7,6 +7,7 @@
 
 #include "agent/device/device.h"
 #include "agent/follower.h"
+#include "agent/refreshing.h"
 #include "agent/run_logs.h"
 #include "agent/scout.h"
 #include "services/exchange/route_exchange.h"
@@ -25,7 +26,8 @@ struct OnDutyOptions {
   std::function<FollowerOptions(const mission::Task&)> follower;
   // How it teaches that of a task; name and tags of the task are set here.
   std::function<ScoutOptions(const mission::Task&)> scout;
-  std::string why_no_scout;  // not empty: it does not teach
+  std::string why_no_scout;                  // not empty: it does not teach
+  Refreshing refreshing = Refreshing::kOff;  // of what it has followed
   // Of the agent's routes, for each following, and each teaching.
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_store;
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_scouts_store;
