@@ -67,22 +67,25 @@ function(trailcast_executable name)
   target_link_libraries(${name} PRIVATE ${ARG_DEPS})
 endfunction()
 
-# trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc DEPS x)
+# trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc
+#                APART b_test.cc DEPS x)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
 # with TOGETHER they are one, since they share what is slow to start. ALONE: nothing runs beside
 # them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock.
-# APART: sources are compiled one by one, since they name things alike.
+# Sources are compiled together or APART as a library's are.
 # NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;APART;NUMERIC" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;NUMERIC" "LABEL;TIMEOUT" "SOURCES;APART;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 180)
   endif()
   if(TRAILCAST_SANITIZE)  # several times slower
     math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")
   endif()
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
+  trailcast_compile_together(${name})
+  set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(units ${name})
@@ -92,9 +95,6 @@ function(trailcast_test name)
     target_compile_options(${name} PRIVATE -O0)
   else()
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
-  if(NOT ARG_APART)
-    trailcast_compile_together(${name})
   endif()
   target_compile_definitions(
     ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

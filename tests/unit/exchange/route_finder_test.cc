@@ -162,7 +162,6 @@ TEST_F(RouteFinderTest, KeepsTheLatestAnnouncementOfTheNameAlone) {
 
 TEST(ChooseRouteTest, HasNothingToChooseFromNothing) { EXPECT_FALSE(ChooseRoute({})); }
 
-}  // namespace
 RouteInfo Standing(RouteInfo info, route::Standing standing) {
   info.standing = standing;
   info.edition = 1;
@@ -215,4 +214,5 @@ TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   EXPECT_THAT(finder_.unknown()->others, ElementsAre(retired));
 }
 
+}  // namespace
 }  // namespace trailcast::exchange
