@@ -69,8 +69,14 @@ class FleetState {
   void Measure(http::MetricsText& text) const;
 
  private:
+  // Where a robot said last that it stands.
+  struct Stood {
+    std::string route{};
+    exchange::PlaceOnRoute place{};
+  };
   struct Agent {
     exchange::AgentStatus status{};
+    std::optional<Stood> stood{};
     Time heard_at{};
     std::int64_t heard_unix_ms = 0;
     bool gone = false;

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/console/network_query.h"
+#include "services/network/network.h"
 
 namespace trailcast::console {
 
@@ -13,7 +15,7 @@ namespace trailcast::console {
 // part: there may be ten thousand routes. What is not understood is left out.
 class NetworkList {
  public:
-  // Joints, closed and limited parts and names shown at once, of each kind.
+  // Joints, proposed ones, closed and limited parts, and names shown at once, of each kind.
   static constexpr std::size_t kMostMarks = 2000;
 
   // `whole`: these are all.
@@ -23,8 +25,8 @@ class NetworkList {
   [[nodiscard]] std::string Body(const NetworkQuery& query) const;
 
  private:
-  enum class Kind { kJoint, kCondition, kName };
-  static constexpr std::size_t kKinds = 3;
+  enum class Kind { kJoint, kProposed, kCondition, kName };
+  static constexpr std::size_t kKinds = 4;
   struct Route {
     std::string name{};
     std::string lower{};  // that is searched in: names of places upon it, too
@@ -39,6 +41,8 @@ class NetworkList {
     std::string line{};
   };
 
+  void TakeJoint(Kind kind, const network::Joint& joint, const std::string& line);
+  [[nodiscard]] std::optional<std::size_t> Find(const std::string& route) const;
   [[nodiscard]] std::vector<std::size_t> Matching(const std::string& search) const;
   [[nodiscard]] std::vector<std::size_t> Around(const std::string& route) const;
 

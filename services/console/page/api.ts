@@ -36,6 +36,7 @@ export type Robot = {
   teaching: string;
   left_m: number | null;        // beside its path
   left_sigma_m: number | null;  // how sure it is of that
+  stood: { route: string; route_id: string; teaching: string; along_m: number } | null;  // last, if it says so no more
   speed_mps: number;
   on_duty: boolean;
   battery_percent: number | null;
@@ -243,6 +244,8 @@ export async function where(picture: Blob): Promise<Found | string> {
 // A place on a route; the route may be "hall@2", of another revision than robots follow.
 export type Place = { route: string; along_m: number };
 export type Joint = { from: Place; to: Place; both: boolean; used: boolean };
+// That a server has found by what scouts saw; 0.5 to 1.
+export type Proposal = Omit<Joint, 'used'> & { confidence: number };
 export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
 export type NamedPlace = { name: string; place: Place; used: boolean };
 
@@ -251,6 +254,7 @@ export type NetworkPart = {
   network: {
     routes: { route: string; length_m: number }[];
     joints: Joint[];
+    proposed?: Proposal[];  // not of an older server
     closed: Stretch[];
     limits: Stretch[];
     names: NamedPlace[];

@@ -1,7 +1,9 @@
 // Routes as lines of a railway map: metres along them to scale, how they bend not at all.
-import type { Joint, NamedPlace, NetworkPart, Place, Robot, Route, Stretch } from './api';
+import type { Joint, NamedPlace, NetworkPart, Place, Proposal, Robot, Route, Stretch } from './api';
 
 export type Part = { from_m: number; to_m: number; stretch: Stretch };
+// Where it stands, or stood last: then it is drawn as one that is not heard.
+export type Standing = Robot & { last: boolean };
 export type Row = {
   name: string;
   length_m: number;
@@ -11,12 +13,14 @@ export type Row = {
   limits: Part[];
   names: (NamedPlace & { along_m: number })[];
   joints: Joint[];
+  proposed: Proposal[];
   elsewhere: number;  // joints with routes that are not shown
-  robots: Robot[];
+  robots: Standing[];
 };
 export type Spot = { row: number; along_m: number };
-export type Link = { joint: Joint; from: Spot; to: Spot };
-export type Layout = { rows: Row[]; links: Link[]; end_m: number; strays: Robot[] };
+// Of a proposal how sure the server is of it.
+export type Link = { joint: Omit<Joint, 'used'>; used: boolean; confidence: number | null; from: Spot; to: Spot };
+export type Layout = { rows: Row[]; links: Link[]; end_m: number; strays: Standing[] };
 
 const withoutRevision = (route: string) => route.slice(0, Math.max(0, route.lastIndexOf('@')));
 
@@ -105,16 +109,24 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   }
   const rows = inOrder([...lengths.keys()], network.joints).map((name): Row => ({
     name, length_m: lengths.get(name)!, start_m: 0, joined: joined.has(name),
-    closed: [], limits: [], names: [], joints: [], elsewhere: 0, robots: [],
+    closed: [], limits: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
   }));
   const links: Link[] = [];
   for (const joint of network.joints) {
     const from = spotOf(rows, joint.from);
     const to = spotOf(rows, joint.to);
     if (!from || !to) continue;
-    links.push({ joint, from, to });
+    links.push({ joint, used: joint.used, confidence: null, from, to });
     rows[from.row].joints.push(joint);
     if (to.row !== from.row) rows[to.row].joints.push(joint);
+  }
+  for (const proposal of network.proposed ?? []) {
+    const from = spotOf(rows, proposal.from);
+    const to = spotOf(rows, proposal.to);
+    if (!from || !to) continue;
+    links.push({ joint: proposal, used: true, confidence: proposal.confidence, from, to });
+    rows[from.row].proposed.push(proposal);
+    if (to.row !== from.row) rows[to.row].proposed.push(proposal);
   }
   for (const stretch of network.closed) {
     const row = rows[rowOf(rows, stretch.route)];
@@ -137,15 +149,23 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   return { rows, links, end_m, strays: [] };
 }
 
+export function standing(robot: Robot): Standing | null {
+  if (robot.route_id && robot.along_m !== null) return { ...robot, last: false };
+  return robot.stood && { ...robot, ...robot.stood, heard: false, last: true };
+}
+// "driving at 3.2 m", "free, last at 3.2 m".
+export const standsHow = (robot: Standing) => `${robot.state}${robot.last ? ', last' : ''} at ${robot.along_m!.toFixed(1)} m`;
+
 // Each on its route, if that is shown and it stands on the revision that is followed: where it is on
 // another would be measured along another way.
 export function withRobots(layout: Layout, robots: Robot[], live: Route[]): Layout {
   const followed = new Map(live.map((each) => [`${each.route} ${each.teaching}`, each.state === 'active']));
   const byName = new Map(layout.rows.map((row) => [row.name, row]));
-  const on = new Map<Row, Robot[]>();
-  const strays: Robot[] = [];
-  for (const robot of robots) {
-    if (!robot.route_id || robot.along_m === null) continue;
+  const on = new Map<Row, Standing[]>();
+  const strays: Standing[] = [];
+  for (const each of robots) {
+    const robot = standing(each);
+    if (!robot) continue;
     const row = byName.get(robot.route_id) ?? byName.get(robot.route);
     const isOn = row && (followed.get(`${robot.route_id} ${robot.teaching}`) ?? true);
     if (!isOn) strays.push(robot);
@@ -161,9 +181,10 @@ export function withRobots(layout: Layout, robots: Robot[], live: Route[]): Layo
 export function told(layout: Layout): string {
   const { rows, links } = layout;
   const closed = rows.flatMap((row) => row.closed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
-  const robots = rows.flatMap((row) => row.robots.map((robot) => `${robot.name} ${robot.state} on ${row.name} at ${robot.along_m!.toFixed(1)} m`));
+  const robots = rows.flatMap((row) => row.robots.map((robot) => `${robot.name} ${standsHow(robot)} of ${row.name}`));
   const some = (words: string[]) => words.slice(0, 20).join('; ') + (words.length > 20 ? ` and ${words.length - 20} more` : '');
-  return `${rows.length} routes, ${links.length} joints. `
+  const proposed = links.filter((link) => link.confidence !== null).length;
+  return `${rows.length} routes, ${links.length - proposed} joints${proposed > 0 ? `, ${proposed} proposed` : ''}. `
     + (closed.length > 0 ? `Closed: ${some(closed)}. ` : 'Nothing is closed. ')
     + (robots.length > 0 ? `${some(robots)}.` : 'No robot is on them.');
 }

@@ -37,13 +37,17 @@ function LinkPath({ link, rows, frame, chosen }: { link: Link; rows: Row[]; fram
   const heads = (ring ? head(x2, y2 + 3, 0, -1) : head(x2, y2, x2 - x1, y2 - y1))
     + (!joint.both ? '' : ring ? head(x1, y1 + 3, 0, -1) : head(x1, y1, x1 - x2, y1 - y2));
   const its = rows[from.row].name === chosen || rows[to.row].name === chosen;
-  const kind = `${joint.used ? '' : ' unused'}${chosen ? (its ? ' its' : ' others') : ''}`;
+  const of = chosen ? (its ? ' its' : ' others') : '';
+  const kind = link.confidence !== null ? ' proposed' : link.used ? '' : ' unused';
+  const why = link.confidence !== null ? `, proposed: ${Math.round(100 * link.confidence)} % sure`
+    : link.used ? '' : ', not used: robots follow another revision';
   return (
-    <g className={`joint${kind}`}>
-      <title>{`${textOf(joint.from)} ${joint.both ? 'and back' : 'to'} ${textOf(joint.to)}${joint.used ? '' : ', not used: robots follow another revision'}`}</title>
+    <g className={`joint${kind}${of}`}>
+      <title>{`${textOf(joint.from)} ${joint.both ? 'and back' : 'to'} ${textOf(joint.to)}${why}`}</title>
       <path d={d} />
       <path className="head" d={heads} />
       {!joint.both && <circle cx={x1} cy={y1} r="3.5" />}
+      {link.confidence !== null && <text x={(x1 + x2) / 2} y={(ring ? y1 + kBow_px : (y1 + y2) / 2) + 4} textAnchor="middle">?</text>}
     </g>
   );
 }
@@ -109,6 +113,24 @@ const Lines = memo(function Lines({ rows, links, frame, chosen, hatch }: {
       })}
       {rows.map((row, i) => <Names key={row.name} row={row} i={i} frame={frame} />)}
     </>
+  );
+});
+
+const RowNames = memo(function RowNames({ rows, rowHeight, chosen, onChoose }: {
+  rows: Row[]; rowHeight: number; chosen: string; onChoose: (route: string) => void;
+}) {
+  return (
+    <ol className="net-names" aria-label="Routes, from above">
+      {rows.map((row) => (
+        <li key={row.name} style={{ height: rowHeight }}>
+          <button className="opens" aria-pressed={row.name === chosen} title={row.name}
+            onClick={() => onChoose(row.name === chosen ? '' : row.name)}>
+            {row.name}
+          </button>
+          <span>{row.length_m.toFixed(1)} m{row.joined ? '' : ', not joined'}</span>
+        </li>
+      ))}
+    </ol>
   );
 });
 
@@ -190,17 +212,7 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
   return (
     <>
       <div className="net">
-        <ol className="net-names" aria-label="Routes, from above">
-          {rows.map((row) => (
-            <li key={row.name} style={{ height: rowHeight }}>
-              <button className="opens" aria-pressed={row.name === chosen} title={row.name}
-                onClick={() => onChoose(row.name === chosen ? '' : row.name)}>
-                {row.name}
-              </button>
-              <span>{row.length_m.toFixed(1)} m{row.joined ? '' : ', not joined'}</span>
-            </li>
-          ))}
-        </ol>
+        <RowNames rows={still} rowHeight={rowHeight} chosen={chosen} onChoose={onChoose} />
         <div className="net-lines" ref={ref} tabIndex={zoom > 1 ? 0 : -1}>
           <svg role="img" width={width} height={rows.length * rowHeight} aria-label={told(layout)}
             className={onPlace ? 'places' : ''} onClick={click}>
@@ -234,10 +246,12 @@ function NetworkLegend() {
     <p className="legend net-legend">
       <span>{sample(<><path className="track" d="M4 9H28" /><path className="track-end" d={head(33, 9, 1, 0)} /><circle className="track-begin" cx="5" cy="9" r="4" /></>)}a route, as it was taught</span>
       <span>{sample(<g className="joint"><path d="M6 2L24 16" /><path className="head" d={head(24, 16, 18, 14)} /></g>)}joint: robots may change over</span>
+      <span>{sample(<g className="joint proposed"><path d="M4 9H30" /><text x="17" y="13" textAnchor="middle">?</text></g>)}proposed by a server</span>
       <span>{sample(<g className="joint unused"><path d="M6 2L24 16" /></g>)}not used: of another revision</span>
       <span>{sample(<g className="closed"><rect className="sample" x="3" y="3" width="28" height="12" /><path d="M11 3l12 12m0-12l-12 12" /></g>)}closed</span>
       <span>{sample(<path className="limited" d="M3 9H31" />)}slower, or counts as longer</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>
+      <span>{sample(<g className="on-line free unheard"><circle cx="17" cy="9" r="7" /></g>)}where a robot stood last</span>
     </p>
   );
 }

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'react';
 import { get, send, type Answer, type Robot, type Way } from './api';
-import { metres } from './network-layout';
+import { metres, standing } from './network-layout';
 import { Slide } from './send';
 
 export type Shown = { robot: string; to: string; way: Way };
@@ -8,6 +8,11 @@ export type Shown = { robot: string; to: string; way: Way };
 // Those that would take a mission now.
 const isFree = (robot: Robot) =>
   robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'ended'].includes(robot.state);
+
+function whereOf(robot: Robot): string {
+  const stands = standing(robot);
+  return stands ? `${stands.last ? 'last ' : ''}at ${stands.along_m!.toFixed(1)} m of ${stands.route}` : 'its place is not known';
+}
 
 // To a place by the shortest way, which is shown before it is sent.
 export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }: {
@@ -54,7 +59,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
           <select value={chosen} onChange={(event) => setRobot(event.target.value)}>
             {free.map((each) => (
               <option key={each.name} value={each.name}>
-                {each.name}{each.route_id && each.along_m !== null ? `, at ${each.along_m.toFixed(1)} m of ${each.route}` : ', its place is not known'}
+                {each.name}, {whereOf(each)}
               </option>
             ))}
           </select>

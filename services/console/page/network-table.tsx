@@ -1,6 +1,6 @@
 import { memo } from 'react';
 import type { Joint } from './api';
-import { metres, rangeOf, textOf, type Part, type Row } from './network-layout';
+import { metres, rangeOf, standsHow, textOf, type Part, type Row } from './network-layout';
 
 const kMostRobots = 20;
 
@@ -12,12 +12,12 @@ function limitText({ stretch, ...part }: Part): string {
 }
 
 // From the row's own place to the other.
-function jointText(joint: Joint, row: string): string {
+function jointText(joint: Omit<Joint, 'used'>, row: string): string {
   const isOwn = (route: string) => route === row || route.slice(0, Math.max(0, route.lastIndexOf('@'))) === row;
   const own = isOwn(joint.from.route);
   const [here, there] = own ? [joint.from, joint.to] : [joint.to, joint.from];
   const way = joint.both ? 'to and from' : own ? 'to' : 'from';
-  return `${metres(here.along_m)} m ${way} ${textOf(there)}${joint.used ? '' : ' (not used)'}`;
+  return `${metres(here.along_m)} m ${way} ${textOf(there)}`;
 }
 
 type Props = {
@@ -43,7 +43,14 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
       <td data-label="Joints">
         <ul className="plain">
           {row.joints.map((joint, i) => (
-            <li key={i}>{jointText(joint, row.name)} {take('Part', `${textOf(joint.from)} and ${textOf(joint.to)}`, `part ${textOf(joint.from)} ${textOf(joint.to)}`)}</li>
+            <li key={i}>{jointText(joint, row.name)}{joint.used ? '' : ' (not used)'} {take('Part', `${textOf(joint.from)} and ${textOf(joint.to)}`, `part ${textOf(joint.from)} ${textOf(joint.to)}`)}</li>
+          ))}
+          {row.proposed.map((proposal, i) => (
+            <li key={`p${i}`}>
+              proposed, {Math.round(100 * proposal.confidence)} % sure: {jointText(proposal, row.name)}{' '}
+              {take('Confirm', `${textOf(proposal.from)} and ${textOf(proposal.to)}`, `confirm ${textOf(proposal.from)} ${textOf(proposal.to)}`)}{' '}
+              {take('Refuse', `${textOf(proposal.from)} and ${textOf(proposal.to)}`, `refuse ${textOf(proposal.from)} ${textOf(proposal.to)}`)}
+            </li>
           ))}
           {row.elsewhere > 0 && (
             <li>{row.elsewhere} with routes that are not shown <button className="small" onClick={() => onAround(row.name)}>Show around {row.name}</button></li>
@@ -70,7 +77,7 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
       <td data-label="Robots">
         <ul className="plain">
           {row.robots.slice(0, kMostRobots).map((robot) => (
-            <li key={robot.name}><a href={`#robot-${robot.name}`}>{robot.name}</a> {robot.state} at {robot.along_m!.toFixed(1)} m</li>
+            <li key={robot.name}><a href={`#robot-${robot.name}`}>{robot.name}</a> {standsHow(robot)}</li>
           ))}
           {row.robots.length > kMostRobots && <li>and {row.robots.length - kMostRobots} more</li>}
         </ul>

@@ -2,7 +2,7 @@ import { useCallback, useEffect, useMemo, useState } from 'react';
 import { editNetwork, get, type Answer, type NetworkPart, type Place, type Robot, type Route } from './api';
 import { useMay } from './me';
 import { ChangeStretch, JoinPlaces, NamePlace, noDraft, type Draft } from './network-changes';
-import { layOut, metres, textOf, withRobots } from './network-layout';
+import { layOut, metres, standsHow, textOf, withRobots } from './network-layout';
 import { NetworkMap, type Overlay } from './network-map';
 import { SendThere, type Shown } from './network-send';
 import { NetworkTable } from './network-table';
@@ -96,7 +96,7 @@ function clicked(mode: Mode, draft: Draft, place: Place): Draft {
 
 const done = (now: string[], words: string) => {
   if (now.length === 0) return 'Done: nothing is closed or limited there now.';
-  return `${/^(part|forget) /.test(words) ? 'No more' : 'Now'}: ${now.join('; ')}`;
+  return `${/^(part|forget|refuse) /.test(words) ? 'No more' : 'Now'}: ${now.join('; ')}`;
 };
 
 export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }) {
@@ -158,7 +158,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
           On routes that are not shown, or on another revision than is followed:{' '}
           {layout.strays.slice(0, kMostStrays).map((robot, i) => (
             <span key={robot.name}>
-              {i > 0 && ', '}<a href={`#robot-${robot.name}`}>{robot.name}</a> at {robot.along_m!.toFixed(1)} m of {robot.route}
+              {i > 0 && ', '}<a href={`#robot-${robot.name}`}>{robot.name}</a> {standsHow(robot)} of {robot.route}
             </span>
           ))}
           {layout.strays.length > kMostStrays && ` and ${layout.strays.length - kMostStrays} more`}

@@ -58,7 +58,11 @@ StateParts::Members Changed(const StateParts::Members& from, const StateParts::M
 
 void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t unix_ms) {
   if (const auto* status = std::get_if<AgentStatus>(&message)) {
-    agents_.Touch(status->agent) = {.status = *status, .heard_at = now, .heard_unix_ms = unix_ms};
+    Agent& agent = agents_.Touch(status->agent);
+    auto stood = status->place ? std::optional(Stood{status->route, *status->place})
+                               : std::move(agent.stood);
+    agent = {
+        .status = *status, .stood = std::move(stood), .heard_at = now, .heard_unix_ms = unix_ms};
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
     Agent* agent = agents_.Find(gone->agent);
     if (agent != nullptr && agent->status.instance == gone->instance) agent->gone = true;
@@ -201,6 +205,7 @@ StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Rec
              {"length_m", nullptr},
              {"left_m", nullptr},
              {"left_sigma_m", nullptr},
+             {"stood", nullptr},
              {"speed_mps", Rounded(status.speed_mps, 100.0)},
              {"on_duty", status.on_duty},
              {"battery_percent", percent(status.battery_percent)},
@@ -223,6 +228,13 @@ StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Rec
     if (route != routes_.end() && route->second.info) {
       robot["length_m"] = Rounded(route->second.info->length_m, 100.0);
     }
+  }
+  if (!status.place && agent.stood) {
+    const auto& [route, place] = *agent.stood;
+    robot["stood"] = {{"route", route},
+                      {"route_id", place.key.route.value()},
+                      {"teaching", fmt::format("{:x}", place.key.teaching.value())},
+                      {"along_m", Rounded(place.along_m, 100.0)}};
   }
   StateParts::Members members;
   for (const auto& [name, value] : robot.items()) members.emplace_back(name, Text(value));

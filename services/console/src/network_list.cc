@@ -30,13 +30,13 @@ std::string Lower(std::string text) {
 }  // namespace
 
 NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : whole_(whole) {
-  std::vector<std::pair<const std::string*, Edit>> edits;
+  std::vector<std::pair<const std::string*, network::Listed>> marks;
   for (const std::string& line : lines) {
     network::Listed listed = network::ParseListed(line);
-    if (listed.route && !listed.route->name.empty()) {
+    if (!listed.route) {
+      marks.emplace_back(&line, std::move(listed));
+    } else if (!listed.route->name.empty()) {
       routes_.push_back({listed.route->name, Lower(listed.route->name), line, {}});
-    } else if (listed.edit) {
-      edits.emplace_back(&line, *std::move(listed.edit));
     }
   }
   std::stable_sort(routes_.begin(), routes_.end(),
@@ -45,31 +45,39 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
   routes_.erase(std::unique(routes_.begin(), routes_.end(), is_same), routes_.end());
   for (std::size_t i = 0; i < routes_.size(); ++i) numbers_.emplace(routes_[i].name, i);
 
-  const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
-    auto at = numbers_.find(name);
-    if (at == numbers_.end()) at = numbers_.find(WithoutRevision(name));
-    return at == numbers_.end() ? std::nullopt : std::optional(at->second);
-  };
-  for (const auto& [line, edit] : edits) {
+  for (const auto& [line, listed] : marks) {
+    if (listed.proposal) TakeJoint(Kind::kProposed, listed.proposal->joint, *line);
+    if (!listed.edit) continue;
+    const Edit& edit = *listed.edit;
     if (edit.kind == Edit::Kind::kJoin) {
       ++joints_;
-      const auto from = find(edit.joint.from.route);
-      const auto to = find(edit.joint.to.route);
-      if (!from || !to) continue;
-      marks_.push_back({Kind::kJoint, *from, *to, *line});
-      if (*from == *to) continue;
-      routes_[*from].joined.push_back(*to);
-      routes_[*to].joined.push_back(*from);
+      TakeJoint(Kind::kJoint, edit.joint, *line);
       continue;
     }
     const bool is_name = edit.kind == Edit::Kind::kName;
-    const auto at = find(is_name ? edit.named.place.route : edit.condition.route);
+    const auto at = Find(is_name ? edit.named.place.route : edit.condition.route);
     if (!at) continue;
     marks_.push_back({is_name ? Kind::kName : Kind::kCondition, *at, *at, *line});
     if (!is_name) continue;
     routes_[*at].lower += '\n';
     routes_[*at].lower += Lower(edit.named.name);
   }
+}
+
+void NetworkList::TakeJoint(Kind kind, const network::Joint& joint, const std::string& line) {
+  const auto from = Find(joint.from.route);
+  const auto to = Find(joint.to.route);
+  if (!from || !to) return;
+  marks_.push_back({kind, *from, *to, line});
+  if (*from == *to || kind != Kind::kJoint) return;
+  routes_[*from].joined.push_back(*to);
+  routes_[*to].joined.push_back(*from);
+}
+
+std::optional<std::size_t> NetworkList::Find(const std::string& route) const {
+  auto at = numbers_.find(route);
+  if (at == numbers_.end()) at = numbers_.find(WithoutRevision(route));
+  return at == numbers_.end() ? std::nullopt : std::optional(at->second);
 }
 
 std::vector<std::size_t> NetworkList::Matching(const std::string& search) const {
@@ -114,7 +122,7 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
   for (const Mark& mark : marks_) {
     if (!shown[mark.route] && !shown[mark.other]) continue;
     if (!shown[mark.route] || !shown[mark.other]) {
-      ++elsewhere[shown[mark.route] ? mark.route : mark.other];
+      if (mark.kind == Kind::kJoint) ++elsewhere[shown[mark.route] ? mark.route : mark.other];
     } else if (++marks[static_cast<std::size_t>(mark.kind)] > kMostMarks) {
       ++left_out;
     } else {
@@ -122,6 +130,7 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
     }
   }
   std::vector<std::string> counts;
+  counts.reserve(elsewhere.size());
   for (const auto& [route, count] : elsewhere) {
     counts.push_back(fmt::format("{{\"route\": {}, \"joints\": {}}}",
                                  program::JsonText(routes_[route].name), count));

@@ -122,6 +122,22 @@ TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
   EXPECT_EQ(Robot()["left_sigma_m"], 0.01);
 }
 
+TEST_F(FleetStateTest, WhereARobotStoodLastIsKeptUntilItSaysAnew) {
+  AgentStatus status = Status("robot1", AgentMode::kReplaying);
+  Hear(status);
+  EXPECT_EQ(Robot()["stood"], nullptr);
+  status.route = "hall";
+  status.place = {{RouteId(std::string(32, 'a')), TeachingId(26)}, 3.125};
+  Hear(status);
+  EXPECT_EQ(Robot()["stood"], nullptr) << "it says where it is";
+  Hear(Status("robot1", AgentMode::kWaiting));
+  EXPECT_EQ(Robot()["along_m"], nullptr);
+  EXPECT_EQ(Robot()["stood"]["route"], "hall");
+  EXPECT_EQ(Robot()["stood"]["route_id"], std::string(32, 'a'));
+  EXPECT_EQ(Robot()["stood"]["teaching"], "1a");
+  EXPECT_EQ(Robot()["stood"]["along_m"], 3.13);
+}
+
 TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   Hear(Status("robot1", AgentMode::kReplaying));
   Hear(Status("robot2", AgentMode::kReplaying));

@@ -153,6 +153,7 @@ TEST_F(NetworkApiTest, WhatIsNotUnderstoodOrRefusedIsSaid) {
   const Replied refused = Edit("close attic");
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.error(), HasSubstr("server 'barn': there is no route 'attic'"));
+  EXPECT_THAT(Edit("confirm hall@1 office@1").error(), HasSubstr("is proposed"));
 }
 
 }  // namespace

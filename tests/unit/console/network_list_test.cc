@@ -29,7 +29,8 @@ const NetworkList& ThreeRoutes() {
       {"route yard 30.00", "route hall 10.00", "route Office 8.50", "join hall@9 Office@0.5 both",
        "join Office@8 yard@1", "unused join hall@2@1 Office@3", "join hall@10 hall@0",
        "join gone@1 hall@2", "close hall 3..7", "limit yard speed 0.5", "name loading-bay yard@28",
-       "close gone 1..2", "dance hall", "proposed join hall@1 yard@1", ""},
+       "close gone 1..2", "dance hall", "proposed join hall@1 yard@1 confidence 0.82",
+       "proposed dance", ""},
       true);
   return kList;
 }
@@ -47,6 +48,8 @@ TEST(NetworkListTest, OfAllRoutesThereIsAllThatIsOnThemAndBetweenThem) {
   EXPECT_EQ(network["closed"][0]["to_m"], 7.0);
   EXPECT_EQ(network["limits"][0]["to_m"], nullptr);
   EXPECT_EQ(network["names"][0]["name"], "loading-bay");
+  ASSERT_EQ(network["proposed"].size(), 1U) << network;
+  EXPECT_EQ(network["proposed"][0]["confidence"], 0.82);
   EXPECT_EQ(all["matched"], 3);
   EXPECT_EQ(all["routes"], 3);
   EXPECT_EQ(all["joints"], 5) << "that of a route that is no more, too";
@@ -76,6 +79,7 @@ TEST(NetworkListTest, AroundARouteAreThoseThatAreNearestByJoints) {
 
 TEST(NetworkListTest, OfTenThousandRoutesAPageIsToldAFew) {
   std::vector<std::string> lines;
+  lines.reserve(63'000);
   for (int i = 0; i < 10'000; ++i) lines.push_back(fmt::format("route aisle-{:05} 20.00", i));
   for (int i = 0; i < 50'000; ++i) {
     lines.push_back(fmt::format("join aisle-{:05}@{} aisle-{:05}@1", i % 10'000, 2 + i / 10'000,
