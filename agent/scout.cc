@@ -49,7 +49,7 @@ struct Drive {
 };
 
 // Hands a finished segment over; never waits for it.
-Result<void> HandOver(route::Segment segment, ScoutLink& link, Drive& drive, TeachingNow& now) {
+Result<void> PassOn(route::Segment segment, ScoutLink& link, Drive& drive, TeachingNow& now) {
   drive.features += segment.features.size();
   drive.has_odometry = segment.has_odometry;
   now.speed_mps = segment.speed_mps();
@@ -134,7 +134,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       result = Wrap(step.error(), fmt::format("frame {}", drive.frames));
       break;
     }
-    if (step->finished) result = HandOver(std::move(*step->finished), link, drive, now);
+    if (step->finished) result = PassOn(std::move(*step->finished), link, drive, now);
     TellDarkness(*step, drive);
     TellWeakness(*step, drive);
     TellReverse(*step, drive);
@@ -160,7 +160,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   auto last = session.Finish();
   drive.turned_rad = session.turned_rad();
   if (last && !link.failed()) {
-    auto handed = HandOver(std::move(*last), link, drive, now);
+    auto handed = PassOn(std::move(*last), link, drive, now);
     if (result) result = handed;
   }
   return result;
