@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostAlike = 30;  // as some are of the teaching itself
 constexpr std::size_t kLeastViews = 3;
-constexpr std::size_t kViewsASegment = 2;
+constexpr std::size_t kViewsASegment = 1;  // of several: asking the index is what takes time
 constexpr std::size_t kDoubtsASegment = 2;
 constexpr std::size_t kMostDoubts = 8;
 // A scout that goes along a route, so many segments at most between two that look like it, is told
@@ -26,7 +26,8 @@ constexpr std::uint32_t kStillThere = 20;
 struct CrossingWatch::Teaching {
   explicit Teaching(route::RouteInfo taught)
       : info(std::move(taught)),
-        near(info.key.route, {.most_alike = kMostAlike, .least_views = kLeastViews}) {}
+        near(info.key.route,
+             {.most_alike = kMostAlike, .least_views = kLeastViews, .most_stretches = 1}) {}
 
   [[nodiscard]] JointComparer::Views Views() const {
     auto views = std::make_shared<joints::RouteViews>(info.image_width_px);
@@ -158,7 +159,7 @@ void CrossingWatch::Handle(const JointComparer::Done& done) {
   const auto known = store_.FindRoute(doubt.place.key);
   if (!known || !*known) return;
   (*teaching)->there[doubt.place.key] = doubt.place.last.value();
-  crossings_.push_back({doubt.teaching, (*known)->name, done.joints.front().at_b});
+  crossings_.push_back({(*teaching)->info, (*known)->name, done.joints.front().at_b});
 }
 
 }  // namespace trailcast::server

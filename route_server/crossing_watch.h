@@ -17,8 +17,8 @@ namespace trailcast::server {
 
 // A scout that teaches has come to a place of a known route, looking the same way.
 struct Crossing {
-  route::RouteKey teaching{};
-  std::string known{};  // that route's name
+  route::RouteInfo teaching{};  // as it was known when it was first looked at
+  std::string known{};          // that route's name
   double along_m = 0.0;
 };
 

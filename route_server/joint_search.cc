@@ -123,7 +123,7 @@ Result<void> JointSearch::Begin(const route::RouteKey& key) {
 }
 
 Result<void> JointSearch::Read(Search& search) {
-  if (search.next < std::min(search.info.segment_count, kMostSegments)) {
+  if (search.next < std::min(search.info.segment_count, StretchReader::kMost)) {
     const auto segment = ReadSegment(store_, search.info.key, SegmentIndex(search.next));
     if (!segment) return tl::unexpected(segment.error());
     search.views->Add(*segment);

@@ -20,7 +20,6 @@ namespace trailcast::server {
 // part at a time.
 class JointSearch {
  public:
-  static constexpr std::uint32_t kMostSegments = 5'000;  // of a route; the rest is left out
   static constexpr std::size_t kMostNearRoutes = 20;
 
   // All outlive it. `was_searched`: by earlier runs.

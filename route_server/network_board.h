@@ -59,9 +59,11 @@ class NetworkBoard {
   // `take_from`: of this confidence on it is made a joint at once.
   [[nodiscard]] Result<std::optional<Proposed>> Propose(const Meeting& meeting, double take_from,
                                                         std::int64_t now_unix_ms);
-  // Whether a revision's meetings were looked for; durable.
+  // Whether a revision's meetings were looked for.
   [[nodiscard]] bool WasSearched(const route::RouteKey& key) const;
-  [[nodiscard]] Result<void> MarkSearched(const route::RouteKey& key);
+  // Durable once it is saved, many at a time; what is lost is looked for again.
+  void MarkSearched(const route::RouteKey& key);
+  [[nodiscard]] Result<void> SaveSearched();
   // Proposals that wait for an operator's word, of revisions followed or not.
   [[nodiscard]] std::size_t open_proposals() const;
   // For robots under way. Places and stretches are of revisions that are followed ("ID/TEACHING").
@@ -142,6 +144,7 @@ class NetworkBoard {
   std::map<std::string, network::Place> named_;  // of revisions
   std::vector<store::ProposedJoint> proposed_;   // of revisions
   std::set<std::string> searched_;               // revisions
+  std::vector<std::string> unsaved_;             // of these
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision

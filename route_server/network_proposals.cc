@@ -96,10 +96,13 @@ bool NetworkBoard::WasSearched(const route::RouteKey& key) const {
   return searched_.contains(IdOf(key));
 }
 
-Result<void> NetworkBoard::MarkSearched(const route::RouteKey& key) {
-  if (auto marked = store_->MarkSearched(IdOf(key)); !marked) return marked;
-  searched_.insert(IdOf(key));
-  return {};
+void NetworkBoard::MarkSearched(const route::RouteKey& key) {
+  if (searched_.insert(IdOf(key)).second) unsaved_.push_back(IdOf(key));
+}
+
+Result<void> NetworkBoard::SaveSearched() {
+  const auto unsaved = std::exchange(unsaved_, {});
+  return unsaved.empty() ? Result<void>() : store_->MarkSearched(unsaved);
 }
 
 std::size_t NetworkBoard::open_proposals() const {
@@ -114,6 +117,7 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
     return each.proposal.joint.from.route == id || each.proposal.joint.to.route == id;
   });
   if (searched_.erase(id) == 0 && dropped == 0) return;
+  std::erase(unsaved_, id);
   NoteChange();
   // What stays on the disk is of a revision that is not there, and is listed nowhere.
   (void)store_->DropProposals(id);

@@ -82,6 +82,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   if (!routes) return tl::unexpected(routes.error());
   spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
+  SaveSearched(steady_clock::now());
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();
   const exchange::KeeperCounters& counters = keeper_->counters();

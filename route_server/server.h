@@ -81,6 +81,7 @@ class Server {
   void FillViews(const std::vector<exchange::Message>& outgoing);
   void NoteOfNetwork(const route::RouteInfo& info);
   void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
+  void SaveSearched(std::chrono::steady_clock::time_point now);
   void Propose(const Meeting& meeting);
   void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
   void DeleteOutdated();
@@ -105,6 +106,7 @@ class Server {
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
+  std::chrono::steady_clock::time_point searched_due_{};
   std::optional<Replanning> replanning_;  // with both
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store

@@ -21,10 +21,18 @@ void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
   for (const Meeting& meeting : joints_->TakeMeetings()) Propose(meeting);
   for (const route::RouteKey& key : joints_->TakeSearched()) {
     ++metrics_.joints.routes_searched;
-    if (const auto marked = network_->MarkSearched(key); !marked) {
-      spdlog::warn("it will be looked for joints of {} again: {}", route::Describe(key),
-                   marked.error().message);
-    }
+    network_->MarkSearched(key);
+  }
+  if (now >= searched_due_) SaveSearched(now);
+}
+
+// A commit of each would hold up receipts where many are searched.
+void Server::SaveSearched(std::chrono::steady_clock::time_point now) {
+  constexpr std::chrono::seconds kEvery{10};
+  searched_due_ = now + kEvery;
+  if (!network_) return;
+  if (const auto saved = network_->SaveSearched(); !saved) {
+    spdlog::warn("some routes will be searched for joints again: {}", saved.error().message);
   }
 }
 
@@ -47,7 +55,7 @@ void Server::Tell(const Crossing& crossing, std::chrono::steady_clock::time_poin
   ++metrics_.joints.crossings;
   const std::string text = fmt::format("crosses {} at {:.1f} m", crossing.known, crossing.along_m);
   spdlog::info("{}, which is being taught, {}", route::Describe(crossing.teaching), text);
-  keeper_->Remark(crossing.teaching, text, now);
+  keeper_->Remark(crossing.teaching.key, text, now);
 }
 
 }  // namespace trailcast::server

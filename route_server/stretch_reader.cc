@@ -29,7 +29,7 @@ Result<std::optional<route::RouteInfo>> FindJoinable(store::RouteStore& store,
 StretchReader::StretchReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last)
     : info_(std::move(info)),
       first_(first.value()),
-      end_(std::min(last.value() + 1, info_.segment_count)) {}
+      end_(std::min({last.value() + 1, info_.segment_count, first.value() + kMost})) {}
 
 Result<bool> StretchReader::Step(store::RouteStore& store) {
   if (next_ >= end_) return true;

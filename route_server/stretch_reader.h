@@ -21,7 +21,9 @@ namespace trailcast::server {
 // segments before it.
 class StretchReader {
  public:
-  // Up to the last one that there is.
+  static constexpr std::uint32_t kMost = 2'000;  // segments: some 10 MB of views
+
+  // Up to the last one that there is, and no more than so many.
   StretchReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last);
 
   // Reads a segment. True: that was the last.

@@ -42,7 +42,10 @@ struct JointOptions {
   std::size_t least_views = 3;
   double least_evidence = 8.0;
   std::size_t most_joints = 20;  // of two routes
-  // Asked while views are compared: true, and what is found so far is all.
+  // Pairs of views that are alike, the first of them: where all looks alike, nothing is found of
+  // the others.
+  std::size_t most_alike = 20'000;
+  // Asked now and then: true, and what is found so far is all.
   std::function<bool()> give_up{};
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,8 +26,11 @@ struct NearRoute {
 struct NearRouteOptions {
   std::size_t most_alike = 10;  // segments a view
   std::size_t least_views = 2;
-  std::uint32_t margin = 3;  // segments before the first and after the last that was alike
-  std::size_t most_routes = 50;
+  std::uint32_t margin = 3;      // segments before the first and after the last that was alike
+  std::size_t most_routes = 50;  // stretches of them
+  // Of one route so many stretches, those after the first of so many views at least.
+  std::size_t most_stretches = 3;
+  std::size_t least_views_again = 4;
 };
 
 // Which of an index's routes are worth comparing with this one (find_joints.h): several of its
@@ -39,18 +44,22 @@ class NearRouteSearch {
   // The route's next view.
   void Look(view::ViewIndex& index, std::span<const route::ViewFeature> view);
   // Only the last so many count.
-  void KeepLast(std::size_t views);
-  // Those with the most such views first. Teachings of the same route are left out.
+  void KeepLast(std::uint32_t views);
+  // Those with the most such views first; of a route that is met again, or in another order, a
+  // stretch for each. Teachings of the same route are left out.
   [[nodiscard]] std::vector<NearRoute> Found() const;
 
  private:
   struct Hit {
-    std::size_t view = 0;
-    view::ViewIndex::Place place;
+    std::uint32_t view = 0;
+    std::uint32_t route = 0;  // its number
+    std::uint32_t segment = 0;
   };
   RouteId self_;
   NearRouteOptions options_;
-  std::size_t views_ = 0;
+  std::uint32_t views_ = 0;
+  std::map<route::RouteKey, std::uint32_t> numbers_;
+  std::uint32_t next_number_ = 0;
   std::deque<Hit> hits_;
 };
 

@@ -64,7 +64,7 @@ class NetworkStore {
   // In place of those from and to the same places; what is taken becomes a joint. All or nothing.
   [[nodiscard]] Result<void> Put(std::span<const ProposedJoint> proposed, const std::string& by,
                                  std::int64_t now_unix_ms);
-  [[nodiscard]] Result<void> MarkSearched(const std::string& revision);
+  [[nodiscard]] Result<void> MarkSearched(std::span<const std::string> revisions);
   // The revision is there no more: no more of its proposals either.
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 

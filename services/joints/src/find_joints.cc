@@ -39,12 +39,14 @@ Alike Describe(const RouteViews& a, std::size_t i, const RouteViews& b, std::siz
           0.0};
 }
 
+bool GivesUp(const JointOptions& options) { return options.give_up && options.give_up(); }
+
 std::vector<Alike> FindAlike(const RouteViews& a, const RouteViews& b,
                              const JointOptions& options) {
   std::vector<Alike> found;
   for (std::size_t i = 0; i < a.views().size(); ++i) {
     if (a.views()[i].reverse) continue;
-    if (options.give_up && options.give_up()) break;
+    if (found.size() >= options.most_alike || GivesUp(options)) break;
     for (std::size_t j = 0; j < b.views().size(); ++j) {
       if (b.views()[j].reverse) continue;
       const auto comparison =
@@ -62,7 +64,7 @@ std::vector<Alike> FindAlike(const RouteViews& route, const JointOptions& option
   std::vector<Alike> found;
   for (std::size_t i = 0; i < route.views().size(); ++i) {
     if (route.views()[i].reverse) continue;
-    if (options.give_up && options.give_up()) break;
+    if (found.size() >= options.most_alike || GivesUp(options)) break;
     int unlike = 0;
     for (std::size_t j = i + 1; j < route.views().size(); ++j) {
       if (route.views()[j].reverse) continue;
@@ -161,7 +163,7 @@ class Finder {
 
   std::vector<Joint> All() {
     std::vector<Joint> joints;
-    while (joints.size() < options_.most_joints) {
+    while (joints.size() < options_.most_joints && !GivesUp(options_)) {
       const std::vector<std::size_t> chain = BestChain();
       if (chain.empty()) break;
       if (Evidence(chain) < options_.least_evidence) break;
@@ -215,7 +217,7 @@ class Finder {
     std::vector<double> sums(alike_.size());
     std::vector<std::size_t> befores(alike_.size(), kNone);
     std::size_t best = kNone;
-    for (std::size_t i = 0; i < alike_.size(); ++i) {
+    for (std::size_t i = 0; i < alike_.size() && !GivesUp(options_); ++i) {
       for (std::size_t j = i; j-- > 0;) {
         if (TooFarOnA(alike_[j], alike_[i])) break;  // as all before it are
         if (sums[j] <= sums[i] || !Follows(alike_[j], alike_[i])) continue;

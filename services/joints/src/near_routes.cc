@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "services/view/key_views.h"
 
@@ -10,17 +11,13 @@ namespace trailcast::joints {
 namespace {
 
 struct ViewOnSegment {
-  std::size_t view = 0;  // of the route asked for
+  std::uint32_t view = 0;  // of the route asked for
   std::uint32_t segment = 0;
 };
 
 // The longest sequence of them, each a later view's, none on an earlier segment; of these one that
-// ends on the earliest segment.
-NearRoute LongestInOrder(const route::RouteKey& key, std::vector<ViewOnSegment> hits) {
-  // Of one view no two are in a sequence: the later segment comes first.
-  std::sort(hits.begin(), hits.end(), [](const ViewOnSegment& one, const ViewOnSegment& other) {
-    return one.view != other.view ? one.view < other.view : one.segment > other.segment;
-  });
+// ends on the earliest segment. By rising view and, of one view, falling segment.
+NearRoute LongestInOrder(const route::RouteKey& key, const std::vector<ViewOnSegment>& hits) {
   struct Sequence {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
@@ -43,29 +40,43 @@ NearRoute LongestInOrder(const route::RouteKey& key, std::vector<ViewOnSegment> 
 }  // namespace
 
 void NearRouteSearch::Look(view::ViewIndex& index, std::span<const route::ViewFeature> view) {
-  for (auto& place : index.Candidates(view, options_.most_alike)) {
-    if (place.key.route != self_) hits_.push_back({views_, std::move(place)});
+  for (const auto& place : index.Candidates(view, options_.most_alike)) {
+    if (place.key.route == self_) continue;
+    const auto [at, is_new] = numbers_.try_emplace(place.key, next_number_);
+    if (is_new) ++next_number_;
+    hits_.push_back({views_, at->second, place.segment.value()});
   }
   ++views_;
 }
 
-void NearRouteSearch::KeepLast(std::size_t views) {
+void NearRouteSearch::KeepLast(std::uint32_t views) {
   while (!hits_.empty() && hits_.front().view + views < views_) hits_.pop_front();
+  std::set<std::uint32_t> kept;
+  for (const Hit& hit : hits_) kept.insert(hit.route);
+  std::erase_if(numbers_, [&](const auto& each) { return !kept.contains(each.second); });
 }
 
 std::vector<NearRoute> NearRouteSearch::Found() const {
-  std::map<route::RouteKey, std::vector<ViewOnSegment>> hits;
-  for (const Hit& hit : hits_) {
-    hits[hit.place.key].push_back({hit.view, hit.place.segment.value()});
-  }
+  std::map<std::uint32_t, std::vector<ViewOnSegment>> hits;
+  for (const Hit& hit : hits_) hits[hit.route].push_back({hit.view, hit.segment});
   std::vector<NearRoute> near;
-  for (auto& [key, of_route] : hits) {
-    NearRoute found = LongestInOrder(key, std::move(of_route));
-    if (found.views < options_.least_views) continue;
-    found.first =
-        SegmentIndex(found.first.value() - std::min(found.first.value(), options_.margin));
-    found.last = SegmentIndex(found.last.value() + options_.margin);
-    near.push_back(std::move(found));
+  for (const auto& [key, number] : numbers_) {
+    auto& of_route = hits[number];
+    // Of one view no two are in a sequence: the later segment comes first.
+    std::sort(of_route.begin(), of_route.end(), [](const auto& one, const auto& other) {
+      return one.view != other.view ? one.view < other.view : one.segment > other.segment;
+    });
+    for (std::size_t i = 0; i < options_.most_stretches && !of_route.empty(); ++i) {
+      NearRoute found = LongestInOrder(key, of_route);
+      if (found.views < (i == 0 ? options_.least_views : options_.least_views_again)) break;
+      found.first =
+          SegmentIndex(found.first.value() - std::min(found.first.value(), options_.margin));
+      found.last = SegmentIndex(found.last.value() + options_.margin);
+      std::erase_if(of_route, [&](const ViewOnSegment& hit) {
+        return hit.segment >= found.first.value() && hit.segment <= found.last.value();
+      });
+      near.push_back(std::move(found));
+    }
   }
   std::stable_sort(near.begin(), near.end(), [](const NearRoute& one, const NearRoute& other) {
     return one.views > other.views;

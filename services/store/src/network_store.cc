@@ -354,11 +354,15 @@ Result<void> NetworkStore::Put(std::span<const ProposedJoint> proposed, const st
   });
 }
 
-Result<void> NetworkStore::MarkSearched(const std::string& revision) {
+Result<void> NetworkStore::MarkSearched(std::span<const std::string> revisions) {
   return database_->Guarded("storing what was looked at", [&]() -> Result<void> {
-    auto put = database_->compiled.Take("INSERT OR IGNORE INTO searched (revision) VALUES (?1)");
-    put->bind(1, revision);
-    put->exec();
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const std::string& revision : revisions) {
+      auto put = database_->compiled.Take("INSERT OR IGNORE INTO searched (revision) VALUES (?1)");
+      put->bind(1, revision);
+      put->exec();
+    }
+    transaction.commit();
     return {};
   });
 }

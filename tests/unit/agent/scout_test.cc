@@ -86,6 +86,35 @@ TEST_F(ScoutTest, EndsWhenTheServerHasConfirmedEverySegment) {
   EXPECT_THAT(*swarm_.OpenStore("scout")->UnreceiptedSegments(taught.key), IsEmpty());
 }
 
+TEST_F(ScoutTest, SaysInItsStatusWhatAServerHasToSayOfWhatItTeaches) {
+  const auto server = swarm_.Join(exchange::ServerTopics());
+  bool is_shown = false;
+  const auto answer = [&](const exchange::Message& message) {
+    if (const auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
+      ASSERT_TRUE(server->Publish(exchange::Receipt{.server = AgentId("server"),
+                                                    .key = batch->pieces.front().key,
+                                                    .reason = "crosses hall at 12.3 m"}));
+    }
+    const auto* status = std::get_if<exchange::AgentStatus>(&message);
+    is_shown |= status != nullptr && status->mode == exchange::AgentMode::kTeaching &&
+                status->detail == "crosses hall at 12.3 m";
+  };
+  // While it drives, and it drives no further before that.
+  device_.before_frame = [&](int frame) -> Result<void> {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (frame == kFrames - 1 && !is_shown && std::chrono::steady_clock::now() < until) {
+      for (const auto& message : server->Take(milliseconds(20))) answer(message);
+    }
+    return {};
+  };
+  const Said said;
+  auto options = swarm_.ScoutNamed("scout");
+  options.link.delivery_timeout = milliseconds(100);
+  (void)swarm_.Teach(device_, options, true);
+  EXPECT_TRUE(is_shown);
+  EXPECT_THAT(said.text(), HasSubstr("what is being taught crosses hall at 12.3 m"));
+}
+
 TEST_F(ScoutTest, KeepsWhatNoServerConfirmedAndDeliversItLater) {
   auto options = swarm_.ScoutNamed("scout");
   options.link.delivery_timeout = milliseconds(100);

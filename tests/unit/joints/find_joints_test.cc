@@ -278,7 +278,17 @@ TEST(FindJoints, IsOverSoonWhereItIsGivenUp) {
   options.give_up = [&] { return ++asked > 0; };
   EXPECT_THAT(FindJoints(a, a, true, options), IsEmpty());
   EXPECT_THAT(FindLoops(a, options), IsEmpty());
-  EXPECT_EQ(asked, 2);
+  EXPECT_LE(asked, 4);
+}
+
+TEST(FindJoints, IsBoundedWhereAllLooksAlike) {
+  const auto building = Building(1);
+  const RouteViews a = Teach(building, std::vector<Pose>(60, Pose{5.0, 0.0, 0.0}));
+  const RouteViews b = Teach(building, Straight(0.0, 14.0));
+  JointOptions options;
+  options.most_alike = 100;
+  EXPECT_LE(FindJoints(a, b, true, options).size(), 1U);
+  EXPECT_LE(FindJoints(a, a, true, options).size(), options.most_joints);
 }
 
 TEST(FindLoops, TellsWhereARouteComesBack) {

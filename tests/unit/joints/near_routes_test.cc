@@ -54,6 +54,18 @@ TEST(NearRoutes, PutTheOneFirstThatIsAlikeForLonger) {
   EXPECT_EQ(near[1].first.value(), 0U);
 }
 
+TEST(NearRoutes, AreTwoStretchesOfOneThatIsMetInAnotherOrder) {
+  auto index = IndexOf({{'a', Route(0, 40)}});
+  auto route = Route(30, 36);
+  for (const route::Segment& segment : Route(5, 9)) route.push_back(segment);
+  const auto near = NearRoutes(index, RouteId("new"), route, {.most_alike = 1});
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].first.value(), 27U);
+  EXPECT_EQ(near[0].last.value(), 38U);
+  EXPECT_EQ(near[1].first.value(), 2U);
+  EXPECT_EQ(near[1].last.value(), 11U);
+}
+
 TEST(NearRoutes, OfTheLastViewsAreThoseThatTheRouteIsAtNow) {
   auto index = IndexOf({{'a', Route(0, 6)}, {'b', Route(100, 106)}});
   NearRouteSearch search(RouteId("new"), {.most_alike = 1});

@@ -192,7 +192,7 @@ TEST_F(JointDeskTest, AScoutThatCrossesAKnownRouteIsToldSoonAndOnce) {
     if (told_after == 0 && !crossings_.empty()) told_after = i + 1;
   }
   ASSERT_EQ(crossings_.size(), 1U);
-  EXPECT_EQ(crossings_[0].teaching, Key(2));
+  EXPECT_EQ(crossings_[0].teaching.key, Key(2));
   EXPECT_EQ(crossings_[0].known, "hall");
   EXPECT_NEAR(crossings_[0].along_m, 5.0, 0.5);
   EXPECT_LE(told_after, 4U + 3U);

@@ -194,7 +194,9 @@ TEST_F(NetworkBoardTest, OfAPairOnlySoManyAreProposed) {
 
 TEST_F(NetworkBoardTest, WhatWasLookedAtIsRememberedUntilItIsDeleted) {
   EXPECT_FALSE(board_->WasSearched(Key(1)));
-  ASSERT_TRUE(board_->MarkSearched(Key(1)));
+  board_->MarkSearched(Key(1));
+  EXPECT_TRUE(board_->WasSearched(Key(1)));
+  ASSERT_TRUE(board_->SaveSearched());
   Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
   Restart();
   EXPECT_TRUE(board_->WasSearched(Key(1)));

@@ -57,8 +57,9 @@ TEST_F(NetworkStoreTest, ProposalsStayWhatTheyAreSaidToBeUntilTheirRevisionGoes)
   const Joint second{{"b/7", 3.0}, {"c/1", 1.0}};
   ASSERT_TRUE(
       store_->Put(std::vector<ProposedJoint>{{{first, 0.97}}, {{second, 0.8}}}, "server", 1000));
-  ASSERT_TRUE(store_->MarkSearched("b/7"));
-  ASSERT_TRUE(store_->MarkSearched("b/7"));
+  const std::vector<std::string> searched{"b/7", "b/7"};
+  ASSERT_TRUE(store_->MarkSearched(searched));
+  ASSERT_TRUE(store_->MarkSearched(searched));
   Reopen();
   EXPECT_THAT(store_->Proposals().value(),
               ElementsAre(ProposedJoint{{first, 0.97}}, ProposedJoint{{second, 0.8}}));
