@@ -12,6 +12,9 @@ namespace {
 
 // So many of those most like a view: some are of the route itself, or of other revisions.
 constexpr std::size_t kMostAlike = 30;
+// Two routes run together for longer than their likest views tell, and the joint is where they
+// begin to: so many segments to either side are compared, too.
+constexpr std::uint32_t kMargin = 20;
 constexpr std::uint32_t kPage = 100;
 constexpr std::size_t kMostWaiting = 1'000;
 
@@ -33,7 +36,7 @@ struct JointSearch::Search {
   explicit Search(route::RouteInfo searched)
       : info(std::move(searched)),
         views(std::make_shared<joints::RouteViews>(info.image_width_px)),
-        near(info.key.route, {.most_alike = kMostAlike, .most_routes = kMostNearRoutes}) {}
+        near(info.key.route, {.most_alike = kMostAlike, .margin = kMargin, .most_routes = kMostNearRoutes}) {}
 
   route::RouteInfo info;
   std::shared_ptr<joints::RouteViews> views;
