@@ -18,6 +18,13 @@ class BadInputTest : public ProgramsTest {
   }
 };
 
+TEST_F(BadInputTest, AStoreThatIsNotThereHasNothingToDeliver) {
+  const auto run = RunAgent({"deliver", "--store", Path("nowhere.db")});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.output, AllOf(HasSubstr("there is no route store"), HasSubstr("nowhere.db")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "nowhere.db"));
+}
+
 TEST_F(BadInputTest, FramesThatAreNotThere) {
   const auto run = RunAgent(TeachWords(Path("nowhere"), "a.db"));
   EXPECT_EQ(run.status, 1);
