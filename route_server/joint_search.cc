@@ -1,6 +1,7 @@
 #include "route_server/joint_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "route_server/stretch_reader.h"
@@ -12,6 +13,9 @@ namespace {
 
 // So many of those most like a view: some are of the route itself, or of other revisions.
 constexpr std::size_t kMostAlike = 30;
+// Where two routes begin to look alike they may still turn towards each other: one changes over so
+// far further on, half way through what they share at most.
+constexpr double kInto_m = 1.5;
 // Two routes run together for longer than their likest views tell, and the joint is where they
 // begin to: so many segments to either side are compared, too.
 constexpr std::uint32_t kMargin = 20;
@@ -19,10 +23,11 @@ constexpr std::uint32_t kPage = 100;
 constexpr std::size_t kMostWaiting = 1'000;
 
 Meeting MeetingOf(const route::RouteKey& a, const route::RouteKey& b, const joints::Joint& joint) {
+  const double share = std::min(0.5, kInto_m / std::max(kInto_m, joint.length()));
   Meeting meeting{.a = a,
                   .b = b,
-                  .at_a_m = joint.at_a,
-                  .at_b_m = joint.at_b,
+                  .at_a_m = std::lerp(joint.at_a, joint.end_a, share),
+                  .at_b_m = std::lerp(joint.at_b, joint.end_b, share),
                   .length_m = joint.length(),
                   .confidence = joint.confidence};
   if (joint.heading_scaled) meeting.heading_rad = joint.heading_rad;
@@ -36,7 +41,8 @@ struct JointSearch::Search {
   explicit Search(route::RouteInfo searched)
       : info(std::move(searched)),
         views(std::make_shared<joints::RouteViews>(info.image_width_px)),
-        near(info.key.route, {.most_alike = kMostAlike, .margin = kMargin, .most_routes = kMostNearRoutes}) {}
+        near(info.key.route,
+             {.most_alike = kMostAlike, .margin = kMargin, .most_routes = kMostNearRoutes}) {}
 
   route::RouteInfo info;
   std::shared_ptr<joints::RouteViews> views;

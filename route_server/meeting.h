@@ -14,9 +14,9 @@ inline constexpr double kSure = 0.9;
 struct Meeting {
   route::RouteKey a;
   route::RouteKey b;
-  double at_a_m = 0.0;  // where they begin to
+  double at_a_m = 0.0;  // where one may change over
   double at_b_m = 0.0;
-  double length_m = 0.0;
+  double length_m = 0.0;                // for which they do
   std::optional<double> heading_rad{};  // how much further left b looks, where that is known
   double confidence = 0.0;              // 0.5 to 1
 

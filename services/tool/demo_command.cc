@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -16,14 +14,15 @@
 #include "services/demo/demo_dispatch.h"
 #include "services/demo/demo_fleet.h"
 #include "services/demo/demo_report.h"
-#include "services/demo/fleet_view.h"
+#include "services/demo/journey_report.h"
+#include "services/demo/network_show.h"
 #include "services/exchange/publish.h"
 #include "services/fleet/operator_peer.h"
-#include "services/program/live_lines.h"
 #include "services/program/open_exchange.h"
 #include "services/program/stop_signal.h"
 #include "services/sim/places/indoor_world.h"
 #include "services/tool/command.h"
+#include "services/tool/demo_watch.h"
 #include "services/trial/trial_plot.h"
 
 namespace trailcast::tool {
@@ -37,13 +36,11 @@ struct DemoOptions {
   bool keep = false;
   double timeout_s = 600.0;
   bool console = false;
+  bool network = false;
   int http_port = 8080;
 };
 
 constexpr const char* kPicture = "trailcast-demo.png";
-constexpr auto kTakeWait = std::chrono::milliseconds(100);
-// After the last process has ended its last status may still be on its way.
-constexpr auto kLastWords = std::chrono::milliseconds(300);
 constexpr int kExitInterrupted = 130;
 constexpr std::size_t kLogLines = 8;
 
@@ -53,6 +50,8 @@ constexpr const char* kExamples =
     "  trailcast demo --seed 7 --out /tmp\n"
     "  trailcast demo --keep            # leaves logs, stores and true poses to look at\n"
     "  trailcast demo --console         # robots on duty: sent, seen and stopped in a browser\n"
+    "  trailcast demo --network         # three scouts' routes are joined, five robots sent over "
+    "them\n"
     "Exit status: 0 all arrived (with --console: ended by Ctrl-C), 3 some did not,\n"
     "130 interrupted, 1 failed, 2 wrong usage.";
 
@@ -74,78 +73,13 @@ Result<std::filesystem::path> ProgramFolder() {
   return self.parent_path();
 }
 
-enum class Watched { kEnded, kInterrupted, kBroken, kTooLong };
-
-struct WatchOptions {
-  double timeout_s = std::numeric_limits<double>::infinity();
-  std::function<std::string(double)> headline;  // of so many seconds
-  std::function<void(const std::vector<exchange::Message>&)> hear =
-      [](const std::vector<exchange::Message>&) {};
-};
-
-// Watches the fleet until its robots have ended or there is a reason to stop.
-class Watch {
- public:
-  Watch(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
-        exchange::RouteExchange& exchange, WatchOptions options)
-      : fleet_(fleet),
-        robots_(robots),
-        exchange_(exchange),
-        options_(std::move(options)),
-        live_(stdout) {}
-
-  Watched Run() {
-    const auto began = Clock::now();
-    Watched result = Watched::kEnded;
-    while (!fleet_.RobotsEnded()) {
-      const double elapsed_s = std::chrono::duration<double>(Clock::now() - began).count();
-      Take(kTakeWait);
-      live_.Show(Lines(elapsed_s));
-      if (program::StopSignal::requested()) return Watched::kInterrupted;
-      const auto broken = fleet_.Broken();
-      if (broken) {
-        std::fputs((*broken + "\n").c_str(), stderr);
-        return Watched::kBroken;
-      }
-      if (elapsed_s > options_.timeout_s) {
-        result = Watched::kTooLong;
-        break;
-      }
-    }
-    Take(kLastWords);
-    live_.Show(Lines(std::chrono::duration<double>(Clock::now() - began).count()), true);
-    return result;
-  }
-
- private:
-  void Take(std::chrono::milliseconds max_wait) {
-    const std::vector<exchange::Message> messages = exchange_.Take(max_wait);
-    for (const exchange::Message& message : messages) view_.Handle(message);
-    options_.hear(messages);
-  }
-  std::vector<std::string> Lines(double elapsed_s) const {
-    std::vector<std::string> lines{options_.headline(elapsed_s)};
-    for (const demo::DemoRobot& robot : robots_) {
-      lines.push_back(demo::StatusLine(robot.name, robot.camera, view_.Find(AgentId(robot.name))));
-    }
-    return lines;
-  }
-
-  demo::DemoFleet& fleet_;
-  const std::vector<demo::DemoRobot>& robots_;
-  exchange::RouteExchange& exchange_;
-  WatchOptions options_;
-  demo::FleetView view_;
-  program::LiveLines live_;
-};
-
-Result<void> DrawPicture(const std::vector<demo::DemoRow>& rows,
+Result<void> DrawPicture(const std::string& title, std::vector<plot::PlottedPath> paths,
                          const std::filesystem::path& file) {
   const auto world = sim::MakeIndoorWorld();
   if (!world) return tl::unexpected(world.error());
   plot::Plan plan;
-  plan.title = "trailcast demo: one scout teaches, three other cameras follow";
-  plan.paths = demo::DemoPaths(rows);
+  plan.title = title;
+  plan.paths = std::move(paths);
   plan.backdrop = trial::WorldBackdrop(*world->world, plan.paths);
   return plot::DrawPlan(plan).Write(file);
 }
@@ -166,7 +100,8 @@ Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& r
     for (const std::string& line : fleet.RobotLog(i, kLogLines)) fmt::print("    {}\n", line);
   }
   const std::filesystem::path picture = options.out / kPicture;
-  const auto drawn = DrawPicture(rows, picture);
+  const auto drawn = DrawPicture("trailcast demo: one scout teaches, three other cameras follow",
+                                 demo::DemoPaths(rows), picture);
   if (!drawn) return tl::unexpected(drawn.error());
   fmt::print("The paths, seen from above: {}\n", picture.string());
   return all ? program::kExitOk : program::kExitNotArrived;
@@ -183,7 +118,7 @@ Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRob
     return fmt::format("{:.0f} s: a scout teaches, three robots with other cameras follow",
                        elapsed_s);
   };
-  switch (Watch(fleet, robots, **exchange, std::move(watch)).Run()) {
+  switch (WatchFleet(fleet, robots, **exchange, std::move(watch))) {
     case Watched::kInterrupted:
       std::fputs("interrupted: ending the robots\n", stderr);
       return kExitInterrupted;
@@ -195,6 +130,63 @@ Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRob
       [[fallthrough]];
     case Watched::kEnded:
       return Report(fleet, robots, options);
+  }
+  return program::kExitFailure;
+}
+
+// Table and picture of robots that were sent over a network of routes.
+Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan,
+                           const demo::NetworkShow& show, const DemoOptions& options) {
+  fleet.Stop();
+  std::fputs("\nWhat the operator typed, and what was answered:\n", stdout);
+  for (const std::string& line : show.typed()) fmt::print("  {}\n", line);
+  const auto report = demo::JudgeJourneys(plan, demo::kGoal_m, show.LastWords());
+  if (!report) return tl::unexpected(report.error());
+  std::fputs(("\n" + demo::JourneyTable(*report)).c_str(), stdout);
+  const std::filesystem::path picture = options.out / kPicture;
+  const auto drawn = DrawPicture("trailcast demo: three routes joined, five other cameras sent",
+                                 demo::JourneyPaths(plan, *report), picture);
+  if (!drawn) return tl::unexpected(drawn.error());
+  fmt::print("The paths, seen from above: {}\n", picture.string());
+  return report->AllArrived() ? program::kExitOk : program::kExitNotArrived;
+}
+
+// Three routes that are joined, and five robots that are sent over them.
+Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesystem::path& folder,
+                        const program::CommonOptions& network, const DemoOptions& options) {
+  const auto plan = demo::PlanNetwork(folder, options.seed);
+  if (!plan) return tl::unexpected(plan.error());
+  auto fleet = demo::DemoFleet::Start(programs, folder, plan->robots, network);
+  if (!fleet) return tl::unexpected(fleet.error());
+  program::CommonOptions everybody = network;
+  everybody.discovery = "mesh";
+  const auto exchange = program::OpenExchange(everybody, exchange::ObserverTopics());
+  if (!exchange) return tl::unexpected(exchange.error());
+  demo::NetworkShow show(programs, folder, network, *plan);
+  WatchOptions watch;
+  watch.timeout_s = options.timeout_s;
+  watch.headline = [&](double elapsed_s) {
+    return fmt::format("{:.0f} s: {}", elapsed_s,
+                       show.typed().empty() ? "three scouts teach" : show.typed().back());
+  };
+  watch.step = [&](const demo::FleetView& view) -> Result<bool> {
+    if (auto stepped = show.Step(view, Clock::now()); !stepped) {
+      return tl::unexpected(stepped.error());
+    }
+    return show.over();
+  };
+  switch (WatchFleet(*fleet, plan->robots, **exchange, std::move(watch))) {
+    case Watched::kInterrupted:
+      std::fputs("interrupted: ending the robots\n", stderr);
+      return kExitInterrupted;
+    case Watched::kBroken:
+      return program::kExitFailure;
+    case Watched::kTooLong:
+      fmt::print(stderr, "still under way after {:.0f} s: giving up (--timeout)\n",
+                 options.timeout_s);
+      [[fallthrough]];
+    case Watched::kEnded:
+      return ReportJourneys(*fleet, *plan, show, options);
   }
   return program::kExitFailure;
 }
@@ -217,7 +209,7 @@ Result<int> ShowConsole(demo::DemoFleet& fleet, const std::vector<demo::DemoRobo
     dispatch.Hear(messages);
     (void)exchange::PublishAll(*peer->exchange, dispatch.Due(Clock::now()));
   };
-  switch (Watch(fleet, robots, *peer->exchange, std::move(watch)).Run()) {
+  switch (WatchFleet(fleet, robots, *peer->exchange, std::move(watch))) {
     case Watched::kInterrupted:
       std::fputs("ending the robots\n", stderr);
       return program::kExitOk;
@@ -242,10 +234,11 @@ Result<int> RunDemo(const program::CommonOptions& common, const DemoOptions& opt
     folder->Keep();
     fmt::print("logs, stores and true poses: {}\n", folder->path().string());
   }
+  const program::CommonOptions network = PrivateNetwork(common);
+  if (options.network) return ShowNetwork(*programs, folder->path(), network, options);
   const auto robots = options.console ? demo::PlanDuty(folder->path(), options.seed)
                                       : demo::PlanRobots(folder->path(), options.seed);
   if (!robots) return tl::unexpected(robots.error());
-  const program::CommonOptions network = PrivateNetwork(common);
   auto fleet = demo::DemoFleet::Start(*programs, folder->path(), *robots, network);
   if (!fleet) return tl::unexpected(fleet.error());
   // Whoever shows what agents say of themselves has to hear them; in a star they hear servers only.
@@ -274,6 +267,11 @@ Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common) {
                                 "Robots on duty, and a console to send and stop them in a browser, "
                                 "until Ctrl-C")
                       ->excludes(timeout);
+  app->add_flag(
+         "--network", options->network,
+         "Three scouts teach, their routes are joined, and five robots with other cameras are "
+         "sent to one place, while a part of the way is closed")
+      ->excludes(console);
   app->add_option("--http-port", options->http_port, "Port of the console; 0: any that is free")
       ->needs(console)
       ->check(CLI::Range(0, 65535));

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
 
-#include "services/sim/core/random.h"
+#include "services/demo/src/network_words.h"
 
 namespace trailcast::demo {
 namespace {
@@ -16,41 +15,6 @@ constexpr const char* kLogs = "logs";  // of what robots on duty follow
 // A follower waits for the route from the moment it starts until the scout has driven two metres;
 // one on duty may be faster than the scout that teaches it.
 constexpr const char* kWait_s = "120";
-
-// From one room to the other and back, turned on the spot at both ends.
-constexpr const char* kRound =
-    "x_m,y_m\n2.6,1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n7.2,3.2\n6,1.5\n2,1.5\n2.6,1.5\n";
-
-// The scout's make of camera, on another robot: higher up, and looking a little aside and up.
-constexpr const char* kOtherMount =
-    "name = \"webcam, other mount\"\nwidth = 320\nheight = 240\nmodel = \"pinhole\"\n"
-    "hfov_deg = 60.0\ndistortion = 0.10\nheight_m = 0.42\nyaw_deg = 2.0\npitch_deg = 2.0\n";
-
-Result<void> WriteText(const std::filesystem::path& file, const char* text) {
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) return Fail(ErrorCode::kUnavailable, "cannot write {}", file.string());
-  return {};
-}
-
-std::vector<std::string> NetworkWords(const program::CommonOptions& network,
-                                      const std::string& name) {
-  return {"--name",
-          name,
-          "--domain",
-          std::to_string(network.domain),
-          "--dds-tag",
-          network.dds_tag,
-          "--log-level",
-          network.log_level,
-          "--network-interface",
-          network.network_interface,
-          "--discovery",
-          network.discovery,
-          "--security",
-          network.security};
-}
 
 std::vector<std::string> AgentWords(const std::string& program, const DemoRobot& robot,
                                     const std::filesystem::path& folder,
@@ -87,48 +51,24 @@ std::string WithLog(std::string what, const ChildProcess& process) {
   return what;
 }
 
-// The scout and robots with other cameras than its.
-Result<std::vector<DemoRobot>> PlanSwarm(const std::filesystem::path& folder, std::uint64_t seed,
-                                         const std::string& prefix, DemoRobot::Task task) {
-  const std::filesystem::path other_mount = folder / "webcam-other-mount.toml";
-  if (auto written = WriteText(other_mount, kOtherMount); !written) {
-    return tl::unexpected(written.error());
-  }
-  const auto plan = [&](const std::string& name, DemoRobot::Task does, const std::string& camera,
-                        const std::string& camera_word) {
-    DemoRobot robot;
-    robot.name = name;
-    robot.camera = camera;
-    robot.camera_word = camera_word;
-    robot.task = does;
-    // 63 bits: what a TOML file or another program can hold as well.
-    robot.seed = sim::Random(seed, name).Bits() >> 1U;
-    robot.truth = folder / (name + "-truth.csv");
-    robot.report = folder / (name + "-report.txt");
-    return robot;
-  };
-  return std::vector<DemoRobot>{plan("scout", DemoRobot::Task::kTeach, "webcam", "webcam"),
-                                plan(prefix + "1", task, "webcam, moved", other_mount.string()),
-                                plan(prefix + "2", task, "firewire", "firewire"),
-                                plan(prefix + "3", task, "wide", "wide")};
-}
-
 }  // namespace
 
-Result<std::vector<DemoRobot>> PlanRobots(const std::filesystem::path& folder, std::uint64_t seed) {
-  return PlanSwarm(folder, seed, "follower-", DemoRobot::Task::kFollow);
-}
-
-Result<std::vector<DemoRobot>> PlanDuty(const std::filesystem::path& folder, std::uint64_t seed) {
-  const std::filesystem::path round = folder / "round.csv";
-  if (auto written = WriteText(round, kRound); !written) return tl::unexpected(written.error());
-  auto robots = PlanSwarm(folder, seed, "robot-", DemoRobot::Task::kOnDuty);
-  if (!robots) return robots;
-  for (DemoRobot& robot : *robots) {
-    robot.route = kRoundRoute;
-    robot.path = round;
-  }
-  return robots;
+std::vector<std::string> NetworkWords(const program::CommonOptions& network,
+                                      const std::string& name) {
+  return {"--name",
+          name,
+          "--domain",
+          std::to_string(network.domain),
+          "--dds-tag",
+          network.dds_tag,
+          "--log-level",
+          network.log_level,
+          "--network-interface",
+          network.network_interface,
+          "--discovery",
+          network.discovery,
+          "--security",
+          network.security};
 }
 
 Result<DemoFleet> DemoFleet::Start(const std::filesystem::path& programs,
@@ -148,6 +88,7 @@ Result<DemoFleet> DemoFleet::Start(const std::filesystem::path& programs,
                                      folder / (robot.name + ".log"));
     if (!agent) return tl::unexpected(agent.error());
     fleet.robots_.push_back(std::move(*agent));
+    if (robot.is_scout()) ++fleet.scouts_;
   }
   return fleet;
 }
@@ -203,9 +144,11 @@ std::optional<std::string> DemoFleet::Broken() {
                      console);
     }
   }
-  const auto scout = robots_.front().Poll();
-  if (scout && !scout->ok()) {
-    return WithLog(fmt::format("the scout {}; its last words:", ToString(*scout)), robots_.front());
+  for (std::size_t i = 0; i < scouts_; ++i) {
+    const auto scout = robots_[i].Poll();
+    if (scout && !scout->ok()) {
+      return WithLog(fmt::format("the scout {}; its last words:", ToString(*scout)), robots_[i]);
+    }
   }
   return std::nullopt;
 }

@@ -1,0 +1,140 @@
+#include "services/demo/network_show.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "services/demo/src/network_words.h"
+
+namespace trailcast::demo {
+namespace {
+
+using exchange::AgentMode;
+
+// The server looks for joints beside all else that it does.
+constexpr std::chrono::seconds kProposalsWithin{15};
+constexpr std::ptrdiff_t kEnoughProposals = 2;
+constexpr std::size_t kLastLines = 40;
+// A part of the first scout's route between where the second leaves it and where it comes back.
+constexpr const char* kClosed = "4..6.5";
+
+}  // namespace
+
+NetworkShow::NetworkShow(std::filesystem::path programs, std::filesystem::path folder,
+                         const program::CommonOptions& network, const NetworkPlan& plan)
+    : programs_(std::move(programs)), folder_(std::move(folder)), network_(network), plan_(plan) {}
+
+Result<ChildProcess> NetworkShow::Type(const std::vector<std::string>& words, bool shown) {
+  if (shown) typed_.push_back(fmt::format("trailcast {}", fmt::join(words, " ")));
+  std::vector<std::string> all{(programs_ / "trailcast").string()};
+  all.insert(all.end(), words.begin(), words.end());
+  for (std::string& word : NetworkWords(network_, "operator")) all.push_back(std::move(word));
+  return ChildProcess::Start(all, folder_ / fmt::format("operator-{}.log", ++logs_));
+}
+
+Result<void> NetworkShow::TypeNext() {
+  const std::vector<std::string> words = std::move(to_type_.front());
+  to_type_.erase(to_type_.begin());
+  auto started = Type(words, /*shown=*/true);
+  if (!started) return tl::unexpected(started.error());
+  running_.push_back(std::move(*started));
+  return {};
+}
+
+Result<bool> NetworkShow::Done() {
+  const auto status = running_.front().Poll();
+  if (!status) return false;
+  if (status->ok()) return true;
+  return Fail(ErrorCode::kUnavailable, "'{}' {}: {}", typed_.back(), ToString(*status),
+              fmt::join(LastLines(running_.front().log(), kLastLines), "\n    "));
+}
+
+bool NetworkShow::AllTaught(const FleetView& view) const {
+  return std::all_of(plan_.robots.begin(), plan_.robots.end(), [&](const DemoRobot& robot) {
+    if (!robot.is_scout()) return true;
+    const auto* status = view.Find(AgentId(robot.name));
+    return status != nullptr && status->mode == AgentMode::kArrived;
+  });
+}
+
+Result<void> NetworkShow::SendAll() {
+  for (const NetworkPlan::Journey& journey : plan_.journeys) {
+    auto sent = Type({"send", plan_.robots[journey.robot].name, "goto", "lab-2", "--from",
+                      journey.from, "--wait"},
+                     /*shown=*/true);
+    if (!sent) return tl::unexpected(sent.error());
+    sends_.push_back(std::move(*sent));
+  }
+  return {};
+}
+
+Result<void> NetworkShow::Step(const FleetView& view, Time now) {
+  if (!running_.empty()) {
+    const auto done = Done();
+    if (!done) return tl::unexpected(done.error());
+    if (!*done) return {};
+    const std::vector<std::string> answer = LastLines(running_.front().log(), kLastLines);
+    running_.clear();
+    if (stage_ == Stage::kProposals) {
+      const auto proposed =
+          std::count_if(answer.begin(), answer.end(),
+                        [](const std::string& line) { return line.starts_with("proposed join"); });
+      if (proposed >= kEnoughProposals || now > proposals_until_) {
+        // What is too short to be found, the operator knows.
+        to_type_ = {{"network", "confirm", "all", "above", "0.8"},
+                    {"network", "join", "hall@3", "round@2"},
+                    {"network", "name", "lab-2", fmt::format("hall@{}", kGoal_m)}};
+        stage_ = Stage::kJoin;
+      }
+    } else {
+      for (const std::string& line : answer) typed_.push_back("  " + line);
+    }
+  }
+  if (!to_type_.empty()) return TypeNext();
+  switch (stage_) {
+    case Stage::kTaught:
+      if (!AllTaught(view)) return {};
+      stage_ = Stage::kProposals;
+      proposals_until_ = now + kProposalsWithin;
+      [[fallthrough]];
+    case Stage::kProposals: {
+      auto asked = Type({"network", "proposals"}, /*shown=*/false);
+      if (!asked) return tl::unexpected(asked.error());
+      running_.push_back(std::move(*asked));
+      return {};
+    }
+    case Stage::kJoin:
+      stage_ = Stage::kSend;
+      return SendAll();
+    case Stage::kSend: {
+      const auto* status = view.Find(AgentId(plan_.robots[plan_.journeys.front().robot].name));
+      if (status == nullptr || status->mode != AgentMode::kReplaying) break;
+      to_type_ = {{"network", "close", "hall", kClosed}};
+      stage_ = Stage::kClose;
+      return TypeNext();
+    }
+    case Stage::kClose:
+      stage_ = Stage::kWait;
+      break;
+    case Stage::kWait:
+    case Stage::kOver:
+      break;
+  }
+  const bool ended = std::all_of(sends_.begin(), sends_.end(),
+                                 [](ChildProcess& send) { return send.Poll().has_value(); });
+  if (ended) stage_ = Stage::kOver;
+  return {};
+}
+
+std::vector<std::string> NetworkShow::LastWords() const {
+  std::vector<std::string> words;
+  for (const ChildProcess& send : sends_) {
+    const auto lines = LastLines(send.log(), 1);
+    words.push_back(lines.empty() ? "" : lines.front());
+  }
+  return words;
+}
+
+}  // namespace trailcast::demo
