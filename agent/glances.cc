@@ -1,11 +1,10 @@
 #include "agent/glances.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "services/base/give_way.h"
 #include "services/image/files.h"
 
 namespace trailcast::agent {
@@ -19,7 +18,7 @@ constexpr int kWorstQuality = 10;
 constexpr int kQualityStep = 10;
 // What is left of the bytes is worth a better picture the next time.
 constexpr std::size_t kFewBytes = Glances::kMostBytes * 2 / 3;
-constexpr int kGivesWay = 10;  // niceness
+constexpr int kNiceness = 10;
 
 constexpr const char* kNoPicture = "no picture comes from its camera";
 
@@ -98,7 +97,7 @@ void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
 }
 
 void Glances::Paint() {
-  setpriority(PRIO_PROCESS, 0, kGivesWay);  // of this thread
+  GiveWay(kNiceness);
   while (!ending_) {
     handed_over_.Wait(kWakeUp);
     while (auto item = frames_.TryGet()) {

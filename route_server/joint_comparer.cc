@@ -1,11 +1,10 @@
 #include "route_server/joint_comparer.h"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <utility>
 
 #include "services/base/cpu_time.h"
+#include "services/base/give_way.h"
 
 namespace trailcast::server {
 
@@ -26,10 +25,9 @@ std::optional<std::uint64_t> JointComparer::TryPut(Views a, Views b, bool same_c
 }
 
 void JointComparer::Run() {
-  constexpr int kGivesWay = 10;
+  constexpr int kNiceness = 10;
   constexpr std::chrono::milliseconds kLookEvery{1000};
-  // Of this thread alone, on Linux.
-  (void)setpriority(PRIO_PROCESS, 0, kGivesWay);
+  GiveWay(kNiceness);
   while (!ending_) {
     const auto job = jobs_.TryGet();
     if (!job) {

@@ -11,6 +11,7 @@
 #include "agent/device/src/turn_series.h"
 #include "agent/device/stamp_clock.h"
 #include "services/base/angles.h"
+#include "services/base/median.h"
 #include "services/vision/feature_tracker.h"
 
 namespace trailcast::agent {
@@ -63,12 +64,6 @@ class PictureShift {
   [[nodiscard]] double down() const { return down_; }
 
  private:
-  static double Median(std::vector<double>& values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  }
-
   vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
   double right_ = 0.0;

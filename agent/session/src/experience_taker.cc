@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/base/median.h"
 #include "services/route/heading.h"
 #include "services/route/track.h"
 
@@ -41,12 +42,6 @@ constexpr double kNearby_px = 40.0;      // what is missed where something else 
 // Of the times that a feature should have been seen.
 constexpr int kFewestExpected = 4;
 constexpr double kFoundShare = 0.25;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Vector2d PlaceOf(const route::TrackKnot& knot) { return {knot.u_px, knot.v_px}; }
 

@@ -1,7 +1,6 @@
 #include "services/console/runs.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "agent/diagnosis/run_log_reader.h"
+#include "services/base/give_way.h"
 #include "services/base/unix_time.h"
 #include "services/fleet/draw.h"
 
@@ -102,7 +102,7 @@ void Runs::Close() {
 
 void Runs::Run() {
   constexpr int kLowest = 19;
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+  GiveWay(kLowest);
   std::unique_lock lock(mutex_);
   while (!closed_) {
     if (Work(lock)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/base/median.h"
 #include "services/base/square.h"
 #include "services/replay/src/as_forward.h"
 #include "services/route/heading.h"
@@ -19,13 +20,6 @@ constexpr double kCurvatureStep_m = 0.1;
 constexpr double kStands_m = 0.001;
 constexpr double kStands_rad = 0.001;
 constexpr std::size_t kFewestOfKnock = 10;  // features: a handful may be mismatches
-
-// Not of nothing.
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void Count(double residual_px, double outlier_px, Agreement& agreement) {
   if (residual_px < outlier_px) {

@@ -1,10 +1,9 @@
 #include "services/users/guard.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <thread>
+
+#include "services/base/give_way.h"
 
 namespace trailcast::users {
 namespace {
@@ -19,7 +18,7 @@ bool InIdleTime(const std::function<bool()>& matches) {
   bool matched = false;
   std::thread([&] {
     constexpr int kLowest = 19;
-    (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+    GiveWay(kLowest);
     matched = matches();
   }).join();
   return matched;

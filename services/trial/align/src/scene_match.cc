@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/base/median.h"
+
 namespace trailcast::trial {
 namespace {
 
@@ -69,12 +71,6 @@ Pairs PairUp(const SceneFeatures& teach, const SceneFeatures& replay) {
     }
   }
   return pairs;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::ptrdiff_t Kept(const std::vector<std::uint8_t>& agrees) {
