@@ -241,18 +241,9 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   return Ended(summary, options);
 }
 
-// A mistyped name is not to be a new store that has nothing to tell.
-Result<std::unique_ptr<store::RouteStore>> OpenExistingStore(const CommandOptions& options) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(options.store_file, ignored)) {
-    return Fail(ErrorCode::kNotFound, "there is no route store {}", options.store_file);
-  }
-  return store::OpenSqliteStore(options.store_file);
-}
-
 Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& deliver) {
   if (auto can = program::CanBeWritten(options.report); !can) return tl::unexpected(can.error());
-  auto store = OpenExistingStore(options);
+  auto store = store::OpenExistingSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
   auto exchange =
       program::OpenExchange(options.common, program::WithAgents(exchange::ScoutTopics()));
@@ -263,7 +254,7 @@ Result<int> RunDeliver(const CommandOptions& options, const TeachCommand& delive
 }
 
 Result<int> RunTeachings(const CommandOptions& options) {
-  auto store = OpenExistingStore(options);
+  auto store = store::OpenExistingSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
   const auto text = TeachingsText(**store, options.store_file);
   if (!text) return tl::unexpected(text.error());

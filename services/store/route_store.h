@@ -194,6 +194,9 @@ struct SqliteOptions {
 // be written. Takes milliseconds: damage inside is found by reading, and all of it by Verify().
 [[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenSqliteStore(
     const std::filesystem::path& file, const SqliteOptions& options = {});
+// The same of a store that is to be there: a mistyped name makes none. kNotFound: it is not.
+[[nodiscard]] Result<std::unique_ptr<RouteStore>> OpenExistingSqliteStore(
+    const std::filesystem::path& file);
 
 struct PostgresOptions {
   bool read_only = false;  // nothing is written, the tables must be there

@@ -51,11 +51,7 @@ Result<RouteFileWriter> OpenFile(const ExportOptions& options, const route::Rout
 }
 
 Result<Exported> FromStore(const ExportOptions& options) {
-  std::error_code ignored;
-  if (!fs::exists(options.store, ignored)) {
-    return Fail(ErrorCode::kNotFound, "there is no route store {}", options.store.string());
-  }
-  auto store = store::OpenSqliteStore(options.store);
+  auto store = store::OpenExistingSqliteStore(options.store);
   if (!store) return tl::unexpected(store.error());
   const std::string holder = "route store " + options.store.string();
   const exchange::CatalogReply reply =

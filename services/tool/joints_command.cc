@@ -102,11 +102,7 @@ Result<std::vector<route::RouteInfo>> InUse(store::RouteStore& store) {
 }
 
 Result<std::vector<JoinableRoute>> FromStore(const JointsCommandOptions& options) {
-  std::error_code ignored;
-  if (!fs::exists(options.store, ignored)) {
-    return Fail(ErrorCode::kNotFound, "there is no route store {}", options.store.string());
-  }
-  auto store = store::OpenSqliteStore(options.store);
+  auto store = store::OpenExistingSqliteStore(options.store);
   if (!store) return tl::unexpected(store.error());
   std::vector<route::RouteInfo> infos;
   for (const std::string& text : options.routes) {

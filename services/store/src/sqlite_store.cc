@@ -318,4 +318,10 @@ Result<std::unique_ptr<RouteStore>> OpenSqliteStore(const std::filesystem::path&
   return std::make_unique<SqliteRouteStore>(std::move(*locked), std::move(*db), options.durability);
 }
 
+Result<std::unique_ptr<RouteStore>> OpenExistingSqliteStore(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return OpenSqliteStore(file);
+  return Fail(ErrorCode::kNotFound, "there is no route store {}", file.string());
+}
+
 }  // namespace trailcast::store
