@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "route_server/followable.h"
 #include "route_server/stretch_reader.h"
 #include "services/joints/near_routes.h"
 #include "services/view/key_views.h"
@@ -63,9 +64,7 @@ JointSearch::JointSearch(store::RouteStore& store, view::ViewIndex& index, Joint
 JointSearch::~JointSearch() = default;
 
 void JointSearch::Note(const route::RouteInfo& info) {
-  const bool is_followed =
-      info.state == route::RouteState::kComplete && info.standing == route::Standing::kActive;
-  if (!is_followed || info.length_m <= 0.0 || was_searched_(info.key)) return;
+  if (!IsJoinable(info) || was_searched_(info.key)) return;
   const bool is_searched = search_ && search_->info.key == info.key;
   const auto holds = [&](const auto& keys) {
     return std::find(keys.begin(), keys.end(), info.key) != keys.end();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "route_server/followable.h"
 #include "route_server/network_ids.h"
 #include "services/base/number.h"
 #include "services/base/process_name.h"
@@ -42,10 +43,6 @@ bool IsNear(const Place& a, const Place& b) {
 Joint Reversed(Joint joint) {
   std::swap(joint.from, joint.to);
   return joint;
-}
-
-bool IsFollowable(const route::RouteInfo& info) {
-  return info.state == route::RouteState::kComplete && info.standing == route::Standing::kActive;
 }
 
 std::string ListedText(const std::string& edit, bool used) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "route_server/followable.h"
 #include "services/route/codec.h"
 
 namespace trailcast::server {
@@ -19,10 +20,7 @@ Result<route::Segment> ReadSegment(store::RouteStore& store, const route::RouteK
 Result<std::optional<route::RouteInfo>> FindJoinable(store::RouteStore& store,
                                                      const route::RouteKey& key) {
   auto info = store.FindRoute(key);
-  if (!info || !*info) return info;
-  const bool is_followed = (*info)->state == route::RouteState::kComplete &&
-                           (*info)->standing == route::Standing::kActive;
-  if (!is_followed || (*info)->length_m <= 0.0) return std::nullopt;
+  if (info && *info && !IsJoinable(**info)) return std::nullopt;
   return info;
 }
 

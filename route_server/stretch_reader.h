@@ -12,8 +12,7 @@ namespace trailcast::server {
 [[nodiscard]] Result<route::Segment> ReadSegment(store::RouteStore& store,
                                                  const route::RouteKey& key, SegmentIndex index);
 
-// A revision that a joint may lead to or from: complete, one that robots follow, and of some
-// metres. Nothing for any other.
+// A revision that a joint may lead to or from (followable.h); nothing for any other.
 [[nodiscard]] Result<std::optional<route::RouteInfo>> FindJoinable(store::RouteStore& store,
                                                                    const route::RouteKey& key);
 
