@@ -64,8 +64,9 @@ std::optional<PlaceFinder::Found> PlaceFinder::LookFrom(const image::GrayImage& 
     return hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown);
   };
   // As grown where nothing was found as it was taught.
-  Found found{place->segment->index, place->fraction, see(rounds_ > 0)};
-  if (!left_.magnification) {  // of which more are found at the one that it is
+  const bool grows = rounds_ > 0;
+  Found found{place->segment->index, place->fraction, see(grows)};
+  if (!left_.magnification && !grows) {  // of which more are found at the one that it is
     vision::FindResult grown = see(true);
     if (grown.AboveChance() > found.seen.AboveChance()) found.seen = std::move(grown);
   }
