@@ -19,6 +19,7 @@ struct TruthFile {
   double duration_s = 0.0;
 };
 [[nodiscard]] Result<TruthFile> ReadTruth(const std::filesystem::path& file);
+[[nodiscard]] trial::TruePath PathOf(const TruthFile& truth);
 
 // An agent's report: key=value lines.
 [[nodiscard]] Result<std::map<std::string, std::string>> ReadReport(

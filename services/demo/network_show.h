@@ -1,8 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +42,7 @@ class NetworkShow {
   [[nodiscard]] Result<ChildProcess> Type(const std::vector<std::string>& words, bool shown);
   // Whether the command that is running has ended well; an error if it has ended otherwise.
   [[nodiscard]] Result<bool> Done();
+  void TakeAnswer(Time now);
   [[nodiscard]] Result<void> TypeNext();
   [[nodiscard]] Result<void> SendAll();
   [[nodiscard]] bool AllTaught(const FleetView& view) const;
@@ -52,7 +53,7 @@ class NetworkShow {
   const NetworkPlan& plan_;
   Stage stage_ = Stage::kTaught;
   std::vector<std::vector<std::string>> to_type_;  // one after the other
-  std::vector<ChildProcess> running_;              // at most one
+  std::optional<ChildProcess> running_;
   std::vector<ChildProcess> sends_;
   std::vector<std::string> typed_;
   Time proposals_until_{};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <random>
 #include <string>
@@ -107,17 +108,13 @@ Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& r
   return all ? program::kExitOk : program::kExitNotArrived;
 }
 
-// Robots that arrive: a picture and a table, then it is over.
-Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
-                         const program::CommonOptions& network, const DemoOptions& options) {
+// A demo that ends by itself, or when it is given up, with a report.
+Result<int> WatchToTheEnd(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
+                          const program::CommonOptions& network, WatchOptions watch,
+                          const std::function<Result<int>()>& report) {
   const auto exchange = program::OpenExchange(network, exchange::ObserverTopics());
   if (!exchange) return tl::unexpected(exchange.error());
-  WatchOptions watch;
-  watch.timeout_s = options.timeout_s;
-  watch.headline = [](double elapsed_s) {
-    return fmt::format("{:.0f} s: a scout teaches, three robots with other cameras follow",
-                       elapsed_s);
-  };
+  const double timeout_s = watch.timeout_s;
   switch (WatchFleet(fleet, robots, **exchange, std::move(watch))) {
     case Watched::kInterrupted:
       std::fputs("interrupted: ending the robots\n", stderr);
@@ -125,13 +122,25 @@ Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRob
     case Watched::kBroken:
       return program::kExitFailure;
     case Watched::kTooLong:
-      fmt::print(stderr, "still under way after {:.0f} s: giving up (--timeout)\n",
-                 options.timeout_s);
+      fmt::print(stderr, "still under way after {:.0f} s: giving up (--timeout)\n", timeout_s);
       [[fallthrough]];
     case Watched::kEnded:
-      return Report(fleet, robots, options);
+      return report();
   }
   return program::kExitFailure;
+}
+
+// Robots that arrive: a picture and a table, then it is over.
+Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
+                         const program::CommonOptions& network, const DemoOptions& options) {
+  WatchOptions watch;
+  watch.timeout_s = options.timeout_s;
+  watch.headline = [](double elapsed_s) {
+    return fmt::format("{:.0f} s: a scout teaches, three robots with other cameras follow",
+                       elapsed_s);
+  };
+  return WatchToTheEnd(fleet, robots, network, std::move(watch),
+                       [&] { return Report(fleet, robots, options); });
 }
 
 // Table and picture of robots that were sent over a network of routes.
@@ -153,15 +162,12 @@ Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan
 
 // Three routes that are joined, and five robots that are sent over them.
 Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesystem::path& folder,
-                        const program::CommonOptions& network, const DemoOptions& options) {
+                        const program::CommonOptions& network,
+                        const program::CommonOptions& everybody, const DemoOptions& options) {
   const auto plan = demo::PlanNetwork(folder, options.seed);
   if (!plan) return tl::unexpected(plan.error());
   auto fleet = demo::DemoFleet::Start(programs, folder, plan->robots, network);
   if (!fleet) return tl::unexpected(fleet.error());
-  program::CommonOptions everybody = network;
-  everybody.discovery = "mesh";
-  const auto exchange = program::OpenExchange(everybody, exchange::ObserverTopics());
-  if (!exchange) return tl::unexpected(exchange.error());
   demo::NetworkShow show(programs, folder, network, *plan);
   WatchOptions watch;
   watch.timeout_s = options.timeout_s;
@@ -175,20 +181,8 @@ Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesy
     }
     return show.over();
   };
-  switch (WatchFleet(*fleet, plan->robots, **exchange, std::move(watch))) {
-    case Watched::kInterrupted:
-      std::fputs("interrupted: ending the robots\n", stderr);
-      return kExitInterrupted;
-    case Watched::kBroken:
-      return program::kExitFailure;
-    case Watched::kTooLong:
-      fmt::print(stderr, "still under way after {:.0f} s: giving up (--timeout)\n",
-                 options.timeout_s);
-      [[fallthrough]];
-    case Watched::kEnded:
-      return ReportJourneys(*fleet, *plan, show, options);
-  }
-  return program::kExitFailure;
+  return WatchToTheEnd(*fleet, plan->robots, everybody, std::move(watch),
+                       [&] { return ReportJourneys(*fleet, *plan, show, options); });
 }
 
 // Robots on duty and a console, until somebody ends it; some are sent at once, so that there is
@@ -235,15 +229,17 @@ Result<int> RunDemo(const program::CommonOptions& common, const DemoOptions& opt
     fmt::print("logs, stores and true poses: {}\n", folder->path().string());
   }
   const program::CommonOptions network = PrivateNetwork(common);
-  if (options.network) return ShowNetwork(*programs, folder->path(), network, options);
+  // Whoever shows what agents say of themselves has to hear them; in a star they hear servers only.
+  program::CommonOptions everybody = network;
+  everybody.discovery = "mesh";
+  if (options.network) {
+    return ShowNetwork(*programs, folder->path(), network, everybody, options);
+  }
   const auto robots = options.console ? demo::PlanDuty(folder->path(), options.seed)
                                       : demo::PlanRobots(folder->path(), options.seed);
   if (!robots) return tl::unexpected(robots.error());
   auto fleet = demo::DemoFleet::Start(*programs, folder->path(), *robots, network);
   if (!fleet) return tl::unexpected(fleet.error());
-  // Whoever shows what agents say of themselves has to hear them; in a star they hear servers only.
-  program::CommonOptions everybody = network;
-  everybody.discovery = "mesh";
   if (!options.console) return ShowArrivals(*fleet, *robots, everybody, options);
   const auto console = fleet->StartConsole(*programs, folder->path(), everybody, options.http_port);
   if (!console) return tl::unexpected(console.error());

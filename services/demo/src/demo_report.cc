@@ -20,12 +20,6 @@ std::string Percent(const std::string& share) {
   return end == share.c_str() ? share : fmt::format("{:.0f} %", 100.0 * value);
 }
 
-trial::TruePath PathOf(const TruthFile& truth) {
-  trial::TruePath path;
-  for (const Eigen::Vector2d& position_m : truth.positions_m) path.Add(position_m);
-  return path;
-}
-
 void JudgeScout(const Report& report, DemoRow& row) {
   row.arrived = Value(report, "unreceipted") == "0";
   if (!row.arrived) row.why_not = "not all it taught was confirmed by the server";
@@ -102,6 +96,12 @@ Result<TruthFile> ReadTruth(const std::filesystem::path& file) {
     truth.positions_m.emplace_back(numbers[1], numbers[2]);
   }
   return truth;
+}
+
+trial::TruePath PathOf(const TruthFile& truth) {
+  trial::TruePath path;
+  for (const Eigen::Vector2d& position_m : truth.positions_m) path.Add(position_m);
+  return path;
 }
 
 Result<Report> ReadReport(const std::filesystem::path& file) {

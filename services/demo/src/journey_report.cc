@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "services/demo/demo_report.h"
+#include "services/sim/core/path.h"
 
 namespace trailcast::demo {
 namespace {
@@ -15,22 +15,7 @@ namespace {
 constexpr double kThere_m = 0.5;
 
 Result<trial::TruePath> DrivenBy(const DemoRobot& robot) {
-  const auto truth = ReadTruth(robot.truth);
-  if (!truth) return tl::unexpected(truth.error());
-  trial::TruePath path;
-  for (const Eigen::Vector2d& position_m : truth->positions_m) path.Add(position_m);
-  return path;
-}
-
-// Nothing beyond its end.
-std::optional<Eigen::Vector2d> PointAlong(const trial::TruePath& path, double along_m) {
-  const auto& points = path.points_m();
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Eigen::Vector2d step = points[i] - points[i - 1];
-    if (along_m <= step.norm()) return points[i - 1] + along_m * step.normalized();
-    along_m -= step.norm();
-  }
-  return std::nullopt;
+  return ReadTruth(robot.truth).transform(PathOf);
 }
 
 double Beside_m(const trial::TruePath& driven, const std::vector<trial::TruePath>& taught) {
@@ -60,11 +45,12 @@ Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, double goal_m,
     if (!taught) return tl::unexpected(taught.error());
     report.taught.push_back(std::move(*taught));
   }
-  const auto goal = PointAlong(report.taught.front(), goal_m);
-  if (!goal) {
+  const trial::TruePath& to_goal = report.taught.front();
+  if (to_goal.length_m() < goal_m) {
     return Fail(ErrorCode::kNotFound, "{} was to teach {:.1f} m and more, and drove {:.1f}",
-                plan.robots.front().name, goal_m, report.taught.front().length_m());
+                plan.robots.front().name, goal_m, to_goal.length_m());
   }
+  const Eigen::Vector2d goal = sim::PointAlong(to_goal.points_m(), goal_m);
   for (std::size_t i = 0; i < plan.journeys.size(); ++i) {
     const NetworkPlan::Journey& journey = plan.journeys[i];
     JourneyRow row{.robot = plan.robots[journey.robot],
@@ -73,7 +59,7 @@ Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, double goal_m,
     const auto driven = DrivenBy(row.robot);
     if (driven && !driven->empty()) {
       row.path = *driven;
-      row.goal_m = (row.path.end_m() - *goal).norm();
+      row.goal_m = (row.path.end_m() - goal).norm();
       row.beside_m = Beside_m(row.path, report.taught);
       row.arrived = row.said == row.robot.name + ": arrived" && row.goal_m < kThere_m;
     }

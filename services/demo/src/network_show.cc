@@ -39,16 +39,16 @@ Result<void> NetworkShow::TypeNext() {
   to_type_.erase(to_type_.begin());
   auto started = Type(words, /*shown=*/true);
   if (!started) return tl::unexpected(started.error());
-  running_.push_back(std::move(*started));
+  running_ = std::move(*started);
   return {};
 }
 
 Result<bool> NetworkShow::Done() {
-  const auto status = running_.front().Poll();
+  const auto status = running_->Poll();
   if (!status) return false;
   if (status->ok()) return true;
   return Fail(ErrorCode::kUnavailable, "'{}' {}: {}", typed_.back(), ToString(*status),
-              fmt::join(LastLines(running_.front().log(), kLastLines), "\n    "));
+              fmt::join(LastLines(running_->log(), kLastLines), "\n    "));
 }
 
 bool NetworkShow::AllTaught(const FleetView& view) const {
@@ -70,27 +70,30 @@ Result<void> NetworkShow::SendAll() {
   return {};
 }
 
+void NetworkShow::TakeAnswer(Time now) {
+  const std::vector<std::string> answer = LastLines(running_->log(), kLastLines);
+  running_.reset();
+  if (stage_ != Stage::kProposals) {
+    for (const std::string& line : answer) typed_.push_back("  " + line);
+    return;
+  }
+  const auto proposed = std::count_if(answer.begin(), answer.end(), [](const std::string& line) {
+    return line.starts_with("proposed join");
+  });
+  if (proposed < kEnoughProposals && now <= proposals_until_) return;
+  // What is too short to be found, the operator knows.
+  to_type_ = {{"network", "confirm", "all", "above", "0.8"},
+              {"network", "join", "hall@3", "round@2"},
+              {"network", "name", "lab-2", fmt::format("hall@{}", kGoal_m)}};
+  stage_ = Stage::kJoin;
+}
+
 Result<void> NetworkShow::Step(const FleetView& view, Time now) {
-  if (!running_.empty()) {
+  if (running_) {
     const auto done = Done();
     if (!done) return tl::unexpected(done.error());
     if (!*done) return {};
-    const std::vector<std::string> answer = LastLines(running_.front().log(), kLastLines);
-    running_.clear();
-    if (stage_ == Stage::kProposals) {
-      const auto proposed =
-          std::count_if(answer.begin(), answer.end(),
-                        [](const std::string& line) { return line.starts_with("proposed join"); });
-      if (proposed >= kEnoughProposals || now > proposals_until_) {
-        // What is too short to be found, the operator knows.
-        to_type_ = {{"network", "confirm", "all", "above", "0.8"},
-                    {"network", "join", "hall@3", "round@2"},
-                    {"network", "name", "lab-2", fmt::format("hall@{}", kGoal_m)}};
-        stage_ = Stage::kJoin;
-      }
-    } else {
-      for (const std::string& line : answer) typed_.push_back("  " + line);
-    }
+    TakeAnswer(now);
   }
   if (!to_type_.empty()) return TypeNext();
   switch (stage_) {
@@ -102,7 +105,7 @@ Result<void> NetworkShow::Step(const FleetView& view, Time now) {
     case Stage::kProposals: {
       auto asked = Type({"network", "proposals"}, /*shown=*/false);
       if (!asked) return tl::unexpected(asked.error());
-      running_.push_back(std::move(*asked));
+      running_ = std::move(*asked);
       return {};
     }
     case Stage::kJoin:
