@@ -22,6 +22,7 @@
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "tests/bench/must.h"
+#include "tests/bench/taught_routes.h"
 #include "tests/bench/view_corpus.h"
 
 namespace trailcast::bench {
@@ -35,44 +36,6 @@ constexpr std::uint32_t kSegmentsARoute = 30;
 
 double MsSince(steady_clock::time_point then) {
   return std::chrono::duration<double, std::milli>(steady_clock::now() - then).count();
-}
-
-struct Taught {
-  route::RouteInfo info;
-  std::vector<route::SegmentPiece> pieces;
-};
-
-std::vector<Taught> TaughtIn(const fs::path& file) {
-  std::vector<Taught> taught;
-  const auto store = Must(store::OpenSqliteStore(file));
-  for (const route::RouteInfo& info : Must(store->ListRoutes())) {
-    if (info.state != route::RouteState::kComplete) continue;
-    Taught& route = taught.emplace_back();
-    route.info = info;
-    route.info.standing = route::Standing::kStaged;
-    for (std::uint32_t i = 0; i < info.segment_count; ++i) {
-      route.pieces.push_back(Must(store->ReadSegment(info.key, SegmentIndex(i))));
-    }
-  }
-  return taught;
-}
-
-// What distractors are made of: a view each.
-std::vector<route::Segment> ViewsOf(const std::vector<Taught>& routes) {
-  std::vector<route::Segment> apart;
-  for (const Taught& route : routes) {
-    for (const route::SegmentPiece& piece : route.pieces) {
-      for (const route::KeyView& view : Must(route::Open(piece)).key_views) {
-        route::Segment one;
-        one.has_odometry = true;
-        one.length_m = 1.0;
-        one.duration_s = 2.0;
-        one.key_views.push_back({0.0, view.features});
-        apart.push_back(std::move(one));
-      }
-    }
-  }
-  return apart;
 }
 
 // Complete routes that robots follow.
@@ -158,6 +121,7 @@ class Bench {
   void Teach(const Taught& route) {
     route::RouteInfo info = route.info;
     info.state = route::RouteState::kTeaching;
+    info.standing = route::Standing::kStaged;
     Put(info);
     std::size_t crossings = 0;
     double longest_ms = 0.0;
@@ -212,7 +176,8 @@ int Run(const std::vector<std::string>& words) {
   }
   const fs::path file = words[3];
   if (!fs::exists(file)) {
-    FillStore(file, ViewsOf(TaughtIn(words[1])), static_cast<std::uint32_t>(std::stoul(words[0])));
+    FillStore(file, ViewsApart(TaughtIn(words[1])),
+              static_cast<std::uint32_t>(std::stoul(words[0])));
   }
   const auto store = Must(store::OpenSqliteStore(file));
   Bench(*store, TaughtIn(words[2])).Run();

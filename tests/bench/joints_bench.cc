@@ -19,9 +19,8 @@
 #include "services/joints/find_joints.h"
 #include "services/joints/near_routes.h"
 #include "services/program/command_line.h"
-#include "services/route/digest.h"
-#include "services/store/route_store.h"
 #include "tests/bench/must.h"
+#include "tests/bench/taught_routes.h"
 #include "tests/bench/view_corpus.h"
 
 namespace trailcast::bench {
@@ -30,58 +29,22 @@ namespace {
 constexpr std::uint32_t kSegmentsARoute = 30;
 constexpr int kWidth_px = 320;
 
-struct Taught {
-  route::RouteInfo info;
-  std::vector<route::Segment> segments;
-};
-
-std::vector<Taught> TaughtIn(const std::string& file) {
-  std::vector<Taught> taught;
-  const auto store = Must(store::OpenSqliteStore(file));
-  for (const route::RouteInfo& info : Must(store->ListRoutes())) {
-    if (info.state != route::RouteState::kComplete) continue;
-    Taught& route = taught.emplace_back();
-    route.info = info;
-    for (std::uint32_t i = 0; i < info.segment_count; ++i) {
-      route.segments.push_back(
-          Must(route::Open(Must(store->ReadSegment(info.key, SegmentIndex(i))))));
-    }
-  }
-  return taught;
-}
-
 joints::RouteViews Tabulate(const std::vector<route::Segment>& segments, int width_px) {
   joints::RouteViews views(width_px);
   for (const route::Segment& segment : segments) views.Add(segment);
   return views;
 }
 
-// What the distractors are made of: a view each.
-std::vector<route::Segment> ViewsAsSegments(const std::vector<Taught>& routes) {
-  std::vector<route::Segment> apart;
-  for (const Taught& route : routes) {
-    for (const route::Segment& segment : route.segments) {
-      for (const route::KeyView& view : segment.key_views) {
-        route::Segment one;
-        one.has_odometry = true;
-        one.length_m = 1.0;
-        one.key_views.push_back({0.0, view.features});
-        apart.push_back(std::move(one));
-      }
-    }
-  }
-  return apart;
-}
-
 class Bench {
  public:
   Bench(std::vector<Taught> routes, const std::vector<Taught>& elsewhere, std::uint32_t distractors)
-      : routes_(std::move(routes)), apart_(ViewsAsSegments(elsewhere)) {
+      : routes_(std::move(routes)), apart_(ViewsApart(elsewhere)) {
     for (std::size_t i = 0; i < routes_.size(); ++i) {
       const Taught& route = routes_[i];
       numbers_[route.info.key] = i;
-      for (const route::Segment& segment : route.segments) Add(route.info.key, segment);
-      views_.push_back(Tabulate(route.segments, route.info.image_width_px));
+      segments_.push_back(route.Segments());
+      for (const route::Segment& segment : segments_.back()) Add(route.info.key, segment);
+      views_.push_back(Tabulate(segments_.back(), route.info.image_width_px));
     }
     for (std::uint32_t i = 0; i < distractors; ++i) {
       route::Segment segment = Distractor(apart_, i);
@@ -95,7 +58,7 @@ class Bench {
     std::size_t near_routes = 0, found = 0, strange = 0, there = 0;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
       const double began_ms = ThreadCpuMs();
-      const auto near = joints::NearRoutes(index_, routes_[i].info.key.route, routes_[i].segments);
+      const auto near = joints::NearRoutes(index_, routes_[i].info.key.route, segments_[i]);
       const double took_ms = ThreadCpuMs() - began_ms;
       double compare_ms = 0.0;
       for (const joints::NearRoute& each : near) {
@@ -156,6 +119,7 @@ class Bench {
   }
 
   std::vector<Taught> routes_;
+  std::vector<std::vector<route::Segment>> segments_;  // of these
   std::vector<route::Segment> apart_;
   view::ViewIndex index_;
   std::map<route::RouteKey, std::size_t> numbers_;

@@ -25,6 +25,7 @@
 #include "services/program/presence.h"
 #include "services/route/digest.h"
 #include "tests/bench/must.h"
+#include "tests/bench/taught_routes.h"
 
 namespace trailcast::bench {
 namespace {
@@ -34,22 +35,14 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kASegment{50};
 
-struct Taught {
-  route::RouteInfo info;
-  std::vector<route::SegmentPiece> pieces;
-};
-
 // Under keys that no store has.
-std::vector<Taught> TaughtIn(const std::string& file) {
+std::vector<Taught> TaughtAnew(const std::string& file) {
   const auto now = static_cast<std::uint64_t>(steady_clock::now().time_since_epoch().count());
-  std::vector<Taught> taught;
-  const auto store = Must(store::OpenSqliteStore(file));
-  for (const route::RouteInfo& info : Must(store->ListRoutes())) {
-    Taught& route = taught.emplace_back(Taught{info, {}});
-    for (std::uint32_t i = 0; i < info.segment_count; ++i) {
-      route.pieces.push_back(Must(store->ReadSegment(info.key, SegmentIndex(i))));
-      route.pieces.back().key.teaching = TeachingId(now);
-      route.pieces.back().key.route = RouteId(fmt::format("{:016x}{:016x}", now, taught.size()));
+  std::vector<Taught> taught = TaughtIn(file);
+  for (std::size_t i = 0; i < taught.size(); ++i) {
+    Taught& route = taught[i];
+    for (route::SegmentPiece& piece : route.pieces) {
+      piece.key = {RouteId(fmt::format("{:016x}{:016x}", now, i + 1)), TeachingId(now)};
     }
     route.info.key = route.pieces.front().key;
     route.info.revision = RevisionNumber(1);
@@ -145,7 +138,7 @@ int Run(const std::vector<std::string>& words) {
     std::cerr << "usage: bench_receipts FILE STORE [JOINTS]\n";
     return program::kExitUsage;
   }
-  const auto taught = TaughtIn(words[1]);
+  const auto taught = TaughtAnew(words[1]);
   Bench bench(words[0], words.size() > 2 ? words[2] : "");
   bench.AwaitViews(Must(route::Open(taught.front().pieces.front())).key_views.front().features);
   for (const Taught& route : taught) bench.Teach(route);
