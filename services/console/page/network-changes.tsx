@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'react';
 import { get, type RoutePage } from './api';
+import { SpeedChoice } from './send';
 
 export type Draft = {
   route: string; from: string; to: string;  // of a stretch
@@ -64,12 +65,7 @@ export function ChangeStretch({ draft, onDraft, onEdit, routes }: Edits & { rout
         <button disabled={lacks} onClick={() => onEdit(`close ${stretch}`)}>Close</button>
         <button disabled={lacks} onClick={() => onEdit(`open ${stretch}`)}>Open</button>
         <label>Speed
-          <select value={speed} onChange={(event) => setSpeed(event.target.value)}>
-            <option value="1">as taught</option>
-            <option value="0.75">three quarters</option>
-            <option value="0.5">half</option>
-            <option value="0.25">a quarter</option>
-          </select>
+          <SpeedChoice speed={speed} onChange={setSpeed} />
         </label>
         <button disabled={lacks} onClick={() => onEdit(`limit ${stretch} speed ${speed}`)}>Limit</button>
       </div>

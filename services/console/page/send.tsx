@@ -34,6 +34,18 @@ export function Slide({ label, onDone }: { label: string; onDone: () => void }) 
   );
 }
 
+// Times the taught speed.
+export function SpeedChoice({ id, speed, onChange }: { id?: string; speed: string; onChange: (speed: string) => void }) {
+  return (
+    <select id={id} value={speed} onChange={(event) => onChange(event.target.value)}>
+      <option value="1">as taught</option>
+      <option value="0.75">three quarters</option>
+      <option value="0.5">half</option>
+      <option value="0.25">a quarter</option>
+    </select>
+  );
+}
+
 export function Send({ robot, onAnswer }: {
   robot: string;
   onAnswer: (answer: Answer | null) => void;
@@ -95,12 +107,7 @@ export function Send({ robot, onAnswer }: {
                 onChange={(event) => setLaps(Math.min(100, Math.max(1, Number(event.target.value) || 1)))} />
             </label>
             <label htmlFor={`${id}s`}>Speed
-              <select id={`${id}s`} value={speed} onChange={(event) => setSpeed(event.target.value)}>
-                <option value="1">as taught</option>
-                <option value="0.75">three quarters</option>
-                <option value="0.5">half</option>
-                <option value="0.25">a quarter</option>
-              </select>
+              <SpeedChoice id={`${id}s`} speed={speed} onChange={setSpeed} />
             </label>
           </div>
           {laps > 1 && <p className="note">Several laps need a route whose end is its beginning.</p>}
