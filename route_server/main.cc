@@ -41,6 +41,7 @@ struct StoreOptions {
   std::string location;
   std::string missions;  // empty: beside the location, if that is a file
   std::string joints;    // likewise
+  std::string history;   // likewise
   bool joints_auto = false;
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // of each scout
@@ -70,6 +71,12 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "store's name with '.joints' behind it; with PostgreSQL, each server's own: "
                  "without one, it keeps no network of routes")
       ->envname("TRAILCAST_JOINTS");
+  app.add_option(
+         "--history", options.history,
+         "SQLite file that holds what was changed of routes and of how they are joined, and "
+         "by whom, created if missing; default: the store's name with '.history' behind it; "
+         "with PostgreSQL, each server's own: without one, it keeps no history")
+      ->envname("TRAILCAST_HISTORY");
   app.add_flag(
          "--joints-auto", options.joints_auto,
          "Make joints of the places where the server is sure, at 0.9 or more, that routes meet; "
@@ -166,6 +173,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
        &Server::KeepMissions);
   Keep(OwnFile(options, options.joints, ".joints"), "network of routes", **server,
        &Server::KeepNetwork);
+  Keep(OwnFile(options, options.history, ".history"), "history", **server, &Server::KeepHistory);
   if (options.joints_auto) (*server)->TakeSureJoints();
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,

@@ -49,6 +49,36 @@ std::string ListedText(const std::string& edit, bool used) {
   return used ? edit : std::string(network::kUnused) + edit;
 }
 
+std::string PlacesText(const std::string& line) {
+  const network::Listed listed = network::ParseListed(line);
+  const Joint joint = listed.proposal ? listed.proposal->joint
+                      : listed.edit   ? listed.edit->joint
+                                      : Joint{};
+  return network::ToText(joint.from) + " " + network::ToText(joint.to);
+}
+
+// What an edit has done, as one edit each: of several proposals that were confirmed, each joint.
+// `words`: the edit; `lines`: its answer.
+std::vector<std::string> DoneText(const Edit& edit, const std::string& words, const Lines& lines) {
+  switch (edit.kind) {
+    case Edit::Kind::kJoin:
+    case Edit::Kind::kName:
+    case Edit::Kind::kConfirm:
+      return lines;
+    case Edit::Kind::kForget:
+      return {"forget " + edit.named.name};
+    case Edit::Kind::kPart:
+    case Edit::Kind::kRefuse: {
+      const std::string verb = edit.kind == Edit::Kind::kPart ? "part " : "refuse ";
+      std::vector<std::string> done;
+      for (const std::string& line : lines) done.push_back(verb + PlacesText(line));
+      return done;
+    }
+    default:
+      return {PlainText(words, exchange::kMaxLineBytes / 2)};
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
@@ -79,8 +109,14 @@ exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
   auto& answered = answered_.Touch({edit.client, edit.request});
   if (answered) return *answered;
   exchange::NetworkReply reply{.server = server_, .client = edit.client, .request = edit.request};
+  const std::string by = WithoutProcess(edit.client.value());
   auto lines = network::ParseEdit(edit.words).and_then([&](const Edit& parsed) {
-    return Carry(parsed, WithoutProcess(edit.client.value()), now_unix_ms);
+    auto carried = Carry(parsed, by, now_unix_ms);
+    if (!carried) return carried;
+    for (std::string& done : DoneText(parsed, edit.words, *carried)) {
+      made_.push_back({now_unix_ms, by, std::move(done)});
+    }
+    return carried;
   });
   if (lines) {
     lines->resize(std::min(lines->size(), exchange::kMaxNetworkLines));

@@ -13,6 +13,7 @@
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
 #include "services/mission/orders.h"
+#include "services/network/changes.h"
 #include "services/network/words.h"
 #include "services/store/network_store.h"
 #include "services/store/route_store.h"
@@ -66,6 +67,8 @@ class NetworkBoard {
   [[nodiscard]] Result<void> SaveSearched();
   // Proposals that wait for an operator's word, of revisions followed or not.
   [[nodiscard]] std::size_t open_proposals() const;
+  // What was changed since the last call, and by whom: edits, as they are listed.
+  [[nodiscard]] std::vector<network::Change> TakeMade() { return std::exchange(made_, {}); }
   // For robots under way. Places and stretches are of revisions that are followed ("ID/TEACHING").
   //
   // Counts up with whatever may have changed a way.
@@ -149,6 +152,7 @@ class NetworkBoard {
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision
   std::uint64_t changes_ = 1;
+  std::vector<network::Change> made_;  // that nobody was told of yet
   NewestMap<AgentId, Stand> places_{kMostAgents};
   // What the last edits were answered with.
   NewestMap<std::pair<AgentId, std::uint64_t>, std::optional<exchange::NetworkReply>> answered_{64};

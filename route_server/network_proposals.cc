@@ -85,7 +85,10 @@ Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meetin
   const bool taken = found.verdict == Verdict::kTaken;
   auto called = Called(joint);
   if (!called) return tl::unexpected(called.error());
-  if (taken) joints_.push_back(joint);
+  if (taken) {
+    joints_.push_back(joint);
+    made_.push_back({now_unix_ms, server_.value(), network::ToText(*called)});
+  }
   proposed_.push_back(found);
   NoteChange();
   return Proposed{network::ToText(network::Proposal{*std::move(called), meeting.confidence}),

@@ -64,7 +64,9 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
     return self->AnswerCatalog(name, request);
   };
   catalog.plan = [self = server.get()](const route::RouteEdit& edit) {
-    return catalog::PlanEdit(edit, *self->store_);
+    auto planned = catalog::PlanEdit(edit, *self->store_);
+    if (planned) self->NotePlanned(*planned);
+    return planned;
   };
   auto keeper =
       exchange::RouteKeeper::Open(name, *server->store_, std::move(catalog),
@@ -186,6 +188,7 @@ void Server::Serve() {
   const auto now = steady_clock::now();
   const auto outgoing = Say(now);
   TellTroubles();
+  NoteAnnounced(outgoing);
   FillViews(outgoing);
   KeepLookingForJoints(now);
   upkeep_->Tick(now);
@@ -302,10 +305,12 @@ void Server::DeleteOutdated() {
     return;
   }
   if (outdated->empty()) return;
+  NotePlanned(*outdated);
   if (auto deleted = keeper_->Relabel(*outdated, steady_clock::now()); !deleted) {
     spdlog::warn("deleting outdated revisions: {}", deleted.error().message);
     return;
   }
+  NoteDone(presence_.status().agent.value());
   for (const route::RouteInfo& info : *outdated) {
     spdlog::info("outdated: revision {} of route '{}' deleted", info.revision.value(), info.name);
   }

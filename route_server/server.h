@@ -3,9 +3,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "route_server/fleet_news.h"
+#include "route_server/history.h"
 #include "route_server/holders.h"
 #include "route_server/http_page.h"
 #include "route_server/joint_desk.h"
@@ -43,6 +46,8 @@ class Server {
   [[nodiscard]] Result<void> KeepMissions(std::unique_ptr<store::MissionStore> store);
   // Keeps how routes are joined, likewise.
   [[nodiscard]] Result<void> KeepNetwork(std::unique_ptr<store::NetworkStore> store);
+  // Keeps what was changed of both, likewise.
+  [[nodiscard]] Result<void> KeepHistory(std::unique_ptr<store::HistoryStore> store);
   // Makes joints of sure proposals without asking an operator.
   void TakeSureJoints() { takes_sure_joints_ = true; }
   // Keeps /metrics and /health up to date from now on.
@@ -79,6 +84,13 @@ class Server {
   void TellMissions();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
+  // For the history: what is announced; what was planned to be changed, before and after it is;
+  // and of how routes are joined.
+  void NoteAnnounced(const std::vector<exchange::Message>& outgoing);
+  void NotePlanned(std::span<const route::RouteInfo> planned);
+  void NoteDone(const std::string& by);
+  void NoteMade();
+  void AnswerHistory(const exchange::NetworkRequest& request, std::int64_t since_unix_ms);
   void NoteOfNetwork(const route::RouteInfo& info);
   void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
   void SaveSearched(std::chrono::steady_clock::time_point now);
@@ -106,6 +118,8 @@ class Server {
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
+  std::unique_ptr<History> history_;      // none: it keeps none
+  std::vector<route::RouteKey> planned_;  // to be changed
   std::chrono::steady_clock::time_point searched_due_{};
   std::optional<Replanning> replanning_;  // with both
   std::uint64_t told_dropped_ = 0;

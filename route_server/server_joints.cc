@@ -40,6 +40,7 @@ void Server::Propose(const Meeting& meeting) {
   constexpr double kNever = 2.0;
   const auto proposed =
       network_->Propose(meeting, takes_sure_joints_ ? kSure : kNever, NowUnixMs());
+  NoteMade();
   if (!proposed) {
     spdlog::warn("proposing a joint: {}", proposed.error().message);
   } else if (*proposed && (*proposed)->taken) {

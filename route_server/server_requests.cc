@@ -1,5 +1,6 @@
 // What clients ask of the catalog, or want edited.
 #include "route_server/server.h"
+#include "services/base/process_name.h"
 #include "services/base/unix_time.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
@@ -76,8 +77,13 @@ void Server::ServeRequests() {
 void Server::Serve(const exchange::Message& request) {
   const auto* question = std::get_if<exchange::NetworkRequest>(&request);
   const auto* edit = std::get_if<exchange::NetworkEdit>(&request);
+  const auto since_unix_ms =
+      question == nullptr ? std::nullopt : network::ParseChangesSince(question->words);
   if (question == nullptr && edit == nullptr) {
     keeper_->Handle(request, steady_clock::now());
+    NoteDone(WithoutProcess(ClientOf(request).value()));
+  } else if (since_unix_ms) {
+    AnswerHistory(*question, *since_unix_ms);
   } else if (!network_) {
     replies_.push_back(
         Refusal(request, presence_.status().agent,
@@ -86,6 +92,7 @@ void Server::Serve(const exchange::Message& request) {
     replies_.emplace_back(network_->Answer(*question));
   } else {
     exchange::NetworkReply reply = network_->Change(*edit, NowUnixMs());
+    NoteMade();
     if (reply.error.empty() && replanning_) {
       for (std::string& line : replanning_->LookAtAll(steady_clock::now())) {
         if (reply.lines.size() < exchange::kMaxNetworkLines) reply.lines.push_back(std::move(line));

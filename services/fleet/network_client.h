@@ -7,6 +7,7 @@
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/route_exchange.h"
+#include "services/network/changes.h"
 
 namespace trailcast::fleet {
 
@@ -23,6 +24,12 @@ namespace trailcast::fleet {
                                                          const std::string& from,
                                                          const std::string& to,
                                                          std::chrono::milliseconds timeout);
+
+// What was changed then or later of routes and of how they are joined, as one server has kept it.
+[[nodiscard]] Result<network::History> AskForChanges(exchange::RouteExchange& exchange,
+                                                     const AgentId& client,
+                                                     std::int64_t since_unix_ms,
+                                                     std::chrono::milliseconds timeout);
 
 // A way to a place as one mission's orders; none: it is there already. kInvalidArgument: it has
 // more stretches than one holds.
@@ -42,5 +49,10 @@ namespace trailcast::fleet {
 [[nodiscard]] std::string NetworkJson(const std::vector<std::string>& lines);
 [[nodiscard]] std::string WayText(const std::vector<std::string>& way);
 [[nodiscard]] std::string WayJson(const std::vector<std::string>& way);
+// The newest `limit` changes, the newest first, by this machine's time zone; and whether it may
+// have been more.
+[[nodiscard]] std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,
+                                      std::size_t limit);
+[[nodiscard]] std::string ChangesJson(const network::History& history, std::size_t limit);
 
 }  // namespace trailcast::fleet

@@ -3,9 +3,11 @@
 #include <memory>
 #include <string>
 
+#include "services/base/local_time.h"
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/fleet/routes/route_export.h"
@@ -28,6 +30,7 @@ struct RoutesOptions {
   double within_m = 50.0;
   double newer_than_s = 0.0;
   double older_than_s = 0.0;
+  std::string since;  // empty: not what was changed
   std::size_t limit = 100;
   bool json = false;
   bool looked_into = false;
@@ -41,6 +44,8 @@ constexpr const char* kExamples =
     "  trailcast routes --name aisle-3 --long     # where it is weak, rough, steep\n"
     "  trailcast routes --prefix barn- --tag night --sort longest\n"
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
+    "  trailcast routes --since monday            # what was changed: routes, joints, closed "
+    "parts\n"
     "  trailcast routes --network-interface lo --timeout 2\n"
     "  trailcast routes activate aisle-3          # followers take the newest revision now\n"
     "  trailcast routes activate a3f9c21@2        # or this one, by the id that is listed\n"
@@ -112,7 +117,24 @@ std::string TextOf(const exchange::CatalogReply& reply, const fleet::RouteStudie
   return text;
 }
 
+int RunSince(const CLI::App& app, const program::CommonOptions& common,
+             const RoutesOptions& options) {
+  const auto since_unix_ms = ParseSince(options.since, NowUnixMs());
+  if (!since_unix_ms) return program::Complain(app, since_unix_ms.error());
+  const auto peer = fleet::JoinAsOperator(common, exchange::NetworkTopics());
+  if (!peer) return program::Complain(app, peer.error());
+  const auto history = fleet::AskForChanges(*peer->exchange, peer->self, *since_unix_ms,
+                                            ToMilliseconds(options.timeout_s));
+  if (!history) return program::Complain(app, history.error());
+  const std::string text = options.json
+                               ? fleet::ChangesJson(*history, options.limit)
+                               : fleet::ChangesText(*history, *since_unix_ms, options.limit);
+  std::fputs(text.c_str(), stdout);
+  return program::kExitOk;
+}
+
 int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesOptions& options) {
+  if (!options.since.empty()) return RunSince(app, common, options);
   const std::int64_t now_unix_ms = NowUnixMs();
   const route::RouteQuery query = QueryOf(options, now_unix_ms);
   if (auto possible = exchange::CheckQuery(query); !possible) {
@@ -174,9 +196,22 @@ Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common)
   app->footer(kExamples);
   app->option_defaults()->always_capture_default();
   AddFilters(*app, *options);
+  CLI::Option* const since = app->add_option(
+      "--since", options->since,
+      "Not the routes, but what was changed of them and of how they are joined, and by whom, since "
+      "monday, yesterday, 2026-11-23, 09:15, 2026-11-23T09:15, 90min, 12h, 2d, by this terminal's "
+      "time zone");
+  since->check([](const std::string& text) {
+    const auto moment = ParseSince(text, NowUnixMs());
+    return moment ? std::string() : moment.error().message;
+  });
+  // What was changed is told of all routes.
+  for (CLI::Option* const filter : app->get_options()) {
+    if (filter != since && filter != app->get_help_ptr()) since->excludes(filter);
+  }
   app->add_option("--sort", options->sort, "What comes first")
       ->check(CLI::IsMember(&route::OrderWords()));
-  app->add_option("--limit", options->limit, "Routes to list at most")
+  app->add_option("--limit", options->limit, "Routes, or changes, to list at most")
       ->check(CLI::Range(1, 10'000'000));
   app->add_flag("--json", options->json, "For programs");
   app->add_flag(

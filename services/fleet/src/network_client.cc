@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "services/base/local_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
 #include "services/fleet/draw.h"
@@ -104,6 +105,13 @@ Result<Lines> AskForWay(exchange::RouteExchange& exchange, const AgentId& client
   return AskForLines(exchange, {.client = client, .words = "way " + from + " " + to}, timeout);
 }
 
+Result<network::History> AskForChanges(exchange::RouteExchange& exchange, const AgentId& client,
+                                       std::int64_t since_unix_ms, milliseconds timeout) {
+  return AskForLines(exchange, {.client = client, .words = network::ChangesSince(since_unix_ms)},
+                     timeout)
+      .map(network::ParseHistory);
+}
+
 Result<std::string> OrdersAlong(const Lines& way, const std::string& to) {
   if (way.empty()) return std::string();
   std::string orders = fmt::format("goto {} {}", to, fmt::join(way, " "));
@@ -184,6 +192,42 @@ std::string WayJson(const Lines& way) {
   }
   return fmt::format("{{\"length_m\": {:.2f}, \"stretches\": {}}}\n", LengthOf(tasks),
                      JsonList(stretches));
+}
+
+std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,
+                        std::size_t limit) {
+  const std::size_t shown = std::min(limit, history.changes.size());
+  std::size_t width = 0;
+  for (const network::Change& change : history.changes) width = std::max(width, change.by.size());
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const network::Change& change = *(history.changes.rbegin() + static_cast<std::ptrdiff_t>(i));
+    text += fmt::format("{}  {:<{}}  {}\n", LocalText(change.at_unix_ms),
+                        change.by.empty() ? "-" : change.by, width, change.what);
+  }
+  if (text.empty()) {
+    text = fmt::format("nothing was changed since {}\n", LocalText(since_unix_ms));
+  }
+  if (shown < history.changes.size()) {
+    text += fmt::format("{} of {} changes; --limit shows more\n", shown, history.changes.size());
+  }
+  if (history.kept_since_unix_ms > since_unix_ms) {
+    text += fmt::format("kept since {} alone: what was changed before is not known\n",
+                        LocalText(history.kept_since_unix_ms));
+  }
+  return text;
+}
+
+std::string ChangesJson(const network::History& history, std::size_t limit) {
+  Lines changes;
+  for (auto change = history.changes.rbegin();
+       change != history.changes.rend() && changes.size() < limit; ++change) {
+    changes.push_back(
+        fmt::format("{{\"at_unix_ms\": {}, \"by\": {}, \"what\": {}}}", change->at_unix_ms,
+                    change->by.empty() ? "null" : JsonText(change->by), JsonText(change->what)));
+  }
+  return fmt::format("{{\"kept_since_unix_ms\": {}, \"changes\": {}}}\n",
+                     history.kept_since_unix_ms, JsonList(changes));
 }
 
 }  // namespace trailcast::fleet

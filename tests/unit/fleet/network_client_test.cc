@@ -118,5 +118,29 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
   EXPECT_EQ(WayText({}), "it is there already\n");
 }
 
+TEST_F(NetworkClientTest, ChangesAreShownTheNewestFirst) {
+  Answer<exchange::NetworkRequest>([](const exchange::NetworkRequest& question) {
+    exchange::NetworkReply reply;
+    EXPECT_EQ(question.words, "changes since 5000");
+    reply.lines = {network::KeptSince(3000), "changed 6000 desk close hall 3..7",
+                   "changed 7000 - activated hall@3"};
+    return reply;
+  });
+  const auto desk = bus_.Open(exchange::NetworkTopics());
+  const auto history = AskForChanges(*desk, AgentId("desk"), 5000, kPatience);
+  ASSERT_TRUE(history) << history.error().message;
+  EXPECT_THAT(ChangesText(*history, 5000, 100),
+              testing::MatchesRegex(".*1970-01-01.*  -     activated hall@3\n.*  desk  close hall "
+                                    "3..7\n"));
+  EXPECT_THAT(ChangesText(*history, 2000, 1),
+              AllOf(HasSubstr("activated hall@3\n1 of 2 changes; --limit shows more\nkept since "),
+                    testing::Not(HasSubstr("close"))));
+  EXPECT_THAT(ChangesText({.kept_since_unix_ms = 3000}, 5000, 100),
+              testing::StartsWith("nothing was changed since "));
+  EXPECT_EQ(ChangesJson(*history, 1),
+            "{\"kept_since_unix_ms\": 3000, \"changes\": [{\"at_unix_ms\": 7000, \"by\": null, "
+            "\"what\": \"activated hall@3\"}]}\n");
+}
+
 }  // namespace
 }  // namespace trailcast::fleet

@@ -223,6 +223,35 @@ TEST_F(NetworkBoardTest, AnEditAskedForAgainIsCarriedOutOnce) {
   EXPECT_NE(Edit("part hall@12 office@0", 43).error, "");
 }
 
+TEST_F(NetworkBoardTest, WhatIsDoneIsToldOnceAndByWhom) {
+  const auto made = [this] {
+    std::vector<std::string> told;
+    for (const network::Change& change : board_->TakeMade()) {
+      EXPECT_EQ(change.at_unix_ms, 1000);
+      EXPECT_EQ(change.by, "desk");
+      told.push_back(change.what);
+    }
+    return told;
+  };
+  (void)Done("join hall@12 office@0 both");
+  (void)Edit("join hall@12 office@0 both", requests_);
+  EXPECT_THAT(made(), ElementsAre("join hall@12 office@0 both")) << "it was asked for twice";
+  (void)Done("close hall 3..7");
+  (void)Done("open hall");
+  (void)Done("name bay office@8");
+  (void)Done("forget bay");
+  (void)Done("part office@0 hall@12");
+  (void)Refused("part office@0 hall@12");
+  EXPECT_THAT(made(), ElementsAre("close hall 3..7", "open hall", "name bay office@8", "forget bay",
+                                  "part hall@12 office@0"));
+  ASSERT_TRUE(board_->Propose(
+      {.a = Key(1), .b = Key(2), .at_a_m = 5.0, .at_b_m = 1.0, .length_m = 3.0, .confidence = 0.8},
+      2.0, 1000));
+  EXPECT_THAT(made(), IsEmpty()) << "it is no more than proposed";
+  (void)Done("refuse all");
+  EXPECT_THAT(made(), ElementsAre("refuse hall@5 office@1"));
+}
+
 TEST_F(NetworkBoardTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
   Done("join hall@12 office@0");
   Done("join ring@8 ring@0");
