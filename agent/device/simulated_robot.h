@@ -3,15 +3,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "agent/device/device.h"
 #include "services/base/result.h"
+#include "services/motion/motion.h"
 #include "services/sim/core/bumps.h"
 #include "services/sim/places/place_options.h"
 
 namespace trailcast::agent {
+
+// Somebody takes a robot up once it has driven so far, and sets it down there, in the world's
+// frame: no wheel turns by that.
+struct CarriedOff {
+  double after_m = 0.0;
+  motion::Pose2 to;
+};
 
 struct SimulatedRun {
   sim::PlaceOptions place;
@@ -29,6 +38,7 @@ struct SimulatedRun {
   std::filesystem::path truth{};
   double battery_minutes = 0.0;          // that a full one lasts; 0: it tells of none
   std::vector<sim::RoughPatch> rough{};  // what its wheels feel besides the place's ground
+  std::optional<CarriedOff> carried{};
 };
 
 class SimulatedRobot : public RobotDevice {

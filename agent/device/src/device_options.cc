@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "services/base/angles.h"
 #include "services/base/csv_line.h"
 #include "services/base/number.h"
 #include "services/program/several.h"
@@ -163,23 +166,61 @@ std::string WhatIsHeard(const dds::Ros2Options& topics) {
   return text;
 }
 
+template <std::size_t kCount>
+std::optional<std::array<double, kCount>> ParseNumbers(const std::string& text) {
+  const auto cells = CsvCells(text);
+  if (!cells || cells->size() != kCount) return std::nullopt;
+  std::array<double, kCount> numbers{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto number = ParseNumber<double>((*cells)[i]);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
 // "3,1.5,1,0.01": where, how wide, how high.
 Result<sim::RoughPatch> ParseRoughPatch(const std::string& text) {
-  const auto cells = CsvCells(text);
-  std::array<double, 4> numbers{};
-  bool right = cells && cells->size() == numbers.size();
-  for (std::size_t i = 0; right && i < numbers.size(); ++i) {
-    const auto number = ParseNumber<double>((*cells)[i]);
-    right = number && std::isfinite(*number);
-    if (right) numbers[i] = *number;
-  }
-  if (!right || !(numbers[2] > 0.0) || numbers[3] < 0.0 || numbers[3] > 0.1) {
+  const auto numbers = ParseNumbers<4>(text);
+  if (!numbers || !((*numbers)[2] > 0.0) || (*numbers)[3] < 0.0 || (*numbers)[3] > 0.1) {
     return Fail(ErrorCode::kInvalidArgument,
                 "'{}' is no rough ground: expected X,Y,RADIUS,HEIGHT in metres, its bumps 0.1 high "
                 "at most, as 3,1.5,1,0.01",
                 text);
   }
-  return sim::RoughPatch{{numbers[0], numbers[1]}, numbers[2], numbers[3]};
+  const auto [x_m, y_m, radius_m, height_m] = *numbers;
+  return sim::RoughPatch{{x_m, y_m}, radius_m, height_m};
+}
+
+// "9,6.5,90@4": where to, looking which way, and after how many metres.
+Result<CarriedOff> ParseCarriedOff(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto to = ParseNumbers<3>(text.substr(0, at));
+  const auto after_m = at == std::string::npos
+                           ? std::nullopt
+                           : ParseNumber<double>(std::string_view(text).substr(at + 1));
+  if (!to || !after_m || !std::isfinite(*after_m) || *after_m < 0.0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'{}' does not say where a robot is carried: expected X,Y,DEGREES@METRES, where in "
+                "the world it is set down, looking which way, and how far it has driven by then, "
+                "as 9,6.5,90@4",
+                text);
+  }
+  return CarriedOff{*after_m, {(*to)[0], (*to)[1], Radians((*to)[2])}};
+}
+
+CLI::Option* AddCarriedOff(CLI::App& command, std::optional<CarriedOff>& carried) {
+  const auto wrong = [](const std::string& text) {
+    const auto read = ParseCarriedOff(text);
+    return read ? std::string() : read.error().message;
+  };
+  return command
+      .add_option_function<std::string>(
+          "--sim-carry",
+          [&carried](const std::string& text) { carried = ParseCarriedOff(text).value(); },
+          "Somebody takes it up once it has driven so far, and sets it down there in the world, "
+          "looking so many degrees to the left of the x-axis; its wheels do not feel it")
+      ->check(CLI::Validator(wrong, "X,Y,DEGREES@METRES"));
 }
 
 CLI::Option* AddRoughPatches(CLI::App& command, std::vector<sim::RoughPatch>& patches) {
@@ -250,6 +291,7 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
         ->check(CLI::Range(0.05, 2.0));
   }
   AddRoughPatches(command, simulated.rough)->needs(world)->group(simulation);
+  AddCarriedOff(command, simulated.carried)->needs(world)->group(simulation);
   add("--sim-battery", simulated.battery_minutes,
       "How many of its minutes a full battery lasts; default: it does not tell of any")
       ->default_str("")

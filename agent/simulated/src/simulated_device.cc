@@ -43,12 +43,16 @@ struct SimulatedDevice::State {
   BodyImu imu;
   double battery_s = 0.0;  // that it lasts; 0: it tells of none
   std::atomic<double> charge = 1.0;
-  bool begun = false;  // there was a frame
+  bool begun = false;                 // there was a frame
+  std::optional<CarriedOff> carried;  // to be
+  double driven_m = 0.0;
+  Eigen::Vector2d was_m = Eigen::Vector2d::Zero();
   std::filesystem::path truth_file;
   std::ofstream truth;  // of that, if there is one
 
   void AwaitNext();
   [[nodiscard]] Observation Note(sim::Observation seen);
+  void CarryOff(const motion::Pose2& from);
   [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
 };
 
@@ -80,6 +84,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
         std::chrono::duration<double>(1.0 / run.rate_hz));
   }
   state->battery_s = 60.0 * run.battery_minutes;
+  state->carried = run.carried;
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
   state->world = place->world;
   state->robot = std::move(*robot);
@@ -135,8 +140,20 @@ Observation SimulatedDevice::NextBlind() {
   return s.Note(s.robot->StepBlind(s.command));
 }
 
+// Before the next frame.
+void SimulatedDevice::State::CarryOff(const motion::Pose2& from) {
+  driven_m += begun ? (motion::Position(from) - was_m).norm() : 0.0;
+  was_m = motion::Position(from);
+  if (!carried || driven_m < carried->after_m) return;
+  spdlog::warn("somebody carries the robot off, from {:.2f},{:.2f} to {:.2f},{:.2f}", from.x_m,
+               from.y_m, carried->to.x_m, carried->to.y_m);
+  sim::Judge(*robot).Carry(carried->to);
+  was_m = motion::Position(carried->to);
+  imu = {};
+  carried.reset();
+}
+
 Observation SimulatedDevice::State::Note(sim::Observation seen) {
-  begun = true;
   if (battery_s > 0.0) charge = std::max(0.0, 1.0 - Seconds(seen.stamp) / battery_s);
   const motion::Pose2 pose = Pose();
   // Whoever looks meanwhile reads whole lines.
@@ -146,6 +163,8 @@ Observation SimulatedDevice::State::Note(sim::Observation seen) {
           << std::flush;
   }
   const motion::ImuSample felt = imu.Feel(seen.stamp, sim::Judge(*robot).WorldFromBody());
+  CarryOff(pose);
+  begun = true;
   return {seen.stamp, std::move(seen.image), seen.odometry, {}, {felt}};
 }
 

@@ -30,7 +30,9 @@ class Judge {
 
   // Moves the robot as if pushed, by metres in its own frame (x ahead, y left); its wheels do not
   // turn, so odometry does not notice.
-  void Shove(const motion::Pose2& by) { robot_.robot_.PlaceAt(motion::Compose(true_pose(), by)); }
+  void Shove(const motion::Pose2& by) { Carry(motion::Compose(true_pose(), by)); }
+  // The same, to a pose in the world's frame.
+  void Carry(const motion::Pose2& to) { robot_.robot_.PlaceAt(to); }
 
  private:
   SimulatedRobot& robot_;
