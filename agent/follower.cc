@@ -20,6 +20,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
+// Further beyond the end of its stretch than this nobody drives who looks at each frame.
+constexpr double kDrivenPast_m = 1.0;
 constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
 // How often a robot that stands behind another reads its sensors.
 constexpr milliseconds kStandingFrame{33};
@@ -58,7 +60,7 @@ class Loop {
   // False: an operator has ended the run.
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
-  [[nodiscard]] bool PassedEnd() const;  // where it was to end before the route does
+  [[nodiscard]] bool PassedEnd(double end_m) const;  // where it was to end before the route does
   void ShowGlance(const ReplayStep& step);
   void ShowWaiting();
   void Tell(const ReplayStep& step);
@@ -234,8 +236,15 @@ Result<bool> Loop::Step(const Observation& observation) {
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;
-  if (PassedEnd()) {
+  if (const double end_m = options_.end_m(); PassedEnd(end_m)) {
     if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
+    if (*last_->along_m > end_m + kDrivenPast_m) {
+      return End(
+          ToString(ReplayState::kLost),
+          fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
+                      "was it carried there? Send it on from where it stands",
+                      end_m, *last_->along_m));
+    }
     return End(ToString(ReplayState::kArrived),
                fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
   }
@@ -249,10 +258,11 @@ Result<bool> Loop::Step(const Observation& observation) {
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
 }
 
-bool Loop::PassedEnd() const {
-  const double end_m = options_.end_m();
-  return end_m > 0.0 && last_->state == ReplayState::kFollowing && last_->along_m &&
-         *last_->along_m >= end_m;
+// Also who is at the route's own end.
+bool Loop::PassedEnd(double end_m) const {
+  const bool knows_where =
+      last_->state == ReplayState::kFollowing || last_->state == ReplayState::kArrived;
+  return end_m > 0.0 && knows_where && last_->along_m && *last_->along_m >= end_m;
 }
 
 // After the command: who looks delays no more than the next frame, by the time of a copy.

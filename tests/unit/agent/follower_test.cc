@@ -316,6 +316,27 @@ TEST_F(FollowerTest, StopsTheRobotOnASignal) {
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
+TEST_F(FollowerTest, ArrivesWhereItsStretchEndsAndIsLostWhereItIsFoundFarBeyond) {
+  TeachInto("robot");
+  auto options = swarm_.FollowerNamed("robot");
+  options.end_m = [] { return 1.0; };
+  const auto there = swarm_.Replay(device_, options, false);
+  ASSERT_TRUE(there) << there.error().message;
+  EXPECT_EQ(there->state, "ARRIVED");
+  EXPECT_THAT(there->reason, HasSubstr("1.0 m along the route"));
+
+  // It has got beyond before it is asked where the end is, as if carried there.
+  WalkDevice carried(kFollowerFrames);
+  int frames = 0;
+  options.end_m = [&frames] { return ++frames < 100 ? 100.0 : 0.5; };
+  const auto beyond = swarm_.Replay(carried, options, false);
+  ASSERT_TRUE(beyond) << beyond.error().message;
+  EXPECT_EQ(beyond->state, "LOST");
+  EXPECT_FALSE(beyond->success);
+  EXPECT_THAT(beyond->reason, HasSubstr("was to end 0.5 m along the route"));
+  EXPECT_EQ(carried.told.back(), motion::VelocityCommand{});
+}
+
 TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {
   TeachInto("robot");
   class Wall : public WalkDevice {
