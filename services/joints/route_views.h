@@ -34,6 +34,8 @@ class RouteViews {
   // By how many half widths of the picture a radian of turning shifts it, by what was taught in
   // turns: of a camera of 60 degrees in the middle of its picture 1.7. Nothing if it never turned.
   [[nodiscard]] std::optional<double> half_widths_a_radian() const;
+  // Taught heading there, straight between views. Not of a route without views.
+  [[nodiscard]] double HeadingAt(double along) const;
   [[nodiscard]] double begin() const { return begin_; }
   [[nodiscard]] double end() const { return along_; }
 

@@ -16,6 +16,7 @@
 #include "services/program/stop_signal.h"
 #include "services/route/query_words.h"
 #include "services/tool/command.h"
+#include "services/tool/route_diff.h"
 #include "services/tool/route_edits.h"
 #include "services/tool/time_spans.h"
 
@@ -50,7 +51,8 @@ constexpr const char* kExamples =
     "  trailcast routes activate aisle-3          # followers take the newest revision now\n"
     "  trailcast routes activate a3f9c21@2        # or this one, by the id that is listed\n"
     "  trailcast routes rollback aisle-3          # and the one before again\n"
-    "  trailcast routes tag aisle-3 night wet";
+    "  trailcast routes tag aisle-3 night wet\n"
+    "  trailcast routes diff aisle-3@1 aisle-3@3  # where the place has changed";
 
 std::int64_t Before(std::int64_t now_unix_ms, double age_s) {
   return now_unix_ms - static_cast<std::int64_t>(age_s * 1000.0);
@@ -220,10 +222,11 @@ Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common)
       "rough and steep its ground is");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->check(CLI::Range(0.1, 3600.0));
-  const std::vector<Command> edits = AddRouteEdits(*app, common, options->timeout_s);
-  return {app, [app, options, &common, edits] {
-            for (const Command& edit : edits) {
-              if (edit.app->parsed()) return edit.run();
+  std::vector<Command> others = AddRouteEdits(*app, common, options->timeout_s);
+  others.push_back(AddRouteDiff(*app, common, options->timeout_s));
+  return {app, [app, options, &common, others] {
+            for (const Command& other : others) {
+              if (other.app->parsed()) return other.run();
             }
             return Run(*app, common, *options);
           }};

@@ -71,6 +71,22 @@ TEST_F(ChangesTest, WhatWasChangedIsToldWithWhoDidItAlsoAfterARestart) {
       AllOf(HasSubstr("\"by\": \"desk\", \"what\": \"open aisle\""), Not(HasSubstr("bay"))));
 }
 
+TEST_F(ChangesTest, TwoRevisionsAreComparedAndDrawn) {
+  const auto server = Server();
+  Teach("hall");
+  Teach("hall");
+  const Ended compared = Tool({"routes", "diff", "hall@1", "hall@2", "--plot", Path("diff.png")});
+  EXPECT_EQ(compared.status, 0) << compared.output;
+  EXPECT_THAT(compared.output, AllOf(HasSubstr("hall@2 "), HasSubstr("features stayed, "),
+                                     HasSubstr(" m, "), HasSubstr(" kB")));
+  EXPECT_GT(std::filesystem::file_size(Path("diff.png")), 1000U);
+  EXPECT_THAT(Tool({"routes", "diff", "hall@1", "hall@2", "--json"}).output,
+              HasSubstr("\"b\": {\"name\": \"hall\""));
+  const Ended absent = Tool({"routes", "diff", "hall@1", "hall@9"});
+  EXPECT_EQ(absent.status, 1);
+  EXPECT_THAT(absent.output, HasSubstr("has no revision 9 of route 'hall'; it has 1, 2"));
+}
+
 TEST_F(ChangesTest, WhatNobodyMeansOrNobodyKnowsIsRefused) {
   const Ended word = Tool({"routes", "--since", "lately"});
   EXPECT_EQ(word.status, 2);

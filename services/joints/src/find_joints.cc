@@ -289,21 +289,10 @@ class Finder {
     std::vector<Weighed> headings;
     for (const std::size_t i : chain) {
       const Alike& each = alike_[i];
-      const double turned_since = HeadingOfB(each.at_b) - b_.views()[each.b].heading;
+      const double turned_since = b_.HeadingAt(each.at_b) - b_.views()[each.b].heading;
       headings.push_back({each.shift_u / half_widths + turned_since, each.worth});
     }
     joint.heading_rad = *Median(std::move(headings));
-  }
-
-  [[nodiscard]] double HeadingOfB(double along) const {
-    const auto& views = b_.views();
-    const auto after = std::find_if(views.begin(), views.end(),
-                                    [&](const auto& view) { return view.along > along; });
-    if (after == views.begin()) return views.front().heading;
-    if (after == views.end()) return views.back().heading;
-    const auto before = std::prev(after);
-    const double share = (along - before->along) / (after->along - before->along);
-    return before->heading + share * (after->heading - before->heading);
   }
 
   std::vector<Alike> alike_;  // by A's views, then B's

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "services/route/heading.h"
 #include "services/view/key_views.h"
@@ -53,6 +54,16 @@ void RouteViews::Add(const route::Segment& segment) {
   }
   along_ += extent;
   heading_ += segment.heading_change_rad;
+}
+
+double RouteViews::HeadingAt(double along) const {
+  const auto after = std::find_if(views_.begin(), views_.end(),
+                                  [&](const View& view) { return view.along > along; });
+  if (after == views_.begin()) return views_.front().heading;
+  if (after == views_.end()) return views_.back().heading;
+  const auto before = std::prev(after);
+  const double share = (along - before->along) / (after->along - before->along);
+  return before->heading + share * (after->heading - before->heading);
 }
 
 std::optional<double> RouteViews::half_widths_a_radian() const {
