@@ -332,6 +332,7 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   outcome.state = state_;
   outcome.reason = reason_;
   outcome.diagnosed = diagnosis_.End(state_, reason_);
+  if (session_) outcome.lens = session_->lens();
   if (arrived && session_ && complete_ && route) {
     outcome.visit = session_->TakeVisit();
     if (outcome.visit) outcome.followed = route;

@@ -47,7 +47,8 @@ struct ReplayOutcome {
   // Of a route that it has arrived on, if it was to take experience: what it met with.
   std::optional<route::RouteInfo> followed;
   std::optional<refresh::Visit> visit;
-  Result<void> diagnosed;  // whether log and pictures are complete
+  std::optional<OwnLens> lens;  // what is known of the robot's camera, for its next run
+  Result<void> diagnosed;       // whether log and pictures are complete
   ReplayLog log;
 };
 

@@ -118,7 +118,8 @@ class OnDuty {
   std::atomic<bool> turned_off_ = false;
   std::string missed_;  // why it stands until it is told another way; empty: it need not
   std::optional<steady_clock::time_point> wait_until_;
-  std::string on_route_;  // where the last following ended
+  std::optional<OwnLens> lens_;  // as the last following knew it
+  std::string on_route_;         // where the last following ended
   std::optional<exchange::PlaceOnRoute> place_;
   steady_clock::time_point stands_until_{};
   std::string last_ = "free";
@@ -341,6 +342,7 @@ void OnDuty::Follow(const mission::Task& task) {
   follower.link.stop = [this] { return options_.stop() || turned_off_; };
   // Of a stretch it is not to do another part.
   if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
+  follower.session.lens = lens_;
   follower.glances = &glances_;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
@@ -360,6 +362,7 @@ void OnDuty::Follow(const mission::Task& task) {
   following_ = true;
   const auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
   following_ = false;
+  if (outcome) lens_ = outcome->lens;
   const bool arrived = outcome && outcome->success;
   stands_until_ = arrived ? steady_clock::time_point() : steady_clock::now() + kStandsThere;
   if (turned_off_.exchange(false)) return;

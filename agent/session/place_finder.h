@@ -21,9 +21,9 @@ struct LeftAt {
 
 // Tells whether a robot that stands is where it was left, or up to a metre and a half further, or
 // else back at the route's start, by the features that were taught there. One place a frame, by
-// turns, and of those that are in view the likest. Where the magnification is not known, which a
-// place further on would explain as well as another camera: the first place about where it is said
-// to stand, and no other, at whatever magnification.
+// turns, and of those that are in view the likest. Of one that is told where it stands: the first
+// place about there, and no other; where the magnification is not known, which a place further on
+// would explain as well as another camera, at any.
 class PlaceFinder {
  public:
   struct Found {
@@ -32,7 +32,10 @@ class PlaceFinder {
     vision::FindResult seen;
   };
 
-  explicit PlaceFinder(const LeftAt& left) : left_(left) {}
+  explicit PlaceFinder(const LeftAt& left) : told_(!left.magnification), left_(left) {}
+
+  // Before it looks: what this robot's lens says of it, which it was not told.
+  void KnowMagnification(double magnification) { left_.magnification = magnification; }
 
   // `segments`: from the route's first on, as far as they are known. `recognised_m`: where along
   // the route the view as a whole is recognised: there, fewer features are proof enough.
@@ -45,6 +48,8 @@ class PlaceFinder {
   [[nodiscard]] bool given_up() const { return rounds_ >= kRounds; }
   // For people: the most that it found of any of these places.
   [[nodiscard]] std::string MostSeen() const;
+  // Somebody says that it stands there, rather than an earlier run.
+  [[nodiscard]] bool told() const { return told_; }
   [[nodiscard]] const LeftAt& left() const { return left_; }
 
  private:
@@ -56,6 +61,7 @@ class PlaceFinder {
                                               const HandOver& hand_over, double along_m);
   [[nodiscard]] double Likeness(const Found& found) const;
 
+  bool told_;
   LeftAt left_;
   std::size_t turn_ = 0;
   int rounds_ = 0;

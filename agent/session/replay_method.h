@@ -32,6 +32,12 @@ enum class ReplayMethod {
   return method != ReplayMethod::kIcra2006;
 }
 
+// A robot's own focal length, whatever the size of its pictures.
+struct OwnLens {
+  double focal_share = 0.0;  // of the picture's width
+  double sigma = 0.0;        // relative
+};
+
 struct ReplayMethodOptions {
   ReplayMethod method = ReplayMethod::kDefault;
   motion::VelocityLimits limits{1.0, 0.8};
@@ -45,6 +51,8 @@ struct ReplayMethodOptions {
   // From the axle that the robot turns about ahead to its camera, more than on the scout; nothing:
   // not told, and learnt in bends.
   std::optional<double> camera_ahead_m = {};
+  // What the last run has learnt of its camera.
+  std::optional<OwnLens> lens = {};
   // Round what stands on the path, by the default method with odometry.
   replay::PassingOptions passing = {};
   // How far to either side a robot that has lost its path from view turns on the spot to find it

@@ -47,6 +47,9 @@ class ReplaySession {
   // by. Once; nothing otherwise.
   [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
+  // What the run has learnt of the robot's camera, for the next one.
+  [[nodiscard]] std::optional<OwnLens> lens() const;
+
   // The last frame that was observed, or passed, as the intake makes it. Valid until the next, and
   // as long as that frame is; nullptr before the first.
   [[nodiscard]] const image::GrayImage* picture() const;

@@ -5,6 +5,7 @@
 
 #include "services/motion/motion.h"
 #include "services/replay/camera_place.h"
+#include "services/replay/focal_length.h"
 #include "services/route/tracked_feature.h"
 
 namespace trailcast::replay {
@@ -31,6 +32,14 @@ struct PathOffset {
   double heading_rad = 0.0;  // alpha: to the left of the taught heading
   double along_m = 0.0;      // s: driven of the segment
   double left_sigma_m = 0.0;
+};
+
+// How roughly it is known where a robot begins. What is seen looks larger from further along, and
+// just as much so to a camera that magnifies more.
+struct RoughPlace {
+  double along_sigma_m = 0.0;
+  // Of the robot's own camera; nothing: it is not known, and most likely the scout's.
+  std::optional<FocalLength> focal{};
 };
 
 // How the features in view fit what the route says.
@@ -79,9 +88,9 @@ class Follower {
   virtual void Begin(const route::Segment& segment) = 0;
   // Any segment, by a robot that is found to be that fraction along it.
   virtual void BeginAt(const route::Segment& segment, double fraction) = 0;
-  // The same, by one that does not know yet how large its camera shows things: they look larger
-  // from further along.
-  virtual void BeginAbout(const route::Segment& segment, double fraction) = 0;
+  // The same, by one that knows it roughly.
+  virtual void BeginAbout(const route::Segment& segment, double fraction,
+                          const RoughPlace& rough) = 0;
   // Where the segment's features should be in the picture now (FollowInput's coordinates).
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
   // Where they will be at the segment's end for a robot that gets there as it was taught.
@@ -106,6 +115,8 @@ class Follower {
 
   // Where its camera is, as of the last Step; nothing: the method estimates no such thing.
   [[nodiscard]] virtual std::optional<CameraPlace> camera_place() const { return std::nullopt; }
+  // Its focal length, by such a method: how it shows things, by what the route says of the scout's.
+  [[nodiscard]] virtual std::optional<FocalLength> focal() const { return std::nullopt; }
   // The inverse depths of a segment's features, by such a method.
   [[nodiscard]] virtual std::vector<InverseDepth> Depths(const route::Segment& /*segment*/) const {
     return {};

@@ -55,7 +55,8 @@ class FunnelFollower final : public Follower {
   void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
-  void BeginAbout(const route::Segment& segment, double fraction) override {
+  void BeginAbout(const route::Segment& segment, double fraction,
+                  const RoughPlace& /*rough*/) override {
     BeginAt(segment, fraction);
   }
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {

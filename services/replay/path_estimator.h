@@ -32,11 +32,8 @@ struct PathEstimatorOptions {
   double start_heading_rad = 0.08;
   double start_along_m = 0.15;
   double start_magnification = 0.05;  // relative
-  // Where it is found somewhere on the route: views half a metre apart look alike but for their
-  // size.
-  double found_along_m = 2.0;
-  double found_magnification = 0.4;
-  double same_camera = 0.03;  // of most robots of a fleet: their magnifications' spread
+  double found_magnification = 0.4;   // where it begins roughly, and its camera is not known
+  double same_camera = 0.03;          // of most robots of a fleet: their magnifications' spread
   double distortion = 0.1;
   double mount_yaw_rad = 0.035;           // between the scout's camera mount and this robot's
   double mount_height_m = 0.15;           // the same
@@ -93,9 +90,9 @@ class PathEstimator {
   void Begin(const route::Segment& segment);
   // Begins a segment with the camera so far along it, wherever the robot was thought to be before.
   void Restart(const route::Segment& segment, double along_m);
-  // Where it has just been put is known roughly, and no better than how large its camera shows
-  // things.
-  void BeUnsureWhereAlong();
+  // Where it has just been put is known roughly, and how large its camera shows things no better
+  // than this says.
+  void BeUnsureWhereAlong(const RoughPlace& rough);
   // Begins a segment with the axle where that is entered, and the camera as far ahead as it is.
   void StartAt(const route::Segment& segment);
 
@@ -123,6 +120,7 @@ class PathEstimator {
     state_[kMagnification] = magnification;
     last_look_.reset();
   }
+  [[nodiscard]] FocalLength focal() const;  // of its own camera
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
   [[nodiscard]] double camera_ahead_m() const { return state_[kAhead]; }
@@ -168,6 +166,7 @@ class PathEstimator {
   };
   // Features; a handful can be explained from anywhere.
   static constexpr std::size_t kFewestToFind = 10;
+  static constexpr std::size_t kFewestByKnownCamera = 5;
 
   // What is believed before a look.
   struct Prior {
@@ -207,14 +206,15 @@ class PathEstimator {
   // How badly a state explains a look, in nats: the negative logarithm of its likelihood.
   [[nodiscard]] double Surprise(const State& state, const Prior& prior,
                                 const std::vector<route::TrackedFeature>& seen) const;
-  // Of all about a place, along one of the state's directions, by how badly they explain a look.
+  // Of all about a place, so far along one of the state's directions, by how badly they explain a
+  // look.
   [[nodiscard]] std::pair<State, double> LeastSurprising(
-      Index index, const State& about, const Prior& prior,
+      Index index, double furthest_m, const State& about, const Prior& prior,
       const std::vector<route::TrackedFeature>& seen) const;
   // Puts the state where a look says that it is, and returns what is believed before that look: of
   // one picture, place and magnification are nearly one unknown, so the camera is held to be as the
-  // scout's unless another explains the look better by more than its being rarer.
-  [[nodiscard]] Prior FindWhereAlong(const Prior& any_camera,
+  // scout's, where it may be, unless another explains the look better by more than its being rarer.
+  [[nodiscard]] Prior FindWhereAlong(const Prior& before,
                                      const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] State FromFarAway(State start, const Prior& prior,
                                   const std::vector<route::TrackedFeature>& seen) const;
@@ -244,7 +244,7 @@ class PathEstimator {
   double looked_at_m_ = 0.0;   // driven at the last look
   double usually_seen_ = 0.0;  // features in a look, over the last knock_apart_m
   std::optional<CarriedTo> carried_;
-  bool along_is_rough_ = false;        // until a look has told
+  std::optional<RoughPlace> rough_;    // until a look has told where along it is
   std::optional<double> turned_at_m_;  // driven when all was turned at once
 };
 

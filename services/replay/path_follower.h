@@ -38,7 +38,7 @@ class PathFollower final : public Follower {
   void Learn(const route::Segment& segment) override;
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
-  void BeginAbout(const route::Segment& segment, double fraction) override;
+  void BeginAbout(const route::Segment& segment, double fraction, const RoughPlace& rough) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return estimator_.Expect();
   }
@@ -61,6 +61,7 @@ class PathFollower final : public Follower {
   [[nodiscard]] std::optional<CameraPlace> camera_place() const override {
     return estimator_.camera_place();
   }
+  [[nodiscard]] std::optional<FocalLength> focal() const override { return estimator_.focal(); }
   [[nodiscard]] std::vector<InverseDepth> Depths(const route::Segment& segment) const override {
     return estimator_.Depths(segment);
   }

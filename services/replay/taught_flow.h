@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "services/replay/focal_length.h"
 #include "services/route/route.h"
 
 namespace trailcast::replay {
@@ -75,6 +76,7 @@ class TaughtFlow {
   // The inverse depths of a segment's features, in their order.
   [[nodiscard]] std::vector<InverseDepth> Depths(const route::Segment& segment) const;
   [[nodiscard]] const ScoutCamera& camera() const { return camera_; }
+  [[nodiscard]] FocalLength focal() const;
 
  private:
   // The camera's unknowns, and the segment's: the error of its heading, a cubic without constant.

@@ -18,6 +18,7 @@ constexpr double kLookAgain_s = 5.0 / 30.0;
 constexpr double kShareToSkip = 0.5;
 // What a robot that stands does not see where it should be, it will not see there later.
 constexpr double kLookThere_s = 1.5;
+constexpr double kLensTurn_rad = 0.2;
 
 // How many of these places, from the image centre, are in the picture.
 int InPicture(const std::vector<route::TrackedFeature>& places, const image::GrayImage& frame) {
@@ -47,7 +48,9 @@ FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
       search_(!AsPrinted(options.method), scout.width, eyes, place),
       confidence_(ConfidenceOf(options.method)),
       passing_(options.passing),
-      look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad) {
+      look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad),
+      lens_turn_(std::min(kLensTurn_rad, look_around_.furthest_rad())),
+      anywhere_(options.anywhere) {
   if (options.take_experience && !AsPrinted(options.method)) {
     experience_.emplace(scout.width, scout.height);
   }
@@ -67,14 +70,25 @@ std::optional<refresh::Visit> FeatureFollower::TakeVisit() {
   return experience_->Take(*follower_);
 }
 
+std::optional<OwnLens> FeatureFollower::lens() const {
+  if (!follower_ || !confidence_.ever_sure()) return options_.lens;
+  const auto focal = follower_->focal();
+  if (!focal || frame_width_px_ == 0) return options_.lens;
+  return OwnLens{focal->px / frame_width_px_, focal->sigma};
+}
+
 replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) {
   search_.Open(*seen.frame);
+  frame_width_px_ = seen.frame->width;
+  if (!focal_ && options_.lens) {
+    focal_ = {options_.lens->focal_share * frame_width_px_, options_.lens->sigma};
+  }
   if (const auto magnification = place_.Magnification(seen.frame->width)) {
     search_.hand_over().SetRunMagnification(*magnification);
   }
   replay::FollowStep step;
   if (!follower_ || standing.state == ReplayState::kWaiting) {
-    if (!BeginNext(seen.looked_s, standing)) return LookAroundForAny(seen, standing);
+    if (!BeginNext(seen, standing)) return LookAroundForAny(seen, standing);
     step = follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
     Judge(step, seen, standing);
   } else {
@@ -217,7 +231,8 @@ void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
 // Nor does one that may be anywhere on the route, and does not see where.
 replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
   replay::FollowStep step;
-  if (!options_.anywhere || follower_ || standing.trust != Trust::kLost) return step;
+  if (lens_turn_.turns()) step.command = {0.0, lens_turn_.turn_rate_radps()};
+  if (!anywhere_ || follower_ || standing.trust != Trust::kLost) return step;
   TurnToLook(seen, standing);
   step.command = {0.0, look_around_.turn_rate_radps()};
   return step;

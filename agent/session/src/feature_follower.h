@@ -20,6 +20,7 @@
 #include "services/motion/motion.h"
 #include "services/replay/follower.h"
 #include "services/replay/passing.h"
+#include "services/replay/turn_flow.h"
 #include "services/route/route.h"
 
 namespace trailcast::agent {
@@ -48,6 +49,9 @@ class FeatureFollower {
   // What it met with on the way, if it was to note that, from its beginning or the last call on.
   [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
+  // Of a robot that has been sure of its path; otherwise what it was told.
+  [[nodiscard]] std::optional<OwnLens> lens() const;
+
   // Driven backwards, it comes along the route.
   [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
   // Of the segment being followed; nullptr before the first.
@@ -63,12 +67,17 @@ class FeatureFollower {
     return eyes_.has_odometry() && UsesOdometry(options_.method);
   }
   // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
-  [[nodiscard]] bool BeginNext(double dt_s, Standing& standing);
-  [[nodiscard]] bool BeginWhereLeft(Standing& standing);
-  [[nodiscard]] bool BeginAnywhere(double dt_s, Standing& standing);
+  [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool BeginWhereLeft(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool MeasuresLens(const Seen& seen, Standing& standing);
+  [[nodiscard]] double MagnificationBy(const replay::FocalLength& focal);
+  [[nodiscard]] replay::RoughPlace Roughly(double along_sigma_m) const;
+  [[nodiscard]] bool BeginAnywhere(const Seen& seen, Standing& standing);
   [[nodiscard]] bool LooksElsewhere(Standing& standing);
+  [[nodiscard]] bool LooksAgainIfLost() const;
   [[nodiscard]] bool BeginAbout(const RoutePoint& point);
   [[nodiscard]] bool BeginBy(const RoutePoint& point);
+  void BeginUnseen(const RoutePoint& point, double magnification);
   void BeginAtLikeliest(const std::vector<double>& places);
   void Make(const route::Segment& first);
   void Begin(const route::Segment& segment);
@@ -94,6 +103,7 @@ class FeatureFollower {
 
   ReplayMethodOptions options_;
   int scout_width_px_;
+  int frame_width_px_ = 0;  // 0: none was seen
   const KnownRoute& route_;
   Eyes& eyes_;
   PlaceKeeper& place_;
@@ -101,10 +111,15 @@ class FeatureFollower {
   Confidence confidence_;
   replay::Passing passing_;
   LookingAround look_around_;
-  PlaceTrust place_trust_;                   // of the printed methods
-  double look_again_at_s_ = 0.0;             // of being unsure
-  std::optional<PlaceFinder> place_finder_;  // until it has found the place
-  std::string not_there_;  // where it looks along the whole route: where it is not
+  // A turn to either side that tells its lens, and how far what it sees moves meanwhile.
+  LookingAround lens_turn_;
+  std::optional<replay::TurnFlow> turn_flow_;
+  std::optional<replay::FocalLength> focal_;  // in this run's pixels
+  PlaceTrust place_trust_;                    // of the printed methods
+  double look_again_at_s_ = 0.0;              // of being unsure
+  std::optional<PlaceFinder> place_finder_;   // until it has found the place
+  bool anywhere_;                             // on the route it may be, until it is found
+  std::string not_there_;                     // where it looks along the whole route: why
   std::optional<ExperienceTaker> experience_;
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };

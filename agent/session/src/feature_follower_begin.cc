@@ -17,6 +17,10 @@ namespace {
 // millisecond.
 constexpr std::size_t kMostLearnt = 200;
 constexpr double kFound_m = 0.3;
+// How far off one may be that is told where it stands, and where views look alike but for their
+// size.
+constexpr double kTold_m = 0.3;
+constexpr double kAlike_m = 2.0;
 // Of places that look alike: how many are compared, of which probability at least, and how often
 // while the robot stands; which are the same by their features; and how many fewer agree with a
 // wrong one.
@@ -25,6 +29,7 @@ constexpr double kLeastCompared = 0.05;
 constexpr double kCompare_s = 0.5;
 constexpr double kSamePlace = 0.6;
 constexpr double kFarFewer = 0.6;
+constexpr int kEnoughHeld = 6;  // features, where the belief holds it to be there
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
@@ -44,7 +49,8 @@ void FeatureFollower::GoOnFrom(const LeftAt& left) {
 }
 
 void FeatureFollower::Make(const route::Segment& first) {
-  const auto known = place_finder_ ? place_finder_->left().magnification : std::nullopt;
+  const auto known =
+      place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
   const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
   follower_ = MakeFollower(options_, eyes_.has_odometry() && first.has_odometry, scout_width_px_,
                            known.value_or(alike), known.has_value());
@@ -64,9 +70,9 @@ void FeatureFollower::Begin(const route::Segment& segment) {
 }
 
 // Of a robot that stands, for want of a segment to follow.
-bool FeatureFollower::BeginNext(double dt_s, Standing& standing) {
-  if (place_finder_) return BeginWhereLeft(standing);
-  if (options_.anywhere && !follower_) return BeginAnywhere(dt_s, standing);
+bool FeatureFollower::BeginNext(const Seen& seen, Standing& standing) {
+  if (place_finder_) return BeginWhereLeft(seen, standing);
+  if (anywhere_ && !follower_) return BeginAnywhere(seen, standing);
   const std::size_t next = follower_ ? follower_->segment().index.value() + 1 : 0;
   if (route_.has(next)) {
     Begin(route_.segments()[next]);
@@ -76,14 +82,24 @@ bool FeatureFollower::BeginNext(double dt_s, Standing& standing) {
   return false;
 }
 
-bool FeatureFollower::BeginWhereLeft(Standing& standing) {
+bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
+  if (place_finder_->told()) {
+    if (MeasuresLens(seen, standing)) return false;
+    if (focal_ && !place_finder_->left().magnification) {
+      place_finder_->KnowMagnification(MagnificationBy(*focal_));
+    }
+  }
   const auto recognised_m =
       place_.where().held ? std::optional(place_.where().along) : std::nullopt;
   if (const auto found = place_finder_->Look(search_.frame(), route_.segments(),
                                              search_.hand_over(), recognised_m)) {
     const route::Segment& segment = route_.segment(found->segment);
     Make(segment);
-    follower_->BeginAt(segment, found->fraction);
+    if (place_finder_->told()) {
+      follower_->BeginAbout(segment, found->fraction, Roughly(kTold_m));
+    } else {
+      follower_->BeginAt(segment, found->fraction);
+    }
     place_.StartAt(place_.AlongOf({found->segment, found->fraction}), kFound_m);
     search_.TakeUpWhereLeft(found->seen, *follower_);
     place_finder_.reset();
@@ -96,16 +112,16 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
   const LeftAt& left = place_finder_->left();
   const std::string there =
       fmt::format("where it {}, {:.1f} m along the route",
-                  left.magnification ? "was left" : "is said to stand", left.along_m);
+                  place_finder_->told() ? "is said to stand" : "was left", left.along_m);
   standing.state = ReplayState::kBlind;
   standing.reason = "looks whether it is " + there;
   if (!place_finder_->given_up()) return false;
   const char* elsewhere =
-      left.magnification ? "nor at the route's start: " : "nor within half a metre: ";
-  const char* what_to_do = left.magnification
-                               ? "Put it back to either, or begin at the start all the same with "
-                                 "--from-start"
-                               : "Put it there, or send it from where it stands";
+      place_finder_->told() ? "nor within half a metre: " : "nor at the route's start: ";
+  const char* what_to_do = place_finder_->told()
+                               ? "Put it there, or send it from where it stands"
+                               : "Put it back to either, or begin at the start all the same with "
+                                 "--from-start";
   standing.state = ReplayState::kLost;
   standing.trust = Trust::kLost;
   standing.reason = fmt::format("not {}, {}{} in view at best. {}", there, elsewhere,
@@ -113,37 +129,88 @@ bool FeatureFollower::BeginWhereLeft(Standing& standing) {
   return false;
 }
 
-// It is not where it was said to be. True: it looks along the whole route from now on.
+// It is not where it was said to be, or has lost its path. True: it looks along the whole route
+// from now on.
 bool FeatureFollower::LooksElsewhere(Standing& standing) {
-  if (!options_.else_anywhere || options_.anywhere || confidence_.ever_sure()) return false;
-  options_.anywhere = true;
-  not_there_ = place_finder_ ? "it is not where it was left: " : "it is not at the route's start: ";
+  const bool lost = confidence_.ever_sure();
+  if (lost ? !LooksAgainIfLost() : !options_.else_anywhere || anywhere_) return false;
+  not_there_ = lost            ? "it has lost its path (" + standing.reason + "): "
+               : place_finder_ ? "it is not where it was left: "
+                               : "it is not at the route's start: ";
+  if (lost) {
+    focal_ = follower_->focal();
+    confidence_.SeekAnew("the path is not found again");
+  }
+  anywhere_ = true;
   follower_.reset();
   place_finder_.reset();
   search_.Forget();
   place_.StartAnywhere();
+  place_trust_ = PlaceTrust();
   look_again_at_s_ = 0.0;
   standing = {ReplayState::kBlind, Trust::kSeeking, not_there_ + "looks where on the route it is"};
   return true;
 }
 
+// By our own method, which tells its place on the route by features.
+bool FeatureFollower::LooksAgainIfLost() const {
+  return (options_.else_anywhere || options_.anywhere) && !AsPrinted(options_.method) && follower_;
+}
+
 // The same, of one that may be anywhere on the route.
-bool FeatureFollower::BeginAnywhere(double dt_s, Standing& standing) {
-  Verdict verdict = place_trust_.Judge(place_.where(), dt_s);
+bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
+  if (lens_turn_.turns() && MeasuresLens(seen, standing)) return false;
+  Verdict verdict = place_trust_.Judge(place_.where(), seen.looked_s,
+                                       "a place is recognised, but too few of its features");
   const bool lost = verdict.trust == Trust::kLost;
   standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
               lost ? Trust::kLost : Trust::kSeeking,
               not_there_ + "looks where on the route it is: " + verdict.reason};
   if (!lost) look_around_.Rest();
+  if (!place_.where().held && place_.where().agreed < kEnoughAgreed) return false;
+  if (MeasuresLens(seen, standing)) return false;
+  look_again_at_s_ -= seen.looked_s;
+  if (look_again_at_s_ > kTimeSlack_s) return false;
+  look_again_at_s_ = kCompare_s;
   if (place_.where().held) {
     BeginAtLikeliest({place_.where().along});
-  } else if (place_.where().agreed >= kEnoughAgreed) {
-    look_again_at_s_ -= dt_s;
-    if (look_again_at_s_ > kTimeSlack_s) return false;
-    look_again_at_s_ = kCompare_s;
+  } else {
     BeginAtLikeliest(place_.belief().Likeliest(kMostCompared, kLeastCompared));
   }
   return follower_ != nullptr;
+}
+
+// Where it is, and how large its camera shows things, is one unknown to a robot that stands;
+// turning tells the second. Once.
+bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
+  if (focal_ || lens_turn_.furthest_rad() == 0.0 || !seen.driven) return false;
+  if (!turn_flow_) {
+    turn_flow_.emplace(seen.frame->width);
+    eyes_.tracker().Detect();
+  } else {
+    turn_flow_->Look(seen.features, seen.driven->heading_change_rad);
+  }
+  if (!lens_turn_.Turn(seen.driven->heading_change_rad, seen.looked_s)) {
+    focal_ = turn_flow_->focal();
+    return false;
+  }
+  standing = {
+      ReplayState::kBlind, Trust::kLooking,
+      not_there_ + "turns a little to either side to see how large its camera shows things"};
+  return true;
+}
+
+// By what the route says of the scout's camera.
+double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
+  Make(route_.segments().front());
+  const double magnification = follower_->magnification();
+  const auto alike = follower_->focal();
+  follower_.reset();
+  return alike ? magnification * focal.px / alike->px : magnification;
+}
+
+replay::RoughPlace FeatureFollower::Roughly(double along_sigma_m) const {
+  return {along_sigma_m, focal_};
 }
 
 // Views look alike that are of places apart, and from half a metre further on. Where it is tell the
@@ -153,6 +220,7 @@ void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
   struct Candidate {
     double along = 0.0;  // by its features
     int agreeing = 0;
+    double magnification = 1.0;
   };
   std::vector<Candidate> candidates;
   const HandOver unlearnt = search_.hand_over();
@@ -163,7 +231,7 @@ void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
     const double by_features = step.offset && place_.metric()
                                    ? place_.AlongOf({segment, 0.0}) + step.offset->along_m
                                    : place_.AlongOf({segment, step.fraction});
-    candidates.push_back({by_features, step.agreeing});
+    candidates.push_back({by_features, step.agreeing, follower_->magnification()});
     search_.hand_over() = unlearnt;
   }
   follower_.reset();
@@ -175,9 +243,23 @@ void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
         return std::abs(other.along - candidates.front().along) < kSamePlace ||
                other.agreeing < kFarFewer * candidates.front().agreeing;
       });
-  if (candidates.empty() || candidates.front().agreeing < kEnoughAgreed || !one_place) return;
+  const int enough = place_.where().held ? kEnoughHeld : kEnoughAgreed;
+  if (candidates.empty() || candidates.front().agreeing < enough || !one_place) return;
   const double along = std::clamp(candidates.front().along, 0.0, place_.belief().length());
-  if (BeginAbout(place_.PointAt(along))) place_.StartAt(along, kFound_m);
+  const RoutePoint point = place_.PointAt(along);
+  const double magnification = candidates.front().magnification;
+  if (focal_) search_.hand_over().KnowMagnification(magnification);
+  if (!BeginAbout(point)) BeginUnseen(point, magnification);
+  place_.StartAt(along, kFound_m);
+}
+
+// What tells the place need not be of the segment there: a narrow camera sees what is further on.
+void FeatureFollower::BeginUnseen(const RoutePoint& point, double magnification) {
+  const route::Segment& segment = route_.segment(point.segment);
+  Make(segment);
+  follower_->BeginAt(segment, point.fraction);
+  follower_->SetMagnification(magnification);
+  confidence_.SetFound();
 }
 
 // Late in a segment its features are leaving the picture, and the next one's are all there.
@@ -190,7 +272,7 @@ bool FeatureFollower::BeginBy(const RoutePoint& point) {
   const route::Segment& segment = route_.segment(point.segment);
   if (segment.features.empty()) return false;
   Make(segment);
-  follower_->BeginAbout(segment, point.fraction);
+  follower_->BeginAbout(segment, point.fraction, Roughly(kAlike_m));
   const auto found = search_.Recover(*follower_, segment, point);
   if (found.empty()) {
     follower_.reset();

@@ -60,13 +60,15 @@ std::optional<PlaceFinder::Found> PlaceFinder::LookFrom(const image::GrayImage& 
                                                         const HandOver& hand_over, double along_m) {
   const auto place = PlaceAt(segments, along_m);
   if (!place) return std::nullopt;
+  // As grown, and of one that is told its place at any magnification, where nothing was found.
+  const bool again = rounds_ > 0;
+  const auto magnification = told_ && again ? std::nullopt : left_.magnification;
   const auto see = [&](bool grown) {
-    return hand_over.SeeFrom(frame, *place->segment, place->fraction, left_.magnification, grown);
+    return hand_over.SeeFrom(frame, *place->segment, place->fraction, magnification, grown);
   };
-  // As grown where nothing was found as it was taught.
-  const bool grows = rounds_ > 0;
+  const bool grows = again && magnification;
   Found found{place->segment->index, place->fraction, see(grows)};
-  if (!left_.magnification && !grows) {  // of which more are found at the one that it is
+  if (!magnification) {  // of which more are found at the one that it is
     vision::FindResult grown = see(true);
     if (grown.AboveChance() > found.seen.AboveChance()) found.seen = std::move(grown);
   }
@@ -79,18 +81,17 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
                                                     const HandOver& hand_over,
                                                     std::optional<double> recognised_m) {
   if (given_up()) return std::nullopt;
-  const bool told = !left_.magnification;
-  const bool at_start = !told && turn_ == kAround_m.size();
+  const bool at_start = !told_ && turn_ == kAround_m.size();
   const double along_m = at_start ? 0.0 : left_.along_m + kAround_m.at(turn_);
   auto found = LookFrom(frame, segments, hand_over, along_m);
   const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
   if (found && IsThere(found->seen, recognised)) {
-    if (told) return found;
+    if (told_) return found;
     // It is back at the start only if it is nowhere about the other place.
     const bool likest = !likest_ || (!at_start && Likeness(*found) > Likeness(*likest_));
     if (Likeness(*found) > 0.0 && likest) likest_ = std::move(found);
   }
-  const bool last = told ? turn_ + 1 == kToldPlaces : at_start;
+  const bool last = told_ ? turn_ + 1 == kToldPlaces : at_start;
   turn_ = last ? 0 : turn_ + 1;
   if (!last) return std::nullopt;
   ++rounds_;

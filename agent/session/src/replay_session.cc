@@ -196,6 +196,8 @@ std::optional<refresh::Visit> ReplaySession::TakeVisit() {
   return state_->by_features.TakeVisit();
 }
 
+std::optional<OwnLens> ReplaySession::lens() const { return state_->by_features.lens(); }
+
 const image::GrayImage* ReplaySession::picture() const { return state_->picture; }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {

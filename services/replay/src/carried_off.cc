@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "services/base/square.h"
 #include "services/replay/path_estimator.h"
@@ -17,6 +18,10 @@ constexpr double kFurthest_m = 3.0;
 constexpr double kApart_m = 0.5;
 constexpr double kWidest = 8.0;  // times Cauchy's own width
 constexpr int kIterations = 6;
+// So many sigmas may a place be off that is told,
+constexpr double kLikely = 2.0;
+// and the magnification be off that of a camera like the scout's.
+constexpr double kAlike = 2.0;
 constexpr double kSamePlace_m = 0.4;  // from one look to the next
 
 }  // namespace
@@ -47,13 +52,14 @@ PathEstimator::State PathEstimator::FromFarAway(
 }
 
 std::pair<PathEstimator::State, double> PathEstimator::LeastSurprising(
-    Index index, const State& about, const Prior& prior,
+    Index index, double furthest_m, const State& about, const Prior& prior,
     const std::vector<route::TrackedFeature>& seen) const {
   State best = about;
   double least = std::numeric_limits<double>::infinity();
-  for (double off_m = -kFurthest_m; off_m <= kFurthest_m; off_m += kApart_m) {
+  const double steps = std::ceil(furthest_m / kApart_m);
+  for (double step = -steps; step <= steps; ++step) {
     State start = about;
-    start[index] += off_m;
+    start[index] += step * furthest_m / steps;
     const State there = FromFarAway(start, prior, seen);
     const double surprise = Surprise(there, prior, seen);
     if (surprise >= least) continue;
@@ -63,20 +69,32 @@ std::pair<PathEstimator::State, double> PathEstimator::LeastSurprising(
   return {best, least};
 }
 
-PathEstimator::Prior PathEstimator::FindWhereAlong(const Prior& any_camera,
+PathEstimator::Prior PathEstimator::FindWhereAlong(const Prior& before,
                                                    const std::vector<route::TrackedFeature>& seen) {
-  along_is_rough_ = false;
-  State mean = any_camera.mean;
-  mean[kMagnification] = own_magnification_;
-  Covariance alike = any_camera.covariance;
-  alike(kMagnification, kMagnification) = Square(options_.same_camera * own_magnification_);
-  const Prior same_camera(mean, alike);
-  const auto by_same = LeastSurprising(kAlong, mean, same_camera, seen);
-  const auto by_any = LeastSurprising(kAlong, any_camera.mean, any_camera, seen);
-  const double rarer = std::log(options_.found_magnification / options_.same_camera);
-  const bool same = by_same.second < by_any.second + rarer;
-  state_ = same ? by_same.first : by_any.first;
-  return same ? same_camera : any_camera;
+  const auto with_camera = [&](double magnification, double sigma) {
+    State mean = before.mean;
+    mean[kMagnification] = magnification;
+    Covariance covariance = before.covariance;
+    covariance(kMagnification, kMagnification) = Square(sigma * magnification);
+    return Prior(mean, covariance);
+  };
+  const double furthest_m = std::min(kFurthest_m, kLikely * rough_->along_sigma_m);
+  double magnification = before.mean[kMagnification];
+  double sigma = options_.found_magnification;
+  if (const auto own = std::exchange(rough_, std::nullopt)->focal) {
+    magnification = own->px / flow_.focal().px;
+    sigma = std::hypot(own->sigma, flow_.focal().sigma);
+  }
+  const Prior any_camera = with_camera(magnification, sigma);
+  const auto by_any = LeastSurprising(kAlong, furthest_m, any_camera.mean, any_camera, seen);
+  state_ = by_any.first;
+  if (std::abs(std::log(magnification / own_magnification_)) > kAlike * sigma) return any_camera;
+  const Prior same_camera = with_camera(own_magnification_, options_.same_camera);
+  const auto by_same = LeastSurprising(kAlong, furthest_m, same_camera.mean, same_camera, seen);
+  const double rarer = std::log(sigma / options_.same_camera);
+  if (by_same.second >= by_any.second + rarer) return any_camera;
+  state_ = by_same.first;
+  return same_camera;
 }
 
 std::optional<double> PathEstimator::FindIfCarriedOff(
@@ -87,7 +105,7 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
   wide(kHeading, kHeading) += Square(options_.carried_heading_rad);
   wide(kAlong, kAlong) += Square(options_.carried_along_m);
   const Prior anywhere(before.mean, wide);
-  const auto [best, least] = LeastSurprising(kLeft, before.mean, anywhere, seen);
+  const auto [best, least] = LeastSurprising(kLeft, kFurthest_m, before.mean, anywhere, seen);
   const double here = Surprise(state_, before, seen);
   const Equations there = Linearise(best, anywhere, seen, options_.cauchy_px);
   const int agreeing_here =

@@ -60,18 +60,26 @@ void PathEstimator::Begin(const route::Segment& segment) {
 void PathEstimator::Restart(const route::Segment& segment, double along_m) {
   state_[kLeft] = state_[kHeading] = 0.0;
   carried_.reset();
-  along_is_rough_ = false;
+  rough_.reset();
   BeUnsure();
   state_[kAlong] = ExitOf(segment_) - EntryOf(segment) + along_m;
   Begin(segment);
   last_heading_ = {};
 }
 
-void PathEstimator::BeUnsureWhereAlong() {
-  covariance_(kAlong, kAlong) = Square(options_.found_along_m);
+void PathEstimator::BeUnsureWhereAlong(const RoughPlace& rough) {
+  rough_ = rough;
+  covariance_(kAlong, kAlong) = Square(rough.along_sigma_m);
+  if (rough.focal) state_[kMagnification] = rough.focal->px / flow_.focal().px;
   covariance_(kMagnification, kMagnification) =
       Square(options_.found_magnification * state_[kMagnification]);
-  along_is_rough_ = true;
+}
+
+FocalLength PathEstimator::focal() const {
+  const FocalLength scouts = flow_.focal();
+  const double k = state_[kMagnification];
+  return {k * scouts.px,
+          std::hypot(scouts.sigma, std::sqrt(covariance_(kMagnification, kMagnification)) / k)};
 }
 
 void PathEstimator::StartAt(const route::Segment& segment) {
@@ -338,7 +346,7 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
   Prior prior(state_, last_look_->before);
-  if (along_is_rough_ && seen.size() >= kFewestToFind) {
+  if (rough_ && seen.size() >= (rough_->focal ? kFewestByKnownCamera : kFewestToFind)) {
     prior = FindWhereAlong(prior, seen);
     last_look_->before = prior.covariance;
   }

@@ -50,9 +50,10 @@ void PathFollower::BeginAt(const route::Segment& segment, double fraction) {
   turning_ = false;
 }
 
-void PathFollower::BeginAbout(const route::Segment& segment, double fraction) {
+void PathFollower::BeginAbout(const route::Segment& segment, double fraction,
+                              const RoughPlace& rough) {
   BeginAt(segment, fraction);
-  estimator_.BeUnsureWhereAlong();
+  estimator_.BeUnsureWhereAlong(rough);
 }
 
 void PathFollower::SetMagnification(double magnification) {

@@ -20,6 +20,7 @@ constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer 
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
 constexpr std::size_t kFewestWithASpread = 5;
+constexpr double kLeastFocalSigma = 0.04;  // however many bends there were: their odometry erred
 
 Eigen::Vector3d CubicBase(double s) { return {s, s * s, s * s * s}; }
 
@@ -205,6 +206,11 @@ void TaughtFlow::Learn(const route::Segment& segment) {
   information_ =
       fit.information.topLeftCorner<kCamera, kCamera>() - mixed * own.inverse() * mixed.transpose();
   Use(mean_);
+}
+
+FocalLength TaughtFlow::focal() const {
+  const double variance = information_.inverse()(kLogFocal, kLogFocal);
+  return {camera_.focal_px, std::hypot(std::sqrt(variance), kLeastFocalSigma)};
 }
 
 std::vector<InverseDepth> TaughtFlow::Depths(const route::Segment& segment) const {

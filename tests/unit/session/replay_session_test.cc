@@ -153,6 +153,35 @@ TEST_P(ReplaySessionTest, NotAtTheStartItLooksAlongTheWholeRouteIfItMay) {
   EXPECT_NEAR(*found, kStands / (2.0 * kFrames - 1.0), 0.15);
 }
 
+TEST(ReplaySessionLost, LooksForItselfAlongTheWholeRouteAndGoesOn) {
+  constexpr int kFollows = 20;
+  constexpr int kPutTo = 45;
+  ReplayMethodOptions options;
+  options.else_anywhere = true;
+  ReplaySession session = SessionOn(Taught(true), options);
+  int i = 0;
+  const auto look = [&](const image::GrayImage& picture) {
+    const auto step = session.Observe({StampOf(i), picture, PoseAt(std::min(i, kFollows), true)});
+    ++i;
+    return step.value();
+  };
+  while (i < kFollows) (void)look(Walk()[static_cast<std::size_t>(i)]);
+  constexpr int kCovered = 450;
+  ReplayStep step;
+  while (i < kCovered && step.reason.find("it has lost its path") == std::string::npos) {
+    step = look(Noise(static_cast<unsigned>(i)));
+    EXPECT_NE(step.state, ReplayState::kLost) << step.reason;
+  }
+  EXPECT_THAT(step.reason, HasSubstr("looks where on the route it is"));
+  const int put_at = i;
+  while (i < put_at + 60 && step.state != ReplayState::kFollowing) {
+    EXPECT_TRUE(Stands(step)) << step.reason;
+    step = look(Walk()[kPutTo]);
+  }
+  ASSERT_EQ(step.state, ReplayState::kFollowing) << step.reason;
+  EXPECT_NEAR(step.believed->place, kPutTo / (kFrames - 1.0), 0.15);
+}
+
 TEST_P(ReplaySessionTest, NothingOfTheRouteInViewIsNeverFollowed) {
   ReplaySession session = SessionOn(Taught(odometry()));
   ReplayStep last;
