@@ -119,12 +119,12 @@ TEST_F(JointDeskTest, FindsWhereRoutesOfTheStoreMeetOnceTheirViewsAreIndexed) {
   ASSERT_TRUE(SearchesFor(3));
   EXPECT_THAT(searched_, UnorderedElementsAre(Key(1), Key(2), Key(3)));
   ASSERT_TRUE(Of(1, 2));
-  EXPECT_NEAR(Of(1, 2)->at_a_m, 13.5, 0.2);
-  EXPECT_NEAR(Of(1, 2)->at_b_m, 1.5, 0.2);
+  EXPECT_NEAR(Of(1, 2)->at_a_m, 15.0, 0.2);
+  EXPECT_NEAR(Of(1, 2)->at_b_m, 3.0, 0.2);
   EXPECT_NEAR(Of(1, 2)->length_m, 8.0, 1.1);
   EXPECT_GT(Of(1, 2)->confidence, 0.9);
   ASSERT_TRUE(Of(2, 1)) << "as seen from the other";
-  EXPECT_NEAR(Of(2, 1)->at_b_m, 13.5, 0.2);
+  EXPECT_NEAR(Of(2, 1)->at_b_m, 15.0, 0.2);
   EXPECT_EQ(meetings_.size(), 2U);
   Turn();
   EXPECT_FALSE(desk_.due());
@@ -150,8 +150,8 @@ TEST_F(JointDeskTest, ARouteThatComesBackMeetsItself) {
   FillViews();
   ASSERT_TRUE(SearchesFor(1));
   ASSERT_TRUE(Of(1, 1));
-  EXPECT_NEAR(Of(1, 1)->at_a_m, 1.5, 0.2);
-  EXPECT_NEAR(Of(1, 1)->at_b_m, 19.5, 0.2);
+  EXPECT_NEAR(Of(1, 1)->at_a_m, 2.5, 0.2);
+  EXPECT_NEAR(Of(1, 1)->at_b_m, 20.5, 0.2);
 }
 
 TEST_F(JointDeskTest, WhatRobotsDoNotFollowIsLeftOut) {
