@@ -35,6 +35,7 @@ constexpr std::chrono::seconds kAilsFor{2};
 // for one whose agent has ended.
 constexpr std::chrono::seconds kStandsThere{60};
 constexpr std::chrono::seconds kDeliverAgain{60};
+constexpr const char* kWaitsForWord = "waits before a narrow stretch until a server lets it in";
 
 exchange::AgentStatus FreeStatus(const AgentId& agent) {
   exchange::AgentStatus status;
@@ -295,12 +296,19 @@ void OnDuty::WaitOn(const mission::Task& task) {
 
 bool OnDuty::WaitsForWay() const {
   const auto& current = desk_.current();
-  return current && (!missed_.empty() || Kind(*current) == mission::Task::Kind::kWaitWay);
+  if (!current) return false;
+  const auto kind = Kind(*current);
+  return !missed_.empty() || kind == mission::Task::Kind::kWaitWay ||
+         kind == mission::Task::Kind::kWaitLane;
 }
 
 void OnDuty::WaitForWay() {
-  TellState(State::kFetching,
-            "waits for a way: " + (missed_.empty() ? desk_.current()->because : missed_));
+  const MissionDesk::Current& current = *desk_.current();
+  if (missed_.empty() && Kind(current) == mission::Task::Kind::kWaitLane) {
+    const bool told = current.because.starts_with(mission::kWaits);
+    return TellState(State::kFetching, told ? current.because : kWaitsForWord);
+  }
+  TellState(State::kFetching, "waits for a way: " + (missed_.empty() ? current.because : missed_));
 }
 
 // In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.

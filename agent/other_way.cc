@@ -16,6 +16,7 @@ OtherWay FindOnWay(std::span<const Task> way, const Task& driven, std::optional<
   if (!along_m || way.empty()) return {};
   for (std::uint32_t i = 0; i < way.size(); ++i) {
     const Task& task = way[i];
+    if (task.kind != Task::Kind::kFollow) break;  // it may not go on beyond that
     const bool is_on = AreOfOneRoute(task, driven) && *along_m >= task.from_m - kOnWay_m &&
                        *along_m <= task.to_m + kPassed_m;
     if (!is_on) continue;

@@ -208,6 +208,7 @@ Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders
     return tl::unexpected(stored.error());
   }
   mission.orders = orders;
+  current->record.last.task = 0;  // of these
   current->tell_at = {};
   notes_.push_back({Describe(mission)});
   return {};

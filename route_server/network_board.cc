@@ -1,6 +1,7 @@
 #include "route_server/network_board.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,12 @@ bool IsNear(const Place& a, const Place& b) {
 Joint Reversed(Joint joint) {
   std::swap(joint.from, joint.to);
   return joint;
+}
+
+std::vector<std::string> NamesOf(const std::set<AgentId>& agents) {
+  std::vector<std::string> names;
+  for (const AgentId& agent : agents) names.push_back(agent.value());
+  return names;
 }
 
 std::string ListedText(const std::string& edit, bool used) {
@@ -97,6 +104,9 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   if (!proposed) return tl::unexpected(proposed.error());
   auto searched = board->store_->Searched();
   if (!searched) return tl::unexpected(searched.error());
+  auto lanes = board->store_->Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  board->lanes_ = *std::move(lanes);
   board->proposed_ = *std::move(proposed);
   board->searched_.insert(searched->begin(), searched->end());
   board->joints_ = *std::move(joints);
@@ -150,9 +160,13 @@ exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& requ
 }
 
 void NetworkBoard::Hear(const exchange::AgentStatus& status) {
-  if (status.role != exchange::AgentRole::kFollower || !status.place) return;
-  places_.Touch(status.agent) = {{IdOf(status.place->key), status.place->along_m},
-                                 status.speed_mps};
+  if (status.role != exchange::AgentRole::kFollower) return;
+  if (status.place) {
+    places_.Touch(status.agent) = {
+        {IdOf(status.place->key), status.place->along_m}, status.speed_mps, true};
+  } else if (Stand* stand = places_.Find(status.agent)) {
+    stand->now = false;
+  }
 }
 
 void NetworkBoard::Note(const route::RouteInfo& info) {
@@ -185,6 +199,11 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
     case Edit::Kind::kConfirm:
     case Edit::Kind::kRefuse:
       return Settle(edit, by, now_unix_ms);
+    case Edit::Kind::kNarrow:
+      return Narrow(edit.lane, by, now_unix_ms);
+    case Edit::Kind::kWide:
+    case Edit::Kind::kVacate:
+      return Leave(edit);
     default:
       return Set(edit, by, now_unix_ms);
   }
@@ -316,6 +335,13 @@ Result<Lines> NetworkBoard::All() {
     condition.route = Called(RouteId(condition.route));
     lines.push_back(network::ToText(condition));
   }
+  for (const store::KeptLane& kept : lanes_) {
+    std::string line = network::ToText(CalledLane(kept));
+    if (!kept.holders.empty()) {
+      line += fmt::format("{}{}", network::kTakenBy, fmt::join(NamesOf(kept.holders), " "));
+    }
+    lines.push_back(PlainText(line, exchange::kMaxLineBytes));
+  }
   for (const auto& [name, place] : named_) {
     const auto called = Called(NamedPlace{name, place});
     if (!called) return tl::unexpected(called.error());
@@ -358,11 +384,10 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   }
   const auto way = network_->ShortestWay(*from, *to);
   if (!way) return tl::unexpected(way.error());
+  const auto tasks = TasksOf(way->stretches, HeldBy(AgentId(robot)));
+  if (!tasks) return tl::unexpected(tasks.error());
   Lines lines;
-  for (const network::Stretch& stretch : way->stretches) {
-    if (IsNear(stretch.from_m, stretch.to_m)) continue;
-    lines.push_back(mission::ToText(TaskOf(stretch)));
-  }
+  for (const mission::Task& task : *tasks) lines.push_back(mission::ToText(task));
   return lines;
 }
 
@@ -471,6 +496,9 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
   for (const auto& [name, place] : named_) wanted.insert(KeyOf(place.route).route);
+  for (const store::KeptLane& kept : lanes_) {
+    for (const network::Part& part : kept.lane.parts) wanted.insert(RouteId(part.route));
+  }
   for (const store::ProposedJoint& each : proposed_) {
     if (each.verdict != store::ProposedJoint::Verdict::kNone) continue;
     const Joint& joint = each.proposal.joint;

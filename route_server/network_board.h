@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,6 +77,7 @@ class NetworkBoard {
   struct Stand {
     network::Place place{};
     double speed_mps = 0.0;
+    bool now = false;  // its last word had it
   };
   // Where a robot last said that it is; null: it has not.
   [[nodiscard]] const Stand* StandOf(const AgentId& agent) const { return places_.Find(agent); }
@@ -89,6 +91,26 @@ class NetworkBoard {
   [[nodiscard]] std::string Called(const network::Condition& closed) const;  // "hall 3..7"
   [[nodiscard]] Result<std::vector<network::Stretch>> WayOn(const network::Place& from,
                                                             const std::string& goal);
+
+  // Narrow places, by their positions here until one is made or goes (changes()), and who has them:
+  // on the disk when it returns.
+  using LaneSet = std::set<std::size_t>;
+  [[nodiscard]] bool HasLanes() const { return !lanes_.empty(); }
+  // Of revisions that are followed.
+  [[nodiscard]] Result<std::vector<network::Lane>> Lanes();
+  [[nodiscard]] const std::set<AgentId>& HoldersOf(std::size_t lane) const {
+    return lanes_[lane].holders;
+  }
+  [[nodiscard]] LaneSet HeldBy(const AgentId& agent) const;
+  [[nodiscard]] Result<void> Hold(const LaneSet& lanes, const AgentId& agent);
+  [[nodiscard]] Result<void> Release(const LaneSet& lanes, const AgentId& agent);
+  [[nodiscard]] std::string Called(std::size_t lane) const;  // by its first part
+  // Whose word on where they are an operator has contradicted, since this was asked last.
+  [[nodiscard]] std::set<AgentId> TakeVacated() { return std::exchange(vacated_, {}); }
+  // As a mission has a way: it waits before lanes that are not open to it (network::LegsOf).
+  [[nodiscard]] Result<std::vector<mission::Task>> TasksOf(std::span<const network::Stretch> way,
+                                                           const LaneSet& open);
+  [[nodiscard]] std::vector<mission::Task> TasksOf(std::span<const network::Leg> legs) const;
 
  private:
   // Of a route the revision that robots follow, if there is one.
@@ -112,6 +134,11 @@ class NetworkBoard {
                                                       const std::string& by,
                                                       std::int64_t now_unix_ms);
   [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
+  [[nodiscard]] Result<std::vector<std::string>> Narrow(network::Lane lane, const std::string& by,
+                                                        std::int64_t now_unix_ms);
+  // Of kWide and kVacate.
+  [[nodiscard]] Result<std::vector<std::string>> Leave(const network::Edit& edit);
+  [[nodiscard]] network::Lane CalledLane(const store::KeptLane& kept) const;
   // Confirms, or refuses, what is proposed.
   [[nodiscard]] Result<std::vector<std::string>> Settle(const network::Edit& edit,
                                                         const std::string& by,
@@ -146,8 +173,10 @@ class NetworkBoard {
   std::vector<network::Condition> conditions_;   // of routes: "ID"
   std::map<std::string, network::Place> named_;  // of revisions
   std::vector<store::ProposedJoint> proposed_;   // of revisions
-  std::set<std::string> searched_;               // revisions
-  std::vector<std::string> unsaved_;             // of these
+  std::vector<store::KeptLane> lanes_;           // of routes
+  std::set<AgentId> vacated_;
+  std::set<std::string> searched_;    // revisions
+  std::vector<std::string> unsaved_;  // of these
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "route_server/robot_way.h"
 #include "services/base/text.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
@@ -14,14 +15,6 @@ namespace {
 
 using mission::Task;
 using network::Stretch;
-
-// A robot's word on where it is, and where it began or was to end, are the same within this.
-constexpr double kOnWay_m = 0.5;
-
-bool Holds(const Stretch& stretch, const network::Place& place) {
-  return place.route == stretch.route && place.along_m >= stretch.from_m - kOnWay_m &&
-         place.along_m <= stretch.to_m + kOnWay_m;
-}
 
 // Two stretches of which one goes on where the other ends are one to a robot.
 void Append(std::vector<Stretch>& way, const Stretch& next) {
@@ -197,24 +190,19 @@ Result<std::string> Replanning::Replan(const mission::Record& record, const Rest
                         : rest.missed ? "it had passed where it was to leave its route"
                                       : "there is a way";
   if (!has_way) because += "; " + plan->no_way;
-  std::vector<Task> tasks;
-  for (const Stretch& stretch : plan->way) tasks.push_back(network_.TaskOf(stretch));
+  auto planned = network_.TasksOf(plan->way, network_.HeldBy(record.mission.agent));
+  if (!planned) return tl::unexpected(planned.error());
+  std::vector<Task>& tasks = *planned;
   if (!has_way) tasks.push_back({.kind = Task::Kind::kWaitWay});
   if (tasks.empty()) return std::string();  // it is there
-  mission::Going going = rest.going;
-  ++going.way;
-  going.because.clear();
-  if (ToText(going, tasks).size() > exchange::kMaxLineBytes) {
+  std::string orders = NextWay(rest.going, tasks, because);
+  if (orders.size() > exchange::kMaxLineBytes) {
     because +=
         fmt::format("; the other way has {} stretches, more than one mission holds", tasks.size());
     tasks = {{.kind = Task::Kind::kWaitWay}};
+    orders = NextWay(rest.going, tasks, because);
   }
-  constexpr std::string_view kBecause = " because ";
-  const std::size_t length = ToText(going, tasks).size() + kBecause.size();
-  if (length < exchange::kMaxLineBytes) {
-    going.because = PlainText(because, exchange::kMaxLineBytes - length);
-  }
-  if (auto amended = missions_.Amend(record.mission.agent, ToText(going, tasks)); !amended) {
+  if (auto amended = missions_.Amend(record.mission.agent, orders); !amended) {
     return tl::unexpected(amended.error());
   }
   const bool waits = tasks.back().kind == Task::Kind::kWaitWay;

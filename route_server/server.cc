@@ -99,7 +99,7 @@ Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
   auto board = MissionBoard::Open(presence_.status().agent, std::move(store));
   if (!board) return tl::unexpected(board.error());
   missions_ = std::move(*board);
-  if (network_) replanning_.emplace(*missions_, *network_);
+  KeepWays();
   return {};
 }
 
@@ -109,8 +109,23 @@ Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
   network_ = std::move(*board);
   joints_ = std::make_unique<JointDesk>(
       *store_, views_, [this](const route::RouteKey& key) { return network_->WasSearched(key); });
-  if (missions_) replanning_.emplace(*missions_, *network_);
+  KeepWays();
   return {};
+}
+
+void Server::KeepWays() {
+  if (!missions_ || !network_) return;
+  replanning_.emplace(*missions_, *network_);
+  lanes_.emplace(*missions_, *network_);
+  for (const std::string& line : lanes_->LookAtAll(steady_clock::now())) spdlog::info("{}", line);
+}
+
+void Server::Replan(const AgentId& agent) {
+  if (!replanning_) return;
+  const auto now = steady_clock::now();
+  const std::string line = replanning_->Look(agent, now);
+  if (!line.empty()) spdlog::warn("{}", line);
+  for (const std::string& each : lanes_->Look(agent, now)) spdlog::info("{}", each);
 }
 
 void Server::Receive(exchange::Message message) {
@@ -139,10 +154,7 @@ void Server::Receive(exchange::Message message) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     holders_.Note(*status, steady_clock::now());
     if (network_) network_->Hear(*status);
-    if (replanning_) {
-      const std::string line = replanning_->Look(status->agent, steady_clock::now());
-      if (!line.empty()) spdlog::warn("{}", line);
-    }
+    Replan(status->agent);
   }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);

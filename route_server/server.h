@@ -13,6 +13,7 @@
 #include "route_server/http_page.h"
 #include "route_server/joint_desk.h"
 #include "route_server/journal.h"
+#include "route_server/lane_keeper.h"
 #include "route_server/metrics.h"
 #include "route_server/mission_board.h"
 #include "route_server/network_board.h"
@@ -82,6 +83,8 @@ class Server {
                                                      const exchange::CatalogRequest& request);
   void TellAgents();
   void TellMissions();
+  void Replan(const AgentId& agent);
+  void KeepWays();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
   // For the history: what is announced; what was planned to be changed, before and after it is;
@@ -122,6 +125,7 @@ class Server {
   std::vector<route::RouteKey> planned_;  // to be changed
   std::chrono::steady_clock::time_point searched_due_{};
   std::optional<Replanning> replanning_;  // with both
+  std::optional<LaneKeeper> lanes_;       // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -94,8 +94,11 @@ void Server::Serve(const exchange::Message& request) {
     exchange::NetworkReply reply = network_->Change(*edit, NowUnixMs());
     NoteMade();
     if (reply.error.empty() && replanning_) {
-      for (std::string& line : replanning_->LookAtAll(steady_clock::now())) {
-        if (reply.lines.size() < exchange::kMaxNetworkLines) reply.lines.push_back(std::move(line));
+      const auto now = steady_clock::now();
+      for (const auto& lines : {replanning_->LookAtAll(now), lanes_->LookAtAll(now)}) {
+        for (const std::string& line : lines) {
+          if (reply.lines.size() < exchange::kMaxNetworkLines) reply.lines.push_back(line);
+        }
       }
     }
     replies_.emplace_back(std::move(reply));

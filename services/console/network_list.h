@@ -15,7 +15,8 @@ namespace trailcast::console {
 // part: there may be ten thousand routes. What is not understood is left out.
 class NetworkList {
  public:
-  // Joints, proposed ones, closed and limited parts, and names shown at once, of each kind.
+  // Joints, proposed ones, closed and limited parts, narrow places and names shown at once, of each
+  // kind.
   static constexpr std::size_t kMostMarks = 2000;
 
   // `whole`: these are all.
@@ -25,8 +26,8 @@ class NetworkList {
   [[nodiscard]] std::string Body(const NetworkQuery& query) const;
 
  private:
-  enum class Kind { kJoint, kProposed, kCondition, kName };
-  static constexpr std::size_t kKinds = 4;
+  enum class Kind { kJoint, kProposed, kCondition, kLane, kName };
+  static constexpr std::size_t kKinds = 5;
   struct Route {
     std::string name{};
     std::string lower{};  // that is searched in: names of places upon it, too

@@ -25,8 +25,10 @@ namespace trailcast::mission {
 // A server that finds another way while it is going sends the same mission with a higher N, and
 // why. Where there is none, it ends in
 //   wait way                 for such a one
+// and before a narrow place it has
+//   wait lane                until a server has sent it without
 struct Task {
-  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kWaitWay };
+  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
   double from_m = 0.0;  // where the robot stands at first; 0: at the route's beginning
@@ -36,6 +38,10 @@ struct Task {
   double wait_s = 0.0;
   std::vector<std::string> tags{};  // of what is taught, in any order
 };
+
+// What the reason of a way begins with that waits before a lane, or has been let in.
+inline constexpr std::string_view kWaits = "waits for ";
+inline constexpr std::string_view kEnters = "enters ";
 
 // What a robot is going to, beside the way there.
 struct Going {
@@ -49,6 +55,12 @@ struct Going {
 
 // None: they are no way to a place, or not understood.
 [[nodiscard]] std::optional<Going> GoingIn(std::string_view orders);
+
+// A robot that is on another way than at first says which at the end of its reports' details,
+// "re-planned: hall 3..7 was closed (way 2)". 1: the first, or it has not said so.
+[[nodiscard]] std::string WithWay(const std::string& detail, std::uint32_t way);
+[[nodiscard]] std::uint32_t WayIn(std::string_view detail);
+inline constexpr std::size_t kMostOfWay = 20;  // bytes that it makes a detail longer, at most
 
 // Those that they name; none where they are not understood.
 [[nodiscard]] std::set<std::string> RoutesIn(std::string_view orders);

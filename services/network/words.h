@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/network/lanes.h"
 #include "services/network/network.h"
 
 namespace trailcast::network {
@@ -19,6 +20,10 @@ namespace trailcast::network {
 //   open ROUTE [FROM..TO]
 //   limit ROUTE [FROM..TO] [speed F] [cost F]   F times the taught speed at most; a metre counts as
 //                                               F; neither: no limit any more
+//   narrow ROUTE FROM..TO [ROUTE FROM..TO ...]   robots cannot pass each other there; the parts are
+//                                                one place, which several routes lead through
+//   wide ROUTE [FROM..TO]      they can: of each narrow place of which a part lies there
+//   vacate ROUTE [FROM..TO]    whoever has such a place is not in it any more
 //   name NAME PLACE            it is called so; whatever was called so no longer is
 //   forget NAME
 //   confirm PLACE PLACE        the joint that the server proposes there is made
@@ -28,10 +33,24 @@ namespace trailcast::network {
 // A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
 // that is followed; FROM..TO metres along it, either may be missing.
 struct Edit {
-  enum class Kind { kJoin, kPart, kClose, kOpen, kLimit, kName, kForget, kConfirm, kRefuse };
+  enum class Kind {
+    kJoin,
+    kPart,
+    kClose,
+    kOpen,
+    kLimit,
+    kNarrow,
+    kWide,
+    kVacate,
+    kName,
+    kForget,
+    kConfirm,
+    kRefuse
+  };
   Kind kind = Kind::kJoin;
   Joint joint{};          // of kJoin and kPart; of kConfirm and kRefuse, but for `all`
-  Condition condition{};  // of kClose, kOpen and kLimit
+  Condition condition{};  // of kClose, kOpen and kLimit; of kWide and kVacate where that is
+  Lane lane{};            // of kNarrow
   NamedPlace named{};     // of kName; of kForget its name alone
   struct Sure {
     double least = 0.0;
@@ -59,12 +78,14 @@ struct Listed {
   bool used = true;              // false: of a revision that robots do not follow
   std::optional<Route> route{};  // its name and length
   std::optional<Edit> edit{};
-  std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
+  std::optional<Proposal> proposal{};   // "proposed join PLACE PLACE .. confidence F"
+  std::vector<std::string> taken_by{};  // of a narrow place, "narrow .., taken by robot1 robot2"
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
 // Before an edit that is not used.
 inline constexpr std::string_view kUnused = "unused ";
 inline constexpr std::string_view kProposed = "proposed ";
+inline constexpr std::string_view kTakenBy = ", taken by ";
 
 // A PLACE, or what one is called: then `name` alone is set.
 struct Goal {
@@ -91,6 +112,7 @@ struct Question {
 [[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
 [[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
 [[nodiscard]] std::string ToText(const Proposal& proposal);    // "proposed join .."
+[[nodiscard]] std::string ToText(const Lane& lane);            // "narrow .."
 
 // What holds after such an edit: of one kind, a closed stretch or a limit, one at each place.
 [[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);

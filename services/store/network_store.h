@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "services/base/ids.h"
 #include "services/base/result.h"
 #include "services/network/words.h"
 
@@ -20,17 +22,27 @@ struct ProposedJoint {
   bool operator==(const ProposedJoint&) const = default;
 };
 
+// A narrow place, and who has it.
+struct KeptLane {
+  std::int64_t number = 0;
+  network::Lane lane{};
+  std::set<AgentId> holders{};
+};
+
 // How routes are joined, what holds on parts of them and what places are called, as operators said,
-// and which joints are proposed to them: a SQLite file of its own, created if missing. What a call
-// has stored is on the disk when it returns. Which routes places and conditions name is the
-// caller's affair. Errors name the file: kUnavailable (disk full, no such folder, too many),
-// kConflict (another process has it open), kCorrupt (no such file of ours, or a damaged one).
+// which joints are proposed to them, and who has which narrow place: a SQLite file of its own,
+// created if missing. What a call has stored is on the disk when it returns. Which routes places
+// and conditions name is the caller's affair. Errors name the file: kUnavailable (disk full, no
+// such folder, too many), kConflict (another process has it open), kCorrupt (no such file of ours,
+// or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJoints = 100'000;
   static constexpr std::int64_t kMostConditions = 10'000;
   static constexpr std::int64_t kMostNames = 10'000;
   static constexpr std::int64_t kMostProposals = 20'000;
+  static constexpr std::int64_t kMostLaneParts = 10'000;
+  static constexpr std::int64_t kMostHolders = 10'000;
 
   [[nodiscard]] static Result<std::unique_ptr<NetworkStore>> Open(
       const std::filesystem::path& file);
@@ -45,6 +57,7 @@ class NetworkStore {
   [[nodiscard]] Result<std::vector<ProposedJoint>> Proposals();
   // Revisions whose joints were looked for.
   [[nodiscard]] Result<std::vector<std::string>> Searched();
+  [[nodiscard]] Result<std::vector<KeptLane>> Lanes();
 
   // In place of that from and to the same places. `by`: who said so, and when by the caller's
   // clock.
@@ -65,6 +78,13 @@ class NetworkStore {
   [[nodiscard]] Result<void> Put(std::span<const ProposedJoint> proposed, const std::string& by,
                                  std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> MarkSearched(std::span<const std::string> revisions);
+  // One more; its number.
+  [[nodiscard]] Result<std::int64_t> Put(const network::Lane& lane, const std::string& by,
+                                         std::int64_t now_unix_ms);
+  [[nodiscard]] Result<void> DropLane(std::int64_t number);
+  // All or nothing.
+  [[nodiscard]] Result<void> Hold(std::span<const std::int64_t> lanes, const AgentId& agent);
+  [[nodiscard]] Result<void> Release(std::span<const std::int64_t> lanes, const AgentId& agent);
   // The revision is there no more: no more of its proposals either.
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 

@@ -33,6 +33,12 @@ constexpr const char* kExamples =
     "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
     "                       at most F times the taught speed; a metre counts as F when ways are\n"
     "                       compared; with neither, no limit any more\n"
+    "  narrow ROUTE FROM..TO [ROUTE FROM..TO ...]\n"
+    "                       robots cannot pass each other there: those that go to a place are let\n"
+    "                       in one at a time, and wait before it. The stretches are one place; a\n"
+    "                       lane that is driven both ways was taught as two routes: name both\n"
+    "  wide ROUTE [FROM..TO]    they can, on the whole of each such place\n"
+    "  vacate ROUTE [FROM..TO]  whoever has one is not in it any more: you have looked\n"
     "  name NAME PLACE      'goto NAME' leads there; forget NAME\n"
     "  proposals            the joints alone that the server proposes: places where scouts saw, "
     "it\n"
@@ -50,6 +56,7 @@ constexpr const char* kExamples =
     "  trailcast network confirm hall@12 office@0.4\n"
     "  trailcast network confirm all above 0.9     # as 'trailcast-server --joints-auto' does\n"
     "  trailcast network close hall 3..7\n"
+    "  trailcast network narrow hall 3..7 back 10..14\n"
     "  trailcast network name loading-bay office@8\n"
     "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
     "  trailcast network way robot1 office@8 --json\n"
@@ -77,7 +84,7 @@ std::string ChangedText(const std::string& edit, const std::vector<std::string>&
     return settles ? "none is proposed that is so sure\n"
                    : "nothing is closed or limited there now\n";
   }
-  const bool ends = edit == "part" || edit == "forget" || edit == "refuse";
+  const bool ends = edit == "part" || edit == "forget" || edit == "refuse" || edit == "wide";
   return (ends ? "no more: " : "") + fleet::NetworkText(lines);
 }
 
@@ -145,7 +152,7 @@ Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--plot", options->plot,
                   "Where a picture of it goes (PNG, or SVG by its name): routes as straight lines, "
-                  "metres to scale, joints, what is closed or limited, names");
+                  "metres to scale, joints, what is closed, narrow or limited, names");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));

@@ -30,8 +30,15 @@ class Reader {
           picture_.names.push_back({edit.named.name, *at});
         }
         return;
+      case Edit::Kind::kNarrow:
+        for (const network::Part& part : edit.lane.parts) {
+          Mark(part.route, {NetworkPicture::Part::kNarrow, part.from_m, part.to_m});
+        }
+        return;
       default:
-        return TakeCondition(edit.condition);
+        return Mark(edit.condition.route, {edit.condition.closed ? NetworkPicture::Part::kClosed
+                                                                 : NetworkPicture::Part::kLimited,
+                                           edit.condition.from_m, edit.condition.to_m});
     }
   }
 
@@ -46,13 +53,12 @@ class Reader {
     if (from && to) picture_.joints.push_back({*from, *to, joint.both, used});
   }
 
-  void TakeCondition(const network::Condition& condition) {
-    const auto at = numbers_.find(condition.route);
+  void Mark(const std::string& name, NetworkPicture::Marked marked) {
+    const auto at = numbers_.find(name);
     if (at == numbers_.end()) return;
     NetworkPicture::Route& route = picture_.routes[at->second];
-    route.marked.push_back(
-        {condition.closed ? NetworkPicture::Part::kClosed : NetworkPicture::Part::kLimited,
-         condition.from_m, std::min(condition.to_m, route.length_m)});
+    marked.to_m = std::min(marked.to_m, route.length_m);
+    route.marked.push_back(marked);
   }
 
   // "hall", or "hall@2" of another revision than is followed.

@@ -130,7 +130,11 @@ void MissionDesk::Handle(const exchange::Message& message) {
 void MissionDesk::Answer(Kept& kept, State state, const std::string& detail) {
   ++kept.last.change;
   kept.last.state = state;
-  kept.last.detail = PlainText(detail, exchange::kMaxLineBytes);
+  // Of what has ended nobody needs to know the way.
+  const auto going =
+      mission::HasEnded(state) ? std::nullopt : mission::GoingIn(kept.mission.orders);
+  kept.last.detail = mission::WithWay(
+      PlainText(detail, exchange::kMaxLineBytes - mission::kMostOfWay), going ? going->way : 1);
   kept.confirmed = false;
   kept.due = true;
   news_.push_back(fmt::format("mission {} of {}, {}: {}{}{}", kept.mission.id,
@@ -184,7 +188,9 @@ void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
   Begin(kept, *mission::ParseOrders(mission.orders));
   current_->begun = begun;
   amended_ = true;
-  Answer(kept, kept.last.state, "re-planned: " + going->because);
+  const bool of_lane =
+      going->because.starts_with(mission::kWaits) || going->because.starts_with(mission::kEnters);
+  Answer(kept, kept.last.state, (of_lane ? "" : "re-planned: ") + going->because);
   KeepOrSay();
 }
 

@@ -257,6 +257,7 @@ export type NetworkPart = {
     proposed?: Proposal[];  // not of an older server
     closed: Stretch[];
     limits: Stretch[];
+    narrow?: { parts: Stretch[]; taken_by: string[] }[];  // not of an older server
     names: NamedPlace[];
   };
   elsewhere: { route: string; joints: number }[];

@@ -11,6 +11,7 @@ export type Row = {
   joined: boolean;  // a server lists it
   closed: Part[];
   limits: Part[];
+  narrow: (Part & { takenBy: string[] })[];
   names: (NamedPlace & { along_m: number })[];
   joints: Joint[];
   proposed: Proposal[];
@@ -109,7 +110,7 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   }
   const rows = inOrder([...lengths.keys()], network.joints).map((name): Row => ({
     name, length_m: lengths.get(name)!, start_m: 0, joined: joined.has(name),
-    closed: [], limits: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
+    closed: [], limits: [], narrow: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
   }));
   const links: Link[] = [];
   for (const joint of network.joints) {
@@ -135,6 +136,12 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   for (const stretch of network.limits) {
     const row = rows[rowOf(rows, stretch.route)];
     row?.limits.push(partOf(stretch, row.length_m));
+  }
+  for (const { parts, taken_by: takenBy } of network.narrow ?? []) {
+    for (const stretch of parts) {
+      const row = rows[rowOf(rows, stretch.route)];
+      row?.narrow.push({ ...partOf(stretch, row.length_m), takenBy });
+    }
   }
   for (const named of network.names) {
     const spot = spotOf(rows, named.place);
@@ -181,10 +188,13 @@ export function withRobots(layout: Layout, robots: Robot[], live: Route[]): Layo
 export function told(layout: Layout): string {
   const { rows, links } = layout;
   const closed = rows.flatMap((row) => row.closed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
+  const narrow = rows.flatMap((row) => row.narrow.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`
+    + (part.takenBy.length > 0 ? `, taken by ${part.takenBy.join(' and ')}` : '')));
   const robots = rows.flatMap((row) => row.robots.map((robot) => `${robot.name} ${standsHow(robot)} of ${row.name}`));
   const some = (words: string[]) => words.slice(0, 20).join('; ') + (words.length > 20 ? ` and ${words.length - 20} more` : '');
   const proposed = links.filter((link) => link.confidence !== null).length;
   return `${rows.length} routes, ${links.length - proposed} joints${proposed > 0 ? `, ${proposed} proposed` : ''}. `
     + (closed.length > 0 ? `Closed: ${some(closed)}. ` : 'Nothing is closed. ')
+    + (narrow.length > 0 ? `Narrow: ${some(narrow)}. ` : '')
     + (robots.length > 0 ? `${some(robots)}.` : 'No robot is on them.');
 }

@@ -97,6 +97,11 @@ const Lines = memo(function Lines({ rows, links, frame, chosen, hatch }: {
                 <title>{`${row.name} ${metres(from_m)} to ${metres(to_m)} m: ${stretch.speed} times the taught speed, a metre counts as ${stretch.cost}`}</title>
               </path>
             ))}
+            {row.narrow.map(({ from_m, to_m, takenBy }, each) => (
+              <path key={`n${each}`} className="narrow" d={`M${xOf(frame, row, from_m)} ${y - 7}H${xOf(frame, row, to_m)}M${xOf(frame, row, from_m)} ${y + 7}H${xOf(frame, row, to_m)}`}>
+                <title>{`${row.name} is narrow from ${metres(from_m)} to ${metres(to_m)} m${takenBy.length > 0 ? `, taken by ${takenBy.join(' and ')}` : ''}`}</title>
+              </path>
+            ))}
             {row.closed.map(({ from_m, to_m }, each) => {
               const [left, right] = [xOf(frame, row, from_m), xOf(frame, row, to_m)];
               const middle = (left + right) / 2;
@@ -248,6 +253,7 @@ function NetworkLegend() {
       <span>{sample(<g className="joint"><path d="M6 2L24 16" /><path className="head" d={head(24, 16, 18, 14)} /></g>)}joint: robots may change over</span>
       <span>{sample(<g className="joint proposed"><path d="M4 9H30" /><text x="17" y="13" textAnchor="middle">?</text></g>)}proposed by a server</span>
       <span>{sample(<g className="joint unused"><path d="M6 2L24 16" /></g>)}not used: of another revision</span>
+      <span>{sample(<path className="narrow" d="M3 3H31M3 15H31" />)}narrow</span>
       <span>{sample(<g className="closed"><rect className="sample" x="3" y="3" width="28" height="12" /><path d="M11 3l12 12m0-12l-12 12" /></g>)}closed</span>
       <span>{sample(<path className="limited" d="M3 9H31" />)}slower, or counts as longer</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>

@@ -62,6 +62,9 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           {row.closed.map((part, i) => (
             <li key={i}><strong className="lost">closed</strong> {partText(part)} {take('Open', `${row.name} ${partText(part)}`, `open ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}
+          {row.narrow.map((part, i) => (
+            <li key={`n${i}`}>narrow {partText(part)}{part.takenBy.length > 0 && `, taken by ${part.takenBy.join(' and ')}`} {take('Not narrow', `${row.name} ${partText(part)}`, `wide ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
+          ))}
           {row.limits.map((part, i) => (
             <li key={`l${i}`}>{limitText(part)} {take('No limit', `on ${row.name} ${partText(part)}`, `limit ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}

@@ -54,6 +54,12 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
       TakeJoint(Kind::kJoint, edit.joint, *line);
       continue;
     }
+    if (edit.kind == Edit::Kind::kNarrow) {
+      const auto from = Find(edit.lane.parts.front().route);
+      const auto to = Find(edit.lane.parts.back().route);
+      if (from && to) marks_.push_back({Kind::kLane, *from, *to, *line});
+      continue;
+    }
     const bool is_name = edit.kind == Edit::Kind::kName;
     const auto at = Find(is_name ? edit.named.place.route : edit.condition.route);
     if (!at) continue;

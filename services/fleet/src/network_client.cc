@@ -76,15 +76,29 @@ std::string ConditionJson(const network::Condition& condition) {
   return text + "}";
 }
 
+std::string LaneJson(const network::Lane& lane, const Lines& taken_by) {
+  Lines parts;
+  for (const network::Part& part : lane.parts) {
+    parts.push_back(fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}}}",
+                                JsonText(part.route), part.from_m, part.to_m));
+  }
+  Lines robots;
+  for (const std::string& robot : taken_by) robots.push_back(JsonText(robot));
+  return fmt::format("{{\"parts\": {}, \"taken_by\": {}}}", JsonList(parts), JsonList(robots));
+}
+
 std::string RouteJson(const network::Route& route) {
   return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(route.name),
                      route.length_m);
 }
 
-// The stretches; of orders that are no stretch, none.
+// The stretches; of orders that are no way, none.
 std::vector<mission::Task> TasksOf(const Lines& way) {
-  return mission::ParseOrders(fmt::format("{}", fmt::join(way, " ")))
-      .value_or(std::vector<mission::Task>{});
+  auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
+                   .value_or(std::vector<mission::Task>{});
+  std::erase_if(
+      tasks, [](const mission::Task& task) { return task.kind != mission::Task::Kind::kFollow; });
+  return tasks;
 }
 
 double LengthOf(const std::vector<mission::Task>& tasks) {
@@ -152,15 +166,18 @@ std::string NetworkJson(const Lines& lines) {
   Lines joints;
   Lines closed;
   Lines limits;
+  Lines narrow;
   Lines names;
   Lines proposed;
   for (const std::string& line : lines) {
-    const auto [used, route, edit, proposal] = network::ParseListed(line);
+    const auto [used, route, edit, proposal, taken_by] = network::ParseListed(line);
     if (route) routes.push_back(RouteJson(*route));
     if (proposal) proposed.push_back(ProposalJson(*proposal));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
       joints.push_back(JointJson(edit->joint, used));
+    } else if (edit->kind == network::Edit::Kind::kNarrow) {
+      narrow.push_back(LaneJson(edit->lane, taken_by));
     } else if (edit->kind == network::Edit::Kind::kName) {
       names.push_back(fmt::format("{{\"name\": {}, \"place\": {}, \"used\": {}}}",
                                   JsonText(edit->named.name), PlaceJson(edit->named.place), used));
@@ -169,10 +186,10 @@ std::string NetworkJson(const Lines& lines) {
     }
   }
   return fmt::format(
-      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"names\": {}, "
-      "\"proposed\": {}}}\n",
-      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(names),
-      JsonList(proposed));
+      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"narrow\": {}, "
+      "\"names\": {}, \"proposed\": {}}}\n",
+      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(narrow),
+      JsonList(names), JsonList(proposed));
 }
 
 std::string WayText(const Lines& way) {

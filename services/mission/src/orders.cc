@@ -20,6 +20,7 @@ constexpr const char* kGrammar =
     "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' or 'wait "
     "SECONDS', one after the other";
 constexpr const char* kWay = "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone";
+constexpr std::string_view kWaySaid = " (way ";
 constexpr std::size_t kLongestPlace = 96;
 constexpr std::uint32_t kMostWays = 1'000'000'000;
 constexpr std::uint32_t kMostLaps = 10'000;
@@ -92,7 +93,8 @@ class Parser {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
     const bool is_stretch = task.kind == Task::Kind::kFollow && task.to_m > 0.0 && task.laps == 1;
-    if (!ends && (is_stretch || task.kind == Task::Kind::kWaitWay)) return {};
+    const bool waits = task.kind == Task::Kind::kWaitWay || task.kind == Task::Kind::kWaitLane;
+    if (!ends && (is_stretch || waits)) return {};
     return Wrong(ToText(task), kWay);
   }
 
@@ -104,6 +106,7 @@ class Parser {
     (void)Take();
     const std::string word = Take();
     if (going_ && word == "way") return Task{.kind = Task::Kind::kWaitWay};
+    if (going_ && word == "lane") return Task{.kind = Task::Kind::kWaitLane};
     const auto seconds = ParseNumberWithin(word, 0.0, kLongestWait_s);
     if (!seconds) return Wrong(word, "seconds, a week at most");
     return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
@@ -194,6 +197,19 @@ std::optional<Going> GoingIn(std::string_view orders) {
   return parser.All() ? parser.going() : std::nullopt;
 }
 
+std::string WithWay(const std::string& detail, std::uint32_t way) {
+  if (way < 2) return detail;
+  return fmt::format("{}{}{})", detail, detail.empty() ? kWaySaid.substr(1) : kWaySaid, way);
+}
+
+std::uint32_t WayIn(std::string_view detail) {
+  const std::size_t at = detail.rfind(kWaySaid.substr(1));
+  if (at == std::string_view::npos || !detail.ends_with(')')) return 1;
+  detail.remove_prefix(at + kWaySaid.size() - 1);
+  detail.remove_suffix(1);
+  return ParseNumber<std::uint32_t>(detail).value_or(1);
+}
+
 std::set<std::string> RoutesIn(std::string_view orders) {
   std::set<std::string> routes;
   const auto tasks = ParseOrders(orders);
@@ -206,6 +222,7 @@ std::set<std::string> RoutesIn(std::string_view orders) {
 
 std::string ToText(const Task& task) {
   if (task.kind == Task::Kind::kWaitWay) return "wait way";
+  if (task.kind == Task::Kind::kWaitLane) return "wait lane";
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
   if (task.kind == Task::Kind::kTeach) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",

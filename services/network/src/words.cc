@@ -20,6 +20,8 @@ constexpr double kMostFactor = 1000.0;
 constexpr const char* kEdits =
     "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
     "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]', 'limit ROUTE [FROM..TO] [speed F] [cost F]', "
+    "'narrow ROUTE FROM..TO [ROUTE FROM..TO ...]', 'wide ROUTE [FROM..TO]', 'vacate ROUTE "
+    "[FROM..TO]', "
     "'name NAME PLACE', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', 'refuse "
     "PLACE PLACE' or 'refuse all [below F]'";
 constexpr std::size_t kLongestName = 64;
@@ -166,6 +168,20 @@ Result<Condition> TakeStretch(Words& words) {
   return stretch;
 }
 
+// ROUTE FROM..TO [ROUTE FROM..TO ...]
+Result<Lane> TakeLane(Words& words) {
+  Lane lane;
+  do {
+    auto part = TakeStretch(words);
+    if (!part) return tl::unexpected(part.error());
+    if (part->to_m >= kToTheEnd_m) {
+      return Wrong(part->route, "a route and FROM..TO, both in metres along it, as hall 3..7");
+    }
+    lane.parts.push_back({std::move(part->route), part->from_m, part->to_m});
+  } while (!words.empty());
+  return lane;
+}
+
 Result<void> TakeLimits(Words& words, Condition& limit) {
   while (!words.empty()) {
     const bool is_speed = words.Next() == "speed";
@@ -194,9 +210,18 @@ Result<Edit> ParseEdit(std::string_view text) {
   if (words.TakeIf("refuse")) return TakeVerdict(words, Edit::Kind::kRefuse);
   if (words.TakeIf("name")) return TakeName(words, Edit::Kind::kName);
   if (words.TakeIf("forget")) return TakeName(words, Edit::Kind::kForget);
+  if (words.TakeIf("narrow")) {
+    auto lane = TakeLane(words);
+    if (!lane) return tl::unexpected(lane.error());
+    return Edit{.kind = Edit::Kind::kNarrow, .lane = *std::move(lane)};
+  }
   const std::string_view first = words.Take();
   Edit edit;
-  if (first == "close") {
+  if (first == "wide") {
+    edit.kind = Edit::Kind::kWide;
+  } else if (first == "vacate") {
+    edit.kind = Edit::Kind::kVacate;
+  } else if (first == "close") {
     edit.kind = Edit::Kind::kClose;
   } else if (first == "open") {
     edit.kind = Edit::Kind::kOpen;
@@ -248,6 +273,11 @@ Listed ParseListed(std::string_view line) {
   }
   listed.used = !line.starts_with(kUnused);
   if (!listed.used) line.remove_prefix(kUnused.size());
+  if (const std::size_t at = line.find(kTakenBy); at != std::string_view::npos) {
+    Words names(line.substr(at + kTakenBy.size()));
+    while (!names.empty()) listed.taken_by.emplace_back(names.Take());
+    line = line.substr(0, at);
+  }
   if (auto edit = ParseEdit(line)) listed.edit = *std::move(edit);
   return listed;
 }
@@ -312,6 +342,14 @@ std::string ToText(const Condition& condition) {
   }
   if (condition.speed != 1.0) text += fmt::format(" speed {:g}", condition.speed);
   if (condition.cost != 1.0) text += fmt::format(" cost {:g}", condition.cost);
+  return text;
+}
+
+std::string ToText(const Lane& lane) {
+  std::string text = "narrow";
+  for (const Part& part : lane.parts) {
+    text += fmt::format(" {} {}..{}", part.route, Metres(part.from_m), Metres(part.to_m));
+  }
   return text;
 }
 

@@ -22,6 +22,7 @@ constexpr double kLeft_px = 30.0;
 constexpr double kRight_px = 30.0;
 constexpr double kWide_px = 960.0;
 constexpr double kBow_px = 20.0;
+constexpr double kWall_px = 7.0;
 constexpr double kArrow_px = 8.0;
 constexpr double kScale_px = 46.0;  // below the last row
 constexpr Color kQuiet{120, 120, 120};
@@ -71,6 +72,10 @@ class Map {
     for (const Picture::Marked& marked : route.marked) {
       const PixelPoint from = At(number, std::min(marked.from_m, route.length_m));
       const PixelPoint to = At(number, std::min(marked.to_m, route.length_m));
+      if (marked.part == Picture::Part::kNarrow) {
+        DrawWalls(drawing, from, to);
+        continue;
+      }
       const bool closed = marked.part == Picture::Part::kClosed;
       drawing.Line({from, to}, closed ? kOrange : kGreen, closed ? 10.0 : 6.0);
       if (!closed) continue;
@@ -79,6 +84,13 @@ class Map {
     drawing.Disc(begin, 4.0, kBlue);
     DrawHead(drawing, {end.x - 1.0, end.y}, end, kBlue);
     Write(drawing, LabelOf(number), {begin.x + 6.0, begin.y - 12.0});
+  }
+
+  // To either side of what is narrow.
+  static void DrawWalls(Drawing& drawing, PixelPoint from, PixelPoint to) {
+    for (const double side : {-kWall_px, kWall_px}) {
+      drawing.Line({{from.x, from.y + side}, {to.x, to.y + side}}, kInk, 2.0);
+    }
   }
 
   void DrawJoint(Drawing& drawing, const Picture::Joint& joint) const {

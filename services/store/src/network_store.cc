@@ -77,6 +77,23 @@ CREATE TABLE IF NOT EXISTS proposed_joint (
 CREATE TABLE IF NOT EXISTS searched (revision TEXT PRIMARY KEY) STRICT;
 )";
 
+constexpr const char* kLanes = R"(
+CREATE TABLE IF NOT EXISTS lane_part (
+  number INTEGER PRIMARY KEY,
+  lane INTEGER NOT NULL,
+  route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_m REAL NOT NULL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS lane_holder (
+  lane INTEGER NOT NULL,
+  agent TEXT NOT NULL,
+  PRIMARY KEY (lane, agent)
+) STRICT;
+)";
+
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
                        .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
@@ -211,6 +228,7 @@ Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
     PrepareOwnFile(database->db, kFile);
     database->db.exec(kNames);
     database->db.exec(kProposals);
+    database->db.exec(kLanes);
     return std::unique_ptr<NetworkStore>(new NetworkStore(std::move(database)));
   } catch (const SQLite::Exception& exception) {
     return tl::unexpected(ToError(exception, file, "opening it", kWhat));
@@ -361,6 +379,103 @@ Result<void> NetworkStore::MarkSearched(std::span<const std::string> revisions) 
       auto put = database_->compiled.Take("INSERT OR IGNORE INTO searched (revision) VALUES (?1)");
       put->bind(1, revision);
       put->exec();
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<std::vector<KeptLane>> NetworkStore::Lanes() {
+  return database_->Guarded("reading narrow places", [&]() -> Result<std::vector<KeptLane>> {
+    std::vector<KeptLane> lanes;
+    auto parts = database_->compiled.Take(
+        "SELECT lane, route, from_m, to_m FROM lane_part ORDER BY lane, number");
+    while (parts->executeStep()) {
+      const std::int64_t number = parts->getColumn(0).getInt64();
+      if (lanes.empty() || lanes.back().number != number) lanes.push_back({.number = number});
+      lanes.back().lane.parts.push_back({parts->getColumn(1).getString(),
+                                         parts->getColumn(2).getDouble(),
+                                         parts->getColumn(3).getDouble()});
+    }
+    auto holders = database_->compiled.Take("SELECT agent FROM lane_holder WHERE lane = ?1");
+    for (KeptLane& lane : lanes) {
+      holders->reset();
+      holders->bind(1, lane.number);
+      while (holders->executeStep()) lane.holders.emplace(holders->getColumn(0).getString());
+    }
+    return lanes;
+  });
+}
+
+Result<std::int64_t> NetworkStore::Put(const network::Lane& lane, const std::string& by,
+                                       std::int64_t now_unix_ms) {
+  return database_->Guarded("storing a narrow place", [&]() -> Result<std::int64_t> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    const std::int64_t number =
+        database_->Count("SELECT coalesce(max(lane), 0) + 1 FROM lane_part");
+    for (const network::Part& part : lane.parts) {
+      auto insert = database_->compiled.Take(
+          "INSERT INTO lane_part (lane, route, from_m, to_m, set_by, set_unix_ms) VALUES (?1, ?2, "
+          "?3, ?4, ?5, ?6)");
+      insert->bind(1, number);
+      insert->bind(2, part.route);
+      insert->bind(3, part.from_m);
+      insert->bind(4, part.to_m);
+      insert->bind(5, by);
+      insert->bind(6, now_unix_ms);
+      insert->exec();
+    }
+    if (database_->Count("SELECT count(*) FROM lane_part") > kMostLaneParts) {
+      return Fail(ErrorCode::kUnavailable, "{} narrow stretches are kept already: no more",
+                  kMostLaneParts);
+    }
+    transaction.commit();
+    return number;
+  });
+}
+
+Result<void> NetworkStore::DropLane(std::int64_t number) {
+  return database_->Guarded("forgetting a narrow place", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const char* sql :
+         {"DELETE FROM lane_part WHERE lane = ?1", "DELETE FROM lane_holder WHERE lane = ?1"}) {
+      auto remove = database_->compiled.Take(sql);
+      remove->bind(1, number);
+      remove->exec();
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Hold(std::span<const std::int64_t> lanes, const AgentId& agent) {
+  return database_->Guarded("storing who has a narrow place", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const std::int64_t lane : lanes) {
+      auto put = database_->compiled.Take(
+          "INSERT OR IGNORE INTO lane_holder (lane, agent) VALUES (?1, ?2)");
+      put->bind(1, lane);
+      put->bind(2, agent.value());
+      put->exec();
+    }
+    if (database_->Count("SELECT count(*) FROM lane_holder") > kMostHolders) {
+      return Fail(ErrorCode::kUnavailable, "narrow places are taken {} times already: no more",
+                  kMostHolders);
+    }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> NetworkStore::Release(std::span<const std::int64_t> lanes, const AgentId& agent) {
+  return database_->Guarded("storing who has a narrow place", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const std::int64_t lane : lanes) {
+      auto remove =
+          database_->compiled.Take("DELETE FROM lane_holder WHERE lane = ?1 AND agent = ?2");
+      remove->bind(1, lane);
+      remove->bind(2, agent.value());
+      remove->exec();
     }
     transaction.commit();
     return {};

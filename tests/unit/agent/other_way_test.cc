@@ -29,6 +29,9 @@ TEST(OtherWayTest, ARobotGoesOnWhereItIsOnTheOtherWay) {
            Case{"follow hall 1..1.5 speed 0.5 follow yard 0..3", 1.1, Kind::kBegins, 0},
            Case{"follow hall@2 1..1.5", 1.1, Kind::kBegins, 0},
            Case{"wait way", 1.1, Kind::kBegins, 0},
+           Case{"follow hall 1..1.5 wait lane follow hall 1.5..6", 1.7, Kind::kGoesOn, 0},
+           Case{"follow hall 1..1.5 wait lane follow hall 1.5..6", 1.9, Kind::kMissed, 0},
+           Case{"wait lane follow hall 1.5..6", 1.7, Kind::kBegins, 0},
        }) {
     const auto way = mission::ParseOrders("goto bay way 2 " + std::string(each.way));
     ASSERT_TRUE(way) << way.error().message;

@@ -154,7 +154,7 @@ TEST_F(MissionDeskTest, AServerSendsItAnotherWayToTheSamePlace) {
   const std::string round = "goto bay way 3 follow hall 1..1.5 follow yard 0..2 because it was so";
   const Report amended = Answer(way(round));
   EXPECT_EQ(amended.state, State::kUnderWay);
-  EXPECT_EQ(amended.detail, "re-planned: it was so");
+  EXPECT_EQ(amended.detail, "re-planned: it was so (way 3)");
   EXPECT_EQ(amended.task, 0U);
   EXPECT_TRUE(desk_->TakeAmended());
   EXPECT_FALSE(desk_->TakeAmended());

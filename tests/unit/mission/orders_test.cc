@@ -47,7 +47,8 @@ TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
        {"goto office@3 follow hall 0..1.5 follow office 1.5..3",
         "goto loading-bay way 2 follow hall 0.4..1.5 follow yard 0..3 because hall 3..7 was closed",
         "goto way way 3 wait way because every way there is closed",
-        "goto office@3 way 2 follow because 0..2 wait way"}) {
+        "goto office@3 way 2 follow because 0..2 wait way",
+        "goto office@3 wait lane follow hall 0..12 wait lane follow office 0..3"}) {
     const auto tasks = ParseOrders(text);
     const auto going = GoingIn(text);
     ASSERT_TRUE(tasks && going) << text;
@@ -113,6 +114,7 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("goto bay wait way follow hall 0..1"), HasSubstr("FROM..TO' alone"));
   EXPECT_THAT(why("follow hall because"), HasSubstr("'because' was not understood"));
   EXPECT_THAT(why("wait way"), HasSubstr("seconds"));
+  EXPECT_THAT(why("follow hall wait lane"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait -1"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));

@@ -1,0 +1,174 @@
+// What a network board knows of narrow places.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "route_server/network_board.h"
+#include "route_server/network_ids.h"
+
+namespace trailcast::server {
+namespace {
+
+using network::Lane;
+using network::Part;
+using Lines = std::vector<std::string>;
+
+bool AreSame(const Lane& a, const Lane& b) {
+  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+                    [](const Part& one, const Part& other) {
+                      return one.route == other.route &&
+                             std::abs(one.from_m - other.from_m) <= NetworkBoard::kSame_m &&
+                             std::abs(one.to_m - other.to_m) <= NetworkBoard::kSame_m;
+                    });
+}
+
+bool Overlaps(const Lane& lane, const network::Condition& where) {
+  return std::any_of(lane.parts.begin(), lane.parts.end(), [&](const Part& part) {
+    return part.route == where.route && part.from_m < where.to_m && part.to_m > where.from_m;
+  });
+}
+
+}  // namespace
+
+Result<Lines> NetworkBoard::Narrow(Lane lane, const std::string& by, std::int64_t now_unix_ms) {
+  for (network::Part& part : lane.parts) {
+    const auto meant = Meant(part.route);
+    if (!meant) return tl::unexpected(meant.error());
+    if (part.to_m > meant->length_m + kSame_m) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "route '{}' is {:.2f} m long: {:g}..{:g} is not on it", meant->name,
+                  meant->length_m, part.from_m, part.to_m);
+    }
+    part = {meant->key.route.value(), ToCentimetre(part.from_m), ToCentimetre(part.to_m)};
+  }
+  auto kept = std::find_if(lanes_.begin(), lanes_.end(),
+                           [&](const store::KeptLane& each) { return AreSame(each.lane, lane); });
+  if (kept == lanes_.end()) {
+    const auto number = store_->Put(lane, by, now_unix_ms);
+    if (!number) return tl::unexpected(number.error());
+    kept = lanes_.insert(lanes_.end(), {.number = *number, .lane = std::move(lane)});
+    NoteChange();
+  }
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  return Lines{network::ToText(CalledLane(*kept))};
+}
+
+Result<Lines> NetworkBoard::Leave(const network::Edit& edit) {
+  const auto meant = Meant(edit.condition.route);
+  if (!meant) return tl::unexpected(meant.error());
+  if (auto known = Know({meant->key.route}); !known) return tl::unexpected(known.error());
+  network::Condition where = edit.condition;
+  where.route = meant->key.route.value();
+  Lines lines;
+  for (auto kept = lanes_.begin(); kept != lanes_.end();) {
+    if (!Overlaps(kept->lane, where)) {
+      ++kept;
+      continue;
+    }
+    const std::string called = network::ToText(CalledLane(*kept));
+    if (edit.kind == network::Edit::Kind::kWide) {
+      if (auto dropped = store_->DropLane(kept->number); !dropped) {
+        return tl::unexpected(dropped.error());
+      }
+      kept = lanes_.erase(kept);
+      NoteChange();
+      lines.push_back(called);
+      continue;
+    }
+    for (const AgentId& agent : std::exchange(kept->holders, {})) {
+      if (auto released = store_->Release(std::array{kept->number}, agent); !released) {
+        return tl::unexpected(released.error());
+      }
+      vacated_.insert(agent);
+      places_.Erase(agent);
+      lines.push_back(
+          fmt::format("{} no longer has {}", agent.value(), called.substr(called.find(' ') + 1)));
+    }
+    ++kept;
+  }
+  if (!lines.empty()) return lines;
+  return Fail(ErrorCode::kNotFound, "{} {} narrow there",
+              edit.kind == network::Edit::Kind::kWide ? "nothing is" : "nobody has what is",
+              meant->name);
+}
+
+Result<std::vector<Lane>> NetworkBoard::Lanes() {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  std::vector<Lane> lanes;
+  for (const store::KeptLane& kept : lanes_) {
+    Lane& lane = lanes.emplace_back();
+    for (const network::Part& part : kept.lane.parts) {
+      const auto& followed = known_.at(RouteId(part.route)).followed;
+      if (followed) lane.parts.push_back({IdOf(followed->key), part.from_m, part.to_m});
+    }
+  }
+  return lanes;
+}
+
+NetworkBoard::LaneSet NetworkBoard::HeldBy(const AgentId& agent) const {
+  LaneSet held;
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    if (lanes_[i].holders.contains(agent)) held.insert(i);
+  }
+  return held;
+}
+
+Result<void> NetworkBoard::Hold(const LaneSet& lanes, const AgentId& agent) {
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t lane : lanes) numbers.push_back(lanes_[lane].number);
+  if (auto held = store_->Hold(numbers, agent); !held) return held;
+  for (const std::size_t lane : lanes) lanes_[lane].holders.insert(agent);
+  return {};
+}
+
+Result<void> NetworkBoard::Release(const LaneSet& lanes, const AgentId& agent) {
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t lane : lanes) numbers.push_back(lanes_[lane].number);
+  if (auto released = store_->Release(numbers, agent); !released) return released;
+  for (const std::size_t lane : lanes) lanes_[lane].holders.erase(agent);
+  return {};
+}
+
+Lane NetworkBoard::CalledLane(const store::KeptLane& kept) const {
+  Lane lane = kept.lane;
+  for (network::Part& part : lane.parts) part.route = Called(RouteId(part.route));
+  return lane;
+}
+
+std::string NetworkBoard::Called(std::size_t lane) const {
+  const network::Part& part = lanes_[lane].lane.parts.front();
+  return fmt::format("{} {:g}..{:g}", Called(RouteId(part.route)), part.from_m, part.to_m);
+}
+
+Result<std::vector<mission::Task>> NetworkBoard::TasksOf(std::span<const network::Stretch> way,
+                                                         const LaneSet& open) {
+  const auto lanes = Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  return TasksOf(network::LegsOf(way, *lanes, open));
+}
+
+std::vector<mission::Task> NetworkBoard::TasksOf(std::span<const network::Leg> legs) const {
+  std::vector<mission::Task> tasks;
+  for (const network::Leg& leg : legs) {
+    if (&leg != &legs.front()) tasks.push_back({.kind = mission::Task::Kind::kWaitLane});
+    const network::Stretch* before = nullptr;
+    for (const network::Stretch& stretch : leg.stretches) {
+      if (stretch.to_m - stretch.from_m <= kSame_m) continue;
+      const bool goes_on = before != nullptr && before->route == stretch.route &&
+                           before->speed == stretch.speed &&
+                           std::abs(before->to_m - stretch.from_m) <= kSame_m;
+      if (goes_on) {
+        tasks.back().to_m = TaskOf(stretch).to_m;
+      } else {
+        tasks.push_back(TaskOf(stretch));
+      }
+      before = &stretch;
+    }
+  }
+  return tasks;
+}
+
+}  // namespace trailcast::server

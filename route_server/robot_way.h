@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+#include "services/network/network.h"
+
+namespace trailcast::server {
+
+// A robot's word on where it is, and where it began or was to end, are the same within this.
+inline constexpr double kOnWay_m = 0.5;
+
+[[nodiscard]] inline bool Holds(const network::Stretch& stretch, const network::Place& place) {
+  return place.route == stretch.route && place.along_m >= stretch.from_m - kOnWay_m &&
+         place.along_m <= stretch.to_m + kOnWay_m;
+}
+
+// The orders of the next way to where a robot is going, and why, as far as there is room for it.
+// Longer than exchange::kMaxLineBytes: it has more stretches than one mission holds.
+[[nodiscard]] inline std::string NextWay(mission::Going going,
+                                         const std::vector<mission::Task>& tasks,
+                                         const std::string& because) {
+  constexpr std::string_view kBecause = " because ";
+  ++going.way;
+  going.because.clear();
+  const std::size_t length = ToText(going, tasks).size() + kBecause.size();
+  if (length < exchange::kMaxLineBytes) {
+    going.because = PlainText(because, exchange::kMaxLineBytes - length);
+  }
+  return ToText(going, tasks);
+}
+
+}  // namespace trailcast::server

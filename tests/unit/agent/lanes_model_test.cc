@@ -1,0 +1,394 @@
+// Robots on random networks with narrow places: what the server lets in, what the agents' desks
+// make of it, and links that lose and delay what is said between them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
+#include <random>
+
+#include "agent/link/mission_desk.h"
+#include "agent/other_way.h"
+#include "route_server/lane_keeper.h"
+#include "route_server/replanning.h"
+#include "services/fleet/network_client.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::agent {
+namespace {
+
+using mission::State;
+using mission::Task;
+using std::chrono::milliseconds;
+using Time = std::chrono::steady_clock::time_point;
+
+constexpr double kStep_s = 0.2;
+constexpr double kKeeps_m = 1.5;
+
+// One in the world, as OnDuty drives it.
+struct Walker {
+  explicit Walker(std::string name) : agent(std::move(name)), desk(agent, {}) {}
+
+  AgentId agent;
+  MissionDesk desk;
+  std::size_t route = 0;
+  double along_m = 0.0;
+  double speed_mps = 0.5;
+  std::optional<Task> driven{};
+  bool placed = true;  // it has found itself on its route
+  Time finds_itself{};
+  bool missed = false;
+  std::optional<State> told{};
+  std::string told_why{};
+  bool arrived = false;
+  Time says_at{};
+  std::deque<std::pair<Time, exchange::Message>> in{};
+  std::deque<std::pair<Time, exchange::Message>> out{};
+};
+
+class LanesModel {
+ public:
+  explicit LanesModel(unsigned seed) : random_(seed) {
+    corridors_ = 1 + seed % 3;
+    for (std::size_t i = 0; i < corridors_; ++i) {
+      lengths_m_.push_back(Between(60.0, 90.0));
+      Put(2 * i, fmt::format("out{}", i), lengths_m_[i]);
+      Put(2 * i + 1, fmt::format("back{}", i), lengths_m_[i]);
+    }
+    Restart();
+    for (std::size_t i = 0; i < corridors_; ++i) AddLanes(i);
+    for (std::size_t i = 0; i < corridors_; ++i) AddJoints(i);
+    loses_ = Between(0.0, 0.4);
+    restarts_ = seed % 2 == 0;
+    const auto robots = static_cast<unsigned>(Between(2.0, 6.99));
+    for (unsigned i = 0; i < robots; ++i) AddRobot(fmt::format("robot{}", i));
+  }
+
+  // Until all have arrived; what went wrong, if anything did.
+  std::string Run() {
+    for (int step = 0; step < 20'000; ++step) {
+      now_ += milliseconds(200);
+      Serve();
+      for (auto& walker : walkers_) Step(*walker);
+      if (const std::string trouble = TwoInOne(); !trouble.empty()) return trouble;
+      if (std::all_of(walkers_.begin(), walkers_.end(), [](const auto& w) { return w->arrived; })) {
+        return {};
+      }
+    }
+    return "not all arrive: " + Told();
+  }
+  [[nodiscard]] std::size_t robots() const { return walkers_.size(); }
+  [[nodiscard]] int waits() const { return waits_; }
+
+ private:
+  double Between(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random_);
+  }
+  static route::RouteKey Key(std::size_t route) {
+    return test::KeyNumber(static_cast<unsigned>(route + 1), 1);
+  }
+  std::string Name(std::size_t route) const {
+    return fmt::format("{}{}", route % 2 == 0 ? "out" : "back", route / 2);
+  }
+  void Put(std::size_t route, const std::string& name, double length_m) {
+    auto info =
+        test::InfoOf(Key(route), test::PiecesOf(Key(route), 2), route::RouteState::kComplete);
+    info.name = name;
+    info.length_m = length_m;
+    info.standing = route::Standing::kActive;
+    ASSERT_TRUE(routes_.PutRoute(info));
+  }
+  void Restart() {
+    keeper_.reset();
+    replanning_.reset();
+    network_.reset();
+    missions_.reset();
+    network_ =
+        server::NetworkBoard::Open(AgentId("server"),
+                                   store::NetworkStore::Open(folder_ / "joints").value(), routes_)
+            .value();
+    missions_ = server::MissionBoard::Open(AgentId("server"),
+                                           store::MissionStore::Open(folder_ / "missions").value())
+                    .value();
+    replanning_.emplace(*missions_, *network_);
+    keeper_.emplace(*missions_, *network_);
+    (void)keeper_->LookAtAll(now_);
+  }
+  void Edit(const std::string& words) {
+    const auto reply = network_->Change({AgentId("desk"), ++requests_, words}, 1000);
+    ASSERT_EQ(reply.error, "") << words;
+  }
+  // The way back leads through the same places.
+  void AddLanes(std::size_t corridor) {
+    const double length_m = lengths_m_[corridor];
+    const int count = static_cast<int>(Between(1.0, 3.99));
+    for (int i = 0; i < count; ++i) {
+      const double from_m = std::round(Between(3.0, length_m - 16.0));
+      const double to_m = from_m + std::round(Between(2.0, 8.0));
+      Edit(fmt::format("narrow {} {:g}..{:g} {} {:g}..{:g}", Name(2 * corridor), from_m, to_m,
+                       Name(2 * corridor + 1), length_m - to_m, length_m - from_m));
+      lanes_.push_back({{{Name(2 * corridor), from_m, to_m},
+                         {Name(2 * corridor + 1), length_m - to_m, length_m - from_m}}});
+    }
+  }
+  bool IsNarrow(std::size_t route, double along_m) const {
+    for (const network::Lane& lane : lanes_) {
+      for (const network::Part& part : lane.parts) {
+        if (part.route == Name(route) && along_m > part.from_m - 1.0 && along_m < part.to_m + 2.5) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+  std::pair<std::size_t, double> Somewhere() {
+    while (true) {
+      const auto route = static_cast<std::size_t>(Between(0.0, 2.0 * corridors_ - 0.01));
+      const double along_m = std::round(Between(0.0, lengths_m_[route / 2]) * 10.0) / 10.0;
+      if (!IsNarrow(route, along_m) && along_m <= lengths_m_[route / 2] - 0.5)
+        return {route, along_m};
+    }
+  }
+  void AddJoints(std::size_t corridor) {
+    const double length_m = lengths_m_[corridor];
+    for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
+      Edit(fmt::format("join {}@{:g} {}@0", Name(2 * corridor + from), std::floor(length_m),
+                       Name(2 * corridor + to)));
+    }
+    if (corridors_ == 1) return;
+    for (int i = 0; i < 4; ++i) {
+      const auto [from, from_m] = Somewhere();
+      const auto [to, to_m] = Somewhere();
+      if (from != to) Edit(fmt::format("join {}@{} {}@{}", Name(from), from_m, Name(to), to_m));
+    }
+  }
+  void AddRobot(const std::string& name) {
+    for (int tries = 0; tries < 50; ++tries) {
+      const auto [route, along_m] = Somewhere();
+      const auto [to, to_m] = Somewhere();
+      const bool free =
+          std::none_of(walkers_.begin(), walkers_.end(), [&, at = route, at_m = along_m](auto& w) {
+            return w->route == at && std::abs(w->along_m - at_m) < 3.0;
+          });
+      const std::string goal = fmt::format("{}@{}", Name(to), to_m);
+      const auto way =
+          network_->Answer({.client = AgentId("desk"),
+                            .request = ++requests_,
+                            .words = fmt::format("way {}@{} {}", Name(route), along_m, goal)});
+      const auto orders = fleet::OrdersAlong(way.lines, goal);
+      if (!free || !way.error.empty() || !orders || orders->empty()) continue;
+      auto walker = std::make_unique<Walker>(name);
+      walker->route = route;
+      walker->along_m = along_m;
+      walker->speed_mps = Between(0.2, 0.8);
+      const mission::Mission mission{
+          .agent = walker->agent, .id = "m-" + name, .client = AgentId("desk"), .orders = *orders};
+      missions_->Handle(mission, now_, 1000);
+      walker->desk.Handle(mission);
+      walkers_.push_back(std::move(walker));
+      return;
+    }
+  }
+
+  // Lost, or heard a little later; what was said before is heard before.
+  void Pass(std::deque<std::pair<Time, exchange::Message>>& link, exchange::Message message) {
+    if (Between(0.0, 1.0) < loses_) return;
+    Time at = now_ + milliseconds(static_cast<int>(Between(0.0, 800.0)));
+    if (!link.empty()) at = std::max(at, link.back().first);
+    link.emplace_back(at, std::move(message));
+  }
+  void Serve() {
+    if (restarts_ && Between(0.0, 1.0) < 0.002) {
+      for (auto& walker : walkers_) walker->out.clear();
+      Restart();
+    }
+    for (auto& walker : walkers_) {
+      while (!walker->out.empty() && walker->out.front().first <= now_) {
+        const exchange::Message message = std::move(walker->out.front().second);
+        walker->out.pop_front();
+        missions_->Handle(message, now_, 1000);
+        const auto* status = std::get_if<exchange::AgentStatus>(&message);
+        if (status == nullptr) continue;
+        network_->Hear(*status);
+        (void)replanning_->Look(status->agent, now_);
+        for (const std::string& line : keeper_->Look(status->agent, now_)) {
+          waits_ += line.find("waits for") != std::string::npos ? 1 : 0;
+          log_ += line + "\n";
+        }
+      }
+    }
+    for (exchange::Message& message : missions_->Tick(now_, 1000)) {
+      const auto* mission = std::get_if<mission::Mission>(&message);
+      const auto* report = std::get_if<mission::Report>(&message);
+      for (auto& walker : walkers_) {
+        const bool is_its = (mission != nullptr && mission->agent == walker->agent) ||
+                            (report != nullptr && report->agent == walker->agent);
+        if (is_its) Pass(walker->in, message);
+      }
+    }
+  }
+
+  void Tell(Walker& walker, State state, const std::string& why) {
+    if (walker.told == state && walker.told_why == why) return;
+    walker.told = state;
+    walker.told_why = why;
+    walker.desk.Tell(state, why);
+  }
+  void GoOtherWay(Walker& walker) {
+    walker.missed = false;
+    walker.told.reset();
+    if (!walker.driven) return;
+    const auto& tasks = walker.desk.current()->tasks;
+    const OtherWay other = FindOnWay(tasks, *walker.driven,
+                                     walker.placed ? std::optional(walker.along_m) : std::nullopt);
+    walker.desk.GoOnAt(other.task);
+    if (other.kind == OtherWay::Kind::kGoesOn) {
+      walker.driven = tasks[other.task];
+      return;
+    }
+    walker.missed = other.kind == OtherWay::Kind::kMissed;
+    if (!walker.missed && walker.placed && tasks[other.task].kind == Task::Kind::kFollow &&
+        tasks[other.task].route.route == walker.driven->route.route) {
+      walker.desk.BeginAt(walker.along_m);
+    }
+    walker.driven.reset();
+  }
+  void Step(Walker& walker) {
+    while (!walker.in.empty() && walker.in.front().first <= now_) {
+      walker.desk.Handle(walker.in.front().second);
+      walker.in.pop_front();
+      if (walker.desk.TakeAmended()) GoOtherWay(walker);
+    }
+    if (walker.desk.current()) Work(walker);
+    for (exchange::Message& message : walker.desk.Due(now_, true)) {
+      Pass(walker.out, std::move(message));
+    }
+    if (now_ < walker.says_at) return;
+    walker.says_at = now_ + milliseconds(1000);
+    exchange::AgentStatus status;
+    status.agent = walker.agent;
+    status.instance = 1;
+    status.role = exchange::AgentRole::kFollower;
+    status.mode = walker.driven ? exchange::AgentMode::kReplaying : exchange::AgentMode::kWaiting;
+    if (walker.placed && walker.desk.current()) {
+      status.place = {Key(walker.route), walker.along_m};
+      status.speed_mps = walker.driven ? walker.speed_mps : 0.0;
+    }
+    Pass(walker.out, status);
+  }
+  void Work(Walker& walker) {
+    const auto& current = *walker.desk.current();
+    const Task& task = current.tasks[current.task];
+    if (walker.missed || task.kind != Task::Kind::kFollow) {
+      walker.driven.reset();
+      return Tell(walker, State::kFetching, current.because);
+    }
+    if (!walker.driven) {
+      walker.driven = task;
+      for (std::size_t i = 0; i < 2 * corridors_; ++i) {
+        if (Name(i) != task.route.route) continue;
+        if (i != walker.route) walker.along_m = task.from_m;
+        walker.route = i;
+      }
+      walker.placed = false;
+      walker.finds_itself = now_ + milliseconds(static_cast<int>(Between(400.0, 2500.0)));
+    }
+    if (now_ < walker.finds_itself) return;
+    walker.placed = true;
+    Tell(walker, State::kUnderWay, "");
+    double room_m = walker.speed_mps * kStep_s;
+    for (const auto& other : walkers_) {
+      const bool counts = other.get() != &walker && !other->arrived && other->route == walker.route;
+      const double ahead_m = other->along_m - walker.along_m;
+      const bool is_ahead = ahead_m > 0.0 || (ahead_m == 0.0 && other->agent < walker.agent);
+      if (counts && is_ahead) room_m = std::min(room_m, std::max(0.0, ahead_m - kKeeps_m));
+    }
+    walker.along_m =
+        std::min(walker.along_m + room_m, std::max(walker.driven->to_m, walker.along_m));
+    if (walker.along_m < walker.driven->to_m - 1e-6) return;
+    walker.driven.reset();
+    walker.told.reset();
+    walker.desk.NoteDone();
+    if (walker.desk.current()->task >= walker.desk.current()->tasks.size()) {
+      walker.desk.Tell(State::kArrived);
+      walker.arrived = true;
+    }
+  }
+
+  // Where robots are in truth.
+  std::string TwoInOne() const {
+    for (const network::Lane& lane : lanes_) {
+      std::vector<std::string> in;
+      for (const auto& walker : walkers_) {
+        for (const network::Part& part : lane.parts) {
+          const bool is_in = !walker->arrived && Name(walker->route) == part.route &&
+                             walker->along_m > part.from_m && walker->along_m < part.to_m;
+          if (is_in) in.push_back(walker->agent.value());
+        }
+      }
+      if (in.size() > 1) {
+        return fmt::format("{} are in {}: {}", fmt::join(in, " and "), network::ToText(lane),
+                           Told());
+      }
+    }
+    return {};
+  }
+  std::string Told() const {
+    std::string told;
+    for (const auto& walker : walkers_) {
+      const auto& current = walker->desk.current();
+      told += fmt::format("\n{} at {}@{:.2f}{}: {}", walker->agent.value(), Name(walker->route),
+                          walker->along_m, walker->missed ? " missed" : "",
+                          current ? current->mission.orders : "arrived");
+      const auto* record = missions_->CurrentOf(walker->agent);
+      if (record != nullptr) {
+        told += fmt::format("\n   server: {}, {} {}", record->mission.orders,
+                            mission::ToString(record->last.state), record->last.detail);
+      }
+    }
+    const auto all = network_->Answer({.client = AgentId("desk"), .request = 1});
+    for (const std::string& line : all.lines) told += "\n  " + line;
+    return told + "\n" + log_.substr(log_.size() - std::min<std::size_t>(log_.size(), 3000));
+  }
+
+  std::mt19937 random_;
+  test::TempDir folder_;
+  test::MemoryStore routes_;
+  std::unique_ptr<server::NetworkBoard> network_;
+  std::unique_ptr<server::MissionBoard> missions_;
+  std::optional<server::Replanning> replanning_;
+  std::optional<server::LaneKeeper> keeper_;
+  std::size_t corridors_ = 1;
+  std::vector<double> lengths_m_;
+  std::vector<network::Lane> lanes_;
+  double loses_ = 0.0;
+  bool restarts_ = false;
+  std::vector<std::unique_ptr<Walker>> walkers_;
+  Time now_{std::chrono::seconds(1000)};
+  std::uint64_t requests_ = 100;
+  int waits_ = 0;
+  std::string log_;
+};
+
+TEST(LanesModelTest, NeverTwoAreInOneNarrowPlaceAndAllArrive) {
+  // What is stored is synced some hundred times a network, which a disk would take minutes for.
+  if (std::filesystem::is_directory("/dev/shm")) setenv("TMPDIR", "/dev/shm", 1);
+  std::size_t robots = 0;
+  int waits = 0;
+  for (unsigned seed = 1; seed <= 120; ++seed) {
+    LanesModel model(seed);
+    const std::string trouble = model.Run();
+    ASSERT_EQ(trouble, "") << "seed " << seed;
+    robots += model.robots();
+    waits += model.waits();
+  }
+  EXPECT_GT(robots, 240U);
+  EXPECT_GT(waits, 40) << "they never met";
+}
+
+}  // namespace
+}  // namespace trailcast::agent
