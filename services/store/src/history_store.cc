@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "services/route/info_codec.h"
-#include "services/store/compiled_statements.h"
-#include "services/store/sqlite_database.h"
 #include "services/store/src/own_file.h"
 
 namespace trailcast::store {
@@ -14,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWhat = "store of the history";
 // `number` counts up as changes are noted; of what a server heard late, `at_unix_ms` is earlier.
 constexpr OwnFile kFile{.id = 0x54524348,  // "TRCH"
                         .version = 1,
@@ -34,7 +31,8 @@ CREATE TABLE noted (
   PRIMARY KEY (route, teaching)
 ) STRICT, WITHOUT ROWID;
 )",
-                        .holds = "history"};
+                        .holds = "history",
+                        .called = "store of the history"};
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
   statement.bind(1, key.route.value());
@@ -43,22 +41,8 @@ void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
 
 }  // namespace
 
-struct HistoryStore::Database {
-  Database(const fs::path& path, std::int64_t most)
-      : most_kept(most),
-        file(path),
-        db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE),
-        compiled(db) {}
-
-  // Runs `work`, which may throw SQLite's exceptions.
-  template <typename Work>
-  auto Guarded(const char* doing, const Work& work) -> decltype(work()) {
-    try {
-      return work();
-    } catch (const SQLite::Exception& exception) {
-      return tl::unexpected(ToError(exception, file, doing, kWhat));
-    }
-  }
+struct HistoryStore::Database : OwnDatabase {
+  Database(const fs::path& file, std::int64_t most) : OwnDatabase(file, kFile), most_kept(most) {}
 
   void Insert(const network::Change& change) {
     auto insert =
@@ -94,9 +78,6 @@ struct HistoryStore::Database {
 
   std::int64_t since_thinned_ = 0;
   std::int64_t most_kept;
-  fs::path file;
-  SQLite::Database db;
-  CompiledStatements compiled;
 };
 
 HistoryStore::HistoryStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
@@ -104,13 +85,11 @@ HistoryStore::~HistoryStore() = default;
 
 Result<std::unique_ptr<HistoryStore>> HistoryStore::Open(const fs::path& file,
                                                          std::int64_t most_kept) {
-  try {
-    auto database = std::make_unique<Database>(file, most_kept);
-    PrepareOwnFile(database->db, kFile);
-    return std::unique_ptr<HistoryStore>(new HistoryStore(std::move(database)));
-  } catch (const SQLite::Exception& exception) {
-    return tl::unexpected(ToError(exception, file, "opening it", kWhat));
-  }
+  using Opened = Result<std::unique_ptr<HistoryStore>>;
+  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+    return std::unique_ptr<HistoryStore>(
+        new HistoryStore(std::make_unique<Database>(file, most_kept)));
+  });
 }
 
 Result<std::int64_t> HistoryStore::KeptSince(std::int64_t now_unix_ms) {

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "services/mission/orders.h"
-#include "services/store/compiled_statements.h"
-#include "services/store/sqlite_database.h"
 #include "services/store/src/own_file.h"
 
 namespace trailcast::store {
@@ -17,14 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In SQLite's header, as that of a route store has its own: "TRCM".
-constexpr int kMissionsId = 0x5452434D;
-constexpr int kVersion = 1;
-constexpr const char* kWhat = "mission store";
-
 // `number` counts up in the order of arrival. A mission is found by each route that its orders
 // name.
-constexpr const char* kTables = R"(
+constexpr OwnFile kFile{.id = 0x5452434D,  // "TRCM"
+                        .version = 1,
+                        .tables = R"(
 CREATE TABLE mission (
   number INTEGER PRIMARY KEY,
   agent TEXT NOT NULL,
@@ -66,7 +61,9 @@ CREATE TABLE answer (
   detail TEXT NOT NULL,
   PRIMARY KEY (client, drawn, agent)
 ) STRICT, WITHOUT ROWID;
-)";
+)",
+                        .holds = "missions",
+                        .called = "mission store"};
 
 constexpr const char* kColumns =
     "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, detail, "
@@ -125,22 +122,8 @@ std::string EndedStates() {
 
 }  // namespace
 
-struct MissionStore::Database {
-  Database(const fs::path& path, std::int64_t most)
-      : most_kept(most),
-        file(path),
-        db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE),
-        compiled(db) {}
-
-  // Runs `work`, which may throw SQLite's exceptions.
-  template <typename Work>
-  auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
-    try {
-      return work();
-    } catch (const SQLite::Exception& exception) {
-      return tl::unexpected(ToError(exception, file, doing, kWhat));
-    }
-  }
+struct MissionStore::Database : OwnDatabase {
+  Database(const fs::path& file, std::int64_t most) : OwnDatabase(file, kFile), most_kept(most) {}
 
   std::optional<mission::Record> Get(const AgentId& agent, const std::string& id) {
     auto select = compiled.Take(std::string("SELECT ") + kColumns +
@@ -194,11 +177,6 @@ struct MissionStore::Database {
     return answers;
   }
 
-  std::int64_t Count(const char* sql) {
-    auto select = compiled.Take(sql);
-    return select->executeStep() ? select->getColumn(0).getInt64() : 0;
-  }
-
   // Now and then, since looking for the oldest is not free.
   void Thin() {
     if (++since_thinned_ <= most_kept / 100) return;
@@ -215,9 +193,6 @@ struct MissionStore::Database {
 
   std::int64_t since_thinned_ = 0;
   std::int64_t most_kept;
-  fs::path file;
-  SQLite::Database db;
-  CompiledStatements compiled;
 };
 
 MissionStore::MissionStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
@@ -225,15 +200,11 @@ MissionStore::~MissionStore() = default;
 
 Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
                                                          std::int64_t most_kept) {
-  try {
-    auto database = std::make_unique<Database>(file, most_kept);
-    PrepareOwnFile(
-        database->db,
-        {.id = kMissionsId, .version = kVersion, .tables = kTables, .holds = "missions"});
-    return std::unique_ptr<MissionStore>(new MissionStore(std::move(database)));
-  } catch (const SQLite::Exception& exception) {
-    return tl::unexpected(ToError(exception, file, "opening it", kWhat));
-  }
+  using Opened = Result<std::unique_ptr<MissionStore>>;
+  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+    return std::unique_ptr<MissionStore>(
+        new MissionStore(std::make_unique<Database>(file, most_kept)));
+  });
 }
 
 Result<mission::Record> MissionStore::Add(const mission::Mission& mission,

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "services/store/compiled_statements.h"
-#include "services/store/sqlite_database.h"
 #include "services/store/src/own_file.h"
 
 namespace trailcast::store {
@@ -13,7 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWhat = "store of the network";
 constexpr OwnFile kFile{.id = 0x5452434E,  // "TRCN"
                         .version = 1,
                         .tables = R"(
@@ -44,7 +41,8 @@ CREATE TABLE condition (
 ) STRICT;
 CREATE INDEX condition_route ON condition (route);
 )",
-                        .holds = "joints"};
+                        .holds = "joints",
+                        .called = "store of the network"};
 
 // Apart: files that were made without it get it.
 constexpr const char* kNames = R"(
@@ -151,18 +149,11 @@ void BindJoint(SQLite::Statement& statement, const network::Joint& joint) {
 
 }  // namespace
 
-struct NetworkStore::Database {
-  explicit Database(const fs::path& path)
-      : file(path), db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE), compiled(db) {}
-
-  // Runs `work`, which may throw SQLite's exceptions.
-  template <typename Work>
-  auto Guarded(const char* doing, const Work& work) -> decltype(work()) {
-    try {
-      return work();
-    } catch (const SQLite::Exception& exception) {
-      return tl::unexpected(ToError(exception, file, doing, kWhat));
-    }
+struct NetworkStore::Database : OwnDatabase {
+  explicit Database(const fs::path& file) : OwnDatabase(file, kFile) {
+    db.exec(kNames);
+    db.exec(kProposals);
+    db.exec(kLanes);
   }
 
   template <typename Value>
@@ -171,11 +162,6 @@ struct NetworkStore::Database {
     std::vector<Value> all;
     while (select->executeStep()) all.push_back(in(*select));
     return all;
-  }
-
-  std::int64_t Count(const char* sql) {
-    auto select = compiled.Take(sql);
-    return select->executeStep() ? select->getColumn(0).getInt64() : 0;
   }
 
   void Remove(const network::Joint& joint) {
@@ -213,26 +199,16 @@ struct NetworkStore::Database {
     put->bind(12, now_unix_ms);
     put->exec();
   }
-
-  fs::path file;
-  SQLite::Database db;
-  CompiledStatements compiled;
 };
 
 NetworkStore::NetworkStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
 NetworkStore::~NetworkStore() = default;
 
 Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
-  try {
-    auto database = std::make_unique<Database>(file);
-    PrepareOwnFile(database->db, kFile);
-    database->db.exec(kNames);
-    database->db.exec(kProposals);
-    database->db.exec(kLanes);
-    return std::unique_ptr<NetworkStore>(new NetworkStore(std::move(database)));
-  } catch (const SQLite::Exception& exception) {
-    return tl::unexpected(ToError(exception, file, "opening it", kWhat));
-  }
+  using Opened = Result<std::unique_ptr<NetworkStore>>;
+  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+    return std::unique_ptr<NetworkStore>(new NetworkStore(std::make_unique<Database>(file)));
+  });
 }
 
 Result<std::vector<network::Joint>> NetworkStore::Joints() {

@@ -3,17 +3,22 @@
 #include <sqlite3.h>
 
 #include <string>
+#include <utility>
 
 namespace trailcast::store {
 
-void PrepareOwnFile(SQLite::Database& db, const OwnFile& file) {
+OwnDatabase::OwnDatabase(std::filesystem::path file, const OwnFile& what)
+    : path(std::move(file)),
+      own(what),
+      db(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE),
+      compiled(db) {
   db.exec("PRAGMA locking_mode = EXCLUSIVE");
   const int id = db.execAndGet("PRAGMA application_id").getInt();
   const int version = db.execAndGet("PRAGMA user_version").getInt();
   const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
-  if (!empty && (id != file.id || version != file.version)) {
+  if (!empty && (id != own.id || version != own.version)) {
     throw SQLite::Exception(
-        "it holds no " + std::string(file.holds) + ", or those of another version", SQLITE_NOTADB);
+        "it holds no " + std::string(own.holds) + ", or those of another version", SQLITE_NOTADB);
   }
   db.exec("PRAGMA journal_mode = WAL");
   db.exec("PRAGMA synchronous = FULL");
@@ -21,11 +26,16 @@ void PrepareOwnFile(SQLite::Database& db, const OwnFile& file) {
   db.exec("PRAGMA trusted_schema = OFF");
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
   if (empty) {
-    db.exec("PRAGMA application_id = " + std::to_string(file.id));
-    db.exec("PRAGMA user_version = " + std::to_string(file.version));
-    db.exec(file.tables);
+    db.exec("PRAGMA application_id = " + std::to_string(own.id));
+    db.exec("PRAGMA user_version = " + std::to_string(own.version));
+    db.exec(own.tables);
   }
   transaction.commit();
+}
+
+std::int64_t OwnDatabase::Count(const char* sql) {
+  auto select = compiled.Take(sql);
+  return select->executeStep() ? select->getColumn(0).getInt64() : 0;
 }
 
 }  // namespace trailcast::store
