@@ -38,12 +38,6 @@ LaneSet With(LaneSet some, const LaneSet& others) {
   return some;
 }
 
-double LengthOf(const std::vector<Stretch>& stretches) {
-  double length_m = 0.0;
-  for (const Stretch& stretch : stretches) length_m += stretch.to_m - stretch.from_m;
-  return length_m;
-}
-
 // Metres along the way, of what is on it within so many.
 std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
                              const network::Place& place) {

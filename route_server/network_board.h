@@ -32,7 +32,7 @@ class NetworkBoard {
   // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
   static constexpr std::size_t kMostAgents = 4096;
   // Within so many metres a joint, or a place on a route, is the same.
-  static constexpr double kSame_m = 0.05;
+  static constexpr double kSame_m = network::kSame_m;
   // Two found so near each other are one, and nobody needs one so near to a joint.
   static constexpr double kSameMeeting_m = 2.0;
   // Refused ones counted, and those that became joints.
@@ -138,6 +138,7 @@ class NetworkBoard {
                                                         std::int64_t now_unix_ms);
   // Of kWide and kVacate.
   [[nodiscard]] Result<std::vector<std::string>> Leave(const network::Edit& edit);
+  [[nodiscard]] std::vector<std::int64_t> NumbersOf(const LaneSet& lanes) const;
   [[nodiscard]] network::Lane CalledLane(const store::KeptLane& kept) const;
   // Confirms, or refuses, what is proposed.
   [[nodiscard]] Result<std::vector<std::string>> Settle(const network::Edit& edit,

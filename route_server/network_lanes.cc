@@ -116,18 +116,20 @@ NetworkBoard::LaneSet NetworkBoard::HeldBy(const AgentId& agent) const {
   return held;
 }
 
-Result<void> NetworkBoard::Hold(const LaneSet& lanes, const AgentId& agent) {
+std::vector<std::int64_t> NetworkBoard::NumbersOf(const LaneSet& lanes) const {
   std::vector<std::int64_t> numbers;
   for (const std::size_t lane : lanes) numbers.push_back(lanes_[lane].number);
-  if (auto held = store_->Hold(numbers, agent); !held) return held;
+  return numbers;
+}
+
+Result<void> NetworkBoard::Hold(const LaneSet& lanes, const AgentId& agent) {
+  if (auto held = store_->Hold(NumbersOf(lanes), agent); !held) return held;
   for (const std::size_t lane : lanes) lanes_[lane].holders.insert(agent);
   return {};
 }
 
 Result<void> NetworkBoard::Release(const LaneSet& lanes, const AgentId& agent) {
-  std::vector<std::int64_t> numbers;
-  for (const std::size_t lane : lanes) numbers.push_back(lanes_[lane].number);
-  if (auto released = store_->Release(numbers, agent); !released) return released;
+  if (auto released = store_->Release(NumbersOf(lanes), agent); !released) return released;
   for (const std::size_t lane : lanes) lanes_[lane].holders.erase(agent);
   return {};
 }
@@ -157,10 +159,7 @@ std::vector<mission::Task> NetworkBoard::TasksOf(std::span<const network::Leg> l
     const network::Stretch* before = nullptr;
     for (const network::Stretch& stretch : leg.stretches) {
       if (stretch.to_m - stretch.from_m <= kSame_m) continue;
-      const bool goes_on = before != nullptr && before->route == stretch.route &&
-                           before->speed == stretch.speed &&
-                           std::abs(before->to_m - stretch.from_m) <= kSame_m;
-      if (goes_on) {
+      if (before != nullptr && GoesOn(*before, stretch) && before->speed == stretch.speed) {
         tasks.back().to_m = TaskOf(stretch).to_m;
       } else {
         tasks.push_back(TaskOf(stretch));

@@ -19,10 +19,7 @@ using network::Stretch;
 // Two stretches of which one goes on where the other ends are one to a robot.
 void Append(std::vector<Stretch>& way, const Stretch& next) {
   if (next.to_m - next.from_m <= NetworkBoard::kSame_m && !way.empty()) return;
-  const bool goes_on = !way.empty() && way.back().route == next.route &&
-                       way.back().speed == next.speed &&
-                       std::abs(way.back().to_m - next.from_m) <= NetworkBoard::kSame_m;
-  if (goes_on) {
+  if (!way.empty() && GoesOn(way.back(), next) && way.back().speed == next.speed) {
     way.back().to_m = next.to_m;
   } else {
     way.push_back(next);

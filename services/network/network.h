@@ -71,6 +71,13 @@ struct Stretch {
   bool operator==(const Stretch&) const = default;
 };
 
+// Within so many metres two places on a route are one.
+inline constexpr double kSame_m = 0.05;
+
+// The second begins where the first ends.
+[[nodiscard]] bool GoesOn(const Stretch& before, const Stretch& next);
+[[nodiscard]] double LengthOf(std::span<const Stretch> stretches);
+
 struct Way {
   std::vector<Stretch> stretches{};  // none: it is there already
   double length_m = 0.0;

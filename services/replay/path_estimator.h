@@ -200,6 +200,10 @@ class PathEstimator {
   // on turning is the robot, whose wheels slip.
   void AllowForKnock(const std::vector<route::TrackedFeature>& seen);
   [[nodiscard]] bool WasTurnedLately() const;
+  // By what the route says of the scout's camera: how large one of that focal length shows things.
+  [[nodiscard]] double MagnificationBy(const FocalLength& own) const {
+    return own.px / flow_.camera().focal_px;
+  }
   [[nodiscard]] Equations Linearise(const State& state, const Prior& prior,
                                     const std::vector<route::TrackedFeature>& seen,
                                     double cauchy_px) const;

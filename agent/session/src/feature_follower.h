@@ -71,7 +71,6 @@ class FeatureFollower {
   [[nodiscard]] bool BeginWhereLeft(const Seen& seen, Standing& standing);
   [[nodiscard]] bool MeasuresLens(const Seen& seen, Standing& standing);
   [[nodiscard]] double MagnificationBy(const replay::FocalLength& focal);
-  [[nodiscard]] replay::RoughPlace Roughly(double along_sigma_m) const;
   [[nodiscard]] bool BeginAnywhere(const Seen& seen, Standing& standing);
   [[nodiscard]] bool LooksElsewhere(Standing& standing);
   [[nodiscard]] bool LooksAgainIfLost() const;

@@ -96,7 +96,7 @@ bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
     const route::Segment& segment = route_.segment(found->segment);
     Make(segment);
     if (place_finder_->told()) {
-      follower_->BeginAbout(segment, found->fraction, Roughly(kTold_m));
+      follower_->BeginAbout(segment, found->fraction, {kTold_m, focal_});
     } else {
       follower_->BeginAt(segment, found->fraction);
     }
@@ -159,7 +159,8 @@ bool FeatureFollower::LooksAgainIfLost() const {
 
 // The same, of one that may be anywhere on the route.
 bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
-  if (lens_turn_.turns() && MeasuresLens(seen, standing)) return false;
+  const bool turned = lens_turn_.turns();
+  if (turned && MeasuresLens(seen, standing)) return false;
   Verdict verdict = place_trust_.Judge(place_.where(), seen.looked_s,
                                        "a place is recognised, but too few of its features");
   const bool lost = verdict.trust == Trust::kLost;
@@ -168,7 +169,7 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
               not_there_ + "looks where on the route it is: " + verdict.reason};
   if (!lost) look_around_.Rest();
   if (!place_.where().held && place_.where().agreed < kEnoughAgreed) return false;
-  if (MeasuresLens(seen, standing)) return false;
+  if (!turned && MeasuresLens(seen, standing)) return false;
   look_again_at_s_ -= seen.looked_s;
   if (look_again_at_s_ > kTimeSlack_s) return false;
   look_again_at_s_ = kCompare_s;
@@ -207,10 +208,6 @@ double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
   const auto alike = follower_->focal();
   follower_.reset();
   return alike ? magnification * focal.px / alike->px : magnification;
-}
-
-replay::RoughPlace FeatureFollower::Roughly(double along_sigma_m) const {
-  return {along_sigma_m, focal_};
 }
 
 // Views look alike that are of places apart, and from half a metre further on. Where it is tell the
@@ -272,7 +269,7 @@ bool FeatureFollower::BeginBy(const RoutePoint& point) {
   const route::Segment& segment = route_.segment(point.segment);
   if (segment.features.empty()) return false;
   Make(segment);
-  follower_->BeginAbout(segment, point.fraction, Roughly(kAlike_m));
+  follower_->BeginAbout(segment, point.fraction, {kAlike_m, focal_});
   const auto found = search_.Recover(*follower_, segment, point);
   if (found.empty()) {
     follower_.reset();

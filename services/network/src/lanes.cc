@@ -1,18 +1,10 @@
 #include "services/network/lanes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace trailcast::network {
 namespace {
-
-// Places within this are the same.
-constexpr double kSame_m = 0.05;
-
-bool GoesOn(const Stretch& before, const Stretch& next) {
-  return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m;
-}
 
 // Of a way, in metres from its beginning, what is of one lane.
 struct Passage {
@@ -83,12 +75,6 @@ void Cut(std::vector<Stretch>& stretches, double at_m, std::vector<Stretch>& res
     at_m -= length_m;
   }
   stretches = std::move(before);
-}
-
-double LengthOf(std::span<const Stretch> stretches) {
-  double length_m = 0.0;
-  for (const Stretch& stretch : stretches) length_m += stretch.to_m - stretch.from_m;
-  return length_m;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -19,6 +20,16 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kClosedCosts = 1e15;
 
 }  // namespace
+
+bool GoesOn(const Stretch& before, const Stretch& next) {
+  return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m;
+}
+
+double LengthOf(std::span<const Stretch> stretches) {
+  double length_m = 0.0;
+  for (const Stretch& stretch : stretches) length_m += stretch.to_m - stretch.from_m;
+  return length_m;
+}
 
 Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Joint>& joints,
                                std::span<const Condition> conditions) {

@@ -82,7 +82,7 @@ PathEstimator::Prior PathEstimator::FindWhereAlong(const Prior& before,
   double magnification = before.mean[kMagnification];
   double sigma = options_.found_magnification;
   if (const auto own = std::exchange(rough_, std::nullopt)->focal) {
-    magnification = own->px / flow_.focal().px;
+    magnification = MagnificationBy(*own);
     sigma = std::hypot(own->sigma, flow_.focal().sigma);
   }
   const Prior any_camera = with_camera(magnification, sigma);

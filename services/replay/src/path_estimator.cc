@@ -70,7 +70,7 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
 void PathEstimator::BeUnsureWhereAlong(const RoughPlace& rough) {
   rough_ = rough;
   covariance_(kAlong, kAlong) = Square(rough.along_sigma_m);
-  if (rough.focal) state_[kMagnification] = rough.focal->px / flow_.focal().px;
+  if (rough.focal) state_[kMagnification] = MagnificationBy(*rough.focal);
   covariance_(kMagnification, kMagnification) =
       Square(options_.found_magnification * state_[kMagnification]);
 }

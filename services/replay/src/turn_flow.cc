@@ -11,11 +11,7 @@ namespace {
 
 constexpr double kLeastTurn_rad = 0.1;
 constexpr std::size_t kFewest = 12;
-// What is believed of any camera before, as of the scout's.
-constexpr double kUsualShare = 0.87;  // of the picture's width
-constexpr double kUsualSigma = 0.5;
-constexpr double kWidening = 0.8;
-constexpr double kWideningSigma = 0.5;
+constexpr double kUsualSigma = 0.5;     // relative; of any robot's camera from the usual one
 constexpr double kNoise_share = 0.005;  // of the width: a tracker's drift
 constexpr double kCauchy_share = 0.01;
 constexpr int kIterations = 10;
@@ -45,9 +41,10 @@ std::optional<FocalLength> TurnFlow::focal() const {
     if (std::abs(moved.turned_rad) >= kLeastTurn_rad) used.push_back(moved);
   }
   if (used.size() < kFewest) return std::nullopt;
-  const Eigen::Vector2d usual(std::log(kUsualShare * width_px_), kWidening);
+  const TaughtFlowOptions webcam;
+  const Eigen::Vector2d usual(std::log(webcam.focal_share * width_px_), webcam.widening);
   const Eigen::Matrix2d prior =
-      Eigen::Vector2d(1.0 / Square(kUsualSigma), 1.0 / Square(kWideningSigma)).asDiagonal();
+      Eigen::Vector2d(1.0 / Square(kUsualSigma), 1.0 / Square(webcam.widening_sigma)).asDiagonal();
   const auto moves_u = [](const Moved& moved, const Eigen::Vector2d& lens) {
     const ScoutCamera camera{std::exp(lens[0]), lens[1]};
     return camera.Turned({moved.from.u_px, moved.from.v_px}, moved.turned_rad).x();
