@@ -72,10 +72,13 @@ endfunction()
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
 # with TOGETHER they are one, since they share what is slow to start. ALONE: nothing runs beside
 # them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock.
+# LONG: cases, as GoogleTest filters them, that drive simulated robots for a minute and more: they are
+# labelled `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
 # NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;NUMERIC" "LABEL;TIMEOUT" "SOURCES;APART;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;NUMERIC" "LABEL;TIMEOUT"
+                        "SOURCES;APART;DEPS;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 180)
   endif()
@@ -108,9 +111,15 @@ function(trailcast_test name)
   if(ARG_REAL_TIME)
     set(beside RESOURCE_LOCK real_time COST 1000) # begun first, so that others fill the other cores
   endif()
-  gtest_discover_tests(
-    ${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 # from a cold disk, beside other work
-    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${beside})
+  set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60) # from a cold disk, beside other work
+  list(JOIN ARG_LONG ":" long)
+  if(long)
+    gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
+                         PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
+    set(discovery TEST_FILTER "-${long}" ${discovery})
+  endif()
+  gtest_discover_tests(${name} ${discovery}
+                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${beside})
 endfunction()
 
 # trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.

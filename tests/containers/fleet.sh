@@ -68,8 +68,9 @@ operate_as() {
     trailcast-robot "$@"
 }
 
-# Where a robot is by its true poses: seconds of its own clock, x, y.
-place_of() { tail -n 2 "$(files_of "$1")/truth.csv" 2>/dev/null | sed -n '1s/,/ /gp' | cut -d' ' -f1-3; }
+# Where a robot is by its true poses: seconds of its own clock, x, y; nothing before it has a row that
+# is written whole.
+place_of() { tail -n 2 "$(files_of "$1")/truth.csv" 2>/dev/null | sed -n "1{/^[0-9]/s/,/ /gp}" | cut -d" " -f1-3; }
 
 start_server() {
   contain server server --

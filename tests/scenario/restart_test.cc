@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "tests/scenario/taught_run.h"
 
@@ -103,18 +104,20 @@ void ExpectItArrives(Robot& robot, agent::ReplaySession session) {
   EXPECT_LT(robot.DistanceTo(Indoors().length_m), 0.15);
 }
 
-TEST(RestartTest, GoesOnFromWhereItStandsTimeAndAgain) {
-  for (const char* camera : {"webcam", "wide", "firewire"}) {
-    SCOPED_TRACE(camera);
-    Robot robot(camera, 21);
-    agent::LeftAt left = Killed(robot, Session(), 1.3);
-    for (const double at_m : {4.0, 7.6, 11.1, 14.2}) {
-      left = Killed(robot, GoingOn(left), at_m);
-      EXPECT_LT(robot.DistanceTo(at_m), 0.3) << at_m;
-      EXPECT_LT(robot.commanded_m(), 4.0) << "it did not begin anew";
-    }
-    ExpectItArrives(robot, GoingOn(left));
+class RestartByCamera : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Cameras, RestartByCamera, testing::Values("webcam", "wide", "firewire"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(RestartByCamera, GoesOnFromWhereItStandsTimeAndAgain) {
+  Robot robot(GetParam(), 21);
+  agent::LeftAt left = Killed(robot, Session(), 1.3);
+  for (const double at_m : {4.0, 7.6, 11.1, 14.2}) {
+    left = Killed(robot, GoingOn(left), at_m);
+    EXPECT_LT(robot.DistanceTo(at_m), 0.3) << at_m;
+    EXPECT_LT(robot.commanded_m(), 4.0) << "it did not begin anew";
   }
+  ExpectItArrives(robot, GoingOn(left));
 }
 
 // What was noted may be a second old, or the robot was put back not quite where it was.

@@ -1,9 +1,6 @@
 // Agents that drive virtual robots over ROS 2's topics.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <sstream>
 #include <vector>
 
 #include "tests/scenario/robots.h"
@@ -18,25 +15,6 @@ class RobotTest : public RobotsTest {
  protected:
   std::unique_ptr<Process> Follow(const Words& words) {
     return RobotsTest::Follow("robot1", "routes.db", words);
-  }
-  struct Place {
-    double x_m = 0.0;
-    double y_m = 0.0;
-  };
-  // Where the robot was at each step, by its truth.
-  std::vector<Place> TruePlaces() {
-    std::ifstream in(Path("truth.csv"));
-    std::string line;
-    std::getline(in, line);
-    std::vector<Place> places;
-    while (std::getline(in, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      double t_s = 0.0;
-      Place& place = places.emplace_back();
-      words >> t_s >> place.x_m >> place.y_m;
-    }
-    return places;
   }
   // Where along x it stood for longest.
   static double LongestStand(const std::vector<Place>& places) {
@@ -55,14 +33,6 @@ class RobotTest : public RobotsTest {
     }
     return best_m;
   }
-  static double Number(const std::string& text, const std::string& key) {
-    const auto at = text.find(key + "=");
-    double value = -1.0;
-    if (at != std::string::npos) {
-      std::from_chars(text.data() + at + key.size() + 1, text.data() + text.size(), value);
-    }
-    return value;
-  }
 };
 
 TEST_F(RobotTest, InLockstepAFollowerWithAnotherCameraArrives) {
@@ -74,75 +44,6 @@ TEST_F(RobotTest, InLockstepAFollowerWithAnotherCameraArrives) {
   robot->Signal(SIGTERM);
   EXPECT_EQ(End(*robot).status, 0);
   EXPECT_GT(Number(robot->output(), "commands"), 200.0);
-}
-
-TEST_F(RobotTest, WhateverFailsTheRobotIsToldToStandWithinHalfASecond) {
-  Teach();
-  struct Fault {
-    const char* name;
-    const char* said;
-  };
-  for (const Fault& fault : {Fault{"camera-freezes", "camera /robot1/image_raw: the same picture"},
-                             Fault{"camera-stops", "camera /robot1/image_raw: no picture"},
-                             Fault{"odometry-stops", "odometry /robot1/odom: no odometry"},
-                             Fault{"base-stops", "base /robot1/cmd_vel: told to drive"}}) {
-    SCOPED_TRACE(fault.name);
-    constexpr double kSoon_s = 0.5;
-    // A machine that stands for a moment may spoil a try.
-    double soonest_s = std::numeric_limits<double>::infinity();
-    for (int time = 0; time < 3 && soonest_s > kSoon_s; ++time) {
-      const auto robot = Robot("robot1", {"--fail", fault.name + std::string("@2")});
-      ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
-      const auto follower = Follow({"--sensor-patience", "1", "--base-patience", "1"});
-      EXPECT_EQ(End(*follower).status, 1);
-      EXPECT_THAT(follower->output(), AllOf(HasSubstr("state=FAILED"), HasSubstr(fault.said)));
-      robot->Signal(SIGTERM);
-      ASSERT_EQ(End(*robot).status, 0) << robot->output();
-      const double stopped_s = Number(robot->output(), "told_to_stand_after_s");
-      EXPECT_GT(stopped_s, 0.0) << robot->output();
-      soonest_s = std::min(soonest_s, stopped_s);
-    }
-    EXPECT_LE(soonest_s, kSoon_s);
-  }
-}
-
-TEST_F(RobotTest, ARobotIsFollowedOverWhatRealOnesDo) {
-  Teach();
-  struct Life {
-    const char* name;
-    Words robot;
-    Words said;
-  };
-  for (const Life& life :
-       {Life{"safety stops",
-             {"--fail", "base-stops@2+0.5", "--fail", "base-stops@4+4"},
-             {"by its odometry it stands", "over: base /robot1/cmd_vel"}},
-        Life{"odometry",
-             {"--fail", "odometry-jumps@2", "--fail", "odometry-restarts@5"},
-             {"odometry jumped by "}},
-        Life{"clocks",
-             {"--fail", "camera-clock-back@2", "--fail", "odometry-clock-back@4", "--fail",
-              "camera-stamps-stand@6+1"},
-             {"pictures: its clock went back by 5.0", "odometry: its clock went back by 5.0",
-              "pictures: its stamps stand still"}},
-        Life{"stamps of two clocks", {"--stamps-late", "1.5"}, {"different clocks, 1."}},
-        Life{"delays", {"--picture-delay", "0.2", "--base-delay", "0.2"}, {}},
-        Life{"few pictures", {"--picture-rate", "8", "--drop-pictures", "0.3"}, {}}}) {
-    SCOPED_TRACE(life.name);
-    const auto robot =
-        Robot("robot1", With({"--sim-truth", Path("truth.csv"), "--seed", "3"}, life.robot));
-    ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
-    const auto follower = Follow({});
-    EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
-    EXPECT_THAT(follower->output(), HasSubstr("state=ARRIVED"));
-    for (const std::string& word : life.said) EXPECT_THAT(follower->output(), HasSubstr(word));
-    robot->Signal(SIGTERM);
-    ASSERT_EQ(End(*robot).status, 0) << robot->output();
-    const auto places = TruePlaces();
-    ASSERT_FALSE(places.empty());
-    EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
-    EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
-  }
 }
 
 // Not seen in the picture, which is another matter.

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/scenario/programs.h"
 
@@ -84,6 +88,33 @@ class RobotsTest : public ProgramsTest {
     return Agent(
         With(With({"replay", "--route", "hall", "--store", Path(store)}, Drives(robot)), words),
         log);
+  }
+  struct Place {
+    double x_m = 0.0;
+    double y_m = 0.0;
+  };
+  // Where the robot was at each step, by its truth.
+  std::vector<Place> TruePlaces() {
+    std::ifstream in(Path("truth.csv"));
+    std::string line;
+    std::getline(in, line);
+    std::vector<Place> places;
+    while (std::getline(in, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      double t_s = 0.0;
+      Place& place = places.emplace_back();
+      words >> t_s >> place.x_m >> place.y_m;
+    }
+    return places;
+  }
+  static double Number(const std::string& text, const std::string& key) {
+    const auto at = text.find(key + "=");
+    double value = -1.0;
+    if (at != std::string::npos) {
+      std::from_chars(text.data() + at + key.size() + 1, text.data() + text.size(), value);
+    }
+    return value;
   }
 };
 
