@@ -45,7 +45,8 @@ using Bystander = std::function<void(sim::Judge& truth, const agent::ReplayStep&
 // Follows the route from the start of a place's path until it ends one way or the other.
 inline Ending FollowIn(
     const sim::Place& place, const sim::CameraModel& camera, const Taught& taught,
-    std::uint64_t seed, const Bystander& bystander = [](sim::Judge&, const agent::ReplayStep&) {}) {
+    std::uint64_t seed, const Bystander& bystander = [](sim::Judge&, const agent::ReplayStep&) {},
+    const agent::ReplayMethodOptions& how = {}) {
   constexpr double kPatience_s = 90.0;
   sim::SimulatedRobotOptions options;
   options.camera = camera;
@@ -54,7 +55,7 @@ inline Ending FollowIn(
   options.seed = seed;
   const auto robot = sim::SimulatedRobot::Create(place.world, options);
   EXPECT_TRUE(robot) << robot.error().message;
-  auto session = OpenSession(taught.routes.front(), {});
+  auto session = OpenSession(taught.routes.front(), how);
   EXPECT_TRUE(session) << session.error().message;
   sim::Judge truth(**robot);
   Ending ending;

@@ -15,6 +15,7 @@ namespace {
 
 // Blind robots look for the route again every so many seconds: the wide search costs time.
 constexpr double kLookAgain_s = 5.0 / 30.0;
+constexpr double kCarried_m = 1.0;
 constexpr double kShareToSkip = 0.5;
 // What a robot that stands does not see where it should be, it will not see there later.
 constexpr double kLookThere_s = 1.5;
@@ -268,9 +269,9 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
   if (found.empty() || too_far) return;
-  // Where a robot faces that was turned, its odometry does not know.
+  // How far a robot was carried that was turned as well, its odometry does not know.
   if (elsewhere || look_around_.turns()) {
-    follower_->BeginAt(segment, point.fraction);
+    follower_->BeginAbout(segment, point.fraction, {kCarried_m, follower_->focal()});
   } else if (ahead) {
     follower_->Begin(segment);
   }
