@@ -8,7 +8,8 @@ namespace trailcast::test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 class ConsoleNetworkTest : public ConsoleFleetTest {
  protected:
@@ -81,6 +82,20 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.WaitForText("Now: close office 1.55..1.6")) << browser.Text();
   ASSERT_TRUE(HasClosed(browser, 1)) << browser.Text();
   EXPECT_EQ(Network()["closed"].size(), 1U);
+
+  ASSERT_TRUE(browser.Click(Mode("Find a way")));
+  ASSERT_TRUE(browser.Type(Field("From"), "hall@1"));
+  ASSERT_TRUE(browser.Type(Field("To"), "office@1.55"));
+  ASSERT_TRUE(browser.Click(Button("Find the way")));
+  ASSERT_TRUE(
+      browser.WaitForText("0.55 m to office@1.55: hall 1 to 1.5 m, then office 1.5 to 1.55 m"))
+      << browser.Text();
+  const json drawn = browser.Run("return document.querySelector('.on-way').getAttribute('d')");
+  EXPECT_THAT(drawn.get<std::string>(), Not(IsEmpty()));
+  // What is told is of the places that stand there.
+  ASSERT_TRUE(browser.Type(Field("To"), "5"));
+  ASSERT_TRUE(WaitUntil([&] { return browser.Text().find("0.55 m to") == std::string::npos; }))
+      << browser.Text();
 
   ASSERT_TRUE(browser.Click(Mode("Send a robot")));
   ASSERT_TRUE(browser.Type(Field("To"), "bay"));

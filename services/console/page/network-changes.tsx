@@ -5,7 +5,7 @@ import { SpeedChoice } from './send';
 export type Draft = {
   route: string; from: string; to: string;  // of a stretch
   name: string; place: string;
-  first: string; second: string;  // of a joint
+  first: string; second: string;  // of a joint, or a way
 };
 export const noDraft: Draft = { route: '', from: '', to: '', name: '', place: '', first: '', second: '' };
 
@@ -29,7 +29,7 @@ function useRouteNames(drawn: string[], typed: string): string[] {
   return [...new Set([...found, ...drawn])].slice(0, 100);
 }
 
-function Field({ label, value, list, onChange }: {
+export function Field({ label, value, list, onChange }: {
   label: string; value: string; list?: string; onChange: (value: string) => void;
 }) {
   return (

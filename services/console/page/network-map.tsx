@@ -185,7 +185,7 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
   still: Row[];
   chosen: string;
   onChoose: (route: string) => void;
-  onPlace: ((place: Place) => void) | null;
+  onPlace: (place: Place) => void;
   overlay: Overlay;
 }) {
   const ref = useRef<HTMLDivElement>(null);
@@ -210,8 +210,7 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
     // What a pixel is worth is as exact as it gets.
     const digits = perMetre >= 100 ? 100 : perMetre >= 10 ? 10 : 1;
     const rounded = Math.round(Math.min(row.length_m, Math.max(0, along_m)) * digits) / digits;
-    if (onPlace) onPlace({ route: row.name, along_m: Math.min(rounded, Math.floor(row.length_m * 100) / 100) });
-    else onChoose(row.name);
+    onPlace({ route: row.name, along_m: Math.min(rounded, Math.floor(row.length_m * 100) / 100) });
   };
   const bar_m = roundLength(shown / 4 / perMetre);
   return (
@@ -220,7 +219,7 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
         <RowNames rows={still} rowHeight={rowHeight} chosen={chosen} onChoose={onChoose} />
         <div className="net-lines" ref={ref} tabIndex={zoom > 1 ? 0 : -1}>
           <svg role="img" width={width} height={rows.length * rowHeight} aria-label={told(layout)}
-            className={onPlace ? 'places' : ''} onClick={click}>
+            onClick={click}>
             <defs>
               <pattern id={hatch} width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
                 <rect className="hatch-ground" width="7" height="7" /><rect className="hatch" width="3.5" height="7" />

@@ -1,6 +1,7 @@
 import { useEffect, useState } from 'react';
 import { get, send, type Answer, type Robot, type Way } from './api';
-import { metres, standing } from './network-layout';
+import { standing } from './network-layout';
+import { WayText } from './network-way';
 import { Slide } from './send';
 
 export type Shown = { robot: string; to: string; way: Way };
@@ -77,11 +78,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
       </div>
       {shown && (
         <div className="net-way">
-          <p role="status">
-            <strong>{metres(shown.way.way.length_m)} m</strong> to {shown.to}:{' '}
-            {shown.way.way.stretches.map(({ route, from_m, to_m, speed }) =>
-              `${route} ${metres(from_m)} to ${metres(to_m)} m${speed !== 1 ? ` at ${speed} times the taught speed` : ''}`).join(', then ')}
-          </p>
+          <WayText to={shown.to} way={shown.way} />
           <Slide label={`Slide to send ${shown.robot} to ${shown.to}`} onDone={go} />
         </div>
       )}

@@ -1,11 +1,12 @@
 import { useCallback, useEffect, useMemo, useState } from 'react';
-import { editNetwork, get, type Answer, type NetworkPart, type Place, type Robot, type Route } from './api';
+import { editNetwork, get, type Answer, type NetworkPart, type Place, type Robot, type Route, type Way } from './api';
 import { useMay } from './me';
 import { ChangeStretch, JoinPlaces, NamePlace, noDraft, type Draft } from './network-changes';
 import { layOut, metres, standsHow, textOf, withRobots } from './network-layout';
 import { NetworkMap, type Overlay } from './network-map';
 import { SendThere, type Shown } from './network-send';
 import { NetworkTable } from './network-table';
+import { FindWay } from './network-way';
 
 const kEvery_ms = 3000;
 const kTyped_ms = 300;
@@ -81,14 +82,14 @@ function counted(part: NetworkPart, query: Query): string {
   return `${shown} of ${of} are shown; the network has ${many(part.routes, 'route')} and ${many(part.joints, 'joint')}.${left}${whole}`;
 }
 
-const modes = { send: 'Send a robot', stretch: 'Close, open, limit', name: 'Name a place', join: 'Join' };
+const modes = { send: 'Send a robot', way: 'Find a way', stretch: 'Close, open, limit', name: 'Name a place', join: 'Join' };
 type Mode = keyof typeof modes;
 
 // What a click on a route fills in.
 function clicked(mode: Mode, draft: Draft, place: Place): Draft {
   const words = textOf(place);
   if (mode === 'name') return { ...draft, place: words };
-  if (mode === 'join') return draft.first && !draft.second ? { ...draft, second: words } : { ...draft, first: words, second: '' };
+  if (mode === 'join' || mode === 'way') return draft.first && !draft.second ? { ...draft, second: words } : { ...draft, first: words, second: '' };
   const at = metres(place.along_m);
   if (draft.route !== place.route || !draft.from || draft.to) return { ...draft, route: place.route, from: at, to: '' };
   return Number(at) < Number(draft.from) ? { ...draft, from: at, to: draft.from } : { ...draft, to: at };
@@ -103,12 +104,14 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
   const [query, setQuery] = useState<Query>({ search: '', around: '', limit: kLimits[0] });
   const { part, why, again } = useNetwork(query);
   const [chosen, setChosen] = useState('');
-  const [mode, setMode] = useState<Mode>('send');
+  const [wanted, setMode] = useState<Mode>('send');
   const [draft, setDraft] = useState<Draft>(noDraft);
   const [to, setTo] = useState('');
   const [shown, setShown] = useState<Shown | null>(null);
+  const [way, setWay] = useState<Way | null>(null);
   const [answer, setAnswer] = useState<Answer | null>(null);
   const mayOperate = useMay('operate');
+  const mode = mayOperate ? wanted : 'way';
   const still = useMemo(() => part && layOut(part, live), [part, live]);
   const layout = useMemo(() => still && withRobots(still, robots, live), [still, robots, live]);
 
@@ -129,15 +132,18 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
     setChosen(route);
     setQuery(({ limit }) => ({ search: '', around: route, limit }));
   }, []);
+  const drawn = mode === 'send' ? shown?.way : mode === 'way' ? way : null;
+  const placeOf = (words: string) => {
+    const named = part?.network.names.find((each) => each.name === words.trim())?.place;
+    return named ? textOf(named) : words.trim();
+  };
   const overlay: Overlay = {
-    way: mayOperate && mode === 'send' && shown ? shown.way.way.stretches : [],
-    stretch: mayOperate && mode === 'stretch' && draft.route && draft.to
+    way: drawn?.way.stretches ?? [],
+    stretch: mode === 'stretch' && draft.route && draft.to
       ? { route: draft.route, from_m: Number(draft.from) || 0, to_m: Number(draft.to) } : null,
-    pins: !mayOperate ? []
-      : mode === 'send' ? [part?.network.names.find((each) => each.name === to.trim())?.place]
-        .map((place) => (place ? textOf(place) : to.trim()))
+    pins: mode === 'send' ? [placeOf(to)]
       : mode === 'name' ? [draft.place.trim()]
-      : mode === 'join' ? [draft.first.trim(), draft.second.trim()]
+      : mode === 'join' || mode === 'way' ? [placeOf(draft.first), placeOf(draft.second)]
       : draft.from && !draft.to ? [`${draft.route}@${draft.from}`] : [],
   };
   const names = part?.network.names.map((each) => each.name) ?? [];
@@ -151,7 +157,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
         {why ? `⚠ ${why}${part ? ' What is drawn is from before.' : ''}` : part ? counted(part, query) : 'Asks how routes are joined …'}
       </p>
       {layout && rows.length > 0 && (
-        <NetworkMap layout={layout} still={still!.rows} chosen={chosen} onChoose={setChosen} onPlace={mayOperate ? onPlace : null} overlay={overlay} />
+        <NetworkMap layout={layout} still={still!.rows} chosen={chosen} onChoose={setChosen} onPlace={onPlace} overlay={overlay} />
       )}
       {layout && layout.strays.length > 0 && (
         <p className="note">
@@ -164,8 +170,8 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
           {layout.strays.length > kMostStrays && ` and ${layout.strays.length - kMostStrays} more`}
         </p>
       )}
-      {mayOperate && (
-        <section className="net-change" aria-label="Change the network">
+      <section className="net-change" aria-label={mayOperate ? 'Change the network' : modes.way}>
+        {mayOperate && (
           <div className="layers" role="radiogroup" aria-label="What a click on a route is for">
             {(Object.keys(modes) as Mode[]).map((each) => (
               <label key={each}>
@@ -174,17 +180,20 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
               </label>
             ))}
           </div>
-          {mode === 'send' && (
-            <SendThere robots={robots} to={to} onTo={setTo} names={names} shown={shown} onShown={setShown} onAnswer={setAnswer} />
-          )}
-          {mode === 'stretch' && <ChangeStretch {...edits} />}
-          {mode === 'name' && <NamePlace {...edits} />}
-          {mode === 'join' && <JoinPlaces {...edits} />}
-          <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
-            {answer && (answer.ok ? '' : '⚠ ') + answer.text}
-          </p>
-        </section>
-      )}
+        )}
+        {mode === 'send' && (
+          <SendThere robots={robots} to={to} onTo={setTo} names={names} shown={shown} onShown={setShown} onAnswer={setAnswer} />
+        )}
+        {mode === 'way' && (
+          <FindWay draft={draft} onDraft={setDraft} names={names} way={way} onWay={setWay} onAnswer={setAnswer} />
+        )}
+        {mode === 'stretch' && <ChangeStretch {...edits} />}
+        {mode === 'name' && <NamePlace {...edits} />}
+        {mode === 'join' && <JoinPlaces {...edits} />}
+        <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
+          {answer && (answer.ok ? '' : '⚠ ') + answer.text}
+        </p>
+      </section>
       {rows.length > 0 && (
         <NetworkTable rows={rows} chosen={chosen} onChoose={setChosen} onAround={around} onEdit={mayOperate ? edit : null} />
       )}
