@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "services/base/ids.h"
 #include "services/base/result.h"
@@ -22,6 +24,16 @@ using Parameters = std::multimap<std::string, std::string>;
 // Of GET /api/missions and of GET /api/commands.
 [[nodiscard]] Result<mission::Query> ReadMissionQuery(const Parameters& parameters);
 [[nodiscard]] Result<mission::Query> ReadCommandQuery(const Parameters& parameters);
+
+// What was changed then or later, of these routes alone if there are any: names or whole ids.
+struct ChangesQuery {
+  std::int64_t since_unix_ms = 0;
+  std::vector<std::string> routes{};
+  std::uint32_t limit = 100;
+};
+// Of GET /api/changes; `since` is what a person says (base/local_time.h).
+[[nodiscard]] Result<ChangesQuery> ReadChangesQuery(const Parameters& parameters,
+                                                    std::int64_t now_unix_ms);
 
 // Of GET /api/runs.
 [[nodiscard]] Result<RunsQuery> ReadRunsQuery(const Parameters& parameters);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ namespace trailcast::fleet {
 // have been more.
 [[nodiscard]] std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,
                                       std::size_t limit);
-[[nodiscard]] std::string ChangesJson(const network::History& history, std::size_t limit);
+// The same for programs, with the routes that each is about; `of`: only what is about one of these,
+// by its name or whole id.
+[[nodiscard]] std::string ChangesJson(const network::History& history, std::size_t limit,
+                                      std::span<const std::string> of = {});
 
 }  // namespace trailcast::fleet

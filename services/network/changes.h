@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +35,9 @@ struct History {
 [[nodiscard]] std::string KeptSince(std::int64_t unix_ms);
 // Lines that a later version may have are passed over.
 [[nodiscard]] History ParseHistory(const std::vector<std::string>& lines);
+
+// Of each of these, the oldest first, the routes that it is about: by the names that the last one
+// has left them with, or by their ids where it says those.
+[[nodiscard]] std::vector<std::vector<std::string>> RoutesOf(std::span<const Change> changes);
 
 }  // namespace trailcast::network

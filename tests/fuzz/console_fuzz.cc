@@ -100,6 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Require(exchange::CheckBounds(request).has_value(), "a question may be published");
   }
   (void)console::ReadRunsQuery(parameters);
+  (void)console::ReadChangesQuery(parameters, 1'795'647'600'000);
   const auto part = console::ReadNetworkQuery(parameters);
   (void)console::NetworkList(LinesIn(body), true).Body(part.value_or(console::NetworkQuery{}));
   if (const auto question = console::ReadWayQuestion(parameters)) {

@@ -94,6 +94,7 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   browser_->Screenshot(Shot("phone-rollback"));
   Slide();
   ASSERT_TRUE(browser_->WaitForText("revision 1 is active")) << browser_->Text();
+  ASSERT_TRUE(browser_->WaitForText("console: activated hall@1")) << browser_->Text();
   browser_->Look(1280, 800, true);
   ASSERT_TRUE(browser_->Click("(//button[text()='Download'])[1]"));
   ASSERT_TRUE(browser_->WaitForText("bytes, checked")) << browser_->Text();
@@ -107,6 +108,34 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   ASSERT_TRUE(browser_->WaitForText("Upload route")) << browser_->Text();
   ASSERT_TRUE(browser_->Type("//input[@accept='.trailcast']", Path("hall.trailcast")));
   ASSERT_TRUE(browser_->WaitForText("hall revision 1: was there already")) << browser_->Text();
+}
+
+TEST_F(ConsoleRoutesTest, APersonSeesWhatWasChangedSinceWhenAndByWhom) {
+  Teach();
+  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+  for (const Words& words :
+       {Words{"routes", "rename", "hall", "aisle"}, Words{"network", "close", "aisle", "1..2"}}) {
+    const Ended done = End(*Start("trailcast", With({"--name", "night-shift"}, words), "tool"));
+    ASSERT_EQ(done.status, 0) << done.output;
+  }
+  Open("routes");
+  ASSERT_TRUE(browser_->Click("//a[. = 'What was changed']"));
+  ASSERT_TRUE(browser_->WaitForText("3 changes since ")) << browser_->Text();
+  EXPECT_THAT(browser_->Text(),
+              AllOf(HasSubstr("close aisle 1..2"), HasSubstr("night-shift"),
+                    HasSubstr("renamed hall to aisle"), HasSubstr("stored hall@1, 3.5 m, active"),
+                    HasSubstr("scout"), HasSubstr("The server keeps it since ")));
+  browser_->Screenshot(Shot("phone-changes"));
+  ASSERT_TRUE(browser_->Type("//input[@name='since']", "lately\xEE\x80\x87"));  // Enter
+  ASSERT_TRUE(browser_->WaitForText("'lately': expected a day (monday, ")) << browser_->Text();
+  (void)browser_->Run("window.location.hash = 'routes/since=0s'");
+  ASSERT_TRUE(browser_->WaitForText("Nothing was changed since ")) << browser_->Text();
+  ASSERT_TRUE(browser_->Click("//a[. = '30 days']"));
+  // By what it is called now.
+  ASSERT_TRUE(browser_->Click("//tr[contains(., 'stored hall@1')]//a[. = 'aisle']"))
+      << browser_->Text();
+  ASSERT_TRUE(browser_->WaitForText("Changed in the last 30 days")) << browser_->Text();
+  EXPECT_THAT(browser_->Text(), HasSubstr("night-shift: close aisle 1..2"));
 }
 
 TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {

@@ -207,6 +207,13 @@ export type Command = {
 };
 export type CommandPage = { commands: Command[]; next: number };
 
+// Of routes and of how they are joined, as a server has kept it, the newest first.
+export type RouteChange = { at_unix_ms: number; by: string | null; routes: string[]; what: string };
+export type Changes = {
+  since_unix_ms: number;
+  history: { kept_since_unix_ms: number; total: number; changes: RouteChange[] };
+};
+
 export type RouteAction = 'activate' | 'rollback' | 'retire';
 
 export async function editRoute(route: string, action: RouteAction, revision: number): Promise<Answer> {

@@ -1,5 +1,6 @@
 import { useCallback, useEffect, useState, type ReactNode } from 'react';
 import { editRoute, get, type Answer, type FoundRoute, type RoutePage, type RouteAction } from './api';
+import { ChangedLately } from './changes';
 import { age } from './fleet';
 import { Ground } from './ground';
 import { useMay } from './me';
@@ -131,6 +132,7 @@ export function Revisions({ route }: { route: string }) {
           </tbody>
         </table>
       </div>
+      <ChangedLately route={[name, revisions[0].route]} again={page} />
     </>
   );
 }

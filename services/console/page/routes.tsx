@@ -1,5 +1,6 @@
 import { memo, useEffect, useRef, useState, type ChangeEvent, type FormEvent } from 'react';
 import { get, type FoundRoute, type RoutePage } from './api';
+import { ChangesSince, sinceOf } from './changes';
 import { Finder } from './finder';
 import { age } from './fleet';
 import { Revisions } from './revisions';
@@ -124,9 +125,16 @@ function Listing({ now_ms }: { now_ms: number }) {
 
 // What happens to robots meanwhile is nothing to it: drawn anew as often as `now_ms` is another.
 export const Routes = memo(function Routes({ open, now_ms }: { open: string; now_ms: number }) {
+  const since = sinceOf(open);
+  if (open && since === null) return <section aria-label="Routes" className="routes"><Revisions key={open} route={open} /></section>;
   return (
     <section aria-label="Routes" className="routes">
-      {open ? <Revisions key={open} route={open} /> : <><h2>Routes</h2><Finder /><Listing now_ms={now_ms} /></>}
+      <h2>Routes</h2>
+      <nav className="kinds" aria-label="Of what">
+        <a href="#routes" aria-current={since === null ? 'page' : undefined}>What there is</a>
+        <a href="#routes/since=7d" aria-current={since !== null ? 'page' : undefined}>What was changed</a>
+      </nav>
+      {since === null ? <><Finder /><Listing now_ms={now_ms} /></> : <ChangesSince key={since} since={since} />}
     </section>
   );
 });

@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// GET /api/missions and GET /api/commands. `desk` outlives the server.
+// GET /api/missions, GET /api/commands and GET /api/changes. `desk` outlives the server.
 void ServeHistory(http::Server& server, Desk& desk);
 
 }  // namespace trailcast::console

@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "services/base/local_time.h"
 #include "services/base/number.h"
 #include "services/base/text.h"
 #include "services/console/src/words.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr std::uint32_t kRoutesAPage = 50;
 constexpr std::uint32_t kMostRoutesAPage = 200;
 constexpr std::uint32_t kMostRoutesDrawn = 500;
+constexpr std::uint32_t kMostChanges = 5000;
 constexpr double kWithin_m = 50.0;
 constexpr std::size_t kMostNameBytes = 128;
 
@@ -215,6 +217,32 @@ Result<mission::Query> ReadCommandQuery(const Parameters& parameters) {
     return tl::unexpected(read.error());
   }
   return query;
+}
+
+Result<ChangesQuery> ReadChangesQuery(const Parameters& parameters, std::int64_t now_unix_ms) {
+  using Query = ChangesQuery;
+  bool is_said = false;
+  const Readers<Query> all{{"since",
+                            [&](const std::string& text, Query& query) -> Result<void> {
+                              const auto since_unix_ms =
+                                  ParseSince(PlainText(text, 64), now_unix_ms);
+                              if (!since_unix_ms) return tl::unexpected(since_unix_ms.error());
+                              query.since_unix_ms = *since_unix_ms;
+                              is_said = true;
+                              return {};
+                            }},
+                           {"route",
+                            [](const std::string& text, Query& query) -> Result<void> {
+                              query.routes.push_back(text);
+                              return {};
+                            }},
+                           {"limit", LimitInto<Query>(&Query::limit, kMostChanges)}};
+  Query query;
+  if (auto read = ReadParameters(parameters, all, "route", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  if (is_said) return query;
+  return Fail(ErrorCode::kInvalidArgument, "'since' is missing: monday, yesterday, 09:15, 7d, ..");
 }
 
 Result<RunsQuery> ReadRunsQuery(const Parameters& parameters) {

@@ -28,6 +28,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/missions", Role::kLook},
     {"GET", "/api/robots/*/glance", Role::kLook},
     {"GET", "/api/commands", Role::kLook},
+    {"GET", "/api/changes", Role::kLook},
     {"GET", "/api/routes", Role::kLook},
     {"GET", "/api/routes/*/shape", Role::kLook},
     {"GET", "/api/network", Role::kLook},

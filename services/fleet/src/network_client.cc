@@ -15,6 +15,7 @@
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
+#include "services/route/route_ref.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -37,6 +38,12 @@ Result<Lines> AskForLines(exchange::RouteExchange& exchange, exchange::NetworkRe
     if (reply->next <= question.first) return all;
     question.first = reply->next;
   }
+}
+
+std::string JsonTexts(const Lines& texts) {
+  Lines all;
+  for (const std::string& text : texts) all.push_back(JsonText(text));
+  return JsonList(all);
 }
 
 std::string PlaceJson(const network::Place& place) {
@@ -82,14 +89,21 @@ std::string LaneJson(const network::Lane& lane, const Lines& taken_by) {
     parts.push_back(fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}}}",
                                 JsonText(part.route), part.from_m, part.to_m));
   }
-  Lines robots;
-  for (const std::string& robot : taken_by) robots.push_back(JsonText(robot));
-  return fmt::format("{{\"parts\": {}, \"taken_by\": {}}}", JsonList(parts), JsonList(robots));
+  return fmt::format("{{\"parts\": {}, \"taken_by\": {}}}", JsonList(parts), JsonTexts(taken_by));
 }
 
 std::string RouteJson(const network::Route& route) {
   return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(route.name),
                      route.length_m);
+}
+
+// One of these; an operator may have said the beginning of an id.
+bool IsAbout(const Lines& routes, std::span<const std::string> of) {
+  return std::any_of(routes.begin(), routes.end(), [&](const std::string& route) {
+    return std::any_of(of.begin(), of.end(), [&](const std::string& asked) {
+      return asked == route || (route::LooksLikeId(route) && asked.starts_with(route));
+    });
+  });
 }
 
 // The stretches; of orders that are no way, none.
@@ -235,16 +249,22 @@ std::string ChangesText(const network::History& history, std::int64_t since_unix
   return text;
 }
 
-std::string ChangesJson(const network::History& history, std::size_t limit) {
+std::string ChangesJson(const network::History& history, std::size_t limit,
+                        std::span<const std::string> of) {
+  const auto routes = network::RoutesOf(history.changes);
   Lines changes;
-  for (auto change = history.changes.rbegin();
-       change != history.changes.rend() && changes.size() < limit; ++change) {
+  std::size_t total = 0;
+  for (std::size_t i = history.changes.size(); i-- > 0;) {
+    if (!of.empty() && !IsAbout(routes[i], of)) continue;
+    if (++total > limit) continue;
+    const network::Change& change = history.changes[i];
     changes.push_back(
-        fmt::format("{{\"at_unix_ms\": {}, \"by\": {}, \"what\": {}}}", change->at_unix_ms,
-                    change->by.empty() ? "null" : JsonText(change->by), JsonText(change->what)));
+        fmt::format("{{\"at_unix_ms\": {}, \"by\": {}, \"what\": {}, \"routes\": {}}}",
+                    change.at_unix_ms, change.by.empty() ? "null" : JsonText(change.by),
+                    JsonText(change.what), JsonTexts(routes[i])));
   }
-  return fmt::format("{{\"kept_since_unix_ms\": {}, \"changes\": {}}}\n",
-                     history.kept_since_unix_ms, JsonList(changes));
+  return fmt::format("{{\"kept_since_unix_ms\": {}, \"total\": {}, \"changes\": {}}}\n",
+                     history.kept_since_unix_ms, total, JsonList(changes));
 }
 
 }  // namespace trailcast::fleet

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
 #include "services/base/number.h"
+#include "services/network/words.h"
 
 namespace trailcast::network {
 namespace {
@@ -36,6 +40,34 @@ std::optional<Change> ParseChange(std::string_view line) {
   return Change{*at_unix_ms, by == kUnknown ? "" : std::string(by), std::string(line)};
 }
 
+// Before what was changed of a revision, "hall@3".
+constexpr std::array<std::string_view, 7> kOfRevisions = {
+    "stored", "activated", "retired", "deleted", "tagged", "untagged", "described"};
+
+// "renamed hall to aisle".
+std::optional<std::pair<std::string, std::string>> ParseRenaming(std::string_view what) {
+  if (TakeWord(what) != "renamed") return std::nullopt;
+  std::string before(TakeWord(what));
+  if (TakeWord(what) != "to") return std::nullopt;
+  return std::pair(std::move(before), std::string(TakeWord(what)));
+}
+
+std::vector<std::string> RoutesIn(const Edit& edit) {
+  std::vector<std::string> routes{edit.joint.from.route, edit.joint.to.route, edit.condition.route,
+                                  edit.named.place.route};
+  for (const Part& part : edit.lane.parts) routes.push_back(part.route);
+  return routes;
+}
+
+// As it says them, revisions and all.
+std::vector<std::string> RoutesIn(std::string_view what) {
+  if (const auto edit = ParseEdit(what)) return RoutesIn(*edit);
+  if (const auto renaming = ParseRenaming(what)) return {renaming->second};
+  const std::string_view verb = TakeWord(what);
+  if (std::find(kOfRevisions.begin(), kOfRevisions.end(), verb) == kOfRevisions.end()) return {};
+  return {std::string(TakeWord(what))};
+}
+
 }  // namespace
 
 std::string ChangesSince(std::int64_t unix_ms) { return fmt::format("{}{}", kQuestion, unix_ms); }
@@ -61,6 +93,22 @@ History ParseHistory(const std::vector<std::string>& lines) {
     }
   }
   return history;
+}
+
+std::vector<std::vector<std::string>> RoutesOf(std::span<const Change> changes) {
+  std::vector<std::vector<std::string>> routes(changes.size());
+  std::map<std::string, std::string> now_called;
+  for (std::size_t i = changes.size(); i-- > 0;) {
+    for (const std::string& word : RoutesIn(changes[i].what)) {
+      std::string name = word.substr(0, word.find_first_of("@,:"));
+      if (const auto now = now_called.find(name); now != now_called.end()) name = now->second;
+      const bool is_told = std::find(routes[i].begin(), routes[i].end(), name) != routes[i].end();
+      if (!name.empty() && !is_told) routes[i].push_back(std::move(name));
+    }
+    const auto renaming = ParseRenaming(changes[i].what);
+    if (renaming && !routes[i].empty()) now_called[renaming->first] = routes[i].front();
+  }
+  return routes;
 }
 
 }  // namespace trailcast::network

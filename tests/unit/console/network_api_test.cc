@@ -1,4 +1,5 @@
-// The network of routes over HTTP, from a server's board in this process.
+// The network of routes over HTTP, and what was changed of it, from a server's parts in this
+// process.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "route_server/history.h"
 #include "route_server/network_board.h"
+#include "services/base/unix_time.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
@@ -30,15 +33,22 @@ class NetworkApiTest : public testing::Test {
     board_ = server::NetworkBoard::Open(
                  AgentId("barn"), store::NetworkStore::Open(folder_ / "joints").value(), routes_)
                  .value();
+    history_ = server::History::Open(AgentId("barn"),
+                                     store::HistoryStore::Open(folder_ / "history").value(),
+                                     routes_, kBegan_unix_ms)
+                   .value();
     server_ = std::jthread([this](const std::stop_token& stop) {
       const auto exchange = bus_.Open(exchange::ServerTopics());
       while (!stop.stop_requested()) {
         for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
           if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
             if (asked->words.empty()) ++listed_;
-            (void)exchange->Publish(board_->Answer(*asked));
+            const auto since = network::ParseChangesSince(asked->words);
+            (void)exchange->Publish(since ? history_->Answer(*asked, *since, kBegan_unix_ms)
+                                          : board_->Answer(*asked));
           } else if (const auto* edit = std::get_if<exchange::NetworkEdit>(&message)) {
-            (void)exchange->Publish(board_->Change(*edit, 1000));
+            (void)exchange->Publish(board_->Change(*edit, NowUnixMs()));
+            (void)history_->Add(board_->TakeMade());
           }
         }
       }
@@ -72,9 +82,11 @@ class NetworkApiTest : public testing::Test {
         Client().Post("/api/network/edits", json{{"words", words}}.dump(), "application/json"));
   }
 
+  static constexpr std::int64_t kBegan_unix_ms = 1000;
   test::TempDir folder_;
   test::MemoryStore routes_;
   std::unique_ptr<server::NetworkBoard> board_;
+  std::unique_ptr<server::History> history_;
   exchange::InProcessBus bus_;
   std::atomic<int> listed_{0};
   std::jthread server_;
@@ -134,6 +146,37 @@ TEST_F(NetworkApiTest, AWayIsTheOrdersOfAMission) {
   EXPECT_THAT(none.error(), HasSubstr("server 'barn': no way leads from office@2 to hall@2"));
   EXPECT_THAT(Get("/api/network/way?from=robot1&to=hall@2").error(),
               HasSubstr("'robot1' has not said where on a route it stands"));
+}
+
+TEST_F(NetworkApiTest, WhatWasChangedIsToldOfAllRoutesOrOfOne) {
+  Serve();
+  for (const char* const words :
+       {"join hall@12 office@0", "close hall 3..7", "close office 1..2"}) {
+    ASSERT_EQ(Edit(words).status, 200) << words;
+  }
+  const Replied all = Get("/api/changes?since=1h&limit=2");
+  ASSERT_EQ(all.status, 200) << all.body;
+  EXPECT_NEAR(all.body["since_unix_ms"].get<double>(), static_cast<double>(NowUnixMs()) - 3.6e6,
+              60e3);
+  const json& history = all.body["history"];
+  EXPECT_EQ(history["kept_since_unix_ms"], kBegan_unix_ms);
+  EXPECT_EQ(history["total"], 3);
+  ASSERT_EQ(history["changes"].size(), 2U) << all.body;
+  EXPECT_EQ(history["changes"][0]["what"], "close office 1..2");
+  EXPECT_EQ(history["changes"][0]["by"], "desk");
+  EXPECT_EQ(history["changes"][1]["routes"], json({"hall"}));
+  const Replied hall =
+      Get("/api/changes?since=1h&route=hall&route=" + test::KeyNumber(1, 1).route.value());
+  EXPECT_EQ(hall.body["history"]["total"], 2) << hall.body;
+  EXPECT_EQ(Get("/api/changes?since=0s").body["history"]["total"], 0);
+  for (const char* const wrong :
+       {"/api/changes", "/api/changes?since=lately", "/api/changes?since=2999-01-01",
+        "/api/changes?since=%ff", "/api/changes?since=1h&since=2h", "/api/changes?since=1h&limit=0",
+        "/api/changes?since=1h&limit=5001", "/api/changes?since=1h&dance=1"}) {
+    EXPECT_EQ(Get(wrong).status, 400) << wrong;
+  }
+  EXPECT_THAT(Get("/api/changes?since=lately").error(),
+              HasSubstr("'since': 'lately': expected a day (monday, "));
 }
 
 TEST_F(NetworkApiTest, WhatIsNotUnderstoodOrRefusedIsSaid) {

@@ -138,8 +138,23 @@ TEST_F(NetworkClientTest, ChangesAreShownTheNewestFirst) {
   EXPECT_THAT(ChangesText({.kept_since_unix_ms = 3000}, 5000, 100),
               testing::StartsWith("nothing was changed since "));
   EXPECT_EQ(ChangesJson(*history, 1),
-            "{\"kept_since_unix_ms\": 3000, \"changes\": [{\"at_unix_ms\": 7000, \"by\": null, "
-            "\"what\": \"activated hall@3\"}]}\n");
+            "{\"kept_since_unix_ms\": 3000, \"total\": 2, \"changes\": [{\"at_unix_ms\": 7000, "
+            "\"by\": null, \"what\": \"activated hall@3\", \"routes\": [\"hall\"]}]}\n");
+}
+
+TEST(ChangesJsonTest, TellsOfTheRoutesAloneThatAreAskedFor) {
+  const network::History history{.changes = {{1000, "desk", "close hall 3..7"},
+                                             {2000, "desk", "renamed hall to aisle"},
+                                             {3000, "desk", "close 0a1b2c3"},
+                                             {4000, "desk", "close hall 1..2"}}};
+  using Words = std::vector<std::string>;
+  for (const auto& [of, total] :
+       {std::pair(Words{"aisle"}, 2), std::pair(Words{"hall"}, 1),
+        std::pair(Words{"0a1b2c3d4e5f60718293a4b5c6d7e8f9"}, 1),
+        std::pair(Words{"hall", "aisle"}, 3), std::pair(Words{"attic"}, 0)}) {
+    EXPECT_THAT(ChangesJson(history, 1, of), HasSubstr(fmt::format("\"total\": {},", total)))
+        << of.front();
+  }
 }
 
 }  // namespace

@@ -25,5 +25,21 @@ TEST(ChangesTest, AnAnswerIsReadAsItIsWrittenAndWhatALaterOneHasIsPassedOver) {
   EXPECT_THAT(history.changes, ElementsAre(closed, heard));
 }
 
+TEST(ChangesTest, RoutesOfAChangeAreAsTheyAreCalledInTheEnd) {
+  const std::vector<std::vector<std::string>> expected{
+      {"aisle"},  {"aisle"}, {"aisle", "office"}, {"aisle"}, {"aisle"},   {"hall"},
+      {"office"}, {"ring"},  {"aisle", "office"}, {},        {"0a1b2c3"}, {}};
+  std::vector<Change> changes;
+  for (const char* const what :
+       {"stored hall@1, 3.5 m, active", "close hall 3..7", "join hall@1@12 office@0.4 both",
+        "described hall@1: was renamed", "renamed hall to aisle", "activated hall@1",
+        "name bay office@2", "join ring@31.4 ring@0", "narrow aisle 3..7 office 1..2", "forget bay",
+        "open 0a1b2c3", "invented lamp@2"}) {
+    changes.push_back({.what = what});
+  }
+  EXPECT_EQ(RoutesOf(changes), expected);
+  EXPECT_TRUE(RoutesOf({}).empty());
+}
+
 }  // namespace
 }  // namespace trailcast::network
