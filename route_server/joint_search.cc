@@ -14,9 +14,6 @@ namespace {
 
 // So many of those most like a view: some are of the route itself, or of other revisions.
 constexpr std::size_t kMostAlike = 30;
-// Where two routes begin to look alike they may still turn towards each other: one changes over so
-// far further on, half way through what they share at most.
-constexpr double kInto_m = 3.0;
 // Two routes run together for longer than their likest views tell, and the joint is where they
 // begin to: so many segments to either side are compared, too.
 constexpr std::uint32_t kMargin = 20;

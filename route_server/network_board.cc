@@ -15,6 +15,7 @@
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_finder.h"
 #include "services/mission/orders.h"
+#include "services/network/passing.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::server {
@@ -27,13 +28,6 @@ using network::Joint;
 using network::NamedPlace;
 using network::Place;
 using Lines = std::vector<std::string>;
-
-route::RouteKey KeyOf(const std::string& id) {
-  const std::size_t slash = std::min(id.find('/'), id.size());
-  const auto teaching =
-      ParseNumber<std::uint64_t>(std::string_view(id).substr(std::min(slash + 1, id.size())));
-  return {RouteId(id.substr(0, slash)), TeachingId(teaching.value_or(0))};
-}
 
 bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkBoard::kSame_m; }
 
@@ -141,12 +135,7 @@ exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
 exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& request) {
   exchange::NetworkReply reply{
       .server = server_, .client = request.client, .request = request.request};
-  const auto lines =
-      request.words.empty()
-          ? All()
-          : network::ParseQuestion(request.words).and_then([&](const network::Question& question) {
-              return WayTo(question);
-            });
+  const auto lines = Answered(request.words);
   if (!lines) {
     reply.error = PlainText(lines.error().message, exchange::kMaxLineBytes);
     return reply;
@@ -157,6 +146,15 @@ exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& requ
                      lines->begin() + static_cast<std::ptrdiff_t>(end));
   if (end < lines->size()) reply.next = static_cast<std::uint32_t>(end);
   return reply;
+}
+
+Result<Lines> NetworkBoard::Answered(const std::string& words) {
+  if (words.empty()) return All();
+  if (const auto goal = network::ParseWhatPasses(words)) {
+    return network::ParseGoal(*goal).and_then([&](const Goal& at) { return WhatPasses(at); });
+  }
+  return network::ParseQuestion(words).and_then(
+      [&](const network::Question& question) { return WayTo(question); });
 }
 
 void NetworkBoard::Hear(const exchange::AgentStatus& status) {

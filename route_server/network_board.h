@@ -150,7 +150,12 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Joint& joint) const;
   void DropProposals(const route::RouteKey& key);
   [[nodiscard]] Result<std::vector<std::string>> All();
+  // To words that ask; without any, all.
+  [[nodiscard]] Result<std::vector<std::string>> Answered(const std::string& words);
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
+  // By joints that are used and that are proposed: of those that were found as far as the routes
+  // run together, of others as far as one is the same joint.
+  [[nodiscard]] Result<std::vector<std::string>> WhatPasses(const network::Goal& goal);
 
   // The complete revision that ROUTE[@REVISION] means, of some length.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;

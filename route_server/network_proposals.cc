@@ -60,7 +60,8 @@ std::pair<std::string, std::string> PairOf(const Joint& joint) {
 Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meeting& meeting,
                                                                     double take_from,
                                                                     std::int64_t now_unix_ms) {
-  store::ProposedJoint found{.proposal = {JointOf(meeting), meeting.confidence}};
+  store::ProposedJoint found{.proposal = {JointOf(meeting), meeting.confidence},
+                             .length_m = meeting.length_m};
   const Joint& joint = found.proposal.joint;
   const bool is_joined = std::any_of(joints_.begin(), joints_.end(), [&](const Joint& each) {
     return Covers(joint, 0.0, each, kSameMeeting_m);
@@ -179,7 +180,8 @@ Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const st
   std::vector<std::string> lines;
   std::vector<store::ProposedJoint> settled;
   for (const std::size_t each : *open) {
-    settled.push_back({proposed_[each].proposal, taken ? Verdict::kTaken : Verdict::kRefused});
+    settled.push_back(proposed_[each]);
+    settled.back().verdict = taken ? Verdict::kTaken : Verdict::kRefused;
     const network::Proposal& proposal = settled.back().proposal;
     auto called = Called(proposal.joint);
     if (!called) return tl::unexpected(called.error());

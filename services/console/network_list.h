@@ -46,6 +46,7 @@ class NetworkList {
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& route) const;
   [[nodiscard]] std::vector<std::size_t> Matching(const std::string& search) const;
   [[nodiscard]] std::vector<std::size_t> Around(const std::string& route) const;
+  [[nodiscard]] std::vector<std::size_t> WithMet(const std::string& route) const;
 
   std::vector<Route> routes_;  // by name
   std::map<std::string, std::size_t> numbers_;

@@ -9,6 +9,7 @@
 #include "services/exchange/messages.h"
 #include "services/exchange/route_exchange.h"
 #include "services/network/changes.h"
+#include "services/network/passing.h"
 
 namespace trailcast::fleet {
 
@@ -25,6 +26,12 @@ namespace trailcast::fleet {
                                                          const std::string& from,
                                                          const std::string& to,
                                                          std::chrono::milliseconds timeout);
+
+// The routes that pass at a place, ROUTE@METRES or what one is called.
+[[nodiscard]] Result<network::Passings> AskWhatPasses(exchange::RouteExchange& exchange,
+                                                      const AgentId& client,
+                                                      const std::string& place,
+                                                      std::chrono::milliseconds timeout);
 
 // What was changed then or later of routes and of how they are joined, as one server has kept it.
 [[nodiscard]] Result<network::History> AskForChanges(exchange::RouteExchange& exchange,
@@ -50,6 +57,8 @@ namespace trailcast::fleet {
 [[nodiscard]] std::string NetworkJson(const std::vector<std::string>& lines);
 [[nodiscard]] std::string WayText(const std::vector<std::string>& way);
 [[nodiscard]] std::string WayJson(const std::vector<std::string>& way);
+[[nodiscard]] std::string PassingText(const network::Passings& passings);
+[[nodiscard]] std::string PassingJson(const network::Passings& passings);
 // The newest `limit` changes, the newest first, by this machine's time zone; and whether it may
 // have been more.
 [[nodiscard]] std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,

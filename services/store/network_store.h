@@ -19,6 +19,7 @@ struct ProposedJoint {
   enum class Verdict : std::uint8_t { kNone = 0, kRefused = 1, kTaken = 2 };
   network::Proposal proposal{};
   Verdict verdict = Verdict::kNone;
+  double length_m = 0.0;  // of what the routes share there; 0: not known
   bool operator==(const ProposedJoint&) const = default;
 };
 

@@ -49,6 +49,9 @@ constexpr const char* kExamples =
     "  way FROM TO          the shortest way, between PLACEs or named ones; FROM may be a robot, "
     "as\n"
     "                       it stands\n"
+    "  passing PLACE        the routes that pass there, by joints and proposed ones: where on each "
+    "that\n"
+    "                       is; PLACE, or what one is called\n"
     "A PLACE is ROUTE@METRES along it: hall@12.5; FROM..TO are metres, either may be missing.\n"
     "Examples:\n"
     "  trailcast network join hall@12 office@0\n"
@@ -60,6 +63,7 @@ constexpr const char* kExamples =
     "  trailcast network name loading-bay office@8\n"
     "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
     "  trailcast network way robot1 office@8 --json\n"
+    "  trailcast network passing hall@12.3         # office@0.3  join hall@12 office@0\n"
     "  trailcast network --plot network.png\n"
     "A route is followed in the direction in which it was taught. A joint or a name is of the\n"
     "revisions that robots follow when it is made; while another is followed, it is not used.\n"
@@ -73,8 +77,12 @@ bool AsksForAll(const NetworkOptions& options) {
   return options.words.empty() || AsksForProposals(options);
 }
 
+bool AsksWhatPasses(const NetworkOptions& options) {
+  return !options.words.empty() && options.words.front() == "passing";
+}
+
 bool Asks(const NetworkOptions& options) {
-  return AsksForAll(options) || options.words.front() == "way";
+  return AsksForAll(options) || options.words.front() == "way" || AsksWhatPasses(options);
 }
 
 // What an edit has brought about.
@@ -88,6 +96,14 @@ std::string ChangedText(const std::string& edit, const std::vector<std::string>&
   return (ends ? "no more: " : "") + fleet::NetworkText(lines);
 }
 
+// Of a question what passes.
+Result<void> CheckPlace(const NetworkOptions& options) {
+  if (options.words.size() == 2)
+    return network::ParseGoal(options.words[1]).map([](const auto&) {});
+  return Fail(ErrorCode::kInvalidArgument,
+              "'passing' takes one place: ROUTE@METRES, as hall@12.3, or what one is called");
+}
+
 int Print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;
@@ -99,6 +115,10 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   if (!Asks(options)) {
     if (const auto edit = network::ParseEdit(words); !edit) {
       return program::Complain(app, edit.error());
+    }
+  } else if (AsksWhatPasses(options)) {
+    if (const auto place = CheckPlace(options); !place) {
+      return program::Complain(app, place.error());
     }
   } else if (!AsksForAll(options)) {
     if (const auto question = network::ParseQuestion(words); !question) {
@@ -128,6 +148,12 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
       if (!written) return program::Complain(app, written.error());
     }
     return Print(options.json ? fleet::NetworkJson(*lines) : fleet::NetworkText(*lines));
+  }
+  if (AsksWhatPasses(options)) {
+    const auto passing =
+        fleet::AskWhatPasses(*peer->exchange, peer->self, options.words[1], timeout);
+    if (!passing) return program::Complain(app, passing.error());
+    return Print(options.json ? fleet::PassingJson(*passing) : fleet::PassingText(*passing));
   }
   if (Asks(options)) {
     const auto way =

@@ -23,7 +23,7 @@ export type Spot = { row: number; along_m: number };
 export type Link = { joint: Omit<Joint, 'used'>; used: boolean; confidence: number | null; from: Spot; to: Spot };
 export type Layout = { rows: Row[]; links: Link[]; end_m: number; strays: Standing[] };
 
-const withoutRevision = (route: string) => route.slice(0, Math.max(0, route.lastIndexOf('@')));
+export const withoutRevision = (route: string) => route.slice(0, Math.max(0, route.lastIndexOf('@')));
 
 // "hall@12.5", "hall@2@12.5"; null: it is no place.
 export function placeOf(words: string): Place | null {
@@ -44,6 +44,16 @@ export function rowOf(rows: Row[], route: string): number {
   const exact = rows.findIndex((row) => row.name === route);
   return exact >= 0 ? exact : rows.findIndex((row) => row.name === withoutRevision(route));
 }
+
+// A joint from the row's own place to the other, and which way one may change over.
+export function sidesOf(joint: Omit<Joint, 'used'>, row: string): { here: Place; way: string; there: Place } {
+  const own = joint.from.route === row || withoutRevision(joint.from.route) === row;
+  const [here, there] = own ? [joint.from, joint.to] : [joint.to, joint.from];
+  return { here, way: joint.both ? 'to and from' : own ? 'to' : 'from', there };
+}
+// Whether it begins or ends there.
+export const isOn = ({ from, to }: Omit<Joint, 'used'>, row: string) =>
+  [from.route, to.route].some((route) => route === row || withoutRevision(route) === row);
 
 export function spotOf(rows: Row[], place: Place): Spot | null {
   const row = rowOf(rows, place.route);

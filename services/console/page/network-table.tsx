@@ -1,6 +1,6 @@
 import { memo } from 'react';
 import type { Joint } from './api';
-import { metres, rangeOf, standsHow, textOf, type Part, type Row } from './network-layout';
+import { metres, rangeOf, sidesOf, standsHow, textOf, type Part, type Row } from './network-layout';
 
 const kMostRobots = 20;
 
@@ -11,12 +11,8 @@ function limitText({ stretch, ...part }: Part): string {
   return partText({ stretch, ...part }) + speed + cost;
 }
 
-// From the row's own place to the other.
 function jointText(joint: Omit<Joint, 'used'>, row: string): string {
-  const isOwn = (route: string) => route === row || route.slice(0, Math.max(0, route.lastIndexOf('@'))) === row;
-  const own = isOwn(joint.from.route);
-  const [here, there] = own ? [joint.from, joint.to] : [joint.to, joint.from];
-  const way = joint.both ? 'to and from' : own ? 'to' : 'from';
+  const { here, way, there } = sidesOf(joint, row);
   return `${metres(here.along_m)} m ${way} ${textOf(there)}`;
 }
 

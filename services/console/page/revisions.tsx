@@ -4,6 +4,7 @@ import { ChangedLately } from './changes';
 import { age } from './fleet';
 import { Ground } from './ground';
 import { useMay } from './me';
+import { Passing } from './passing';
 import { Slide } from './send';
 import { Download } from './transfers';
 
@@ -132,6 +133,7 @@ export function Revisions({ route }: { route: string }) {
           </tbody>
         </table>
       </div>
+      <Passing name={name} id={revisions[0].route} again={page} />
       <ChangedLately route={[name, revisions[0].route]} again={page} />
     </>
   );

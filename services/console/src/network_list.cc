@@ -111,9 +111,24 @@ std::vector<std::size_t> NetworkList::Around(const std::string& route) const {
   return found;
 }
 
+// It and those that it meets.
+std::vector<std::size_t> NetworkList::WithMet(const std::string& route) const {
+  const auto at = numbers_.find(route);
+  if (at == numbers_.end()) return {};
+  std::vector<std::size_t> found{at->second};
+  for (const Mark& mark : marks_) {
+    if (mark.kind != Kind::kJoint && mark.kind != Kind::kProposed) continue;
+    if (mark.route != at->second && mark.other != at->second) continue;
+    const std::size_t other = mark.route == at->second ? mark.other : mark.route;
+    if (std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
+  }
+  return found;
+}
+
 std::string NetworkList::Body(const NetworkQuery& query) const {
-  std::vector<std::size_t> found =
-      query.around.empty() ? Matching(query.search) : Around(query.around);
+  std::vector<std::size_t> found = !query.of.empty()       ? WithMet(query.of)
+                                   : !query.around.empty() ? Around(query.around)
+                                                           : Matching(query.search);
   const std::size_t matched = found.size();
   found.resize(std::min<std::size_t>(found.size(), query.limit));
   std::vector<bool> shown(routes_.size(), false);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "services/base/local_time.h"
@@ -262,13 +263,17 @@ Result<NetworkQuery> ReadNetworkQuery(const Parameters& parameters) {
   using Query = NetworkQuery;
   static const Readers<Query> kAll{{"search", LoggedNameInto<Query>(&Query::search)},
                                    {"around", LoggedNameInto<Query>(&Query::around)},
+                                   {"of", LoggedNameInto<Query>(&Query::of)},
                                    {"limit", LimitInto<Query>(&Query::limit, kMostRoutesDrawn)}};
   Query query;
   if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
     return tl::unexpected(read.error());
   }
-  if (query.search.empty() || query.around.empty()) return query;
-  return Fail(ErrorCode::kInvalidArgument, "'search' and 'around' exclude each other");
+  const std::string* const parts[] = {&query.search, &query.around, &query.of};
+  const auto given = std::count_if(std::begin(parts), std::end(parts),
+                                   [](const std::string* part) { return !part->empty(); });
+  if (given <= 1) return query;
+  return Fail(ErrorCode::kInvalidArgument, "'search', 'around' and 'of' exclude each other");
 }
 
 Result<std::string> ReadWayQuestion(const Parameters& parameters) {

@@ -133,6 +133,12 @@ Result<Lines> AskForWay(exchange::RouteExchange& exchange, const AgentId& client
   return AskForLines(exchange, {.client = client, .words = "way " + from + " " + to}, timeout);
 }
 
+Result<network::Passings> AskWhatPasses(exchange::RouteExchange& exchange, const AgentId& client,
+                                        const std::string& place, milliseconds timeout) {
+  return AskForLines(exchange, {.client = client, .words = network::WhatPasses(place)}, timeout)
+      .map(network::ParsePassings);
+}
+
 Result<network::History> AskForChanges(exchange::RouteExchange& exchange, const AgentId& client,
                                        std::int64_t since_unix_ms, milliseconds timeout) {
   return AskForLines(exchange, {.client = client, .words = network::ChangesSince(since_unix_ms)},
@@ -204,6 +210,47 @@ std::string NetworkJson(const Lines& lines) {
       "\"names\": {}, \"proposed\": {}}}\n",
       JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(narrow),
       JsonList(names), JsonList(proposed));
+}
+
+std::string PassingText(const network::Passings& passings) {
+  const std::string place = network::ToText(passings.place);
+  if (passings.routes.empty()) {
+    return fmt::format(
+        "no other route is known to pass at {}: where one does, 'trailcast network join {} "
+        "ROUTE@METRES' says so; 'trailcast network proposals' lists where scouts saw that routes "
+        "meet\n",
+        place, place);
+  }
+  std::size_t width = 0;
+  for (const network::Passing& each : passings.routes) {
+    width = std::max(width, network::ToText(each.at).size());
+  }
+  std::string text = place + "\n";
+  const network::Joint* proposed = nullptr;
+  for (const network::Passing& each : passings.routes) {
+    text += fmt::format("  {:<{}}  {}\n", network::ToText(each.at), width,
+                        each.confidence
+                            ? network::ToText(network::Proposal{each.joint, *each.confidence})
+                            : network::ToText(each.joint));
+    if (each.confidence && proposed == nullptr) proposed = &each.joint;
+  }
+  if (proposed == nullptr) return text;
+  return text + fmt::format(
+                    "what is proposed is no way until somebody has looked: 'trailcast network "
+                    "confirm {} {}', or refuse\n",
+                    network::ToText(proposed->from), network::ToText(proposed->to));
+}
+
+std::string PassingJson(const network::Passings& passings) {
+  Lines routes;
+  for (const network::Passing& each : passings.routes) {
+    routes.push_back(fmt::format(
+        "{{\"at\": {}, \"joined\": {}, \"confidence\": {}, \"joint\": {{{}}}}}", PlaceJson(each.at),
+        !each.confidence, each.confidence ? fmt::format("{:.2f}", *each.confidence) : "null",
+        JointFields(each.joint)));
+  }
+  return fmt::format("{{\"place\": {}, \"passing\": {}}}\n", PlaceJson(passings.place),
+                     JsonList(routes));
 }
 
 std::string WayText(const Lines& way) {

@@ -284,7 +284,7 @@ Listed ParseListed(std::string_view line) {
 
 Result<Question> ParseQuestion(std::string_view text) {
   Words words(text);
-  if (!words.TakeIf("way")) return Wrong(words.Next(), "'way FROM TO'");
+  if (!words.TakeIf("way")) return Wrong(words.Next(), "'way FROM TO' or 'passing PLACE'");
   auto from = ParseGoal(words.Take());
   if (!from) return tl::unexpected(from.error());
   auto to = ParseGoal(words.Take());

@@ -75,6 +75,18 @@ CREATE TABLE IF NOT EXISTS proposed_joint (
 CREATE TABLE IF NOT EXISTS searched (revision TEXT PRIMARY KEY) STRICT;
 )";
 
+// Of joints that were found, metres that their routes share.
+constexpr const char* kShared = R"(
+CREATE TABLE IF NOT EXISTS shared_by_routes (
+  from_route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_route TEXT NOT NULL,
+  to_m REAL NOT NULL,
+  length_m REAL NOT NULL,
+  PRIMARY KEY (from_route, from_m, to_route, to_m)
+) STRICT;
+)";
+
 constexpr const char* kLanes = R"(
 CREATE TABLE IF NOT EXISTS lane_part (
   number INTEGER PRIMARY KEY,
@@ -124,7 +136,8 @@ ProposedJoint ProposedIn(SQLite::Statement& row) {
   return {.proposal = {JointIn(row), row.getColumn(8).getDouble()},
           .verdict = verdict == 1   ? Verdict::kRefused
                      : verdict == 2 ? Verdict::kTaken
-                                    : Verdict::kNone};
+                                    : Verdict::kNone,
+          .length_m = row.getColumn(10).getDouble()};
 }
 
 std::string TextIn(SQLite::Statement& row) { return row.getColumn(0).getString(); }
@@ -153,6 +166,7 @@ struct NetworkStore::Database : OwnDatabase {
   explicit Database(const fs::path& file) : OwnDatabase(file, kFile) {
     db.exec(kNames);
     db.exec(kProposals);
+    db.exec(kShared);
     db.exec(kLanes);
   }
 
@@ -198,6 +212,13 @@ struct NetworkStore::Database : OwnDatabase {
     put->bind(11, by);
     put->bind(12, now_unix_ms);
     put->exec();
+    if (proposed.length_m <= 0.0) return;
+    auto share = compiled.Take(
+        "INSERT OR REPLACE INTO shared_by_routes (from_route, from_m, to_route, to_m, length_m) "
+        "VALUES (?1, ?2, ?3, ?4, ?5)");
+    BindPlaces(*share, proposed.proposal.joint);
+    share->bind(5, proposed.length_m);
+    share->exec();
   }
 };
 
@@ -239,7 +260,8 @@ Result<std::vector<ProposedJoint>> NetworkStore::Proposals() {
   return database_->Guarded("reading proposals", [&]() -> Result<std::vector<ProposedJoint>> {
     return database_->All(
         "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, confidence, "
-        "verdict FROM proposed_joint ORDER BY number",
+        "verdict, coalesce(length_m, 0.0) FROM proposed_joint LEFT JOIN shared_by_routes USING "
+        "(from_route, from_m, to_route, to_m) ORDER BY number",
         ProposedIn);
   });
 }
@@ -462,6 +484,7 @@ Result<void> NetworkStore::DropProposals(const std::string& revision) {
   return database_->Guarded("forgetting proposals", [&]() -> Result<void> {
     SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
     for (const char* sql : {"DELETE FROM proposed_joint WHERE from_route = ?1 OR to_route = ?1",
+                            "DELETE FROM shared_by_routes WHERE from_route = ?1 OR to_route = ?1",
                             "DELETE FROM searched WHERE revision = ?1"}) {
       auto remove = database_->compiled.Take(sql);
       remove->bind(1, revision);

@@ -183,7 +183,8 @@ TEST_F(NetworkApiTest, WhatIsNotUnderstoodOrRefusedIsSaid) {
   Serve();
   for (const char* wrong :
        {"/api/network?limit=0", "/api/network?limit=501", "/api/network?dance=1",
-        "/api/network?search=a&around=b", "/api/network/way", "/api/network/way?from=hall@2",
+        "/api/network?search=a&around=b", "/api/network?search=a&of=b",
+        "/api/network?of=a&around=b", "/api/network/way", "/api/network/way?from=hall@2",
         "/api/network/way?from=a%20b&to=hall@2", "/api/network/way?from=hall@x&to=hall@2",
         "/api/network/way?from=%ff&to=hall@2"}) {
     EXPECT_EQ(Get(wrong).status, 400) << wrong;

@@ -35,6 +35,14 @@ const NetworkList& ThreeRoutes() {
   return kList;
 }
 
+TEST(NetworkListTest, OfARouteThereAreThoseThatItMeetsOrMayMeet) {
+  EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.of = "hall"})), ElementsAre("hall", "Office", "yard"));
+  const json yard = Part(ThreeRoutes(), {.of = "yard"});
+  EXPECT_EQ(yard["matched"], 3) << "by what is proposed, too";
+  EXPECT_EQ(yard["network"]["proposed"].size(), 1U);
+  EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.of = "attic"})), ElementsAre());
+}
+
 TEST(NetworkListTest, OfAllRoutesThereIsAllThatIsOnThemAndBetweenThem) {
   const json all = Part(ThreeRoutes());
   EXPECT_THAT(RoutesOf(all), ElementsAre("Office", "hall", "yard"));

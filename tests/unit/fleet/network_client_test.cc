@@ -118,6 +118,33 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
   EXPECT_EQ(WayText({}), "it is there already\n");
 }
 
+TEST_F(NetworkClientTest, WhatPassesIsToldWithWhatToDo) {
+  Answer<exchange::NetworkRequest>([](const exchange::NetworkRequest& question) {
+    EXPECT_EQ(question.words, "passing bay");
+    return exchange::NetworkReply{
+        .lines = {"at hall@12.3", "passes office@0.3 join hall@12 office@0 both",
+                  "passes ring@7.1 proposed join ring@5 hall@10.2 both confidence 0.93"}};
+  });
+  const auto desk = bus_.Open(exchange::NetworkTopics());
+  const auto passings = AskWhatPasses(*desk, AgentId("desk"), "bay", kPatience);
+  ASSERT_TRUE(passings) << passings.error().message;
+  EXPECT_EQ(PassingText(*passings),
+            "hall@12.3\n"
+            "  office@0.3  join hall@12 office@0 both\n"
+            "  ring@7.1    proposed join ring@5 hall@10.2 both confidence 0.93\n"
+            "what is proposed is no way until somebody has looked: 'trailcast network confirm "
+            "ring@5 hall@10.2', or refuse\n");
+  EXPECT_THAT(
+      PassingJson(*passings),
+      AllOf(HasSubstr(R"({"place": {"route": "hall", "along_m": 12.30}, "passing": [{"at": )"
+                      R"({"route": "office", "along_m": 0.30}, "joined": true, "confidence": )"
+                      R"(null, "joint": {"from": {"route": "hall", "along_m": 12.00}, )"),
+            HasSubstr(R"("joined": false, "confidence": 0.93, )")));
+  EXPECT_THAT(PassingText({.place = {"hall", 3.0}}),
+              testing::StartsWith("no other route is known to pass at hall@3: where one does, "
+                                  "'trailcast network join hall@3 ROUTE@METRES' says so"));
+}
+
 TEST_F(NetworkClientTest, ChangesAreShownTheNewestFirst) {
   Answer<exchange::NetworkRequest>([](const exchange::NetworkRequest& question) {
     exchange::NetworkReply reply;

@@ -156,6 +156,53 @@ TEST_F(NetworkBoardTest, NoneIsProposedBesideAJointAndOneSideOfAPairIsEnough) {
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed")))) << "an operator made it himself";
 }
 
+TEST_F(NetworkBoardTest, RoutesThatPassAreFoundFromBothSidesAsFarAsTheyRunTogether) {
+  Done("join hall@2 ring@4");
+  // From hall's 9 m and office's 0 m on, for 8 m: proposed three metres into that.
+  Propose({Key(1), Key(2), 12.0, 3.0, 8.0, {}, 0.93});
+  const std::string proposed = " proposed join hall@12 office@3 both confidence 0.93";
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_THAT(Asked("passing hall@9"), ElementsAre("at hall@9", "passes office@0" + proposed));
+    EXPECT_THAT(Asked("passing hall@17"), ElementsAre("at hall@17", "passes office@8" + proposed));
+    EXPECT_THAT(Asked("passing office@7.5"),
+                ElementsAre("at office@7.5", "passes hall@16.5" + proposed));
+    EXPECT_THAT(Asked("passing hall@8.9"), ElementsAre("at hall@8.9"));
+    EXPECT_THAT(Asked("passing hall@17.1"), ElementsAre("at hall@17.1"));
+    Restart();
+  }
+  Done("confirm hall@12 office@3");
+  EXPECT_THAT(Asked("passing hall@17"),
+              ElementsAre("at hall@17", "passes office@8 join hall@12 office@3 both"));
+  // How far those run together whom an operator has joined, nobody has said.
+  EXPECT_THAT(Asked("passing ring@5.5"),
+              ElementsAre("at ring@5.5", "passes hall@3.5 join hall@2 ring@4"));
+  EXPECT_THAT(Asked("passing ring@6.1"), ElementsAre("at ring@6.1"));
+  Done("name bay ring@3");
+  EXPECT_THAT(Asked("passing bay"), ElementsAre("at ring@3", "passes hall@1 join hall@2 ring@4"));
+}
+
+TEST_F(NetworkBoardTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsThanAreFollowed) {
+  Done("join hall@12 office@0");
+  Done("join hall@13 office@1 both");
+  Done("join ring@8 ring@0");
+  EXPECT_THAT(Asked("passing hall@12.5"), SizeIs(2)) << "one joint is enough";
+  EXPECT_THAT(Asked("passing hall@10.5"),
+              ElementsAre("at hall@10.5", "passes office@0 join hall@12 office@0"))
+      << "not before it begins";
+  EXPECT_THAT(Asked("passing ring@0.5"),
+              ElementsAre("at ring@0.5", "passes ring@8 join ring@8 ring@0"))
+      << "it comes by again";
+  EXPECT_THAT(Ask("passing attic@1").error, HasSubstr("there is no route 'attic'"));
+  EXPECT_THAT(Ask("passing hall@21").error, HasSubstr("there is no 21 m on it"));
+  EXPECT_THAT(Ask("passing attic").error, HasSubstr("no place is called 'attic'"));
+  EXPECT_THAT(Ask("passing hall@1 office@1").error, HasSubstr("'hall@1 office' is no route"));
+  Put(1, "hall", 20.0, 1, route::Standing::kStaged, 2);
+  Put(1, "hall", 20.0, 2, route::Standing::kActive, 2);
+  EXPECT_THAT(Asked("passing hall@12.5"), SizeIs(1));
+  EXPECT_THAT(Ask("passing hall@1@12.5").error,
+              HasSubstr("hall@1@12.5 is on a revision that robots do not follow"));
+}
+
 TEST_F(NetworkBoardTest, ARouteThatComesBackIsToLeadFromItsEndToItsBeginning) {
   EXPECT_EQ(Propose({Key(3), Key(3), 0.0, 7.5, 0.5, -0.1, 0.97}),
             "proposed join ring@7.5 ring@0 both heading 5.7 confidence 0.97");

@@ -51,6 +51,21 @@ TEST_F(NetworkStoreTest, JointsAreThereAfterARestartInTheirOrderOnceForTheSamePl
   EXPECT_THAT(store_->Joints().value(), ElementsAre(second));
 }
 
+TEST_F(NetworkStoreTest, WhatRoutesShareIsKeptWithTheProposalWhateverIsSaidOfIt) {
+  ProposedJoint found{.proposal = {{{"a/1", 12.25}, {"b/7", 0.0}, true}, 0.97}, .length_m = 7.5};
+  ASSERT_TRUE(store_->Put({&found, 1}, "server", 1000));
+  Reopen();
+  EXPECT_THAT(store_->Proposals().value(), ElementsAre(found));
+  found.verdict = ProposedJoint::Verdict::kTaken;
+  ASSERT_TRUE(store_->Put({&found, 1}, "desk", 2000));
+  Reopen();
+  EXPECT_THAT(store_->Proposals().value(), ElementsAre(found));
+  ASSERT_TRUE(store_->DropProposals("b/7"));
+  found.length_m = 0.0;
+  ASSERT_TRUE(store_->Put({&found, 1}, "server", 3000));
+  EXPECT_THAT(store_->Proposals().value(), ElementsAre(found)) << "nothing of before is left";
+}
+
 TEST_F(NetworkStoreTest, ProposalsStayWhatTheyAreSaidToBeUntilTheirRevisionGoes) {
   using Verdict = ProposedJoint::Verdict;
   const Joint first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{.turn_rad = 0.05}};
