@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "services/explain/src/incidents.h"
 #include "services/explain/src/run_index.h"
@@ -38,22 +41,32 @@ double WeightOf(Phase phase) {
   return 0.0;
 }
 
-// What the session said when the phase began.
-std::string ReasonAt(const RunLog& log, std::size_t row) {
-  for (const RunEvent& event : log.events) {
-    if (event.what == "phase" && event.frame == log.frames[row].frame) return event.text;
+// A log, and what is looked up in it for each of its spells: it may have as many of them as rows.
+struct Told {
+  const RunLog& log;
+  std::vector<Stay> stays;
+  std::map<int, const std::string*> reasons{};  // by frame: what the session said as a phase began
+
+  explicit Told(const RunLog& of) : log(of), stays(StaysOf(of)) {
+    for (const RunEvent& event : of.events) {
+      if (event.what == "phase") reasons.emplace(event.frame, &event.text);
+    }
   }
-  return "";
+};
+
+std::string ReasonAt(const Told& told, std::size_t row) {
+  const auto at = told.reasons.find(told.log.frames[row].frame);
+  return at == told.reasons.end() ? "" : *at->second;
 }
 
 // What became of a segment's features from its beginning to a row: "12 of 34 were found at its
 // start, 4 left the picture, ...".
-std::string FateOfFeatures(const RunLog& log, std::size_t row) {
-  const auto stays = StaysOf(log);
-  const auto stay = std::find_if(stays.begin(), stays.end(), [&](const Stay& each) {
-    return each.first <= row && row < each.end;
-  });
-  if (stay == stays.end()) return "";
+std::string FateOfFeatures(const Told& told, std::size_t row) {
+  const RunLog& log = told.log;
+  const auto stay =
+      std::upper_bound(told.stays.begin(), told.stays.end(), row,
+                       [](std::size_t sought, const Stay& each) { return sought < each.end; });
+  if (stay == told.stays.end() || row < stay->first) return "";
   int left = 0;
   int lost = 0;
   for (std::size_t i = stay->first; i <= row; ++i) {
@@ -101,7 +114,8 @@ const char* Meaning(Phase phase) {
 }
 
 // Of a stretch where it was not sure, but not lost: how long, and the least that it saw.
-std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
+std::string TellSpell(const Told& told, const Spell& spell, double driven_m) {
+  const RunLog& log = told.log;
   const bool by_distance =
       log.frames[spell.first].driven_m.has_value() && spell.phase != Phase::kLooking;
   std::string text = Meaning(spell.phase);
@@ -109,7 +123,7 @@ std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
                                     spell.end - spell.first, SpeedText(log, spell))
                       : fmt::format(" for {} frames", spell.end - spell.first);
   if (spell.phase == Phase::kWaiting)
-    return fmt::format("{}: {}", text, ReasonAt(log, spell.first));
+    return fmt::format("{}: {}", text, ReasonAt(told, spell.first));
   if (spell.phase == Phase::kDistant) {
     double worst_m = 0.0;
     for (std::size_t i = spell.first; i < spell.end; ++i) {
@@ -122,29 +136,31 @@ std::string TellSpell(const RunLog& log, const Spell& spell, double driven_m) {
       log.frames.begin() + static_cast<std::ptrdiff_t>(spell.end),
       [](const FrameRow& a, const FrameRow& b) { return a.agreeing < b.agreeing; });
   return fmt::format("{}, down to {} of the segment's {} features: {}", text, least->agreeing,
-                     least->stored, FateOfFeatures(log, spell.first));
+                     least->stored, FateOfFeatures(told, spell.first));
 }
 
-Incident OfSpell(const RunLog& log, const Spell& spell) {
+Incident OfSpell(const Told& told, const Spell& spell) {
+  const RunLog& log = told.log;
   const double frames = static_cast<double>(spell.end - spell.first);
   const std::string kind = ToString(spell.phase);
   if (spell.phase == Phase::kLost) {
     return {kind, spell.first, spell.end - 1, WeightOf(spell.phase),
-            fmt::format("lost: {}", ReasonAt(log, spell.first))};
+            fmt::format("lost: {}", ReasonAt(told, spell.first))};
   }
   const double driven_m =
       HasOdometry(log) ? PlaceOf(log.frames[spell.end - 1]) - PlaceOf(log.frames[spell.first])
                        : 0.0;
   const double weight = WeightOf(spell.phase) + std::min(15.0, 10.0 * driven_m + 0.05 * frames);
-  return {kind, spell.first, spell.end - 1, weight, TellSpell(log, spell, driven_m)};
+  return {kind, spell.first, spell.end - 1, weight, TellSpell(told, spell, driven_m)};
 }
 
 }  // namespace
 
 std::vector<Incident> PhaseIncidents(const RunLog& log) {
+  const Told told(log);
   std::vector<Incident> incidents;
   for (const Spell& spell : SpellsOf(log)) {
-    if (WeightOf(spell.phase) > 0.0) incidents.push_back(OfSpell(log, spell));
+    if (WeightOf(spell.phase) > 0.0) incidents.push_back(OfSpell(told, spell));
   }
   return incidents;
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
+#include <vector>
 
 namespace trailcast::explain {
 
@@ -19,15 +21,18 @@ std::vector<Stay> StaysOf(const RunLog& log) {
     if (stays.empty() || stays.back().segment != segment) stays.push_back({segment, i, i, nullptr});
     stays.back().end = i + 1;
   }
+  // A log may have as many events as stays.
+  std::unordered_map<double, std::vector<Stay*>> by_segment;
+  for (Stay& stay : stays) by_segment[stay.segment].push_back(&stay);
   for (const RunEvent& event : log.events) {
     if (event.what != "hand-over" && event.what != "recovered") continue;
     const auto segment = event.fields.Number("segment");
-    const auto first = std::partition_point(stays.begin(), stays.end(), [&](const Stay& each) {
-      return log.frames[each.end - 1].frame < event.frame;
-    });
-    const auto stay =
-        std::find_if(first, stays.end(), [&](const Stay& each) { return segment == each.segment; });
-    if (stay != stays.end() && stay->begun == nullptr) stay->begun = &event;
+    const auto its = segment ? by_segment.find(*segment) : by_segment.end();
+    if (its == by_segment.end()) continue;
+    const auto stay = std::partition_point(
+        its->second.begin(), its->second.end(),
+        [&](const Stay* each) { return log.frames[each->end - 1].frame < event.frame; });
+    if (stay != its->second.end() && (*stay)->begun == nullptr) (*stay)->begun = &event;
   }
   return stays;
 }
