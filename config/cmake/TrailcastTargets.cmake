@@ -21,6 +21,9 @@ if(TRAILCAST_SANITIZE)
   add_compile_options(-fsanitize=${TRAILCAST_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TRAILCAST_SANITIZE})
+  if(TRAILCAST_SANITIZE MATCHES "address")
+    add_compile_definitions(TRAILCAST_ASAN)
+  endif()
   # GCC's analysis does not see through the instrumentation.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(-Wno-maybe-uninitialized)
