@@ -56,6 +56,16 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.WaitForText("2 routes, 1 joint.")) << browser.Text();
   ASSERT_EQ(Network()["joints"].size(), 1U);
 
+  browser.Open(Page() + "#routes/office");
+  ASSERT_TRUE(browser.WaitForText("At 1.5 m hall, there at 1.5 m: joined, from there"))
+      << browser.Text();
+  browser.Screenshot(Shot("passing"));
+  ASSERT_TRUE(browser.Click("//section[@aria-label='Which routes pass here']//a[. = 'hall']"));
+  ASSERT_TRUE(browser.WaitForText("At 1.5 m office, there at 1.5 m: joined, to there"))
+      << browser.Text();
+  ASSERT_TRUE(browser.Click("//nav/a[. = 'Network']"));
+  ASSERT_TRUE(browser.WaitForText("2 routes, 1 joint.")) << browser.Text();
+
   // A click upon a route says which place is meant.
   ASSERT_TRUE(browser.Click(Mode("Name a place")));
   (void)browser.Run(

@@ -17,6 +17,18 @@ class ProposalsTest : public ProgramsTest {
   Ended Network(const Words& words) {
     return End(*Start("trailcast", With({"network"}, words), "tool" + std::to_string(++tools_)));
   }
+  std::string Passing(const std::string& place) {
+    const Ended asked = Network({"passing", place});
+    EXPECT_EQ(asked.status, 0) << asked.output;
+    return asked.output;
+  }
+  // How far along it that route is, by such an answer.
+  static double PassesAt(const std::string& answer, const std::string& route) {
+    const std::string before = "\n  " + route + "@";
+    const std::string::size_type at = answer.find(before);
+    EXPECT_NE(at, std::string::npos) << answer;
+    return at == std::string::npos ? -1.0 : std::stod(answer.substr(at + before.size()));
+  }
   static void Stop(Process& server) {
     server.Signal(SIGTERM);
     EXPECT_EQ(server.Wait(), 0) << server.output();
@@ -50,6 +62,12 @@ TEST_F(ProposalsTest, AJointThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
                     HasSubstr(" both"), HasSubstr(" confidence 0.9")));
   const Ended none = Network({"way", "hall@1", "office@8"});
   EXPECT_EQ(none.status, 1) << "it is proposed, and no more than that: " << none.output;
+  EXPECT_THAT(Passing("hall@10"), HasSubstr("  proposed join "));
+  EXPECT_NEAR(PassesAt(Passing("hall@10"), "office"), 8.0, 0.6);
+  EXPECT_NEAR(PassesAt(Passing("office@8"), "hall"), 10.0, 0.6);
+  EXPECT_THAT(Passing("hall@0.2"), HasSubstr("no other route is known to pass at hall@0.2: "));
+  EXPECT_THAT(Network({"passing", "hall@99"}).output, HasSubstr("there is no 99 m on it"));
+  EXPECT_THAT(Network({"passing"}).output, HasSubstr("takes one place: ROUTE@METRES"));
   Stop(*server);
   std::filesystem::copy(Path("server.db"), Path("other.db"));
   std::filesystem::copy(Path("server.db.joints"), Path("other.db.joints"));
@@ -62,6 +80,8 @@ TEST_F(ProposalsTest, AJointThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
   EXPECT_EQ(way.status, 0) << way.output;
   EXPECT_THAT(way.output, AllOf(HasSubstr("follow hall 1.."), HasSubstr("follow office ")));
   EXPECT_THAT(Network({"proposals"}).output, Not(HasSubstr("confidence 0.9")));
+  EXPECT_THAT(Passing("hall@10"), AllOf(HasSubstr("  join "), Not(HasSubstr("proposed"))));
+  EXPECT_NEAR(PassesAt(Passing("hall@10"), "office"), 8.0, 0.6) << "also after a restart";
   Stop(*server);
 
   server = Server("other.db");
