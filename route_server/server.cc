@@ -85,7 +85,6 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
   SaveSearched(steady_clock::now());
-  KeepFollowed(steady_clock::now());
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();
   const exchange::KeeperCounters& counters = keeper_->counters();
@@ -154,10 +153,7 @@ void Server::Receive(exchange::Message message) {
   if (const auto line = journal_.Received(message)) spdlog::info("{}", *line);
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     holders_.Note(*status, steady_clock::now());
-    if (network_) {
-      network_->Hear(*status);
-      network_->followed().Hear(*status, NowUnixMs());
-    }
+    if (network_) network_->Hear(*status);
     Replan(status->agent);
   }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
@@ -207,7 +203,6 @@ void Server::Serve() {
   NoteAnnounced(outgoing);
   FillViews(outgoing);
   KeepLookingForJoints(now);
-  if (now >= followed_due_) KeepFollowed(now);
   upkeep_->Tick(now);
   TellAgents();
   TellMissions();

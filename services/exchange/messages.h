@@ -166,14 +166,6 @@ struct PlaceOnRoute {
 // How operators have a robot stand.
 enum class AgentHold : std::uint8_t { kNone = 0, kPaused = 1, kStopped = 2 };
 
-// What a follower sees of the path under it.
-enum class PathTrust : std::uint8_t {
-  kUnknown = 0,  // it does not look, or what keeps it from looking is no part of the path
-  kSure = 1,
-  kUnsure = 2,  // too little to be sure: it drives on for a short way, or stands
-  kLost = 3,    // too little for too long: it turns to look for it, or has given up
-};
-
 // trailcast/agents
 struct AgentStatus {
   AgentId agent{};
@@ -196,7 +188,6 @@ struct AgentStatus {
   std::optional<std::uint8_t> battery_percent{};  // where the robot tells
   std::optional<std::uint8_t> link_percent{};     // of its radio, likewise
   std::string software{};                         // its version, for people
-  PathTrust path_trust = PathTrust::kUnknown;
   bool operator==(const AgentStatus&) const = default;
 };
 

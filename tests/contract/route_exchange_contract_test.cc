@@ -168,8 +168,7 @@ TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
                            .on_duty = true,
                            .battery_percent = 100,
                            .link_percent = 0,
-                           .software = std::string(exchange::kMaxSoftwareBytes, 's'),
-                           .path_trust = exchange::PathTrust::kLost};
+                           .software = std::string(exchange::kMaxSoftwareBytes, 's')};
   ExpectRoundTrip(status, Topic::kAgents);
   ExpectRoundTrip(AgentStatus{.agent = AgentId("nowhere")}, Topic::kAgents);
 }

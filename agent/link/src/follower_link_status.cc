@@ -29,30 +29,6 @@ exchange::AgentMode ModeOf(ReplayState state) {
   return exchange::AgentMode::kFault;
 }
 
-// Of the path where the robot is, and of nothing else that has it stand.
-exchange::PathTrust PathTrustOf(const ReplayStep& step) {
-  using exchange::PathTrust;
-  if (Waits(step.state) || step.saw_nothing || !step.robot_trouble.empty() ||
-      !step.robot_waits_for.empty()) {
-    return PathTrust::kUnknown;
-  }
-  switch (step.trust) {
-    case Trust::kSure:
-    case Trust::kDistant:
-      return PathTrust::kSure;
-    case Trust::kUnsure:
-    case Trust::kBlind:
-    case Trust::kSeeking:
-      return PathTrust::kUnsure;
-    case Trust::kCovered:
-      return PathTrust::kUnknown;
-    case Trust::kLooking:
-    case Trust::kLost:
-      return PathTrust::kLost;
-  }
-  return PathTrust::kUnknown;
-}
-
 }  // namespace
 
 void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
@@ -92,7 +68,6 @@ void FollowerLink::ShowStatus() {
   if (route_ && latest_.along_m) {
     const auto offset = latest_.decision.offset.value_or(replay::PathOffset{});
     status.place = {route_->key, *latest_.along_m, offset.left_m, offset.left_sigma_m};
-    status.path_trust = PathTrustOf(latest_);
   }
   status.hold = now_desk_.shown_hold();
   status.on_duty = options_.now_desk != nullptr;

@@ -227,7 +227,6 @@ Message From(const trailcast_wire_AgentStatus& wire) {
   status.battery_percent = PercentFrom(wire.battery_percent);
   status.link_percent = PercentFrom(wire.link_percent);
   status.software = Text(wire.software);
-  status.path_trust = static_cast<PathTrust>(wire.path_trust);
   return status;
 }
 

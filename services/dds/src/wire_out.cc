@@ -254,7 +254,6 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   sample.battery_percent = message.battery_percent.value_or(kUnknownPercent);
   sample.link_percent = message.link_percent.value_or(kUnknownPercent);
   sample.software = Lend(message.software);
-  sample.path_trust = static_cast<std::uint8_t>(message.path_trust);
   return use(&sample);
 }
 

@@ -163,7 +163,6 @@ Result<void> Check(const AgentStatus& message) {
   if (auto ok = CheckAmount("found share", message.found_share, 1.0); !ok) return ok;
   if (auto ok = CheckSpeed(message.speed_mps); !ok) return ok;
   if (auto ok = CheckEnum("hold", message.hold, AgentHold::kStopped); !ok) return ok;
-  if (auto ok = CheckEnum("path trust", message.path_trust, PathTrust::kLost); !ok) return ok;
   if (auto ok = CheckPercent("battery", message.battery_percent); !ok) return ok;
   if (auto ok = CheckPercent("link", message.link_percent); !ok) return ok;
   if (auto ok = CheckText("software", message.software, kMaxSoftwareBytes); !ok) return ok;

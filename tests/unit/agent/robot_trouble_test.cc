@@ -67,8 +67,7 @@ void ExpectStatus(const RobotDevice::Halt& why, AgentMode mode) {
   const auto options = swarm.FollowerNamed("robot1");
   auto run = std::async(std::launch::async, [&] { return swarm.Replay(device, options, true); });
   EXPECT_TRUE(see([&](const AgentStatus& status) {
-    return status.path_trust == exchange::PathTrust::kUnknown && status.mode == mode &&
-           status.speed_mps == 0.0 && status.detail == why.what;
+    return status.mode == mode && status.speed_mps == 0.0 && status.detail == why.what;
   }));
   device.wall_m = kWall_m;  // no further before that is seen, too
   device.heard_again = true;
