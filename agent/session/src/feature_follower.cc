@@ -269,8 +269,10 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
   if (found.empty() || too_far) return;
-  // How far a robot was carried that was turned as well, its odometry does not know.
-  if (elsewhere || look_around_.turns()) {
+  if (elsewhere) {
+    follower_->BeginAt(segment, point.fraction);
+  } else if (look_around_.turns()) {
+    // How far a robot was carried that was turned as well, its odometry does not know.
     follower_->BeginAbout(segment, point.fraction, {kCarried_m, follower_->focal()});
   } else if (ahead) {
     follower_->Begin(segment);
