@@ -4,9 +4,11 @@
 # The container's hostname is the robot's name, and with it camera, errors and topics are drawn, so
 # that every replica is another robot. What decides otherwise:
 #   ROBOT_WORLD   a built-in world (indoor)     ROBOT_PATH   CSV x_m,y_m (the world's own)
+#   ROBOT_SEED    of its errors and noise       ROBOT_CARRY  as 'trailcast robot --sim-carry'
 #   ROBOT_CAMERA  a built-in camera             ROBOT_FAULT  as 'trailcast robot --fail'; in real
 #   ROBOT_TRUTH   file for its true poses                    time then, and with serve, otherwise
 #                                                            in lockstep
+#   ROBOT_PICTURE_RATE  a second, in real time (30)
 #   ROBOT_PATIENCE_S  seconds that its agent waits for a robot that fell silent (60)
 set -euo pipefail
 
@@ -28,17 +30,20 @@ export ROS_DOMAIN_ID=${ROS_DOMAIN_ID:-$((1 + draw % 200))}
 cameras=(webcam firewire wide hd)
 topics=/robot_${TRAILCAST_NAME//[^A-Za-z0-9]/_}
 
-robot=(--sim "${ROBOT_WORLD:-indoor}" --seed "$draw" --ros2 "$topics"
+robot=(--sim "${ROBOT_WORLD:-indoor}" --seed "${ROBOT_SEED:-$draw}" --ros2 "$topics"
   --ros-interface lo --camera "${ROBOT_CAMERA:-${cameras[draw % ${#cameras[@]}]}}")
 agent=(--ros2 "$topics" --ros-interface lo
   --sensor-patience "${ROBOT_PATIENCE_S:-60}")
 [[ -z ${ROBOT_PATH:-} ]] || robot+=(--path "$ROBOT_PATH")
+[[ -z ${ROBOT_CARRY:-} ]] || robot+=(--sim-carry "$ROBOT_CARRY")
 [[ -z ${ROBOT_TRUTH:-} ]] || robot+=(--sim-truth "$ROBOT_TRUTH")
-if [[ -n ${ROBOT_FAULT:-} ]]; then
-  robot+=(--fail "$ROBOT_FAULT")
-elif [[ $command != serve ]]; then # on duty, nobody answers a robot in lockstep for most of the time
+# On duty, nobody answers a robot in lockstep for most of the time.
+if [[ -z ${ROBOT_FAULT:-} && $command != serve ]]; then
   robot+=(--lockstep)
   agent+=(--lockstep)
+else
+  robot+=(--picture-rate "${ROBOT_PICTURE_RATE:-30}")
+  [[ -z ${ROBOT_FAULT:-} ]] || robot+=(--fail "$ROBOT_FAULT")
 fi
 if [[ $command == teach ]]; then
   robot+=(--scout)

@@ -27,19 +27,20 @@ struct DemoRobot {
   std::filesystem::path path;      // way-points; empty: the world's own
   std::filesystem::path truth;     // CSV of true poses, written at the end
   std::filesystem::path report;    // key=value lines, written at the end
+  std::string carry{};             // as --sim-carry takes it; empty: nobody carries it off
 
   [[nodiscard]] bool is_scout() const { return task == Task::kTeach; }
 };
 
-// The scout first, then the followers; files in `folder`, where their camera files are written too.
-[[nodiscard]] Result<std::vector<DemoRobot>> PlanRobots(const std::filesystem::path& folder,
-                                                        std::uint64_t seed);
+// The scout first, then the followers; files in `folder`.
+[[nodiscard]] std::vector<DemoRobot> PlanRobots(const std::filesystem::path& folder,
+                                                std::uint64_t seed);
 // The scout of kRoundRoute first, then robots on duty at its beginning.
 [[nodiscard]] Result<std::vector<DemoRobot>> PlanDuty(const std::filesystem::path& folder,
                                                       std::uint64_t seed);
 
 // Routes of three scouts with other cameras, which come to one place over the same metres; robots
-// on duty stand somewhere along them, drawn from the seed.
+// on duty stand somewhere along them, and one is carried off under way, drawn from the seed.
 struct NetworkPlan {
   struct Journey {
     std::size_t robot = 0;  // of `robots`
@@ -47,6 +48,11 @@ struct NetworkPlan {
   };
   std::vector<DemoRobot> robots;  // the scouts first
   std::vector<Journey> journeys;
+  // Along the first scout's route: where all are sent, and what is closed while they drive. No
+  // other route comes near that.
+  double goal_m = 14.5;
+  double closed_from_m = 5.5;
+  double closed_to_m = 6.5;
 };
 [[nodiscard]] Result<NetworkPlan> PlanNetwork(const std::filesystem::path& folder,
                                               std::uint64_t seed);

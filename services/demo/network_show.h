@@ -14,9 +14,6 @@
 
 namespace trailcast::demo {
 
-// Where all are sent: so far along the first scout's route.
-inline constexpr double kGoal_m = 14.5;
-
 // The operator of `trailcast demo --network`: joins what the scouts have taught, sends all robots
 // to one place, and closes a part of the way while they drive. By the commands that one types, each
 // a process of its own.

@@ -21,12 +21,13 @@ off_at_end() {
     "$(files_of "$1")/truth.csv"
 }
 
-# expect_taught: the scout ended, and everything of it was receipted.
+# expect_taught [SCOUT]: it ended, and everything of it was receipted.
 expect_taught() {
-  await_end 240 scout
-  [[ $(status_of scout) == 0 && $(value_of scout unreceipted) == 0 ]] ||
-    fail "the scout ended with status $(status_of scout), $(value_of scout unreceipted) segments not receipted"
-  taught_segments=$(value_of scout segments)
+  local scout=${1:-scout}
+  await_end 240 "$scout"
+  [[ $(status_of "$scout") == 0 && $(value_of "$scout" unreceipted) == 0 ]] ||
+    fail "$scout ended with status $(status_of "$scout"), $(value_of "$scout" unreceipted) segments not receipted"
+  taught_segments=$(value_of "$scout" segments)
 }
 
 # expect_sound_store: the server has the whole route, ends as it should, and its store is sound: all

@@ -71,6 +71,16 @@ operate_as() {
 # Where a robot is by its true poses: seconds of its own clock, x, y; nothing before it has a row that
 # is written whole.
 place_of() { tail -n 2 "$(files_of "$1")/truth.csv" 2>/dev/null | sed -n "1{/^[0-9]/s/,/ /gp}" | cut -d" " -f1-3; }
+# Farther than any noise, in a fifth of a second.
+drives() {
+  local before
+  before=$(place_of "$1")
+  sleep 0.2
+  awk -v before="$before" -v after="$(place_of "$1")" 'BEGIN {
+    split(before, a, " "); split(after, b, " ")
+    exit !(sqrt((a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2) > 0.01) }'
+}
+stands() { ! drives "$1"; }
 
 start_server() {
   contain server server --

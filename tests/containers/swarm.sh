@@ -8,6 +8,7 @@
 #   tests/containers/swarm.sh SCENARIO...      follow late lossy cut killed broken missions
 #                                              queue strangers crowd compose
 #                                              stop_under_load who_may_send console
+#                                              network
 # With --from-source in front, the images are built from the repository alone, as a user would.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
@@ -23,7 +24,7 @@ source "$here/expect.sh"
 source "$here/faults.sh"
 
 all=(follow late lossy cut killed broken missions stop_under_load who_may_send queue console
-  strangers crowd compose)
+  network strangers crowd compose)
 quick=(follow killed broken missions stop_under_load who_may_send)
 
 die() {

@@ -41,6 +41,7 @@ std::vector<std::string> AgentWords(const std::string& program, const DemoRobot&
   add({"--sim", kDemoWorld, "--camera", robot.camera_word, "--seed", std::to_string(robot.seed),
        "--sim-truth", robot.truth.string()});
   if (!robot.path.empty()) add({"--path", robot.path.string()});
+  if (!robot.carry.empty()) add({"--sim-carry", robot.carry});
   // Each of them has the laboratory to itself: nobody is in anybody's way.
   if (robot.task != Task::kTeach) add({"--wait", kWait_s, "--keep-distance", "0"});
   return words;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "services/sim/core/random.h"
@@ -15,9 +16,7 @@ constexpr const char* kRound =
     "x_m,y_m\n2.6,1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n7.2,3.2\n6,1.5\n2,1.5\n2.6,1.5\n";
 
 // The scout's make of camera, on another robot: higher up, and looking a little aside and up.
-constexpr const char* kOtherMount =
-    "name = \"webcam, other mount\"\nwidth = 320\nheight = 240\nmodel = \"pinhole\"\n"
-    "hfov_deg = 60.0\ndistortion = 0.10\nheight_m = 0.42\nyaw_deg = 2.0\npitch_deg = 2.0\n";
+constexpr const char* kOtherMount = "webcam+height_m=0.42+yaw_deg=2+pitch_deg=2";
 
 // Three ways through the laboratory that come together before the doorway: the first from the west;
 // the second beside it at first, and then round by the east; the third from the east.
@@ -25,7 +24,7 @@ struct TaughtWay {
   const char* route;
   const char* path;
   const char* camera;
-  const char* camera_word;  // empty: the other mount
+  const char* camera_word;
   // Where robots may stand: straight ahead of the first way-point, so many metres.
   double x_m, y_m, towards_x;
   double straight_m;
@@ -33,18 +32,21 @@ struct TaughtWay {
 constexpr TaughtWay kWays[] = {
     {"hall", "x_m,y_m\n1,1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n6,7\n2.3,7\n", "webcam", "webcam", 1.0, 1.5,
      1.0, 1.6},
-    {"round", "x_m,y_m\n2,1.5\n8,1.5\n8.5,2.3\n7.3,3.9\n7.2,5.6\n6,7\n3.5,7\n", "webcam, moved", "",
-     2.0, 1.5, 1.0, 1.0},
+    {"round", "x_m,y_m\n2,1.5\n8,1.5\n8.5,2.3\n7.3,3.9\n7.2,5.6\n6,7\n3.5,7\n", "webcam, moved",
+     kOtherMount, 2.0, 1.5, 1.0, 1.0},
     {"east", "x_m,y_m\n11.2,1.6\n8.6,1.6\n7.2,3.3\n7.2,5.6\n6,7\n3.5,7\n", "webcam, 70 deg",
      "webcam+hfov_deg=70", 11.2, 1.6, -1.0, 1.0},
 };
+// Where one may set down a robot that one has taken up, looking which way, in degrees: far along
+// the way of all, off every way, and near the beginning of two.
+constexpr const char* kSetDown[] = {"4.6,7,180", "9.5,7.9,200", "3.5,1.5,0"};
 // Who goes, by which camera, from which of these ways.
 struct Goes {
   const char* camera;
-  const char* camera_word;  // empty: the other mount
+  const char* camera_word;
   std::size_t way;
 };
-constexpr Goes kGoing[] = {{"webcam, moved", "", 0},
+constexpr Goes kGoing[] = {{"webcam, moved", kOtherMount, 0},
                            {"webcam, 45 deg", "webcam+hfov_deg=45", 0},
                            {"wide", "wide", 2},
                            {"webcam, 50 deg", "webcam+hfov_deg=50", 1},
@@ -73,30 +75,22 @@ DemoRobot MakeRobot(const std::filesystem::path& folder, std::uint64_t seed,
   return robot;
 }
 
-Result<std::filesystem::path> WriteOtherMount(const std::filesystem::path& folder) {
-  std::filesystem::path file = folder / "webcam-other-mount.toml";
-  if (auto written = WriteText(file, kOtherMount); !written) return tl::unexpected(written.error());
-  return file;
-}
-
 // The scout and robots with other cameras than its.
-Result<std::vector<DemoRobot>> PlanSwarm(const std::filesystem::path& folder, std::uint64_t seed,
-                                         const std::string& prefix, DemoRobot::Task task) {
-  const auto other_mount = WriteOtherMount(folder);
-  if (!other_mount) return tl::unexpected(other_mount.error());
+std::vector<DemoRobot> PlanSwarm(const std::filesystem::path& folder, std::uint64_t seed,
+                                 const std::string& prefix, DemoRobot::Task task) {
   const auto plan = [&](const std::string& name, DemoRobot::Task does, const std::string& camera,
                         const std::string& word) {
     return MakeRobot(folder, seed, name, does, camera, word);
   };
   return std::vector<DemoRobot>{plan("scout", DemoRobot::Task::kTeach, "webcam", "webcam"),
-                                plan(prefix + "1", task, "webcam, moved", other_mount->string()),
+                                plan(prefix + "1", task, "webcam, moved", kOtherMount),
                                 plan(prefix + "2", task, "firewire", "firewire"),
                                 plan(prefix + "3", task, "wide", "wide")};
 }
 
 }  // namespace
 
-Result<std::vector<DemoRobot>> PlanRobots(const std::filesystem::path& folder, std::uint64_t seed) {
+std::vector<DemoRobot> PlanRobots(const std::filesystem::path& folder, std::uint64_t seed) {
   return PlanSwarm(folder, seed, "follower-", DemoRobot::Task::kFollow);
 }
 
@@ -104,8 +98,7 @@ Result<std::vector<DemoRobot>> PlanDuty(const std::filesystem::path& folder, std
   const std::filesystem::path round = folder / "round.csv";
   if (auto written = WriteText(round, kRound); !written) return tl::unexpected(written.error());
   auto robots = PlanSwarm(folder, seed, "robot-", DemoRobot::Task::kOnDuty);
-  if (!robots) return robots;
-  for (DemoRobot& robot : *robots) {
+  for (DemoRobot& robot : robots) {
     robot.route = kRoundRoute;
     robot.path = round;
   }
@@ -113,15 +106,10 @@ Result<std::vector<DemoRobot>> PlanDuty(const std::filesystem::path& folder, std
 }
 
 Result<NetworkPlan> PlanNetwork(const std::filesystem::path& folder, std::uint64_t seed) {
-  const auto other_mount = WriteOtherMount(folder);
-  if (!other_mount) return tl::unexpected(other_mount.error());
-  const auto word = [&](const char* given) {
-    return *given == '\0' ? other_mount->string() : std::string(given);
-  };
   NetworkPlan plan;
   for (const TaughtWay& way : kWays) {
     DemoRobot scout = MakeRobot(folder, seed, fmt::format("scout-{}", plan.robots.size() + 1),
-                                DemoRobot::Task::kTeach, way.camera, word(way.camera_word));
+                                DemoRobot::Task::kTeach, way.camera, way.camera_word);
     scout.route = way.route;
     scout.path = folder / fmt::format("{}.csv", way.route);
     if (auto written = WriteText(scout.path, way.path); !written) {
@@ -132,7 +120,7 @@ Result<NetworkPlan> PlanNetwork(const std::filesystem::path& folder, std::uint64
   for (const Goes& goes : kGoing) {
     const TaughtWay& way = kWays[goes.way];
     DemoRobot robot = MakeRobot(folder, seed, fmt::format("robot-{}", plan.journeys.size() + 1),
-                                DemoRobot::Task::kOnDuty, goes.camera, word(goes.camera_word));
+                                DemoRobot::Task::kOnDuty, goes.camera, goes.camera_word);
     // As one tells it by eye.
     const double along_m =
         0.1 * static_cast<int>(
@@ -148,6 +136,11 @@ Result<NetworkPlan> PlanNetwork(const std::filesystem::path& folder, std::uint64
     plan.journeys.push_back({plan.robots.size(), fmt::format("{}@{:.1f}", way.route, along_m)});
     plan.robots.push_back(std::move(robot));
   }
+  sim::Random carry(seed, "carry");
+  const int who = carry.Integer(0, static_cast<int>(plan.journeys.size()) - 1);
+  const int where = carry.Integer(0, static_cast<int>(std::size(kSetDown)) - 1);
+  plan.robots[plan.journeys[static_cast<std::size_t>(who)].robot].carry =
+      fmt::format("{}@{:.1f}", kSetDown[where], carry.Uniform(2.0, 6.0));
   return plan;
 }
 

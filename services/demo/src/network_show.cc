@@ -17,8 +17,6 @@ using exchange::AgentMode;
 constexpr std::chrono::seconds kProposalsWithin{15};
 constexpr std::ptrdiff_t kEnoughProposals = 2;
 constexpr std::size_t kLastLines = 40;
-// A part of the first scout's route between where the second leaves it and where it comes back.
-constexpr const char* kClosed = "4..6.5";
 
 }  // namespace
 
@@ -84,7 +82,7 @@ void NetworkShow::TakeAnswer(Time now) {
   // What is too short to be found, the operator knows.
   to_type_ = {{"network", "confirm", "all", "above", "0.8"},
               {"network", "join", "hall@3", "round@2"},
-              {"network", "name", "lab-2", fmt::format("hall@{}", kGoal_m)}};
+              {"network", "name", "lab-2", fmt::format("hall@{}", plan_.goal_m)}};
   stage_ = Stage::kJoin;
 }
 
@@ -114,7 +112,8 @@ Result<void> NetworkShow::Step(const FleetView& view, Time now) {
     case Stage::kSend: {
       const auto* status = view.Find(AgentId(plan_.robots[plan_.journeys.front().robot].name));
       if (status == nullptr || status->mode != AgentMode::kReplaying) break;
-      to_type_ = {{"network", "close", "hall", kClosed}};
+      to_type_ = {{"network", "close", "hall",
+                   fmt::format("{}..{}", plan_.closed_from_m, plan_.closed_to_m)}};
       stage_ = Stage::kClose;
       return TypeNext();
     }

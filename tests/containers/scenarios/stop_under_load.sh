@@ -45,16 +45,6 @@ order() {
     "http://localhost:8080/api/robots/robot1/$1") || fail "robot1 does not obey $1: $answer"
 }
 
-# Farther than any noise, in a fifth of a second.
-drives() {
-  local before
-  before=$(place_of "$1")
-  sleep 0.2
-  awk -v before="$before" -v after="$(place_of "$1")" 'BEGIN {
-    split(before, a, " "); split(after, b, " ")
-    exit !(sqrt((a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2) > 0.01) }'
-}
-
 # Prints how long it drove on, by its own clock, after it was told.
 stop_robot1() {
   local told_s
@@ -69,4 +59,3 @@ stop_robot1() {
     }
     END { printf "%.2f", moved_s - told_s }' "$(files_of robot1)/truth.csv"
 }
-stands() { ! drives "$1"; }
