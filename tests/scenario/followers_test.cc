@@ -56,7 +56,7 @@ TEST_F(FollowersTest, KilledOnItsWayAFollowerGoesOnFromWhereItsRobotStands) {
   Teach();
   const auto robot = Robot("robot1", {"--camera", "wide", "--seed", "7", "--lockstep"});
   Kill(*OnItsWay("robot1"));
-  const auto again = Follow("robot1", "routes.db", {"--lockstep"});
+  const auto again = Follow({"--lockstep"});
   EXPECT_EQ(End(*again).status, 0) << again->output() << robot->output();
   EXPECT_THAT(again->output(), HasSubstr("looking whether the robot is still there"));
   EXPECT_THAT(again->output(), HasSubstr("went_on_at_m="));
@@ -74,7 +74,7 @@ TEST_F(FollowersTest, KilledAndCarriedAwayAFollowerSaysWhyItCannotGoOn) {
   }
   // Into the next room.
   const auto robot = Robot("robot1", {"--lockstep"}, "5.8,7\n2.3,7\n");
-  const auto again = Follow("robot1", "routes.db", {"--lockstep"});
+  const auto again = Follow({"--lockstep"});
   EXPECT_EQ(End(*again).status, 3) << again->output();
   EXPECT_THAT(again->output(), HasSubstr("state=LOST"));
   EXPECT_THAT(again->output(), HasSubstr("not where it was left"));

@@ -11,12 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class RobotFailsTest : public RobotsTest {
- protected:
-  std::unique_ptr<Process> Follow(const Words& words) {
-    return RobotsTest::Follow("robot1", "routes.db", words);
-  }
-};
+class RobotFailsTest : public RobotsTest {};
 
 TEST_F(RobotFailsTest, WhateverFailsTheRobotIsToldToStandWithinHalfASecond) {
   Teach();

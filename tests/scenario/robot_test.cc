@@ -13,9 +13,6 @@ using testing::HasSubstr;
 
 class RobotTest : public RobotsTest {
  protected:
-  std::unique_ptr<Process> Follow(const Words& words) {
-    return RobotsTest::Follow("robot1", "routes.db", words);
-  }
   // Where along x it stood for longest.
   static double LongestStand(const std::vector<Place>& places) {
     double at_m = 0.0;

@@ -89,6 +89,9 @@ class RobotsTest : public ProgramsTest {
         With(With({"replay", "--route", "hall", "--store", Path(store)}, Drives(robot)), words),
         log);
   }
+  std::unique_ptr<Process> Follow(const Words& words) {
+    return Follow("robot1", "routes.db", words);
+  }
   struct Place {
     double x_m = 0.0;
     double y_m = 0.0;

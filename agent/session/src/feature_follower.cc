@@ -15,6 +15,7 @@ namespace {
 
 // Blind robots look for the route again every so many seconds: the wide search costs time.
 constexpr double kLookAgain_s = 5.0 / 30.0;
+// So far along its segment one may be from where it was that was carried, and turned as well.
 constexpr double kCarried_m = 1.0;
 constexpr double kShareToSkip = 0.5;
 // What a robot that stands does not see where it should be, it will not see there later.
