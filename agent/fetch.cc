@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kWakeUp{200};
+constexpr milliseconds kFetchWakeUp{200};
 constexpr std::chrono::seconds kTellEvery{2};
 
 // What has come so far.
@@ -84,7 +84,7 @@ Result<Summary> Fetch(const FollowerLinkOptions& options, std::unique_ptr<store:
   Fetching fetching(options);
   Result<bool> all = false;
   while (all && !*all) {
-    link.WaitForNews(kWakeUp);
+    link.WaitForNews(kFetchWakeUp);
     all = fetching.Take(link);
   }
   link.Finish();

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::hours kWakeUp{1};  // unless something was handed over
+constexpr std::chrono::hours kGlanceWakeUp{1};  // unless something was handed over
 constexpr int kBestQuality = 70;
 constexpr int kWorstQuality = 10;
 constexpr int kQualityStep = 10;
@@ -99,7 +99,7 @@ void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
 void Glances::Paint() {
   GiveWay(kNiceness);
   while (!ending_) {
-    handed_over_.Wait(kWakeUp);
+    handed_over_.Wait(kGlanceWakeUp);
     while (auto item = frames_.TryGet()) {
       const auto* frame = std::get_if<GlanceFrame>(&*item);
       CameraPicture picture =

@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kTellEvery{5};
+constexpr std::chrono::seconds kTellStillEvery{5};
 
 Result<void> CheckAlike(const RobotDevice& device, const Observation& first,
                         const route::RouteInfo& cut_off, const route::Segment& last,
@@ -60,7 +60,7 @@ Result<Observation> FindWhereItEnded(RobotDevice& device, Observation first,
                   "stopped before the robot came by where {} ended: it stays as it was",
                   route::Describe(cut_off));
     }
-    if (steady_clock::now() - told_at > kTellEvery) {
+    if (steady_clock::now() - told_at > kTellStillEvery) {
       told_at = steady_clock::now();
       spdlog::info("not there yet: at most {} of segment {}'s end seen", finder.MostSeen(),
                    last.index.value());

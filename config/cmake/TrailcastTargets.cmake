@@ -44,9 +44,15 @@ function(trailcast_target_defaults target)
                                               "$<INSTALL_INTERFACE:include/trailcast>")
 endfunction()
 
+# trailcast_compile_together(<target> [a.cc...]): but for those.
 function(trailcast_compile_together target)
   if(TRAILCAST_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    # GCC takes the sources for headers that others might include, too.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    endif()
   endif()
 endfunction()
 
@@ -57,23 +63,23 @@ function(trailcast_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;APART;DEPS;PRIVATE_DEPS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
-  trailcast_compile_together(${name})
-  set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  trailcast_compile_together(${name} ${ARG_APART})
   target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
 endfunction()
 
-# trailcast_executable(<name> SOURCES main.cc DEPS x)
+# trailcast_executable(<name> SOURCES main.cc APART other.cc DEPS x): compiled as libraries are.
 function(trailcast_executable name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;APART;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
+  trailcast_compile_together(${name} ${ARG_APART})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS})
 endfunction()
 
 # trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc
 #                APART b_test.cc DEPS x)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
-# with TOGETHER they are one, since they share what is slow to start. ALONE: nothing runs beside
+# with TOGETHER they are one, since they share what is slow to come by. ALONE: nothing runs beside
 # them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for a minute and more: they are
 # labelled `trial`, which ./run trials runs.
@@ -90,11 +96,10 @@ function(trailcast_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
-  trailcast_compile_together(${name})
-  set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  trailcast_compile_together(${name} ${ARG_APART})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
-  if(ARG_LABEL STREQUAL "unit")
-    add_dependencies(units ${name})
+  if(TARGET ${ARG_LABEL}s)
+    add_dependencies(${ARG_LABEL}s ${name})
   endif()
   # Much less time to compile; what is tested is optimised all the same.
   if(TRAILCAST_SANITIZE AND NOT ARG_NUMERIC)
@@ -105,23 +110,22 @@ function(trailcast_test name)
   target_compile_definitions(
     ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                     TRAILCAST_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60) # from a cold disk, beside other work
+  list(JOIN ARG_LONG ":" long)
+  if(long)
+    gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
+                         PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
+  endif()
   if(ARG_TOGETHER)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+    add_test(NAME ${name} COMMAND ${name} "--gtest_filter=-${long}")
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} COST 500)
     return()
   endif()
   set(beside RUN_SERIAL ${ARG_ALONE})
   if(ARG_REAL_TIME)
     set(beside RESOURCE_LOCK real_time COST 1000) # begun first, so that others fill the other cores
   endif()
-  set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60) # from a cold disk, beside other work
-  list(JOIN ARG_LONG ":" long)
-  if(long)
-    gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
-                         PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
-    set(discovery TEST_FILTER "-${long}" ${discovery})
-  endif()
-  gtest_discover_tests(${name} ${discovery}
+  gtest_discover_tests(${name} TEST_FILTER "-${long}" ${discovery}
                        PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${beside})
 endfunction()
 

@@ -26,7 +26,7 @@ struct AlignCommand {
 
 constexpr int kBarWidth = 40;
 
-constexpr const char* kExamples =
+constexpr const char* kAlignExamples =
     "Examples:\n"
     "  trailcast align drive1/ drive2/ --out truth.csv\n"
     "  trailcast align drive1.mp4 drive2.mp4 --every 15 --teach-every 15 --out truth.csv   # long "
@@ -76,7 +76,7 @@ Command AddAlignCommand(CLI::App& parent) {
       "align",
       "Find out where on one recording the frames of another were taken: a truth for "
       "'judge'");
-  app->footer(kExamples);
+  app->footer(kAlignExamples);
   app->add_option("teach", align->teach,
                   "The recording that teaches: a folder of pictures or a video")
       ->required();

@@ -45,7 +45,7 @@ constexpr const char* kPicture = "trailcast-demo.png";
 constexpr int kExitInterrupted = 130;
 constexpr std::size_t kLogLines = 8;
 
-constexpr const char* kExamples =
+constexpr const char* kDemoExamples =
     "Examples:\n"
     "  trailcast demo\n"
     "  trailcast demo --seed 7 --out /tmp\n"
@@ -254,7 +254,7 @@ Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<DemoOptions>();
   CLI::App* app = parent.add_subcommand(
       "demo", "Show a scout teaching a route to three robots with other cameras, over DDS");
-  app->footer(kExamples);
+  app->footer(kDemoExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("--seed", options->seed, "Draws the robots");
   app->add_option("--out", options->out, "Folder for the picture, trailcast-demo.png");

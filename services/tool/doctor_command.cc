@@ -13,7 +13,7 @@
 namespace trailcast::tool {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDoctorExamples =
     "Examples:\n"
     "  trailcast doctor\n"
     "  trailcast doctor --network-interface wlan0 --folder /var/lib/trailcast\n"
@@ -65,7 +65,7 @@ Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common)
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* app = parent.add_subcommand(
       "doctor", "Look whether this machine, or a robot, is fit, and say what to change");
-  app->footer(kExamples);
+  app->footer(kDoctorExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("--folder", options->folder, "Where routes are to be kept");
   const std::string robot = "ROS 2 robot (no ROS needed)";

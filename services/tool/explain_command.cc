@@ -19,7 +19,7 @@ struct ExplainOptions {
   bool all = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kExplainExamples =
     "Examples:\n"
     "  trailcast-agent replay --frames drive2/ --route hall --store scout.db --log run.log\n"
     "  trailcast explain run.log                  # the story, and run.png beside it\n"
@@ -52,7 +52,7 @@ Command AddExplainCommand(CLI::App& parent) {
   auto options = std::make_shared<ExplainOptions>();
   CLI::App* app = parent.add_subcommand(
       "explain", "Tell in plain words, and draw, what happened in a replay that wrote a log");
-  app->footer(kExamples);
+  app->footer(kExplainExamples);
   app->add_option("log", options->log,
                   "What 'trailcast-agent replay --log', as text or as MCAP, or 'trial --log' wrote")
       ->required();

@@ -31,7 +31,7 @@ struct ExportOptions {
   double timeout_s = 10.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kExportExamples =
     "Examples:\n"
     "  trailcast export hall                          # hall.trailcast, from a route server\n"
     "  trailcast export hall@2 --out /media/stick/hall-2.trailcast\n"
@@ -109,7 +109,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, ExportOptions
 Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* app = parent.add_subcommand("export", "Write a complete route to a file");
-  app->footer(kExamples);
+  app->footer(kExportExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("route", options->route,
                   "Its name, or its id, of which 7 digits or more will do; '@2' behind it is its "

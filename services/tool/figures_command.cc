@@ -13,7 +13,7 @@
 namespace trailcast::tool {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kFiguresExamples =
     "Examples:\n"
     "  trailcast figures indoor.csv paved.csv rough.csv > figures.md\n"
     "  trailcast figures tests/bench/results/*.csv";
@@ -43,7 +43,7 @@ Command AddFiguresCommand(CLI::App& parent) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* app = parent.add_subcommand(
       "figures", "Tables in Markdown from the CSV files that trials wrote, beside the paper's");
-  app->footer(kExamples);
+  app->footer(kFiguresExamples);
   app->add_option("files", *files, "What 'trailcast trial --csv' and 'trailcast judge --csv' wrote")
       ->required()
       ->check(CLI::ExistingFile);

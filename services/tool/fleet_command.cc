@@ -12,7 +12,7 @@
 namespace trailcast::tool {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kFleetExamples =
     "Examples:\n"
     "  trailcast fleet                        # robots that are heard, battery, radio, version\n"
     "  trailcast fleet --json | jq '.[] | select(.battery_percent < 20).robot'\n"
@@ -52,7 +52,7 @@ Command AddFleetCommand(CLI::App& parent, const program::CommonOptions& common) 
   auto options = std::make_shared<FleetOptions>();
   CLI::App* app = parent.add_subcommand(
       "fleet", "List robots that are heard: what they do, how they are, what they say");
-  app->footer(kExamples);
+  app->footer(kFleetExamples);
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--listen", options->listen_s,
                   "Seconds; a hundred robots speak once a second each")

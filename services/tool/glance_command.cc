@@ -22,7 +22,7 @@ struct GlanceOptions {
   double timeout_s = 5.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kGlanceExamples =
     "Example:\n"
     "  trailcast glance robot2 -o seen.jpg    # and what is drawn on it, in words\n"
     "Robots show what they see while 'serve', or 'replay' or 'teach' with --server, runs; no "
@@ -88,7 +88,7 @@ int Run(const CLI::App& app, program::CommonOptions common, const GlanceOptions&
 Command AddGlanceCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<GlanceOptions>();
   CLI::App* app = parent.add_subcommand("glance", "What a robot's camera sees now, as a picture");
-  app->footer(kExamples);
+  app->footer(kGlanceExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("ROBOT", options->robot, "Its name, as --name of its agent")
       ->required()

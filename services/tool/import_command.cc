@@ -27,7 +27,7 @@ struct ImportOptions {
   double timeout_s = 10.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kImportExamples =
     "Examples:\n"
     "  trailcast import hall.trailcast yard.trailcast   # to a route server\n"
     "  trailcast import hall.trailcast --store robot.db # no network\n"
@@ -114,7 +114,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const ImportO
 Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<ImportOptions>();
   CLI::App* app = parent.add_subcommand("import", "Take up routes from files that export wrote");
-  app->footer(kExamples);
+  app->footer(kImportExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("files", options->files, "The files")->required();
   CLI::Option* store =

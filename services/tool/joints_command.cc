@@ -25,7 +25,7 @@ struct JointsCommandOptions {
   bool json = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kJointsExamples =
     "Examples:\n"
     "  trailcast joints hall.trailcast office.trailcast   # of files, as 'export' writes them\n"
     "  trailcast joints hall office --store server.db     # no network; no server may have it "
@@ -150,7 +150,7 @@ Command AddJointsCommand(CLI::App& parent) {
   auto options = std::make_shared<JointsCommandOptions>();
   CLI::App* app = parent.add_subcommand(
       "joints", "Find where routes come to the same place looking the same way");
-  app->footer(kExamples);
+  app->footer(kJointsExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("route", options->routes,
                   "Route files; with --store names or ids, '@2' behind one is its revision 2");

@@ -49,7 +49,7 @@ struct JudgeCommand {
 
 constexpr int kBarWidth = 40;
 
-constexpr const char* kExamples =
+constexpr const char* kJudgeExamples =
     "Examples:\n"
     "  trailcast judge drive1/ drive1/                        # is what was taught followed?\n"
     "  trailcast align drive1/ drive2/ --out truth.csv        # where drive2 really was\n"
@@ -235,7 +235,7 @@ Command AddJudgeCommand(CLI::App& parent) {
   auto judge = std::make_shared<JudgeCommand>();
   CLI::App* app = parent.add_subcommand(
       "judge", "Teach and replay recordings, and measure how well the route was followed");
-  app->footer(kExamples + trial::ChangeHelp());
+  app->footer(kJudgeExamples + trial::ChangeHelp());
   AddOptions(*app, *judge);
   app->callback([judge] {
     if (judge->replays.empty() && judge->pairs.empty()) {

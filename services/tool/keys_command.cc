@@ -34,7 +34,7 @@ struct KeysOptions {
   bool json = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kKeysExamples =
     "Examples:\n"
     "  trailcast keys init fleet                       # once: the fleet's authority\n"
     "  export TRAILCAST_AUTHORITY=fleet\n"
@@ -163,7 +163,7 @@ Command AddKeysCommand(CLI::App& parent) {
   auto options = std::make_shared<KeysOptions>();
   CLI::App* app = parent.add_subcommand(
       "keys", "Who belongs to the fleet and what each may do: keys for --security");
-  app->footer(kExamples);
+  app->footer(kKeysExamples);
   app->require_subcommand(1);
   app->add_option("--authority", options->authority, "Folder of the fleet's authority")
       ->capture_default_str()

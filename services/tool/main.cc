@@ -5,7 +5,7 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kMainExamples =
     "Examples:\n"
     "  trailcast demo                         # a scout teaches three robots with other cameras\n"
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
@@ -33,7 +33,7 @@ int Run(int argc, char** argv) {
   using trailcast::tool::Command;
   CLI::App app("The operator's tool: show, measure and look up what robots teach each other",
                "trailcast");
-  app.footer(kExamples);
+  app.footer(kMainExamples);
   app.require_subcommand(1);
   app.fallthrough();
   trailcast::program::CommonOptions common;

@@ -21,7 +21,7 @@ struct NetworkOptions {
   double timeout_s = 5.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kNetworkExamples =
     "Words; without any, it lists the routes that are joined, joints, what is closed, names, and\n"
     "proposed joints:\n"
     "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
@@ -173,7 +173,7 @@ Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common
   auto options = std::make_shared<NetworkOptions>();
   CLI::App* app = parent.add_subcommand(
       "network", "How routes are joined or might be, what is closed, and which way leads where");
-  app->footer(kExamples);
+  app->footer(kNetworkExamples);
   app->add_option("WORDS", options->words, "What to change, or to ask: see below");
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--plot", options->plot,

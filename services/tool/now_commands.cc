@@ -24,7 +24,7 @@ struct NowOptions {
   double timeout_s = 5.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kNowExamples =
     "Examples:\n"
     "  trailcast pause robot2 --reason 'somebody walks here'\n"
     "  trailcast stop --all                   # and none drives before it is released and resumed\n"
@@ -60,7 +60,7 @@ Command AddOne(CLI::App& parent, const program::CommonOptions& common, NowOrder 
                const char* help) {
   auto options = std::make_shared<NowOptions>();
   CLI::App* app = parent.add_subcommand(exchange::ToString(order), help);
-  app->footer(kExamples);
+  app->footer(kNowExamples);
   auto* robots =
       app->add_option("ROBOT", options->robots, "Their names, as --name of their agents");
   robots->check(program::NameValidator());

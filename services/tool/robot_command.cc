@@ -19,7 +19,7 @@ struct RobotOptions {
   double turn_radius_m = 0.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kRobotExamples =
     "Examples:\n"
     "  trailcast robot --sim indoor --scout --lockstep --ros2 /scout\n"
     "  trailcast-agent teach --ros2 /scout --lockstep --end-when-still 2 --route hall\n"
@@ -78,7 +78,7 @@ Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common) 
   auto options = std::make_shared<RobotOptions>();
   CLI::App* app = parent.add_subcommand(
       "robot", "A virtual robot that an agent drives as it would a real one, over ROS 2 topics");
-  app->footer(kExamples);
+  app->footer(kRobotExamples);
   app->option_defaults()->always_capture_default();
   agent::AddSimulatedOptions(*app, options->device, true)->required();
   app->add_flag("--scout", options->scout,

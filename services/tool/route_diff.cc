@@ -27,7 +27,7 @@ struct DiffOptions {
   bool json = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kRouteDiffExamples =
     "Examples:\n"
     "  trailcast routes diff hall@1 hall@3 --plot diff.png\n"
     "  trailcast routes diff hall aisle       # the revisions that robots follow\n"
@@ -108,7 +108,7 @@ Command AddRouteDiff(CLI::App& routes, const program::CommonOptions& common,
   auto options = std::make_shared<DiffOptions>();
   CLI::App* app = routes.add_subcommand(
       "diff", "Where the place has changed from one revision, or route, to another");
-  app->footer(kExamples);
+  app->footer(kRouteDiffExamples);
   app->fallthrough();
   for (const auto& [name, route] : {std::pair("A", &options->a), std::pair("B", &options->b)}) {
     app->add_option(name, *route,

@@ -38,7 +38,7 @@ struct RoutesOptions {
   double timeout_s = 5.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kRoutesExamples =
     "Examples:\n"
     "  trailcast routes\n"
     "  trailcast routes --name aisle-3 --json\n"
@@ -195,7 +195,7 @@ void AddFilters(CLI::App& app, RoutesOptions& options) {
 Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<RoutesOptions>();
   CLI::App* app = parent.add_subcommand("routes", "List the routes that a route server keeps");
-  app->footer(kExamples);
+  app->footer(kRoutesExamples);
   app->option_defaults()->always_capture_default();
   AddFilters(*app, *options);
   CLI::Option* const since = app->add_option(

@@ -27,7 +27,7 @@ struct TrialFiles {
 
 constexpr int kBarWidth = 40;
 
-constexpr const char* kExamples =
+constexpr const char* kTrialExamples =
     "Examples:\n"
     "  trailcast trial --scenario cameras --trials 1 --csv pairs.csv\n"
     "  trailcast trial --scenario indoor --method paper --trials 10 --csv out.csv --plot out.png\n"
@@ -183,7 +183,7 @@ Command AddTrialCommand(CLI::App& parent) {
   auto files = std::make_shared<TrialFiles>();
   CLI::App* app = parent.add_subcommand(
       "trial", "Teach and follow in a simulated world, and measure how well it went");
-  app->footer(kExamples);
+  app->footer(kTrialExamples);
   AddOptions(*app, *options, *files);
   return {app, [app, options, files] { return Run(*app, *options, *files); }};
 }

@@ -21,7 +21,7 @@ struct WhereOptions {
   double timeout_s = 5.0;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kWhereExamples =
     "Examples:\n"
     "  trailcast where --frame now.png\n"
     "  trailcast where --frame now.png --json --network-interface lo";
@@ -50,7 +50,7 @@ Command AddWhereCommand(CLI::App& parent, const program::CommonOptions& common) 
   auto options = std::make_shared<WhereOptions>();
   CLI::App* app = parent.add_subcommand(
       "where", "Find the routes, and the places on them, that a picture shows");
-  app->footer(kExamples);
+  app->footer(kWhereExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("--frame", options->frame, "A picture from the robot's camera")->required();
   app->add_flag("--json", options->json, "For programs");

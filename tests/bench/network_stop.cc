@@ -15,12 +15,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience{10'000};
+constexpr milliseconds kStopPatience{10'000};
 
 Result<void> Obeyed(exchange::RouteExchange& exchange, const AgentId& self,
                     exchange::NowOrder order, const std::string& robot) {
-  const auto words =
-      fleet::TellRobots(exchange, self, order, {{exchange::NowWhom::kRobot, robot}}, "", kPatience);
+  const auto words = fleet::TellRobots(exchange, self, order, {{exchange::NowWhom::kRobot, robot}},
+                                       "", kStopPatience);
   if (!words) return tl::unexpected(words.error());
   if (words->front().answered && !words->front().refused) return {};
   return Fail(ErrorCode::kUnavailable, "{}", fleet::WordsText(*words));

@@ -13,7 +13,7 @@ namespace trailcast::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t kBytes = 4096;
+constexpr std::size_t kLocalBytes = 4096;
 constexpr const char* kTopic = "plain_segments";
 
 dds::Qos KeepAll() {
@@ -54,7 +54,7 @@ Result<void> WriteTransientLocal(int samples) {
   for (int i = 0; i < samples; ++i) {
     const exchange::SegmentBatch batch{
         .sender = AgentId("plain"),
-        .pieces = {test::PieceOf(test::KeyNumber(1), static_cast<std::uint32_t>(i), kBytes)}};
+        .pieces = {test::PieceOf(test::KeyNumber(1), static_cast<std::uint32_t>(i), kLocalBytes)}};
     auto written = dds::WithWire(batch, [&](const void* sample) { return writer->Write(sample); });
     if (!written) return written;
   }

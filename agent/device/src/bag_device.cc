@@ -19,7 +19,7 @@ using std::chrono::nanoseconds;
 // Pictures further from any odometry are left out.
 constexpr std::chrono::milliseconds kOdometryNear{500};
 // Stamps whose distance from the recorder's clock differs by more are of different clocks.
-constexpr std::chrono::seconds kSameClock{2};
+constexpr std::chrono::seconds kRecordersSameClock{2};
 
 // A message's times: what the sensor stamped (0: nothing), and when it was recorded.
 struct Times {
@@ -33,7 +33,7 @@ struct Sample {
 };
 
 bool OfOneClock(const Times& a, const Times& b) {
-  return std::chrono::abs((a.stamp - a.logged_at) - (b.stamp - b.logged_at)) <= kSameClock;
+  return std::chrono::abs((a.stamp - a.logged_at) - (b.stamp - b.logged_at)) <= kRecordersSameClock;
 }
 
 struct LeftOut {

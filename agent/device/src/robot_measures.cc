@@ -20,16 +20,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kListen{10};
+constexpr milliseconds kMeasureListen{10};
 constexpr milliseconds kAppear{5000};  // how long a robot may take to be discovered
 constexpr milliseconds kTurn{1500};    // each way
 constexpr milliseconds kSettle{500};
 constexpr double kTurns_rad = 0.02;  // more than odometry's noise
 constexpr int kFewFeatures = 8;
 
-double Seconds(steady_clock::time_point time) {
-  return trailcast::Seconds(time.time_since_epoch());
-}
+double SecondsOf(steady_clock::time_point time) { return Seconds(time.time_since_epoch()); }
 
 // How many a second, by their times.
 double Rate(int count, double first_s, double last_s) {
@@ -112,14 +110,14 @@ void Measuring::Note(const dds::Ros2Odometry& odometry, steady_clock::time_point
   odometry_stamp_ = odometry.stamp;
   const double before = headings_.empty() ? odometry.pose.heading_rad : headings_.back().value;
   const double heading_rad = before + WrapAngle(odometry.pose.heading_rad - before);
-  headings_.push_back({trailcast::Seconds(*taken), heading_rad});
-  headings_came_.push_back({Seconds(now), heading_rad});
+  headings_.push_back({Seconds(*taken), heading_rad});
+  headings_came_.push_back({SecondsOf(now), heading_rad});
 }
 
 void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
   const auto taken = frame_clock_.Follow(StampOf(picture), now);
   if (!taken) return;
-  came_s_.push_back(Seconds(now));
+  came_s_.push_back(SecondsOf(now));
   const auto gray = Gray(picture, options_.topics.ImageTopic());
   if (!gray) {
     measures_.unreadable = gray.error().message;
@@ -129,7 +127,7 @@ void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
   measures_.height_px = gray->height;
   measures_.picture = MeasurePicture(*gray);
   shift_.Add(*gray);
-  shifts_.push_back({trailcast::Seconds(*taken), shift_.right()});
+  shifts_.push_back({Seconds(*taken), shift_.right()});
 }
 
 void Measuring::Note(const dds::Ros2Scan& scan, steady_clock::time_point now) {
@@ -154,7 +152,7 @@ void Measuring::Listen(milliseconds duration,
       said_at = steady_clock::now();
       (void)driver_.Publish({odometry_stamp_, *command});
     }
-    for (dds::Ros2Sensed& sensed : driver_.Take(kListen)) {
+    for (dds::Ros2Sensed& sensed : driver_.Take(kMeasureListen)) {
       const auto now = steady_clock::now();
       if (const auto* odometry = std::get_if<dds::Ros2Odometry>(&sensed)) {
         Note(*odometry, now);
@@ -175,11 +173,11 @@ void Measuring::Listen(milliseconds duration,
 TurnMeasures Measuring::Turn() {
   const motion::VelocityCommand left = options_.turn_command;
   TurnMeasures turn;
-  turn.told_rad = left.angular_radps * trailcast::Seconds(kTurn);
+  turn.told_rad = left.angular_radps * Seconds(kTurn);
   const double heading_rad = headings_.back().value;
   const double shift = shifts_.back().value;
   const double down = shift_.down();
-  const double told_s = Seconds(steady_clock::now());
+  const double told_s = SecondsOf(steady_clock::now());
   Listen(kTurn, left);
   Listen(kSettle, motion::VelocityCommand{});
   turn.odometry_rad = headings_.back().value - heading_rad;
@@ -200,7 +198,7 @@ RobotMeasures Measuring::Run() {
   const auto until = steady_clock::now() + kAppear;
   while (steady_clock::now() < until && !options_.stop() &&
          (came_s_.empty() || headings_.empty())) {
-    Listen(kListen, std::nullopt);
+    Listen(kMeasureListen, std::nullopt);
   }
   (void)frame_clock_.TakeBehind();
   (void)odometry_clock_.TakeBehind();
@@ -208,7 +206,7 @@ RobotMeasures Measuring::Run() {
   const auto frames_behind = frame_clock_.TakeBehind();
   const auto odometry_behind = odometry_clock_.TakeBehind();
   if (frames_behind && odometry_behind) {
-    measures_.clocks_apart_s = trailcast::Seconds(*odometry_behind - *frames_behind);
+    measures_.clocks_apart_s = Seconds(*odometry_behind - *frames_behind);
   }
   measures_.peers = driver_.peers();
   if (options_.turn && !shifts_.empty() && !headings_.empty()) measures_.turn = Turn();

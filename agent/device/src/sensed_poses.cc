@@ -14,8 +14,8 @@ using std::chrono::nanoseconds;
 
 // A picture may be under way for so long: what arrives that much later than its stamp says is of
 // the same clock all the same. Once they are taken for two, less makes them one again.
-constexpr milliseconds kSameClock{500};
-constexpr milliseconds kSameClockAgain{400};
+constexpr milliseconds kSensorsSameClock{500};
+constexpr milliseconds kSensorsSameClockAgain{400};
 // Clocks are compared by the quickest samples of a period, and by the middle of some of these.
 constexpr milliseconds kPeriod{500};
 constexpr milliseconds kLongestPeriod{1000};
@@ -71,7 +71,8 @@ void SensedPoses::CompareClocks(Time now) {
   std::sort(sorted.begin(), sorted.end());
   const nanoseconds apart = sorted[sorted.size() / 2];
   const bool were_apart = clocks_apart_ != nanoseconds(0);
-  const bool are_apart = std::chrono::abs(apart) > (were_apart ? kSameClockAgain : kSameClock);
+  const bool are_apart =
+      std::chrono::abs(apart) > (were_apart ? kSensorsSameClockAgain : kSensorsSameClock);
   clocks_apart_ = are_apart ? apart : nanoseconds(0);
   if (are_apart && !were_apart) {
     news_.push_back(

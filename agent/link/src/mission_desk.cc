@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using mission::State;
 
-constexpr const char* kFirstLine = "trailcast-missions 1";
+constexpr const char* kMissionsFirstLine = "trailcast-missions 1";
 constexpr std::chrono::milliseconds kAgain{1000};
 constexpr std::size_t kFields = 10;
 
@@ -47,7 +47,7 @@ Result<void> MissionDesk::Load() {
   };
   std::ifstream stream(file_);
   std::string line;
-  if (!std::getline(stream, line) || line != kFirstLine) return wrong();
+  if (!std::getline(stream, line) || line != kMissionsFirstLine) return wrong();
   while (std::getline(stream, line)) {
     const std::vector<std::string> fields = FieldsIn(line);
     if (fields.size() != kFields) return wrong();
@@ -94,7 +94,7 @@ void MissionDesk::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
 
 Result<void> MissionDesk::Keep() const {
   if (file_.empty()) return {};
-  std::string text = std::string(kFirstLine) + "\n";
+  std::string text = std::string(kMissionsFirstLine) + "\n";
   for (const Kept& kept : kept_) {
     const mission::Report& last = kept.last;
     text += fmt::format("{}\t{}\t{:d}\t{}\t{:d}\t{}\t{}\t{:d}\t{}\t{}\n", kept.mission.id,

@@ -16,14 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 using exchange::NowOrder;
 
-constexpr const char* kFirstLine = "trailcast-stop 1";
+constexpr const char* kStopFirstLine = "trailcast-stop 1";
 
 std::optional<std::string> TextIn(const fs::path& file) {
   std::ifstream stream(file);
   std::string first;
   std::string text;
   if (!std::getline(stream, first) || !std::getline(stream, text)) return std::nullopt;
-  return first == kFirstLine && !text.empty() ? std::optional(text) : std::nullopt;
+  return first == kStopFirstLine && !text.empty() ? std::optional(text) : std::nullopt;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void OperatorHold::Load() {
 
 Result<void> OperatorHold::Keep() const {
   if (file_.empty()) return {};
-  return ReplaceFile(file_, fmt::format("{}\n{}\n", kFirstLine, hold_.text));
+  return ReplaceFile(file_, fmt::format("{}\n{}\n", kStopFirstLine, hold_.text));
 }
 
 // The robot stands first; whether that outlasts a restart is said.

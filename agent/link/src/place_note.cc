@@ -14,7 +14,7 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr const char* kFirstLine = "trailcast-place 1";
+constexpr const char* kPlaceFirstLine = "trailcast-place 1";
 constexpr std::size_t kMaxBytes = 512;
 constexpr double kLongest_m = 1e7;
 constexpr double kMostMagnification = 100.0;
@@ -37,8 +37,8 @@ std::optional<NotedPlace> Parse(const std::string& text) {
     std::string word;
     return static_cast<bool>(lines >> word >> value) && word == name;
   };
-  const bool whole = first == kFirstLine && named("route", route) && named("teaching", teaching) &&
-                     named("along_m", place.along_m) &&
+  const bool whole = first == kPlaceFirstLine && named("route", route) &&
+                     named("teaching", teaching) && named("along_m", place.along_m) &&
                      named("magnification", place.magnification) && named("unix_ms", place.unix_ms);
   if (!whole) return std::nullopt;
   place.key = {RouteId(route), TeachingId(teaching)};
@@ -62,8 +62,8 @@ Result<std::optional<NotedPlace>> PlaceNote::Read() const {
 Result<void> PlaceNote::Write(const NotedPlace& place) const {
   const std::string text =
       fmt::format("{}\nroute {}\nteaching {}\nalong_m {:.3f}\nmagnification {:.5f}\nunix_ms {}\n",
-                  kFirstLine, place.key.route.value(), place.key.teaching.value(), place.along_m,
-                  place.magnification, place.unix_ms);
+                  kPlaceFirstLine, place.key.route.value(), place.key.teaching.value(),
+                  place.along_m, place.magnification, place.unix_ms);
   std::filesystem::path fresh = file_;
   fresh += ".new";
   if (auto written = WriteTextFile(fresh, text); !written) return written;

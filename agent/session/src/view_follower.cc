@@ -31,7 +31,7 @@ constexpr const char* kOnlyTheEnd =
     "put it further back";
 
 // What was recognised, in the scout's pixels at the scout's magnification.
-std::vector<replay::SeenKeyView> Seen(const PlaceKeeper& place, const Look& look) {
+std::vector<replay::SeenKeyView> SeenFrom(const PlaceKeeper& place, const Look& look) {
   const double half_px = 0.5 * place.recogniser().scout_width_px();
   std::vector<replay::SeenKeyView> seen;
   for (const Look::Recognised& each : look.views) {
@@ -50,8 +50,9 @@ std::vector<replay::SeenKeyView> Seen(const PlaceKeeper& place, const Look& look
 ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
                           const motion::VelocityLimits& limits) {
   const double ahead = place.metric() ? kLookAhead_m : kLookAhead_s;
-  const replay::ViewTurn turn = replay::TurnTowards(
-      place.where().along + ahead, Seen(place, place.look()), place.recogniser().scout_width_px());
+  const replay::ViewTurn turn =
+      replay::TurnTowards(place.where().along + ahead, SeenFrom(place, place.look()),
+                          place.recogniser().scout_width_px());
   return {turn, motion::Limit({speed_mps, -turn.turn_rad / kTurnTime_s}, limits)};
 }
 

@@ -40,7 +40,7 @@ std::optional<double> ParseSeconds(std::string_view text) {
   return seconds && *seconds >= 0.0 ? seconds : std::nullopt;
 }
 
-std::optional<RobotFault> Parse(std::string_view text) {
+std::optional<RobotFault> FaultOf(std::string_view text) {
   const std::size_t at = text.find('@');
   if (at == std::string_view::npos) return std::nullopt;
   const auto name = std::find_if(kNames.begin(), kNames.end(), [&](const FaultName& each) {
@@ -74,7 +74,7 @@ std::string RobotFaultNames() {
 }
 
 Result<RobotFault> ParseRobotFault(const std::string& text) {
-  if (const auto fault = Parse(text)) return *fault;
+  if (const auto fault = FaultOf(text)) return *fault;
   return Fail(ErrorCode::kInvalidArgument,
               "'{}' is no fault: expected one of {}, each followed by @S, seconds after the robot "
               "was first told to drive, and by +S where it is over after so many seconds",

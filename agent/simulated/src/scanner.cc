@@ -27,7 +27,7 @@ std::optional<double> Metres(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::optional<Pillar> Parse(std::string_view text) {
+std::optional<Pillar> PillarOf(std::string_view text) {
   const std::size_t first = text.find(',');
   const std::size_t second = text.find(',', first + 1);
   const std::size_t when = text.find('@');
@@ -76,7 +76,7 @@ double Range(const sim::World& world, const sim::Stage& stage,
 }  // namespace
 
 Result<Pillar> ParsePillar(const std::string& text) {
-  if (const auto pillar = Parse(text)) return *pillar;
+  if (const auto pillar = PillarOf(text)) return *pillar;
   return Fail(
       ErrorCode::kInvalidArgument,
       "'{}' is no obstacle: expected X,Y,RADIUS@S in metres and seconds after the robot was "

@@ -8,10 +8,10 @@ namespace {
 
 constexpr std::size_t kMaxSimilarNames = 10;
 // Names compared to a mistyped one: so many on either side in the alphabet.
-constexpr std::size_t kCompared = 500;
+constexpr std::size_t kNamesCompared = 500;
 
 Result<std::vector<std::string>> SimilarNames(const std::string& wanted, store::RouteStore& store) {
-  Result<std::vector<std::string>> near = store.NamesNear(wanted, kCompared);
+  Result<std::vector<std::string>> near = store.NamesNear(wanted, kNamesCompared);
   if (!near) return near;
   return MostSimilar(wanted, std::move(*near), kMaxSimilarNames);
 }

@@ -5,14 +5,14 @@
 namespace trailcast::catalog {
 namespace {
 
-constexpr std::uint32_t kPage = 50;
+constexpr std::uint32_t kPartialPage = 50;
 constexpr std::chrono::hours kTellAgain{1};
 
 }  // namespace
 
 Result<std::vector<route::RouteKey>> PartialRoutes::Look() {
   const auto page = store_.QueryRoutes(
-      {.order = route::RouteOrder::kName, .page_size = kPage, .cursor = cursor_});
+      {.order = route::RouteOrder::kName, .page_size = kPartialPage, .cursor = cursor_});
   if (!page) return tl::unexpected(page.error());
   std::vector<route::RouteKey> partial;
   for (const route::RouteInfo& info : page->routes) {

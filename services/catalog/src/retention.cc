@@ -10,14 +10,14 @@ namespace {
 
 using route::RouteInfo;
 
-constexpr std::uint32_t kPage = 100;
+constexpr std::uint32_t kRetentionPage = 100;
 
 }  // namespace
 
 Result<std::vector<RouteInfo>> Retention::Next(std::chrono::system_clock::time_point now) {
   const std::int64_t now_unix_ms = UnixMs(now);
   const auto page = store_.QueryRoutes(
-      {.order = route::RouteOrder::kName, .page_size = kPage, .cursor = cursor_});
+      {.order = route::RouteOrder::kName, .page_size = kRetentionPage, .cursor = cursor_});
   if (!page) {
     cursor_.clear();  // from the beginning
     return tl::unexpected(page.error());

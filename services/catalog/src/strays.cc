@@ -5,14 +5,14 @@
 namespace trailcast::catalog {
 namespace {
 
-constexpr std::size_t kPage = 100;
+constexpr std::size_t kStraysPage = 100;
 
 }  // namespace
 
 Result<std::vector<store::HeldTeaching>> Strays::Next(Time now) {
-  const auto held = store_.ListHeld(last_, kPage);
+  const auto held = store_.ListHeld(last_, kStraysPage);
   if (!held) return tl::unexpected(held.error());
-  const bool at_end = held->size() < kPage;
+  const bool at_end = held->size() < kStraysPage;
   const route::RouteKey first = std::exchange(last_, at_end ? BeforeAll() : held->back().key);
   std::vector<store::HeldTeaching> old;
   std::map<route::RouteKey, Seen> seen;

@@ -9,10 +9,10 @@
 namespace trailcast::catalog {
 namespace {
 
-constexpr std::uint32_t kPage = store::RouteStore::kMaxPage;
+constexpr std::uint32_t kViewsPage = store::RouteStore::kMaxPage;
 // Candidates that are read and compared feature by feature for one view: those on either side of
 // the right one come soon after it; a doubtful one may come late.
-constexpr std::size_t kCompared = 100;
+constexpr std::size_t kViewsCompared = 100;
 constexpr std::size_t kComparedOnceSure = 30;
 constexpr double kSure = 0.5;
 constexpr std::size_t kComparedAround = 8;  // of the best one's route, to either side
@@ -61,7 +61,7 @@ Result<void> ViewCatalog::FillOne() {
 }
 
 Result<void> ViewCatalog::ReadPage() {
-  const auto page = store_.QueryRoutes({.page_size = kPage, .cursor = cursor_});
+  const auto page = store_.QueryRoutes({.page_size = kViewsPage, .cursor = cursor_});
   if (!page) {
     // Nobody could say where to go on.
     walked_ = page.error().code != ErrorCode::kUnavailable;
@@ -196,13 +196,13 @@ Result<std::vector<route::FoundPlace>> ViewCatalog::Find(const route::View& seen
                                   [](const auto& feature) { return feature.size_px > 0.0F; });
   const std::span<const route::ViewFeature> as_scout(seen.begin(), sized);
   const std::span<const route::ViewFeature> by_size(sized, seen.end());
-  auto found = FindBy(index_.Candidates(as_scout, kCompared), [&](const route::Segment& segment) {
-    return view::Match(as_scout, segment);
-  });
+  auto found =
+      FindBy(index_.Candidates(as_scout, kViewsCompared),
+             [&](const route::Segment& segment) { return view::Match(as_scout, segment); });
   if (!found || by_size.empty() || (!found->empty() && IsSure(found->front()))) return found;
   const view::AnyCameraView any_camera(by_size);
   const auto matcher = [&](const route::Segment& segment) { return any_camera.MatchWith(segment); };
-  auto found_by_any = FindBy(index_.Candidates(by_size, kCompared), matcher);
+  auto found_by_any = FindBy(index_.Candidates(by_size, kViewsCompared), matcher);
   if (!found_by_any) return found_by_any;
   if (auto done = LookAround(*found_by_any, matcher); !done) return tl::unexpected(done.error());
   const bool likelier = !found_by_any->empty() &&

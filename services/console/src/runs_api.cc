@@ -18,7 +18,7 @@ using httplib::Response;
 
 // Then whoever asks is told that it is read, and asks again.
 constexpr std::chrono::milliseconds kLook{2000};
-constexpr std::chrono::minutes kPatience{10};
+constexpr std::chrono::minutes kRunsPatience{10};
 constexpr const char* kRun = "/api/runs/([0-9a-f]{16})";
 constexpr const char* kFrame = "/api/runs/([0-9a-f]{16})/frames/([0-9]{1,9})";
 
@@ -108,7 +108,7 @@ void ServeRuns(http::Server& server, Desk& desk, Runs& runs) {
   server.Allow({.method = "POST",
                 .path = "/api/runs",
                 .body_bytes = Runs::kMostUploadBytes,
-                .patience = kPatience});
+                .patience = kRunsPatience});
   server.Get("/api/runs",
              [&](const Request& request, Response& response) { List(runs, request, response); });
   server.Post("/api/runs",

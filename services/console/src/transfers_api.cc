@@ -19,7 +19,7 @@ using httplib::Request;
 using httplib::Response;
 
 constexpr const char* kUploads = "/api/transfers/uploads";
-constexpr std::chrono::minutes kPatience{15};
+constexpr std::chrono::minutes kTransfersPatience{15};
 constexpr std::uint32_t kMostRevisions = 200;
 
 std::string ProgressJson(const Transfers::Progress& progress) {
@@ -102,8 +102,8 @@ void ServeTransfers(http::Server& server, Desk& desk, Transfers& transfers) {
   server.Allow({.method = "POST",
                 .path = kUploads,
                 .body_bytes = Transfers::kMostUploadBytes,
-                .patience = kPatience});
-  server.Allow({.method = "GET", .path = "/api/transfers/", .patience = kPatience});
+                .patience = kTransfersPatience});
+  server.Allow({.method = "GET", .path = "/api/transfers/", .patience = kTransfersPatience});
   server.Post("/api/transfers", [&](const Request& request, Response& response) {
     Fetch(desk, transfers, request, response);
   });

@@ -21,7 +21,7 @@ using httplib::Response;
 constexpr const char* kPath = "/api/where";
 constexpr std::size_t kMostBytes = 4U << 20U;
 constexpr std::uint64_t kMostPixels = 6'000'000;
-constexpr std::chrono::milliseconds kPatience{30'000};
+constexpr std::chrono::milliseconds kWherePatience{30'000};
 
 // Bodies are read a few at a time, and decoded one at a time: that takes ten times the memory.
 constexpr int kMostAtOnce = 3;
@@ -60,7 +60,8 @@ void Find(Desk& desk, Turns& turns, const httplib::ContentReader& read, Response
 }  // namespace
 
 void ServeWhere(http::Server& server, Desk& desk) {
-  server.Allow({.method = "POST", .path = kPath, .body_bytes = kMostBytes, .patience = kPatience});
+  server.Allow(
+      {.method = "POST", .path = kPath, .body_bytes = kMostBytes, .patience = kWherePatience});
   server.Post(kPath, [&desk, turns = std::make_shared<Turns>()](
                          const Request&, Response& response, const httplib::ContentReader& read) {
     Find(desk, *turns, read, response);

@@ -10,7 +10,7 @@ namespace trailcast::dds {
 namespace {
 
 // Strangers can make up names without end.
-constexpr std::size_t kMostRemembered = 1000;
+constexpr std::size_t kMostStrangers = 1000;
 
 // A refusal may be heard so long before its participant is seen.
 constexpr std::chrono::seconds kAhead{2};
@@ -77,7 +77,7 @@ constexpr Kept kKept[] = {
 }  // namespace
 
 void StrangerWatch::See(const std::string& participant, const Peers::SaidOfItself& said, Time now) {
-  if (participants_.size() >= kMostRemembered) {
+  if (participants_.size() >= kMostStrangers) {
     std::erase_if(participants_, [](const auto& each) { return !each.second.proven; });
   }
   auto [at, is_new] = participants_.try_emplace(
@@ -97,7 +97,7 @@ void StrangerWatch::Lose(const std::string& participant) { participants_.erase(p
 bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
   if (auto subject = Between(line, "; subject: /", "(code")) {
     if (subject->starts_with("CN=")) subject->erase(0, 3);  // as those of ours are
-    if (refused_.size() >= kMostRemembered) refused_.clear();
+    if (refused_.size() >= kMostStrangers) refused_.clear();
     refused_.try_emplace(*subject, Refused{.first_at = now}).first->second.last_at = now;
     Tell(*subject, Meaning(line), now);
     return true;

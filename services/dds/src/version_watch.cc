@@ -13,7 +13,7 @@ namespace trailcast::dds {
 namespace {
 
 // Whoever is on the network can make up names without end.
-constexpr std::size_t kMostRemembered = 1000;
+constexpr std::size_t kMostVersions = 1000;
 
 constexpr std::size_t kMostNamed = 5;
 
@@ -39,7 +39,7 @@ std::string Line(const std::vector<std::string>& who, std::uint32_t theirs, std:
 }  // namespace
 
 VersionWatch::Participant* VersionWatch::Find(const std::string& participant) {
-  if (participants_.size() >= kMostRemembered && !participants_.contains(participant)) {
+  if (participants_.size() >= kMostVersions && !participants_.contains(participant)) {
     return nullptr;
   }
   return &participants_[participant];

@@ -42,14 +42,14 @@ Spread Of(std::vector<double> values) {
   return spread;
 }
 
-bool Driving(const FrameRow& row) {
+bool UnderWay(const FrameRow& row) {
   return row.phase != Phase::kWaiting && row.phase != Phase::kArrived && row.phase != Phase::kLost;
 }
 
 Spread Over(const RunLog& log, const Value& value) {
   std::vector<double> values;
   for (const FrameRow& row : log.frames) {
-    const auto each = Driving(row) ? value(row) : std::nullopt;
+    const auto each = UnderWay(row) ? value(row) : std::nullopt;
     if (each) values.push_back(*each);
   }
   return Of(std::move(values));

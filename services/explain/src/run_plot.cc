@@ -32,8 +32,8 @@ constexpr double kHead_px = 78.0;
 constexpr double kGap_px = 38.0;  // between panels: a title and a legend fit
 constexpr double kStripHeight_px = 150.0;
 constexpr double kAxis_px = 48.0;
-constexpr double kTextHeight_px = 11.0;
-constexpr double kLeastDriven_m = 0.1;
+constexpr double kPlotTextHeight_px = 11.0;
+constexpr double kLeastPlotted_m = 0.1;
 
 plot::Curve CurveOf(const RunLog& log, const std::string& label, Color color,
                     std::optional<double> (*value)(const FrameRow&)) {
@@ -155,7 +155,7 @@ std::vector<plot::StripChart> Charts(const RunLog& log) {
 
 // Metres; seconds for a robot that never got going, frames for one without odometry.
 plot::ChartAxis Axis(const RunLog& log) {
-  const bool moved = HasOdometry(log) && PlaceOf(log.frames.back()) >= kLeastDriven_m;
+  const bool moved = HasOdometry(log) && PlaceOf(log.frames.back()) >= kLeastPlotted_m;
   const bool stood = HasOdometry(log) && !moved;
   const auto place = [stood](const FrameRow& row) { return stood ? row.t_s : PlaceOf(row); };
   plot::ChartAxis axis;
@@ -172,8 +172,8 @@ plot::ChartAxis Axis(const RunLog& log) {
 
 // Who, what came of it, and what the bands mean.
 void DrawHead(Drawing& drawing, const RunLog& log) {
-  drawing.Text(WhoFollowedWhat(log), {kLeft_px, 22.0}, kTextHeight_px, plot::kInk);
-  drawing.Text(Outcome(log), {kLeft_px, 42.0}, kTextHeight_px, plot::kInk);
+  drawing.Text(WhoFollowedWhat(log), {kLeft_px, 22.0}, kPlotTextHeight_px, plot::kInk);
+  drawing.Text(Outcome(log), {kLeft_px, 42.0}, kPlotTextHeight_px, plot::kInk);
   double x = kLeft_px;
   for (const Phase phase :
        {Phase::kUnsure, Phase::kDistant, Phase::kBlind, Phase::kCovered, Phase::kSeeking,

@@ -14,8 +14,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kAgain{100};
-constexpr milliseconds kWait{20};
+constexpr milliseconds kNowAgain{100};
+constexpr milliseconds kNowWait{20};
 }  // namespace
 
 Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, const AgentId& self,
@@ -30,7 +30,7 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
     const auto since = std::chrono::duration_cast<milliseconds>(now - began);
     if (since > timeout || telling.AllAnswered(since)) break;
     if (now >= say_at) {
-      say_at = now + kAgain;
+      say_at = now + kNowAgain;
       for (const exchange::NowCommand& command : telling.commands()) {
         const auto said = exchange.Publish(command);
         if (!said && said.error().code != ErrorCode::kUnavailable) {
@@ -38,7 +38,7 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
         }
       }
     }
-    for (const exchange::Message& message : exchange.Take(kWait)) telling.Hear(message);
+    for (const exchange::Message& message : exchange.Take(kNowWait)) telling.Hear(message);
   }
   auto words = telling.Words();
   if (!words.empty()) return words;

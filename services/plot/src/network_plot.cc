@@ -15,11 +15,11 @@ using image::Color;
 using image::PixelPoint;
 using Picture = NetworkPicture;
 
-constexpr double kTextHeight_px = 11.0;
+constexpr double kNetworkTextHeight_px = 11.0;
 constexpr double kRow_px = 74.0;
-constexpr double kTop_px = 56.0;
-constexpr double kLeft_px = 30.0;
-constexpr double kRight_px = 30.0;
+constexpr double kNetworkTop_px = 56.0;
+constexpr double kNetworkLeft_px = 30.0;
+constexpr double kNetworkRight_px = 30.0;
 constexpr double kWide_px = 960.0;
 constexpr double kBow_px = 20.0;
 constexpr double kWall_px = 7.0;
@@ -32,16 +32,18 @@ class Map {
   explicit Map(const Picture& network) : network_(network), starts_m_(RowStarts(network)) {
     for (std::size_t i = 0; i < network.routes.size(); ++i) {
       end_m_ = std::max(end_m_, starts_m_[i] + network.routes[i].length_m);
-      const double text_px = Drawing::TextWidth(LabelOf(i), kTextHeight_px);
+      const double text_px = Drawing::TextWidth(LabelOf(i), kNetworkTextHeight_px);
       longest_text_px_ = std::max(longest_text_px_, text_px);
     }
     px_per_m_ = kWide_px / std::max(end_m_, 1e-3);
   }
 
   [[nodiscard]] Drawing Draw() const {
-    const double wide_px = kLeft_px + std::max(kWide_px, longest_text_px_) + kRight_px;
-    const double high_px =
-        kTop_px + static_cast<double>(network_.routes.size() - 1) * kRow_px + 2.0 * kScale_px;
+    const double wide_px =
+        kNetworkLeft_px + std::max(kWide_px, longest_text_px_) + kNetworkRight_px;
+    const double high_px = kNetworkTop_px +
+                           static_cast<double>(network_.routes.size() - 1) * kRow_px +
+                           2.0 * kScale_px;
     Drawing drawing(static_cast<int>(wide_px), static_cast<int>(high_px), kWhite);
     for (const Picture::Joint& joint : network_.joints) DrawJoint(drawing, joint);
     for (std::size_t i = 0; i < network_.routes.size(); ++i) DrawRoute(drawing, i);
@@ -57,8 +59,8 @@ class Map {
   }
 
   [[nodiscard]] PixelPoint At(std::size_t route, double along_m) const {
-    return {kLeft_px + (starts_m_[route] + along_m) * px_per_m_,
-            kTop_px + static_cast<double>(route) * kRow_px};
+    return {kNetworkLeft_px + (starts_m_[route] + along_m) * px_per_m_,
+            kNetworkTop_px + static_cast<double>(route) * kRow_px};
   }
   [[nodiscard]] PixelPoint At(const Picture::Place& place) const {
     return At(place.route, place.along_m);
@@ -117,16 +119,17 @@ class Map {
 
   // Over whatever line passes there.
   static void Write(Drawing& drawing, const std::string& text, PixelPoint at) {
-    const double wide_px = Drawing::TextWidth(text, kTextHeight_px);
-    drawing.FillBox({at.x - 2.0, at.y - kTextHeight_px - 2.0}, {at.x + wide_px + 2.0, at.y + 3.0},
-                    kWhite);
-    drawing.Text(text, at, kTextHeight_px, kInk);
+    const double wide_px = Drawing::TextWidth(text, kNetworkTextHeight_px);
+    drawing.FillBox({at.x - 2.0, at.y - kNetworkTextHeight_px - 2.0},
+                    {at.x + wide_px + 2.0, at.y + 3.0}, kWhite);
+    drawing.Text(text, at, kNetworkTextHeight_px, kInk);
   }
 
   void DrawName(Drawing& drawing, const Picture::Name& name) const {
     const PixelPoint at = At(name.place);
-    const double text_px = Drawing::TextWidth(name.name, kTextHeight_px);
-    const double x = std::min(at.x + 6.0, kLeft_px + kWide_px + kRight_px - text_px - 2.0);
+    const double text_px = Drawing::TextWidth(name.name, kNetworkTextHeight_px);
+    const double x =
+        std::min(at.x + 6.0, kNetworkLeft_px + kWide_px + kNetworkRight_px - text_px - 2.0);
     drawing.Disc(at, 6.0, kInk);
     drawing.Disc(at, 3.5, kWhite);
     Write(drawing, name.name, {x, at.y + 20.0});
@@ -134,10 +137,11 @@ class Map {
 
   void DrawScale(Drawing& drawing, double y) const {
     const double step_m = TickStep(end_m_, 8.0);
-    const double to = kLeft_px + step_m * px_per_m_;
-    drawing.Line({{kLeft_px, y}, {to, y}}, kInk, 2.0);
-    for (const double x : {kLeft_px, to}) drawing.Line({{x, y - 4.0}, {x, y + 4.0}}, kInk, 2.0);
-    drawing.Text(fmt::format("{:g} m", step_m), {to + 8.0, y + 4.0}, kTextHeight_px, kInk);
+    const double to = kNetworkLeft_px + step_m * px_per_m_;
+    drawing.Line({{kNetworkLeft_px, y}, {to, y}}, kInk, 2.0);
+    for (const double x : {kNetworkLeft_px, to})
+      drawing.Line({{x, y - 4.0}, {x, y + 4.0}}, kInk, 2.0);
+    drawing.Text(fmt::format("{:g} m", step_m), {to + 8.0, y + 4.0}, kNetworkTextHeight_px, kInk);
   }
 
   const Picture& network_;

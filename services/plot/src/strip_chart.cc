@@ -13,8 +13,8 @@ using image::Color;
 using image::PixelPoint;
 
 constexpr Color kBorder{170, 170, 170};
-constexpr double kTextHeight_px = 10.0;
-constexpr double kTitleHeight_px = 11.0;
+constexpr double kStripTextHeight_px = 10.0;
+constexpr double kStripTitleHeight_px = 11.0;
 // A robot that stands takes no room on an axis of metres: its band is to be seen all the same.
 constexpr double kNarrowestBand_px = 4.0;
 
@@ -74,8 +74,8 @@ void DrawYAxis(Drawing& drawing, const Scale& scale) {
     const double at = scale.AtY(y);
     drawing.Line({{box.left, at}, {box.right(), at}}, y == 0.0 ? kBorder : kGrid, 1.0);
     const std::string text = fmt::format("{:g}", y);
-    drawing.Text(text, {box.left - 6.0 - Drawing::TextWidth(text, kTextHeight_px), at + 4.0},
-                 kTextHeight_px, kInk);
+    drawing.Text(text, {box.left - 6.0 - Drawing::TextWidth(text, kStripTextHeight_px), at + 4.0},
+                 kStripTextHeight_px, kInk);
   }
 }
 
@@ -97,12 +97,12 @@ void DrawCurve(Drawing& drawing, const Scale& scale, const ChartAxis& axis, cons
 
 void DrawLegend(Drawing& drawing, const PixelBox& box, const StripChart& chart) {
   const double baseline = box.top - 7.0;
-  drawing.Text(chart.title, {box.left, baseline}, kTitleHeight_px, kInk);
+  drawing.Text(chart.title, {box.left, baseline}, kStripTitleHeight_px, kInk);
   double x = box.right();
   for (auto curve = chart.curves.rbegin(); curve != chart.curves.rend(); ++curve) {
     if (curve->label.empty()) continue;
-    x -= Drawing::TextWidth(curve->label, kTextHeight_px);
-    drawing.Text(curve->label, {x, baseline}, kTextHeight_px, kInk);
+    x -= Drawing::TextWidth(curve->label, kStripTextHeight_px);
+    drawing.Text(curve->label, {x, baseline}, kStripTextHeight_px, kInk);
     x -= 30.0;
     drawing.Line({{x, baseline - 4.0}, {x + 24.0, baseline - 4.0}}, curve->color,
                  std::max(2.0, curve->width_px), curve->dashed);
@@ -131,12 +131,14 @@ void DrawChartAxis(Drawing& drawing, const PixelBox& box, const ChartAxis& axis)
     const double at = scale.AtX(x);
     drawing.Line({{at, box.bottom()}, {at, box.bottom() + 5.0}}, kInk, 1.0);
     const std::string text = fmt::format("{:g}", x);
-    drawing.Text(text, {at - 0.5 * Drawing::TextWidth(text, kTextHeight_px), box.bottom() + 19.0},
-                 kTextHeight_px, kInk);
+    drawing.Text(text,
+                 {at - 0.5 * Drawing::TextWidth(text, kStripTextHeight_px), box.bottom() + 19.0},
+                 kStripTextHeight_px, kInk);
   }
-  drawing.Text(axis.label,
-               {box.right() - Drawing::TextWidth(axis.label, kTextHeight_px), box.bottom() + 36.0},
-               kTextHeight_px, kInk);
+  drawing.Text(
+      axis.label,
+      {box.right() - Drawing::TextWidth(axis.label, kStripTextHeight_px), box.bottom() + 36.0},
+      kStripTextHeight_px, kInk);
 }
 
 }  // namespace trailcast::plot

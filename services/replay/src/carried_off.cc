@@ -17,7 +17,7 @@ namespace {
 constexpr double kFurthest_m = 3.0;
 constexpr double kApart_m = 0.5;
 constexpr double kWidest = 8.0;  // times Cauchy's own width
-constexpr int kIterations = 6;
+constexpr int kPlaceIterations = 6;
 // So many sigmas may a place be off that is told,
 constexpr double kLikely = 2.0;
 // and the magnification be off that of a camera like the scout's.
@@ -43,7 +43,7 @@ double PathEstimator::Surprise(const State& state, const Prior& prior,
 PathEstimator::State PathEstimator::FromFarAway(
     State start, const Prior& prior, const std::vector<route::TrackedFeature>& seen) const {
   double width = kWidest;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kPlaceIterations; ++iteration) {
     const Equations equations = Linearise(start, prior, seen, width * options_.cauchy_px);
     start += equations.information.ldlt().solve(equations.gradient);
     width = std::max(1.0, 0.5 * width);

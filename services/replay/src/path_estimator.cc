@@ -13,9 +13,9 @@
 namespace trailcast::replay {
 namespace {
 
-constexpr int kIterations = 4;
+constexpr int kUpdateIterations = 4;
 constexpr double kFlowStep_m = 0.02;  // over which a track's flow is taken
-constexpr double kCurvatureStep_m = 0.1;
+constexpr double kTaughtCurvatureStep_m = 0.1;
 // Within these two looks are from one place.
 constexpr double kStands_m = 0.001;
 constexpr double kStands_rad = 0.001;
@@ -169,8 +169,8 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   const double alpha = state_[kHeading];
   // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
   const double curvature =
-      TaughtTurn(before_m - 0.5 * kCurvatureStep_m, before_m + 0.5 * kCurvatureStep_m) /
-      kCurvatureStep_m;
+      TaughtTurn(before_m - 0.5 * kTaughtCurvatureStep_m, before_m + 0.5 * kTaughtCurvatureStep_m) /
+      kTaughtCurvatureStep_m;
   const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
   const double aside_m = state_[kAhead] * moved.heading_change_rad;  // of the camera
   const double along_m = (moved.distance_m * std::cos(alpha) - aside_m * std::sin(alpha)) / stretch;
@@ -351,7 +351,7 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
     last_look_->before = prior.covariance;
   }
   Equations equations;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kUpdateIterations; ++iteration) {
     equations = Linearise(state_, prior, seen, options_.cauchy_px);
     state_ += equations.information.ldlt().solve(equations.gradient);
   }

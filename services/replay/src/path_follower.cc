@@ -8,7 +8,7 @@
 namespace trailcast::replay {
 namespace {
 
-constexpr double kCurvatureStep_m = 0.05;
+constexpr double kSoonCurvatureStep_m = 0.05;
 constexpr double kTightest = 0.5;  // of a bend's radius
 constexpr double kWidest = 2.0;
 constexpr double kTurnTime_s = 0.5;  // over which turn_rad is the heading change asked for
@@ -81,11 +81,11 @@ FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>&
 double PathFollower::TurnRate(const PathOffset& along, double speed_mps, double aside_m) const {
   const double there_m = along.along_m + speed_mps * options_.base_delay_s;
   const double soon_m = segment_.reverse
-                            ? std::max(there_m, 0.5 * kCurvatureStep_m)
-                            : std::min(there_m, segment_.length_m - 0.5 * kCurvatureStep_m);
-  const double taught =
-      estimator_.TaughtTurn(soon_m - 0.5 * kCurvatureStep_m, soon_m + 0.5 * kCurvatureStep_m) /
-      kCurvatureStep_m;
+                            ? std::max(there_m, 0.5 * kSoonCurvatureStep_m)
+                            : std::min(there_m, segment_.length_m - 0.5 * kSoonCurvatureStep_m);
+  const double taught = estimator_.TaughtTurn(soon_m - 0.5 * kSoonCurvatureStep_m,
+                                              soon_m + 0.5 * kSoonCurvatureStep_m) /
+                        kSoonCurvatureStep_m;
   // Beside the path a bend is wider or tighter.
   const double curvature = taught / std::clamp(1.0 - taught * aside_m, kTightest, kWidest);
   PathOffset from_lane = along;

@@ -15,7 +15,7 @@ constexpr double kLeastWidening = 1e-4;
 // What a turn takes further round is no more in front of the camera.
 constexpr double kSideways_rad = 1.4;
 
-constexpr int kIterations = 6;
+constexpr int kFlowIterations = 6;
 constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer is ever in view
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
@@ -190,7 +190,7 @@ TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment) const {
     fit.landmarks.push_back(MakeLandmark(segment, feature));
   }
   fit.unknowns.head<kCamera>() = mean_;
-  for (int i = 0; i < kIterations; ++i) Improve(fit, segment.length_m);
+  for (int i = 0; i < kFlowIterations; ++i) Improve(fit, segment.length_m);
   return fit;
 }
 

@@ -14,7 +14,7 @@ constexpr std::size_t kFewest = 12;
 constexpr double kUsualSigma = 0.5;     // relative; of any robot's camera from the usual one
 constexpr double kNoise_share = 0.005;  // of the width: a tracker's drift
 constexpr double kCauchy_share = 0.01;
-constexpr int kIterations = 10;
+constexpr int kTurnIterations = 10;
 constexpr double kStep = 1e-4;
 // Wheels slip, and a camera that does not sit above the axle is carried aside by a turn, which
 // moves what is near.
@@ -51,7 +51,7 @@ std::optional<FocalLength> TurnFlow::focal() const {
   };
   Eigen::Vector2d lens = usual;
   Eigen::Matrix2d information = prior;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kTurnIterations; ++i) {
     information = prior;
     Eigen::Vector2d gradient = prior * (usual - lens);
     for (const Moved& moved : used) {

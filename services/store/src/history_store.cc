@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // `number` counts up as changes are noted; of what a server heard late, `at_unix_ms` is earlier.
-constexpr OwnFile kFile{.id = 0x54524348,  // "TRCH"
-                        .version = 1,
-                        .tables = R"(
+constexpr OwnFile kHistoryFile{.id = 0x54524348,  // "TRCH"
+                               .version = 1,
+                               .tables = R"(
 CREATE TABLE change (
   number INTEGER PRIMARY KEY,
   at_unix_ms INTEGER NOT NULL,
@@ -31,8 +31,8 @@ CREATE TABLE noted (
   PRIMARY KEY (route, teaching)
 ) STRICT, WITHOUT ROWID;
 )",
-                        .holds = "history",
-                        .called = "store of the history"};
+                               .holds = "history",
+                               .called = "store of the history"};
 
 void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
   statement.bind(1, key.route.value());
@@ -42,7 +42,8 @@ void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
 }  // namespace
 
 struct HistoryStore::Database : OwnDatabase {
-  Database(const fs::path& file, std::int64_t most) : OwnDatabase(file, kFile), most_kept(most) {}
+  Database(const fs::path& file, std::int64_t most)
+      : OwnDatabase(file, kHistoryFile), most_kept(most) {}
 
   void Insert(const network::Change& change) {
     auto insert =
@@ -86,7 +87,7 @@ HistoryStore::~HistoryStore() = default;
 Result<std::unique_ptr<HistoryStore>> HistoryStore::Open(const fs::path& file,
                                                          std::int64_t most_kept) {
   using Opened = Result<std::unique_ptr<HistoryStore>>;
-  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+  return OwnDatabase::Guard(file, kHistoryFile, "opening it", [&]() -> Opened {
     return std::unique_ptr<HistoryStore>(
         new HistoryStore(std::make_unique<Database>(file, most_kept)));
   });

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 // `number` counts up in the order of arrival. A mission is found by each route that its orders
 // name.
-constexpr OwnFile kFile{.id = 0x5452434D,  // "TRCM"
-                        .version = 1,
-                        .tables = R"(
+constexpr OwnFile kMissionFile{.id = 0x5452434D,  // "TRCM"
+                               .version = 1,
+                               .tables = R"(
 CREATE TABLE mission (
   number INTEGER PRIMARY KEY,
   agent TEXT NOT NULL,
@@ -62,8 +62,8 @@ CREATE TABLE answer (
   PRIMARY KEY (client, drawn, agent)
 ) STRICT, WITHOUT ROWID;
 )",
-                        .holds = "missions",
-                        .called = "mission store"};
+                               .holds = "missions",
+                               .called = "mission store"};
 
 constexpr const char* kColumns =
     "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, detail, "
@@ -123,7 +123,8 @@ std::string EndedStates() {
 }  // namespace
 
 struct MissionStore::Database : OwnDatabase {
-  Database(const fs::path& file, std::int64_t most) : OwnDatabase(file, kFile), most_kept(most) {}
+  Database(const fs::path& file, std::int64_t most)
+      : OwnDatabase(file, kMissionFile), most_kept(most) {}
 
   std::optional<mission::Record> Get(const AgentId& agent, const std::string& id) {
     auto select = compiled.Take(std::string("SELECT ") + kColumns +
@@ -201,7 +202,7 @@ MissionStore::~MissionStore() = default;
 Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
                                                          std::int64_t most_kept) {
   using Opened = Result<std::unique_ptr<MissionStore>>;
-  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+  return OwnDatabase::Guard(file, kMissionFile, "opening it", [&]() -> Opened {
     return std::unique_ptr<MissionStore>(
         new MissionStore(std::make_unique<Database>(file, most_kept)));
   });

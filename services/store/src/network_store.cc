@@ -11,9 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr OwnFile kFile{.id = 0x5452434E,  // "TRCN"
-                        .version = 1,
-                        .tables = R"(
+constexpr OwnFile kNetworkFile{.id = 0x5452434E,  // "TRCN"
+                               .version = 1,
+                               .tables = R"(
 CREATE TABLE joint (
   number INTEGER PRIMARY KEY,
   from_route TEXT NOT NULL,
@@ -41,8 +41,8 @@ CREATE TABLE condition (
 ) STRICT;
 CREATE INDEX condition_route ON condition (route);
 )",
-                        .holds = "joints",
-                        .called = "store of the network"};
+                               .holds = "joints",
+                               .called = "store of the network"};
 
 // Apart: files that were made without it get it.
 constexpr const char* kNames = R"(
@@ -163,7 +163,7 @@ void BindJoint(SQLite::Statement& statement, const network::Joint& joint) {
 }  // namespace
 
 struct NetworkStore::Database : OwnDatabase {
-  explicit Database(const fs::path& file) : OwnDatabase(file, kFile) {
+  explicit Database(const fs::path& file) : OwnDatabase(file, kNetworkFile) {
     db.exec(kNames);
     db.exec(kProposals);
     db.exec(kShared);
@@ -227,7 +227,7 @@ NetworkStore::~NetworkStore() = default;
 
 Result<std::unique_ptr<NetworkStore>> NetworkStore::Open(const fs::path& file) {
   using Opened = Result<std::unique_ptr<NetworkStore>>;
-  return OwnDatabase::Guard(file, kFile, "opening it", [&]() -> Opened {
+  return OwnDatabase::Guard(file, kNetworkFile, "opening it", [&]() -> Opened {
     return std::unique_ptr<NetworkStore>(new NetworkStore(std::make_unique<Database>(file)));
   });
 }

@@ -7,7 +7,7 @@ namespace {
 
 // As the device of a ROS 2 robot does: odometry of a picture's moment may come a little later.
 constexpr std::chrono::milliseconds kOdometryLate{60};
-constexpr std::chrono::seconds kPatience{20};
+constexpr std::chrono::seconds kSilence{20};
 
 }  // namespace
 
@@ -49,7 +49,7 @@ std::optional<agent::Observation> FlawedRobot::Next(const motion::VelocityComman
   electronics_.Hear(now_, command);
   const Time since = now_;
   do {
-    if (now_ - since > kPatience) return std::nullopt;
+    if (now_ - since > kSilence) return std::nullopt;
     StepBase(on_step);
     HearPictures();
   } while (!ready());

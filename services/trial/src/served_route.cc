@@ -19,7 +19,7 @@ namespace {
 using Time = std::chrono::steady_clock::time_point;
 
 constexpr std::chrono::milliseconds kTurn{10};
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kFetchPatience{60};
 
 // One turn of a program's loop. What the bus refuses is lost and asked for again.
 template <typename Protocol>
@@ -65,7 +65,7 @@ Result<TaughtRoute> FetchFromServer(const TaughtRoute& taught) {
   exchange::RouteFetcher fetcher(AgentId("follower"), taught.info.key, {}, integrity, Time{});
 
   TaughtRoute fetched;
-  for (Time now{}; now < Time{} + kPatience && !fetcher.Complete(); now += kTurn) {
+  for (Time now{}; now < Time{} + kFetchPatience && !fetcher.Complete(); now += kTurn) {
     // Once the server has it all the scout goes: followers get it from the server.
     if (!sender.AllReceipted()) Turn(sender, *scout, now);
     Turn(**keeper, *server, now);

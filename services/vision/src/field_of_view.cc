@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kDarkLevel = 28;             // a surround is black but for noise and compression
 constexpr int kCornersNeeded = 3;          // of the image's four: a dark object covers one or two
-constexpr double kLargestShare = 0.6;      // darker than that all over is a dark scene, not a lens
+constexpr double kLargestDarkShare = 0.6;  // darker than that all over is a dark scene, not a lens
 constexpr double kRimShareOfWidth = 0.06;  // features on the circle's rim belong to the lens
 
 }  // namespace
@@ -33,7 +33,7 @@ std::optional<cv::Mat> DarkSurround(const cv::Mat& frame) {
   }
   cv::Mat surround = dark == 255;
   const double share = cv::countNonZero(surround) / static_cast<double>(frame.total());
-  if (dark_corners < kCornersNeeded || share > kLargestShare) return std::nullopt;
+  if (dark_corners < kCornersNeeded || share > kLargestDarkShare) return std::nullopt;
   return surround;
 }
 

@@ -26,13 +26,13 @@ struct Similarity {
 constexpr double kLeastScale = 0.7;
 constexpr double kMostScale = 1.4;
 constexpr double kLargestRoll_rad = 0.26;  // 15 degrees, between two robots on slopes that differ
-constexpr std::size_t kFewestToFit = 4;
+constexpr std::size_t kFewestToFitTilted = 4;
 // The second look, where the first one's fit puts the features.
 constexpr double kCloser = 1.5;  // times what they may be off
 
 // RANSAC and least squares by OpenCV; repeatable for equal input. Nothing: no agreement.
 std::optional<Similarity> FitSimilarity(const std::vector<ViewPair>& pairs, double tolerance_px) {
-  if (pairs.size() < kFewestToFit) return std::nullopt;
+  if (pairs.size() < kFewestToFitTilted) return std::nullopt;
   std::vector<cv::Point2d> expected;
   std::vector<cv::Point2d> found;
   for (const ViewPair& pair : pairs) {

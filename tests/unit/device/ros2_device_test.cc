@@ -23,8 +23,8 @@ using std::chrono::steady_clock;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr milliseconds kFrame{33};
-const motion::VelocityCommand kAhead{0.4, 0.1};
+constexpr milliseconds kCameraFrame{33};
+const motion::VelocityCommand kRos2Ahead{0.4, 0.1};
 const motion::VelocityCommand kStand{};
 
 class Ros2DeviceTest : public testing::Test {
@@ -106,7 +106,7 @@ class Ros2DeviceTest : public testing::Test {
   }
   // A frame later and further.
   void GoOn(double metres = 0.01) {
-    stamp_ += kFrame;
+    stamp_ += kCameraFrame;
     pose_.x_m += metres;
     ++frame_;
   }
@@ -123,7 +123,7 @@ class Ros2DeviceTest : public testing::Test {
       for (int i = 0; seen && i < 5; ++i) seen = device_->Next();
       return seen;
     });
-    while (next.wait_for(kFrame) != std::future_status::ready) {
+    while (next.wait_for(kCameraFrame) != std::future_status::ready) {
       GoOn();
       Say();
     }
@@ -144,8 +144,8 @@ class Ros2DeviceTest : public testing::Test {
   // The robot is told to. Where a busy machine let the frame grow old before, with another one.
   bool DrivesAhead() {
     for (int time = 0; time < 10; ++time) {
-      if (!device_->Drive(kAhead)) return false;
-      if (Told(kAhead, milliseconds(1000))) return true;
+      if (!device_->Drive(kRos2Ahead)) return false;
+      if (Told(kRos2Ahead, milliseconds(1000))) return true;
       auto next = std::async(std::launch::async, [this] { return device_->Next(); });
       if (!SayAllUntil(next, std::nullopt)) return false;
     }
@@ -309,8 +309,8 @@ TEST_F(Ros2DeviceTest, WhatAnOldPictureLedToIsNotDone) {
   ASSERT_TRUE(SayUntilSeen());
   ASSERT_TRUE(DrivesAhead());
   ASSERT_TRUE(Told(kStand));  // the loop that drives hangs
-  ASSERT_TRUE(device_->Drive(kAhead));
-  EXPECT_FALSE(Told(kAhead, milliseconds(200)));
+  ASSERT_TRUE(device_->Drive(kRos2Ahead));
+  EXPECT_FALSE(Told(kRos2Ahead, milliseconds(200)));
 }
 
 TEST_F(Ros2DeviceTest, DrivesABaseThatListensToTwist) {
@@ -535,7 +535,7 @@ TEST_F(Ros2DeviceTest, InLockstepItAnswersEachFrameWhileItWaits) {
   }
   ASSERT_NE(next.wait_for(milliseconds(0)), std::future_status::ready);
   // Its half a second is that of the robot's stamps.
-  const SensorTime free_from = stamp_ + kFrame;
+  const SensorTime free_from = stamp_ + kCameraFrame;
   int answered = 0;
   const auto deadline = steady_clock::now() + std::chrono::seconds(20);
   while (next.wait_for(milliseconds(0)) != std::future_status::ready &&
@@ -613,7 +613,7 @@ TEST_F(Ros2DeviceTest, InLockstepAnswersEachFrameOnceMoreWhenItIsSaidAgain) {
   ASSERT_TRUE(SayUntilSeen());
   ASSERT_TRUE(DrivesAhead());
   Say();
-  EXPECT_TRUE(Told(kAhead));
+  EXPECT_TRUE(Told(kRos2Ahead));
   EXPECT_EQ(latest_.stamp, stamp_);
 }
 
@@ -686,8 +686,8 @@ TEST_F(Ros2DeviceTest, GoesOnWhereACamerasClockGoesBackOrStandsStill) {
   expect_later();
   for (int i = 0; i < 3; ++i) {
     GoOn();
-    stamp_ -= kFrame;
-    odometry_lag_ -= kFrame;
+    stamp_ -= kCameraFrame;
+    odometry_lag_ -= kCameraFrame;
     expect_later();
   }
 }
@@ -729,7 +729,7 @@ TEST_F(Ros2DeviceTest, SpeedsUpFromStandingAlsoAfterItHadToStop) {
       GoOn();
       EXPECT_TRUE(SayUntilSeen());
       (void)robot_->Take(milliseconds(0));
-      EXPECT_TRUE(device_->Drive(kAhead));
+      EXPECT_TRUE(device_->Drive(kRos2Ahead));
       const auto deadline = steady_clock::now() + std::chrono::seconds(1);
       while (steady_clock::now() < deadline) {
         const auto heard = robot_->Take(milliseconds(5));

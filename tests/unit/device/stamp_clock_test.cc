@@ -10,14 +10,14 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-constexpr milliseconds kFrame{33};
+constexpr milliseconds kStampFrame{33};
 
 // A sensor that samples every 33 ms; samples are under way for 20 ms.
 class StampClockTest : public testing::Test {
  protected:
   SensorTime Next() {
-    now_ += kFrame;
-    stamp_ += kFrame;
+    now_ += kStampFrame;
+    stamp_ += kStampFrame;
     return clock_.Follow(stamp_, now_ + milliseconds(20)).value();
   }
   // Of ten samples, each so much later than the one before.
@@ -25,7 +25,7 @@ class StampClockTest : public testing::Test {
     SensorTime before = from;
     for (int i = 0; i < 10; ++i) {
       const SensorTime taken = Next();
-      EXPECT_EQ(taken - before, kFrame);
+      EXPECT_EQ(taken - before, kStampFrame);
       before = taken;
     }
   }
@@ -63,10 +63,10 @@ TEST_F(StampClockTest, GoesOnOverAStepBackOrAhead) {
 TEST_F(StampClockTest, GoesByTheTimeOfArrivalWhereStampsStandStill) {
   SensorTime before = Next();
   for (int i = 0; i < 10; ++i) {
-    now_ += kFrame;
+    now_ += kStampFrame;
     const auto taken = clock_.Follow(stamp_, now_ + milliseconds(20));
     ASSERT_TRUE(taken);
-    EXPECT_EQ(*taken - before, kFrame);
+    EXPECT_EQ(*taken - before, kStampFrame);
     before = *taken;
   }
   EXPECT_TRUE(clock_.stands());
@@ -84,7 +84,7 @@ TEST_F(StampClockTest, LeavesOutWhatComesOutOfTurn) {
 TEST_F(StampClockTest, KnowsHowFarBehindTheQuickestSampleWas) {
   (void)Next();
   const auto expected = now_.time_since_epoch() + milliseconds(20) - stamp_;
-  (void)clock_.Follow(stamp_ + kFrame, now_ + kFrame + milliseconds(400));
+  (void)clock_.Follow(stamp_ + kStampFrame, now_ + kStampFrame + milliseconds(400));
   EXPECT_EQ(clock_.TakeBehind(), expected);
   EXPECT_EQ(clock_.TakeBehind(), std::nullopt);
 }

@@ -10,7 +10,7 @@
 namespace trailcast::replay {
 namespace {
 
-const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 80, 5);
+const test::LandmarkScene kFunnelScene = test::LandmarkScene::Corridor(5.0, 16.0, 80, 5);
 constexpr double kDt_s = 1.0 / 30.0;
 
 using Ground = std::function<test::Tilt(const motion::Pose2&)>;
@@ -38,7 +38,7 @@ Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, bool with_odometr
   Outcome outcome;
   motion::OdometryIncrement moved;
   for (int i = 0; i < 600 && !outcome.ended; ++i) {
-    FollowInput input{test::Matched(kScene, run, robot, ground(robot)), std::nullopt};
+    FollowInput input{test::Matched(kFunnelScene, run, robot, ground(robot)), std::nullopt};
     if (with_odometry) input.odometry = moved;
     const FollowStep step = follower.Step(input);
     moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
@@ -51,7 +51,7 @@ Outcome Drive(const test::TaughtRun& run, motion::Pose2 robot, bool with_odometr
 }
 
 TEST(FunnelFollower, ExactStartEndsNearTheMilestone) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   const Outcome outcome = Drive(run, {});
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.driven_m, 2.0, 0.5);  // tau makes it fire a little late
@@ -59,7 +59,7 @@ TEST(FunnelFollower, ExactStartEndsNearTheMilestone) {
 }
 
 TEST(FunnelFollower, HeadingErrorIsTakenBack) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   for (const double error_rad : {-0.1, 0.1}) {
     const Outcome outcome = Drive(run, {0.0, 0.0, error_rad});
     ASSERT_TRUE(outcome.ended);
@@ -68,27 +68,27 @@ TEST(FunnelFollower, HeadingErrorIsTakenBack) {
 }
 
 TEST(FunnelFollower, TaughtTurnIsDriven) {
-  const auto run = test::TeachArcs(kScene, {}, {{0.5, 0.0}, {1.0, 0.3}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{0.5, 0.0}, {1.0, 0.3}});
   const Outcome outcome = Drive(run, {});
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.end.heading_rad, 0.3, 0.12);
 }
 
 TEST(FunnelFollower, DrivesAtTheTaughtSpeed) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
   const FollowStep step =
-      follower.Step({test::Matched(kScene, run, {}), motion::OdometryIncrement{}});
+      follower.Step({test::Matched(kFunnelScene, run, {}), motion::OdometryIncrement{}});
   EXPECT_NEAR(step.command.linear_mps, 0.3, 0.01);
 }
 
 TEST(FunnelFollower, RollIsUndoneBeforeComparing) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
   const FollowStep step =
-      follower.Step({test::Matched(kScene, run, {1.9, 0.0, 0.0}, {.roll_rad = 0.08}),
+      follower.Step({test::Matched(kFunnelScene, run, {1.9, 0.0, 0.0}, {.roll_rad = 0.08}),
                      motion::OdometryIncrement{}});
   EXPECT_NEAR(step.roll_rad, -0.08, 0.02);
   EXPECT_NEAR(step.vision_turn_rad, 0.0, 0.01);
@@ -96,7 +96,7 @@ TEST(FunnelFollower, RollIsUndoneBeforeComparing) {
 
 TEST(FunnelFollower, PitchAndRollDoNotEndASegmentEarly) {
   for (int taught = 0; taught < 4; ++taught) {
-    const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}}, {.tilt = Rough(1.5 * taught)});
+    const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}}, {.tilt = Rough(1.5 * taught)});
     for (int driven = 0; driven < 4; ++driven) {
       const Outcome outcome = Drive(run, {}, /*with_odometry=*/true, Rough(0.7 + 1.5 * driven));
       ASSERT_TRUE(outcome.ended);
@@ -107,8 +107,8 @@ TEST(FunnelFollower, PitchAndRollDoNotEndASegmentEarly) {
 }
 
 TEST(FunnelFollower, WhatWasDrivenPastTheMilestoneBelongsToTheNextSegment) {
-  const auto first = test::TeachArcs(kScene, {}, {{1.0, 0.0}});
-  auto second = test::TeachArcs(kScene, first.end, {{1.0, 0.0}});
+  const auto first = test::TeachArcs(kFunnelScene, {}, {{1.0, 0.0}});
+  auto second = test::TeachArcs(kFunnelScene, first.end, {{1.0, 0.0}});
   second.segment.index = SegmentIndex(1);
   FunnelFollowerOptions options;
   options.transition.median_length = 15;  // delta is half a second old, and so would its peak be
@@ -116,37 +116,37 @@ TEST(FunnelFollower, WhatWasDrivenPastTheMilestoneBelongsToTheNextSegment) {
   follower.Begin(first.segment);
   motion::Pose2 robot;
   constexpr motion::OdometryIncrement kStep{0.01, 0.0};
-  while (!follower.Step({test::Matched(kScene, first, robot), kStep}).ended) {
+  while (!follower.Step({test::Matched(kFunnelScene, first, robot), kStep}).ended) {
     robot = motion::Advance(robot, kStep);
     ASSERT_LT(robot.x_m, 1.5);
   }
   follower.Begin(second.segment);
   const FollowStep step =
-      follower.Step({test::Matched(kScene, second, robot), motion::OdometryIncrement{}});
+      follower.Step({test::Matched(kFunnelScene, second, robot), motion::OdometryIncrement{}});
   EXPECT_GT(robot.x_m, 1.15);
   EXPECT_NEAR(step.fraction, robot.x_m - 1.0, 0.05);
 }
 
 TEST(FunnelFollower, VisionAloneSteersWithoutOdometry) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
   const FollowStep step =
-      follower.Step({test::Matched(kScene, run, {1.0, 0.0, 0.1}), std::nullopt});
+      follower.Step({test::Matched(kFunnelScene, run, {1.0, 0.0, 0.1}), std::nullopt});
   EXPECT_GT(step.turn_rad, 0.0);
   EXPECT_EQ(step.turn_rad, step.vision_turn_rad);
   EXPECT_LT(step.command.angular_radps, 0.0);  // right is clockwise
 }
 
 TEST(FunnelFollower, WithoutOdometryTheTracksSayWhereItEnds) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   const Outcome outcome = Drive(run, {}, /*with_odometry=*/false);
   ASSERT_TRUE(outcome.ended);
   EXPECT_NEAR(outcome.driven_m, 1.7, 0.25);
 }
 
 TEST(FunnelFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
-  const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.4}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{1.0, 0.4}});
   FunnelFollower follower(320, 1.0);
   follower.Begin(run.segment);
   motion::Pose2 robot;
@@ -160,23 +160,23 @@ TEST(FunnelFollower, OdometryAloneHoldsTheTaughtHeadingWithoutFeatures) {
 }
 
 TEST(FunnelFollower, CommandStaysWithinTheLimits) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   FunnelFollowerOptions options;
   options.limits = {0.1, 0.05};
   FunnelFollower follower(320, 1.0, options);
   follower.Begin(run.segment);
-  const FollowStep step =
-      follower.Step({test::Matched(kScene, run, {0.0, 0.0, 0.3}), motion::OdometryIncrement{}});
+  const FollowStep step = follower.Step(
+      {test::Matched(kFunnelScene, run, {0.0, 0.0, 0.3}), motion::OdometryIncrement{}});
   EXPECT_LE(std::abs(step.command.linear_mps), 0.1);
   EXPECT_LE(std::abs(step.command.angular_radps), 0.05);
 }
 
 TEST(FunnelFollower, WithoutOdometryAHandfulOfFeaturesDoesNotEndASegment) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kFunnelScene, {}, {{2.0, 0.0}});
   const std::size_t stored = run.segment.features.size();
   ASSERT_GE(stored, 21U);
   // At the milestone, as seen by few of the features and by many.
-  const auto at_end = test::Matched(kScene, run, {2.0, 0.0, 0.0});
+  const auto at_end = test::Matched(kFunnelScene, run, {2.0, 0.0, 0.0});
   for (const bool few : {true, false}) {
     FunnelFollower follower(320, 1.0);
     follower.Begin(run.segment);

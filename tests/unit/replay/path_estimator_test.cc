@@ -12,8 +12,8 @@
 namespace trailcast::replay {
 namespace {
 
-const test::LandmarkScene kScene = test::LandmarkScene::Corridor(4.0, 16.0, 90, 5);
-constexpr double kDt_s = 1.0 / 30.0;
+const test::LandmarkScene kCorridor = test::LandmarkScene::Corridor(4.0, 16.0, 90, 5);
+constexpr double kFrame_s = 1.0 / 30.0;
 
 // An estimator that was told it has come a metre along the run.
 PathEstimator AMetreAlong(const test::TaughtRun& run, double magnification = 1.0) {
@@ -25,11 +25,11 @@ PathEstimator AMetreAlong(const test::TaughtRun& run, double magnification = 1.0
 
 // What the estimator makes of one look from a known place beside the path.
 PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run, magnification);
   for (int i = 0; i < 5; ++i) {
     EXPECT_GE(estimator
-                  .Update(test::Matched(kScene, run, pose, {.roll_rad = roll_rad},
+                  .Update(test::Matched(kCorridor, run, pose, {.roll_rad = roll_rad},
                                         magnification * test::LandmarkScene::kFocal_px))
                   .agreeing,
               10);
@@ -56,7 +56,7 @@ TEST(PathEstimator, TellsSidewaysFromRotation) {
 TEST(PathEstimator, KnowsTheAxleOfACameraAhead) {
   constexpr double kAhead_m = 0.3;
   constexpr double kTurn_radpm = 0.4;
-  const auto run = test::TeachArcs(kScene, {}, {{1.6, 1.6 * kTurn_radpm}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{1.6, 1.6 * kTurn_radpm}});
   const auto on_path = [](double along_m) {
     const double heading_rad = kTurn_radpm * along_m;
     return motion::Pose2{std::sin(heading_rad) / kTurn_radpm,
@@ -69,7 +69,7 @@ TEST(PathEstimator, KnowsTheAxleOfACameraAhead) {
   PathOffset offset;
   for (double along_m = 0.0; along_m < 1.1; along_m += 0.02) {
     const motion::Pose2 camera = motion::Compose(on_path(along_m), {kAhead_m, 0.0, 0.0});
-    estimator.Update(test::Matched(kScene, run, camera));
+    estimator.Update(test::Matched(kCorridor, run, camera));
     offset = estimator.offset();
     estimator.Predict({0.02, 0.02 * kTurn_radpm});
     if (along_m < 0.3) continue;
@@ -89,7 +89,7 @@ TEST(PathEstimator, LearnsInBendsHowFarItsCameraIsAhead) {
     for (int segment = 0; segment < 4; ++segment) {
       const motion::Pose2 scout = runs.empty() ? motion::Pose2{} : runs.back().end;
       const double turn_rad = segment < 2 ? kTurn_radpm : -kTurn_radpm;
-      runs.push_back(test::TeachArcs(kScene, scout, {{1.0, turn_rad}}));
+      runs.push_back(test::TeachArcs(kCorridor, scout, {{1.0, turn_rad}}));
     }
     estimator.StartAt(runs[0].segment);
     std::size_t segment = 0;
@@ -99,7 +99,7 @@ TEST(PathEstimator, LearnsInBendsHowFarItsCameraIsAhead) {
         estimator.Begin(runs[++segment].segment);
       }
       const motion::Pose2 camera = motion::Compose(robot, {ahead_m, 0.0, 0.0});
-      estimator.Update(test::Matched(kScene, runs[segment], camera));
+      estimator.Update(test::Matched(kCorridor, runs[segment], camera));
       const double turn_rad = 0.02 * (i < 100 ? kTurn_radpm : -kTurn_radpm);
       robot = motion::Advance(robot, {0.02, turn_rad});
       estimator.Predict({0.02, turn_rad});
@@ -114,7 +114,7 @@ TEST(PathEstimator, ASpotTurnSwingsACameraAheadAndNotTheAxle) {
   PathEstimatorOptions options;
   options.camera_ahead_m = 0.3;
   PathEstimator estimator(320, 1.0, options);
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   estimator.Restart(run.segment, 0.3);
   estimator.TurnPath(1.5);
   for (int i = 0; i < 30; ++i) estimator.Predict({0.0, 0.05});
@@ -127,7 +127,7 @@ TEST(PathEstimator, ASpotTurnSwingsACameraAheadAndNotTheAxle) {
 struct Mishap {
   double knock_rad = 0.0;  // the camera's mount, to the left
   double left_grip = 1.0;  // of the left wheel, for a second
-  double frame_s = kDt_s;
+  double frame_s = kFrame_s;
 };
 
 // How far off a straight path a robot gets, in closed loop, to which that happens half way.
@@ -171,7 +171,7 @@ TEST(PathEstimator, IsNotLedFarByAMountThatIsKnockedOnTheWay) {
 }
 
 TEST(PathEstimator, IsNotLedFarByAWheelThatSlips) {
-  for (const double frame_s : {kDt_s, 0.1, 0.2}) {
+  for (const double frame_s : {kFrame_s, 0.1, 0.2}) {
     for (const double grip : {0.3, 0.6}) {
       EXPECT_LT(FarthestAfter({.left_grip = grip, .frame_s = frame_s}), 0.2)
           << grip << " " << frame_s;
@@ -193,13 +193,13 @@ TEST(PathEstimator, BearsRollAndAnotherMagnification) {
 
 // What is seen there on the path, a fifth of it mismatched.
 std::vector<route::TrackedFeature> WithMismatches(const test::TaughtRun& run) {
-  auto seen = test::Matched(kScene, run, {1.0, 0.0, 0.0});
+  auto seen = test::Matched(kCorridor, run, {1.0, 0.0, 0.0});
   for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
   return seen;
 }
 
 TEST(PathEstimator, PassesOverMismatches) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);
   const auto seen = WithMismatches(run);
   ASSERT_GE(seen.size(), 20U);
@@ -213,15 +213,15 @@ TEST(PathEstimator, PassesOverMismatches) {
 // Sure of its place on the path, then at another without having driven there.
 // Being carried is the rarest of explanations.
 TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);
   for (int i = 0; i < 20; ++i) {
-    static_cast<void>(estimator.Update(test::Matched(kScene, run, {1.0, 0.0, 0.0})));
+    static_cast<void>(estimator.Update(test::Matched(kCorridor, run, {1.0, 0.0, 0.0})));
   }
   for (int i = 0; i < 30; ++i) {
     const bool elsewhere = i % 10 < 6;
     const double along_m = 1.0 + 0.02 * i;
-    const auto seen = test::Matched(kScene, run, {along_m, elsewhere ? 1.2 : 0.0, 0.0});
+    const auto seen = test::Matched(kCorridor, run, {along_m, elsewhere ? 1.2 : 0.0, 0.0});
     EXPECT_FALSE(estimator.Update(seen).carried_left_m) << i;
     estimator.Predict({0.02, 0.0});
   }
@@ -229,13 +229,13 @@ TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
 }
 
 TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   for (const double carried_m : {-1.2, 0.7, 1.2}) {
     PathEstimator estimator(320, 1.0);
     estimator.Begin(run.segment);
     estimator.Predict({0.6, 0.0});
     for (int i = 0; i < 20; ++i) {
-      const auto seen = test::Matched(kScene, run, {0.6 + 0.02 * i, 0.0, 0.0});
+      const auto seen = test::Matched(kCorridor, run, {0.6 + 0.02 * i, 0.0, 0.0});
       EXPECT_FALSE(estimator.Update(seen).carried_left_m);
       estimator.Predict({0.02, 0.0});
     }
@@ -243,7 +243,7 @@ TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
     std::optional<double> found_m;
     double along_m = 1.0;
     while (!found_m && along_m < 1.5) {
-      const auto seen = test::Matched(kScene, run, {along_m, carried_m, 0.0});
+      const auto seen = test::Matched(kCorridor, run, {along_m, carried_m, 0.0});
       found_m = estimator.Update(seen).carried_left_m;
       estimator.Predict({0.02, 0.0});
       along_m += 0.02;
@@ -255,7 +255,7 @@ TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
 }
 
 TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);
   const auto seen = WithMismatches(run);
   for (int i = 0; i < 30; ++i) EXPECT_FALSE(estimator.Update(seen).carried_left_m);
@@ -265,14 +265,14 @@ TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
 // Far off the path the offset is known by depths that err by a share of it: it must stay open to
 // correction from look to look. On the path that costs nothing.
 TEST(PathEstimator, IsLessSureTheFurtherOffItIs) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   const auto sigma_after_driving = [&](double share) {
     PathEstimatorOptions options;
     options.left_noise_share = share;
     PathEstimator estimator(320, 1.0, options);
     estimator.Begin(run.segment);
     estimator.Predict({0.8, 0.0});
-    const auto far_off = test::Matched(kScene, run, {0.8, 1.0, 0.0});
+    const auto far_off = test::Matched(kCorridor, run, {0.8, 1.0, 0.0});
     for (int i = 0; i < 20; ++i) std::ignore = estimator.Update(far_off);
     EXPECT_NEAR(estimator.offset().left_m, 1.0, 0.2);
     estimator.Predict({0.5, 0.0});
@@ -285,9 +285,9 @@ TEST(PathEstimator, IsLessSureTheFurtherOffItIs) {
 
 // One look after the other errs in the same way.
 TEST(PathEstimator, IsNoSurerHoweverLongItStands) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);
-  const auto seen = test::Matched(kScene, run, {1.0, 0.1, 0.0});
+  const auto seen = test::Matched(kCorridor, run, {1.0, 0.1, 0.0});
   estimator.Update(seen);
   const PathOffset first = estimator.offset();
   for (int i = 0; i < 300; ++i) {
@@ -299,13 +299,13 @@ TEST(PathEstimator, IsNoSurerHoweverLongItStands) {
   // So it soon sees that it was carried.
   for (int i = 0; i < 20; ++i) {
     estimator.Predict({0.02, 0.0});
-    estimator.Update(test::Matched(kScene, run, {1.02 + 0.02 * i, -1.2, 0.0}));
+    estimator.Update(test::Matched(kCorridor, run, {1.02 + 0.02 * i, -1.2, 0.0}));
   }
   EXPECT_NEAR(estimator.offset().left_m, -1.2, 0.1);
 }
 
 TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
-  const auto run = test::TeachArcs(kScene, {}, {{1.0, 0.3}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{1.0, 0.3}});
   PathEstimator estimator(320, 1.0);
   estimator.Begin(run.segment);
   for (int i = 0; i < 50; ++i) {
@@ -341,7 +341,7 @@ motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robo
     follower.Begin(segment);
     FollowStep step;
     for (int frame = 0; frame < 900 && !step.ended; ++frame) {
-      step = follower.Step({test::Matched(kScene, runs[i], robot, {},
+      step = follower.Step({test::Matched(kCorridor, runs[i], robot, {},
                                           magnification * test::LandmarkScene::kFocal_px),
                             moved,
                             {},
@@ -350,7 +350,7 @@ motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robo
         moved = {};
         break;
       }
-      moved = {step.command.linear_mps * kDt_s, step.command.angular_radps * kDt_s};
+      moved = {step.command.linear_mps * kFrame_s, step.command.angular_radps * kFrame_s};
       robot = motion::Advance(robot, moved);
     }
     EXPECT_TRUE(step.ended) << "segment " << i;
@@ -359,9 +359,9 @@ motion::Pose2 Drive(const std::vector<test::TaughtRun>& runs, motion::Pose2 robo
 }
 
 TEST(PathFollower, ReturnsToThePathAndEndsWhereTeachingEnded) {
-  const auto first = test::TeachArcs(kScene, {}, {{1.5, 0.0}});
-  const auto second = test::TeachArcs(kScene, first.end, {{1.0, 0.25}});
-  const auto third = test::TeachArcs(kScene, second.end, {{1.0, -0.25}});
+  const auto first = test::TeachArcs(kCorridor, {}, {{1.5, 0.0}});
+  const auto second = test::TeachArcs(kCorridor, first.end, {{1.0, 0.25}});
+  const auto third = test::TeachArcs(kCorridor, second.end, {{1.0, -0.25}});
   for (const double magnification : {0.7, 1.0, 1.6}) {
     const motion::Pose2 end = Drive({first, second, third}, {-0.08, 0.1, -0.05}, magnification);
     EXPECT_NEAR(end.x_m, third.end.x_m, 0.08) << "magnification " << magnification;
@@ -371,8 +371,8 @@ TEST(PathFollower, ReturnsToThePathAndEndsWhereTeachingEnded) {
 }
 
 TEST(PathFollower, DrivesBesideThePathWhereItIsTold) {
-  const auto first = test::TeachArcs(kScene, {}, {{1.5, 0.0}});
-  const auto second = test::TeachArcs(kScene, first.end, {{1.5, 0.3}});
+  const auto first = test::TeachArcs(kCorridor, {}, {{1.5, 0.0}});
+  const auto second = test::TeachArcs(kCorridor, first.end, {{1.5, 0.3}});
   for (const double aside_m : {0.4, -0.4}) {
     const motion::Pose2 end = Drive({first, second}, {}, 1.0, aside_m);
     const motion::Pose2 beside = motion::Between(second.end, end);
@@ -382,14 +382,14 @@ TEST(PathFollower, DrivesBesideThePathWhereItIsTold) {
 }
 
 TEST(PathFollower, WantsTheNextSegmentWhenFewFeaturesAreLeft) {
-  const auto run = test::TeachArcs(kScene, {}, {{2.0, 0.0}});
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathFollower follower(320, 1.0);
   follower.Begin(run.segment);
-  auto few = test::Matched(kScene, run, {1.2, 0.0, 0.0});
+  auto few = test::Matched(kCorridor, run, {1.2, 0.0, 0.0});
   few.resize(5);
   EXPECT_TRUE(follower.Step({few, motion::OdometryIncrement{1.2, 0.0}}).wants_next);
   EXPECT_FALSE(
-      follower.Step({test::Matched(kScene, run, {1.2, 0.0, 0.0}), motion::OdometryIncrement{}})
+      follower.Step({test::Matched(kCorridor, run, {1.2, 0.0, 0.0}), motion::OdometryIncrement{}})
           .wants_next);
 }
 

@@ -13,20 +13,20 @@ namespace trailcast::replay {
 namespace {
 
 // Whose landmarks are ahead of all that is driven below.
-const test::LandmarkScene kScene = test::LandmarkScene::Corridor(5.0, 16.0, 120, 39);
-constexpr double kFrame_s = 1.0 / 30.0;
+const test::LandmarkScene kReverseScene = test::LandmarkScene::Corridor(5.0, 16.0, 120, 39);
+constexpr double kReverseFrame_s = 1.0 / 30.0;
 
 // A robot beside a circle of curvature `curvature_per_m`, steered along it by what it knows
 // exactly.
 PathOffset Steer(PathOffset offset, double curvature_per_m, double speed_mps, double length_m) {
-  const int steps = static_cast<int>(length_m / (std::abs(speed_mps) * kFrame_s));
+  const int steps = static_cast<int>(length_m / (std::abs(speed_mps) * kReverseFrame_s));
   for (int i = 0; i < steps; ++i) {
     const double turn = LaneKeepingTurnRate(offset, curvature_per_m, speed_mps);
     const double along_mps =
         speed_mps * std::cos(offset.heading_rad) / (1.0 - curvature_per_m * offset.left_m);
-    offset.left_m += kFrame_s * speed_mps * std::sin(offset.heading_rad);
-    offset.heading_rad += kFrame_s * (turn - curvature_per_m * along_mps);
-    offset.along_m += kFrame_s * along_mps;
+    offset.left_m += kReverseFrame_s * speed_mps * std::sin(offset.heading_rad);
+    offset.heading_rad += kReverseFrame_s * (turn - curvature_per_m * along_mps);
+    offset.along_m += kReverseFrame_s * along_mps;
   }
   return offset;
 }
@@ -75,8 +75,8 @@ TaughtShunt Teach(const motion::Pose2& start, const std::vector<test::Arc>& arcs
   std::vector<route::TrackedFeature> at_begin;
   std::vector<route::TrackedFeature> in_view;
   const auto begin = [&] {
-    at_begin = in_view = kScene.Look(pose);
-    recorder.Begin(FromSeconds(frame * kFrame_s), test::Describe(in_view), pose);
+    at_begin = in_view = kReverseScene.Look(pose);
+    recorder.Begin(FromSeconds(frame * kReverseFrame_s), test::Describe(in_view), pose);
   };
   const auto finish = [&] {
     auto segment = recorder.Finish();
@@ -93,14 +93,14 @@ TaughtShunt Teach(const motion::Pose2& start, const std::vector<test::Arc>& arcs
       pose = motion::Advance(pose, {std::copysign(kStep_m, arc.length_m), arc.turn_rad / steps});
       shunt.driven.push_back(pose);
       std::vector<route::TrackedFeature> still;
-      for (const auto& now : kScene.Look(pose)) {
+      for (const auto& now : kReverseScene.Look(pose)) {
         const bool before = std::any_of(in_view.begin(), in_view.end(),
                                         [&](const auto& each) { return each.id == now.id; });
         if (before) still.push_back(now);
       }
       in_view = std::move(still);
       ++frame;
-      if (recorder.Add(FromSeconds(frame * kFrame_s), in_view, pose) !=
+      if (recorder.Add(FromSeconds(frame * kReverseFrame_s), in_view, pose) !=
           teach::SegmentRecorder::Event::kGoesOn) {
         finish();
         begin();
@@ -135,9 +135,11 @@ Followed Follow(const TaughtShunt& shunt, motion::Pose2 pose) {
   motion::OdometryIncrement moved;
   double driven_m = 0.0;
   for (int frame = 0; frame < 3000 && at < shunt.runs.size(); ++frame) {
-    const FollowStep step = follower.Step({test::Matched(kScene, shunt.runs[at], pose), moved});
+    const FollowStep step =
+        follower.Step({test::Matched(kReverseScene, shunt.runs[at], pose), moved});
     EXPECT_LE(step.command.linear_mps * (shunt.runs[at].segment.reverse ? 1.0 : -1.0), 0.0);
-    moved = {step.command.linear_mps * kFrame_s, step.command.angular_radps * kFrame_s};
+    moved = {step.command.linear_mps * kReverseFrame_s,
+             step.command.angular_radps * kReverseFrame_s};
     pose = motion::Advance(pose, moved);
     driven_m += std::abs(moved.distance_m);
     if (driven_m > 1.0) followed.worst_m = std::max(followed.worst_m, Off(shunt.driven, pose));
@@ -186,13 +188,13 @@ TEST(PathFollower, FindsItselfOnTheWayBack) {
   follower.BeginAt(run.segment, 0.55);
   FollowStep step;
   for (int i = 0; i < 20; ++i) {
-    step = follower.Step({test::Matched(kScene, run, there), motion::OdometryIncrement{}});
+    step = follower.Step({test::Matched(kReverseScene, run, there), motion::OdometryIncrement{}});
   }
   EXPECT_NEAR(step.fraction, (1.2 - (1.9 - run.segment.length_m)) / run.segment.length_m, 0.03);
   EXPECT_NEAR(step.offset->along_m, step.fraction * run.segment.length_m, 1e-6);
   EXPECT_NEAR(step.offset->left_m, 0.0, 0.03);
   const auto milestone = follower.ExpectAtMilestone();
-  for (const auto& seen : test::Matched(kScene, run, run.end)) {
+  for (const auto& seen : test::Matched(kReverseScene, run, run.end)) {
     const auto& expected = milestone[static_cast<std::size_t>(seen.id)];
     EXPECT_NEAR(expected.u_px, seen.u_px, 6.0);
     EXPECT_NEAR(expected.v_px, seen.v_px, 6.0);

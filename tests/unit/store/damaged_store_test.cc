@@ -13,17 +13,17 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::uint32_t kSegments = 40;
+constexpr std::uint32_t kDamagedSegments = 40;
 
 class DamagedStoreTest : public testing::Test {
  protected:
   void SetUp() override {
     {
       const auto store = OpenSqliteStore(file_).value();
-      for (std::uint32_t i = 0; i < kSegments; ++i) {
+      for (std::uint32_t i = 0; i < kDamagedSegments; ++i) {
         ASSERT_TRUE(store->AppendSegments(Pieces({i})));
       }
-      ASSERT_TRUE(store->PutRoute(Complete(kSegments)));
+      ASSERT_TRUE(store->PutRoute(Complete(kDamagedSegments)));
     }
     size_ = std::filesystem::file_size(file_) * 2 / 3;
     std::filesystem::resize_file(file_, size_);
@@ -43,8 +43,8 @@ TEST_F(DamagedStoreTest, WhatIsWholeIsReadAndWhatIsLostTold) {
   const auto damaged = OpenDamagedStore(file_);
   ASSERT_TRUE(damaged) << damaged.error().message;
   const auto held = damaged->whole->HeldSegments(kYard).value();
-  EXPECT_GE(held.size(), kSegments / 2);
-  EXPECT_LT(held.size(), kSegments);
+  EXPECT_GE(held.size(), kDamagedSegments / 2);
+  EXPECT_LT(held.size(), kDamagedSegments);
   for (const SegmentIndex index : held) {
     EXPECT_EQ(damaged->whole->ReadSegment(kYard, index).value(), Piece(index.value()));
   }
@@ -57,7 +57,7 @@ TEST_F(DamagedStoreTest, NothingIsWrittenAndTheFileStaysAsItIs) {
     const auto damaged = OpenDamagedStore(file_).value();
     RouteStore& store = *damaged.whole;
     for (const Result<void>& refused :
-         {store.AppendSegments(Pieces({kSegments})), store.PutRoute(Teaching(1)),
+         {store.AppendSegments(Pieces({kDamagedSegments})), store.PutRoute(Teaching(1)),
           store.MarkReceipted(kYard, Indices({0}))}) {
       ASSERT_FALSE(refused);
       EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable);

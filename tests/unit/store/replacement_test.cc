@@ -17,7 +17,7 @@ constexpr std::uint32_t kAfter = 10;
 constexpr std::size_t kSteps = 4;
 constexpr std::size_t kNewOneCounts = 2;  // from so many steps on
 
-void Fill(RouteStore& store, std::uint32_t segments) {
+void FillAnew(RouteStore& store, std::uint32_t segments) {
   for (std::uint32_t i = 0; i < segments; ++i) ASSERT_TRUE(store.AppendSegments(Pieces({i})));
 }
 
@@ -27,10 +27,10 @@ class ReplacementTest : public testing::TestWithParam<std::size_t> {
   void SetUp() override {
     const fs::path open = dir_ / "open.db";
     const auto store = OpenSqliteStore(open).value();
-    Fill(*store, kBefore);
+    FillAnew(*store, kBefore);
     for (const char* part : {"", "-wal"})
       fs::copy_file(open.string() + part, file_.string() + part);
-    Fill(*OpenSqliteStore(replacement_.made()).value(), kAfter);
+    FillAnew(*OpenSqliteStore(replacement_.made()).value(), kAfter);
   }
   static std::size_t HeldIn(const fs::path& file) {
     const auto store = OpenSqliteStore(file);

@@ -21,7 +21,8 @@ class FlawedRobotTest : public testing::Test {
   void Open(const agent::RobotTiming& timing, const std::vector<agent::RobotFault>& faults) {
     world_ = sim::test::SmallWorld().Build();
     sim::SimulatedRobotOptions options;
-    options.camera = *sim::FindCamera("webcam");
+    options.camera.width = 80;  // nobody looks at its pictures
+    options.camera.height = 60;
     options.disturbances = sim::Disturbances::None();
     body_ = sim::SimulatedRobot::Create(world_, options).value();
     RobotFlaws flaws;

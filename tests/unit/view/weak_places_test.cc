@@ -9,12 +9,12 @@
 namespace trailcast::view {
 namespace {
 
-constexpr int kWidth_px = 320;
+constexpr int kScoutWidth_px = 320;
 
 // So many features as no other view has; from `shared` on those of another.
 route::View ViewOf(unsigned seed, int features, const route::View& shared = {}) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<float> place(-0.4F * kWidth_px, 0.4F * kWidth_px);
+  std::uniform_real_distribution<float> place(-0.4F * kScoutWidth_px, 0.4F * kScoutWidth_px);
   route::View view = shared;
   while (static_cast<int>(view.size()) < features) {
     route::ViewFeature feature{{}, place(random), 0.5F * place(random), 31.0F};
@@ -36,7 +36,7 @@ route::Segment SegmentOf(route::View first, route::View second, bool odometry = 
 }
 
 std::vector<WeakPlace> WeakPlacesOf(const std::vector<route::Segment>& segments) {
-  WeakPlaceFinder finder(kWidth_px);
+  WeakPlaceFinder finder(kScoutWidth_px);
   for (const route::Segment& segment : segments) finder.Add(segment);
   return finder.Places();
 }

@@ -11,7 +11,7 @@
 namespace trailcast::vision {
 namespace {
 
-const test::PaintedWall kWall(3);
+const test::PaintedWall kTrackedWall(3);
 
 std::map<int, route::TrackedFeature> ById(const std::vector<route::TrackedFeature>& features) {
   std::map<int, route::TrackedFeature> by_id;
@@ -27,10 +27,10 @@ std::ptrdiff_t InTheMiddle(const std::vector<route::TrackedFeature>& features) {
 
 TEST(FeatureTracker, DetectsSomeMoreInTheMiddleForNarrowerCameras) {
   FeatureTracker spread;
-  spread.Track(kWall.Photograph({}));
+  spread.Track(kTrackedWall.Photograph({}));
   const auto few = spread.Detect();
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   const auto features = tracker.Detect(20);
   EXPECT_LT(InTheMiddle(few), 8);
   EXPECT_GE(InTheMiddle(features), 14);
@@ -41,7 +41,7 @@ TEST(FeatureTracker, DetectsSomeMoreInTheMiddleForNarrowerCameras) {
 
 TEST(FeatureTracker, DetectsAtMostSixtyFeaturesSpreadOverTheImage) {
   FeatureTracker tracker;
-  EXPECT_TRUE(tracker.Track(kWall.Photograph({})).empty());
+  EXPECT_TRUE(tracker.Track(kTrackedWall.Photograph({})).empty());
   const auto features = tracker.Detect();
   EXPECT_LE(features.size(), 60U);
   EXPECT_GE(features.size(), 40U);
@@ -53,9 +53,9 @@ TEST(FeatureTracker, DetectsAtMostSixtyFeaturesSpreadOverTheImage) {
 
 TEST(FeatureTracker, FollowsAKnownShiftToATenthOfAPixel) {
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   const auto before = ById(tracker.Detect());
-  const auto after = tracker.Track(kWall.Photograph({.du_px = 7.3, .dv_px = -2.6}));
+  const auto after = tracker.Track(kTrackedWall.Photograph({.du_px = 7.3, .dv_px = -2.6}));
   EXPECT_GE(after.size(), before.size() * 8 / 10);
   for (const auto& feature : after) {
     EXPECT_NEAR(feature.u_px - before.at(feature.id).u_px, 7.3, 0.15);
@@ -65,13 +65,13 @@ TEST(FeatureTracker, FollowsAKnownShiftToATenthOfAPixel) {
 
 TEST(FeatureTracker, FollowsMagnificationNoiseAndGainOverManyFrames) {
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({.noise_grey = 2.5}));
+  tracker.Track(kTrackedWall.Photograph({.noise_grey = 2.5}));
   const auto before = ById(tracker.Detect());
   std::vector<route::TrackedFeature> now;
   double scale = 1.0;
   for (unsigned frame = 1; frame <= 20; ++frame) {
     scale *= 1.01;
-    now = tracker.Track(kWall.Photograph(
+    now = tracker.Track(kTrackedWall.Photograph(
         {.scale = scale, .gain = 1.0 - 0.005 * frame, .noise_grey = 2.5, .noise_seed = frame + 1}));
   }
   EXPECT_GE(now.size(), before.size() / 2);
@@ -86,7 +86,7 @@ TEST(FeatureTracker, FollowsMagnificationNoiseAndGainOverManyFrames) {
 // Followed in pictures three times as large as those in which they were detected.
 std::size_t LeftOfLargePatterns(double told) {
   FeatureTracker near;
-  near.Track(kWall.Photograph({.noise_grey = 2.5}));
+  near.Track(kTrackedWall.Photograph({.noise_grey = 2.5}));
   std::vector<route::TrackedFeature> features = near.Detect(20);
   for (auto& feature : features) {
     feature.u_px *= 3.0;
@@ -96,11 +96,11 @@ std::size_t LeftOfLargePatterns(double told) {
     return std::abs(feature.u_px) > 140.0 || std::abs(feature.v_px) > 100.0;
   });
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({.scale = 3.0, .noise_grey = 2.5, .noise_seed = 1}));
+  tracker.Track(kTrackedWall.Photograph({.scale = 3.0, .noise_grey = 2.5, .noise_seed = 1}));
   tracker.SetMagnification(told);
   tracker.Follow(features);
   for (unsigned frame = 2; frame < 20; ++frame) {
-    tracker.Track(kWall.Photograph(
+    tracker.Track(kTrackedWall.Photograph(
         {.scale = 3.0, .du_px = 0.5 * frame, .noise_grey = 2.5, .noise_seed = frame}));
   }
   return static_cast<std::size_t>(tracker.count());
@@ -113,7 +113,7 @@ TEST(FeatureTracker, FollowsLargerPatternsByALargerWindow) {
 
 TEST(FeatureTracker, LosesEverythingWhenTheViewChangesAltogether) {
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   const auto before = tracker.Detect();
   const auto after = tracker.Track(test::PaintedWall(99).Photograph({}));
   EXPECT_LE(after.size(), before.size() / 4);
@@ -121,9 +121,9 @@ TEST(FeatureTracker, LosesEverythingWhenTheViewChangesAltogether) {
 
 TEST(FeatureTracker, SaysHowManyLeftThePictureAndHowManyDidNotReturn) {
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   const auto before = tracker.Detect();
-  const auto after = tracker.Track(kWall.Photograph({.du_px = 25.0}));
+  const auto after = tracker.Track(kTrackedWall.Photograph({.du_px = 25.0}));
   const TrackLosses aside = tracker.losses();
   EXPECT_EQ(static_cast<std::size_t>(aside.left_picture + aside.not_returned),
             before.size() - after.size());
@@ -131,19 +131,19 @@ TEST(FeatureTracker, SaysHowManyLeftThePictureAndHowManyDidNotReturn) {
   const auto elsewhere = tracker.Track(test::PaintedWall(99).Photograph({}));
   EXPECT_GT(tracker.losses().not_returned, static_cast<int>(after.size()) / 2);
   tracker.Follow({});
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   EXPECT_EQ(tracker.losses().not_returned, 0) << "of the last frame only";
 }
 
 TEST(FeatureTracker, DescribesWhatACameraThatMagnifiesLessWouldSee) {
   constexpr double kMagnification = 1.3;
   FeatureTracker larger;
-  larger.Track(kWall.Photograph({.scale = kMagnification}));
+  larger.Track(kTrackedWall.Photograph({.scale = kMagnification}));
   std::vector<route::TrackedFeature> features = larger.Detect();
   const std::vector<route::DescribedFeature> described = larger.Describe(kMagnification);
   EXPECT_GE(described.size(), 40U);
   FeatureTracker smaller;
-  smaller.Track(kWall.Photograph({}));
+  smaller.Track(kTrackedWall.Photograph({}));
   for (route::TrackedFeature& feature : features) {
     feature.u_px /= kMagnification;
     feature.v_px /= kMagnification;
@@ -174,7 +174,7 @@ TEST(FeatureTracker, FindsNothingInANoisyBlankOrDarkImage) {
 }
 
 TEST(FeatureTracker, KeepsOffTheBlackSurroundOfAFisheye) {
-  image::GrayImage frame = kWall.Photograph({});
+  image::GrayImage frame = kTrackedWall.Photograph({});
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       if (std::hypot(x - 159.5, y - 119.5) > 115.0) {
@@ -191,7 +191,7 @@ TEST(FeatureTracker, KeepsOffTheBlackSurroundOfAFisheye) {
 
 // A wall whose corners are in shadow, as seen by a robot that drives past it.
 image::GrayImage DarkCorners(double driven_px) {
-  image::GrayImage frame = kWall.Photograph({.du_px = driven_px, .gain = 0.5});
+  image::GrayImage frame = kTrackedWall.Photograph({.du_px = driven_px, .gain = 0.5});
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       if (std::hypot(x - 159.5 - driven_px, y - 119.5) > 125.0) {
@@ -222,12 +222,12 @@ TEST(FeatureTracker, TakesForALensesSurroundOnlyWhatStaysBlack) {
 
 TEST(FeatureTracker, GoesOnWithTheFeaturesItIsGiven) {
   FeatureTracker tracker;
-  tracker.Track(kWall.Photograph({}));
+  tracker.Track(kTrackedWall.Photograph({}));
   auto detected = tracker.Detect();
   detected.resize(5);
   for (auto& feature : detected) feature.id += 100;
   tracker.Follow(detected);
-  const auto after = tracker.Track(kWall.Photograph({.du_px = 2.0}));
+  const auto after = tracker.Track(kTrackedWall.Photograph({.du_px = 2.0}));
   ASSERT_EQ(after.size(), 5U);
   EXPECT_EQ(after.front().id, detected.front().id);
 }
@@ -235,9 +235,10 @@ TEST(FeatureTracker, GoesOnWithTheFeaturesItIsGiven) {
 TEST(FeatureTracker, EqualFramesGiveEqualResults) {
   const auto run = [] {
     FeatureTracker tracker;
-    tracker.Track(kWall.Photograph({.noise_grey = 2.0}));
+    tracker.Track(kTrackedWall.Photograph({.noise_grey = 2.0}));
     tracker.Detect();
-    return tracker.Track(kWall.Photograph({.du_px = 3.0, .noise_grey = 2.0, .noise_seed = 9}));
+    return tracker.Track(
+        kTrackedWall.Photograph({.du_px = 3.0, .noise_grey = 2.0, .noise_seed = 9}));
   };
   const auto first = run();
   const auto second = run();

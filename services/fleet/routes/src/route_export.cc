@@ -18,7 +18,7 @@ namespace trailcast::fleet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kTakeWait{20};
+constexpr std::chrono::milliseconds kExportWait{20};
 
 using Take = std::function<Result<void>(const route::SegmentPiece&)>;
 
@@ -119,7 +119,7 @@ Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
   InOrder pieces(take);
   auto deadline = Clock::now() + watch.timeout;
   while (!fetcher.Complete()) {
-    for (const exchange::Message& message : peer.exchange->Take(kTakeWait)) {
+    for (const exchange::Message& message : peer.exchange->Take(kExportWait)) {
       fetcher.Handle(message, Clock::now());
     }
     const auto now = Clock::now();

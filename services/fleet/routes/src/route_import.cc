@@ -15,7 +15,7 @@ namespace trailcast::fleet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kTakeWait{20};
+constexpr std::chrono::milliseconds kImportWait{20};
 constexpr std::chrono::milliseconds kInquireEvery{1000};
 constexpr std::size_t kBatchBytes = 1U << 20U;  // in one commit
 
@@ -76,7 +76,7 @@ class Delivery {
 
   // One turn of the loop.
   Result<void> Step() {
-    for (const exchange::Message& message : peer_.exchange->Take(kTakeWait)) {
+    for (const exchange::Message& message : peer_.exchange->Take(kImportWait)) {
       Handle(message);
     }
     if (conflicting_) return Conflict(info_, fmt::format("'{}'", conflicting_->value()));

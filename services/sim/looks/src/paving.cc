@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 
 namespace trailcast::sim {
@@ -18,7 +18,6 @@ constexpr float kTar_m = 0.012F;
 constexpr float kPaint_m = 0.014F;
 constexpr float kKerb_m = 0.12F;
 constexpr float kKerbWidth_m = 0.15F;
-constexpr float kFullTurn = 2.0F * std::numbers::pi_v<float>;
 
 V At(const V2& place, float z_m) { return {place.x(), place.y(), z_m}; }
 

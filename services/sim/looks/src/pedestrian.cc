@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/core/random.h"
 #include "services/sim/core/scene_builder.h"
 #include "services/sim/looks/src/pedestrian_textures.h"
@@ -16,7 +16,6 @@ namespace {
 using V = Eigen::Vector3f;
 using image::Color;
 
-constexpr float kFullTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kLegSwing_rad = 0.42F;
 constexpr float kArmSwing_rad = 0.36F;
 const V kWhite(255.0F, 255.0F, 255.0F);

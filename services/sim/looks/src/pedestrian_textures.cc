@@ -13,14 +13,14 @@ namespace {
 using image::Canvas;
 using image::Color;
 
-constexpr double kFullTurn = 2.0 * std::numbers::pi;
+constexpr double kFullTurn_rad = 2.0 * std::numbers::pi;
 
 enum class Weave { kPlain, kStriped, kChecked };
 
 // Grey levels that a pattern adds to its cloth.
 double Pattern(Weave weave, double repeats, double x, double y) {
-  const double across = std::sin(kFullTurn * repeats * x);
-  const double along = std::sin(kFullTurn * repeats * y);
+  const double across = std::sin(kFullTurn_rad * repeats * x);
+  const double along = std::sin(kFullTurn_rad * repeats * y);
   if (weave == Weave::kStriped) return along > 0.55 ? 46.0 : 0.0;
   if (weave == Weave::kChecked) return (across > 0.5 ? 22.0 : 0.0) - (along > 0.5 ? 26.0 : 0.0);
   return 0.0;

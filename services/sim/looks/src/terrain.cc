@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "services/sim/core/angles.h"
 
 namespace trailcast::sim {
 namespace {
-
-constexpr float kFullTurn = 2.0F * std::numbers::pi_v<float>;
 
 std::vector<float> Places(const GridLines& lines) {
   constexpr float kGrowth = 1.25F;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 
 namespace trailcast::sim {
@@ -11,7 +11,6 @@ namespace {
 
 using V = Eigen::Vector3f;
 
-constexpr float kFullTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kFoliageTile_m = 0.8F;
 // Ambient light on a core and at the foot of a crown; its top has all of it.
 constexpr float kCoreShade = 0.55F;

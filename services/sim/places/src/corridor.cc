@@ -10,7 +10,7 @@ namespace {
 using V2 = Eigen::Vector2f;
 using Look = Rooms::Look;
 
-constexpr std::uint64_t kSeed = 1975;
+constexpr std::uint64_t kCorridorSeed = 1975;
 // The corridor's two straight parts and the place of the bend.
 constexpr float kHalfWidth_m = 1.0F;
 constexpr float kPlainFrom_m = 12.8F;
@@ -101,8 +101,8 @@ void BuildSecondPart(Rooms& rooms) {
 
 Result<Place> MakeCorridorWorld() {
   SceneBuilder builder;
-  Furniture furniture(builder, kSeed);
-  Rooms rooms(builder, furniture, kSeed);
+  Furniture furniture(builder, kCorridorSeed);
+  Rooms rooms(builder, furniture, kCorridorSeed);
   BuildFirstPart(rooms);
   BuildSecondPart(rooms);
   const V2 end = BeyondBend(13.6F, 0.0F);

@@ -1,21 +1,20 @@
 #include "services/sim/places/src/field.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 #include "services/sim/places/src/outdoor_kit.h"
 
 namespace trailcast::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 1953;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint64_t kFieldSeed = 1953;
 
 void LayGrass(SceneBuilder& builder) {
   constexpr float kTile_m = 5.0F;
   constexpr float kSide_m = 360.0F;
-  const auto turf = builder.AddMaterial("turf", {255, 255, 255}, Turf(kSeed));
+  const auto turf = builder.AddMaterial("turf", {255, 255, 255}, Turf(kFieldSeed));
   builder.Place({15.0F - 0.5F * kSide_m, -0.5F * kSide_m, 0}, 0);
   builder.Panel(turf, {0, kSide_m, 0}, {kSide_m, 0, 0}, {0, -kSide_m, 0},
                 {{0, 0}, {kSide_m / kTile_m, kSide_m / kTile_m}});
@@ -24,7 +23,7 @@ void LayGrass(SceneBuilder& builder) {
 // All round, thick in places and thin in others.
 void PlantTreeLine(Vegetation& plants) {
   constexpr int kTrees = 84;
-  Random random(kSeed, "tree line");
+  Random random(kFieldSeed, "tree line");
   const auto between = [&](double low, double high) {
     return static_cast<float>(random.Uniform(low, high));
   };
@@ -44,7 +43,7 @@ void PlantTreeLine(Vegetation& plants) {
   }
 }
 
-void PutUpBuildings(Buildings& buildings) {
+void PutUpFieldBuildings(Buildings& buildings) {
   buildings.Stand(92, 20, -kPi / 2.0F);
   buildings.PutUp(
       Buildings::Block{.width_m = 30, .storeys = 4, .wall = Buildings::Wall::kConcrete});
@@ -61,10 +60,10 @@ void PutUpBuildings(Buildings& buildings) {
 }  // namespace
 
 Result<Place> MakeFieldWorld() {
-  OutdoorKit kit(kSeed);
+  OutdoorKit kit(kFieldSeed);
   LayGrass(kit.builder);
   PlantTreeLine(kit.plants);
-  PutUpBuildings(kit.buildings);
+  PutUpFieldBuildings(kit.buildings);
   kit.lighting.toward_sun = kSunBehind;
   return FinishOutdoors(kit, "field", GroundMode::kFlat,
                         {{0, 0}, {11, 1.2}, {21, -0.4}, {30, 1.0}});

@@ -12,7 +12,7 @@
 namespace trailcast::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 2009;
+constexpr std::uint64_t kIndoorSeed = 2009;
 constexpr float kLength_m = 12.0F;  // along x
 constexpr float kWidth_m = 9.0F;    // along y
 constexpr float kHeight_m = 2.8F;
@@ -34,12 +34,12 @@ constexpr float kNightAmbient = 0.18F;
 const Eigen::Vector3f kWhite = {255.0F, 255.0F, 255.0F};
 
 void AddShell(SceneBuilder& b) {
-  const auto boards = b.AddMaterial("floor boards", kWhite, FloorBoards(kSeed));
-  const auto carpet = b.AddMaterial("carpet", kWhite, CarpetTiles({98, 106, 118}, kSeed));
-  const auto plaster = b.AddMaterial("plaster", kWhite, Plaster({206, 204, 196}, kSeed));
-  const auto green = b.AddMaterial("green plaster", kWhite, Plaster({168, 186, 172}, kSeed));
-  const auto brick = b.AddMaterial("bricks", kWhite, Brickwork(kSeed));
-  const auto ceiling = b.AddMaterial("ceiling", kWhite, CeilingTiles(kSeed));
+  const auto boards = b.AddMaterial("floor boards", kWhite, FloorBoards(kIndoorSeed));
+  const auto carpet = b.AddMaterial("carpet", kWhite, CarpetTiles({98, 106, 118}, kIndoorSeed));
+  const auto plaster = b.AddMaterial("plaster", kWhite, Plaster({206, 204, 196}, kIndoorSeed));
+  const auto green = b.AddMaterial("green plaster", kWhite, Plaster({168, 186, 172}, kIndoorSeed));
+  const auto brick = b.AddMaterial("bricks", kWhite, Brickwork(kIndoorSeed));
+  const auto ceiling = b.AddMaterial("ceiling", kWhite, CeilingTiles(kIndoorSeed));
   const auto skirting = b.AddMaterial("skirting", {92, 84, 76});
   const Eigen::Vector3f down(0, 0, -kHeight_m);
   const auto tiled = [](float width, float height, float tile) {
@@ -225,7 +225,7 @@ Result<Place> MakeLaboratory(const std::string& name, Polyline points, const Pla
   SceneBuilder builder;
   AddShell(builder);
   const std::vector<Lamp> lamps = AddLamps(builder, change.night);
-  Furniture furniture(builder, kSeed);
+  Furniture furniture(builder, kIndoorSeed);
   furniture.MoveSome(change.moved, change.seed);
   FurnishSouthRoom(furniture, builder);
   FurnishNorthRoom(furniture, builder);

@@ -1,14 +1,14 @@
-#include <numbers>
 
 #include "services/sim/places/src/outdoor_kit.h"
 #include "services/sim/places/src/parking_lot.h"
 #include "services/sim/places/src/parking_row.h"
 
+#include "services/sim/core/angles.h"
+
 namespace trailcast::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 1966;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint64_t kLoopSeed = 1966;
 constexpr float kNorth = kPi / 2.0F;
 constexpr float kSouth = -kPi / 2.0F;
 constexpr float kEast = 0.0F;
@@ -38,7 +38,7 @@ void LayGround(Paving& paving) {
 }
 
 void ParkCars(OutdoorKit& kit) {
-  ParkingRows rows(kit.paving, kit.vehicles, kSeed);
+  ParkingRows rows(kit.paving, kit.vehicles, kLoopSeed);
   rows.Fill({.corner = {2, -9.6F}, .bays = 48, .nose = kSouth, .share = 0.6});
   for (const float x : {21.5F, 61.5F}) {
     rows.Fill({.corner = {x, 4.6F}, .bays = 14, .nose = kSouth, .share = 0.65});
@@ -52,7 +52,7 @@ void ParkCars(OutdoorKit& kit) {
   kit.vehicles.Park(104, 83, kWest, VehicleShape::kVan);
 }
 
-void PutUpBuildings(Buildings& buildings) {
+void PutUpLoopBuildings(Buildings& buildings) {
   using Wall = Buildings::Wall;
   buildings.Stand(26, -16, kPi);
   buildings.PutUp(Buildings::Block{.width_m = 34, .storeys = 3});
@@ -147,10 +147,10 @@ void SetOutFurniture(StreetFurniture& street) {
 }  // namespace
 
 Result<Place> MakeLoopWorld() {
-  OutdoorKit kit(kSeed);
+  OutdoorKit kit(kLoopSeed);
   LayGround(kit.paving);
   ParkCars(kit);
-  PutUpBuildings(kit.buildings);
+  PutUpLoopBuildings(kit.buildings);
   Plant(kit.plants);
   SetOutFurniture(kit.street);
   return FinishOutdoors(kit, "loop", GroundMode::kFlat,

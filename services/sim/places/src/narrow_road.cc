@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 #include "services/sim/places/src/outdoor_kit.h"
 
@@ -13,8 +13,7 @@ namespace {
 
 using V2 = Eigen::Vector2f;
 
-constexpr std::uint64_t kSeed = 1924;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint64_t kNarrowRoadSeed = 1924;
 constexpr float kRadius_m = 260.0F;  // the road bends to the left
 constexpr float kFrom_m = -16.0F;
 constexpr float kTo_m = 104.0F;
@@ -52,7 +51,7 @@ void Ribbon(SceneBuilder& builder, MaterialId material, float left_from, float l
 
 void LayRoad(OutdoorKit& kit) {
   Paving& paving = kit.paving;
-  const auto slabs = kit.builder.AddMaterial("pavement", {255, 255, 255}, Slabs(kSeed));
+  const auto slabs = kit.builder.AddMaterial("pavement", {255, 255, 255}, Slabs(kNarrowRoadSeed));
   paving.LawnGround({{-90, -80}, {170, 110}});
   Ribbon(kit.builder, paving.asphalt(), -kKerb_m - 0.1F, kParkingEdge_m + 0.1F, 0.004F, 4.0F);
   Ribbon(kit.builder, slabs, kParkingEdge_m, kLeftFence_m, 0.115F, 2.0F);
@@ -64,7 +63,7 @@ void LayRoad(OutdoorKit& kit) {
     paving.Line(OnRoad(s, kKerb_m), OnRoad(s + 0.6F * kSpan_m, kKerb_m));
     paving.Line(OnRoad(s, 0.3F), OnRoad(s + 1.6F, 0.3F));
   }
-  Random random(kSeed, "wear");
+  Random random(kNarrowRoadSeed, "wear");
   for (float s = -10.0F; s < 96.0F; s += 1.6F) {
     const auto left = static_cast<float>(random.Uniform(-2.0, 2.2));
     paving.WearSpot(OnRoad(s, left), Heading(s), 0.9F);
@@ -168,7 +167,7 @@ void ParkAndPlant(OutdoorKit& kit) {
 }  // namespace
 
 Result<Place> MakeRoadWorld() {
-  OutdoorKit kit(kSeed);
+  OutdoorKit kit(kNarrowRoadSeed);
   LayRoad(kit);
   PutUpHouses(kit.buildings);
   PutUpFences(kit);

@@ -1,8 +1,8 @@
 #include "services/sim/places/src/offices.h"
 
-#include <numbers>
 #include <tuple>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/places/src/rooms.h"
 
 namespace trailcast::sim {
@@ -11,7 +11,6 @@ namespace {
 using V2 = Eigen::Vector2f;
 
 constexpr std::uint64_t kSeed = 1973;
-constexpr float kPi = std::numbers::pi_v<float>;
 // Which way a piece of furniture faces; its front looks towards...
 constexpr float kSouth = 0.0F;
 constexpr float kEast = kPi / 2.0F;

@@ -1,9 +1,9 @@
 #include "services/sim/places/src/parking_lot.h"
 
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/places/src/outdoor_kit.h"
 #include "services/sim/places/src/parking_row.h"
 
@@ -11,7 +11,6 @@ namespace trailcast::sim {
 namespace {
 
 constexpr std::uint64_t kSeed = 1960;
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kNorth = kPi / 2.0F;
 constexpr float kSouth = -kPi / 2.0F;
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 #include "services/sim/looks/terrain.h"
 #include "services/sim/places/src/outdoor_kit.h"
@@ -12,8 +12,7 @@
 namespace trailcast::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 1931;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint64_t kRampSeed = 1931;
 constexpr float kFoot_m = 5.0F;  // where the ramp begins
 constexpr float kHigh_m = 1.0F;
 constexpr float kSlope = 0.070F;  // 4 degrees
@@ -42,7 +41,7 @@ float RampHeight(float x, float y) {
 
 void BuildRamp(OutdoorKit& kit) {
   const auto surface =
-      kit.builder.AddMaterial("ramp", {255, 255, 255}, Concrete({148, 145, 138}, kSeed));
+      kit.builder.AddMaterial("ramp", {255, 255, 255}, Concrete({148, 145, 138}, kRampSeed));
   kit.builder.Place({0, 0, 0.004F}, 0);
   const float half = kHalfWidth_m + 0.1F;
   AddHeightField(kit.builder, surface,
@@ -73,13 +72,13 @@ void LayGround(OutdoorKit& kit) {
   kit.paving.LawnIsland({{10, -6.4F}, {13, -2.6F}});
   kit.paving.LawnIsland({{24, -6.4F}, {27, -2.6F}});
   kit.paving.LawnIsland({{43.0F, -3.2F}, {45.4F, -1.2F}});
-  ParkingRows rows(kit.paving, kit.vehicles, kSeed);
+  ParkingRows rows(kit.paving, kit.vehicles, kRampSeed);
   rows.Fill({.corner = {4, -12.6F}, .bays = 12, .nose = -kPi / 2.0F, .share = 0.75});
   rows.Fill({.corner = {47, -9}, .along_x = false, .bays = 3, .nose = kPi, .share = 1.0});
   kit.vehicles.ParkAny(49.5F, 1.6F, kPi / 2.0F);
 }
 
-void PutUpBuildings(Buildings& buildings) {
+void PutUpRampBuildings(Buildings& buildings) {
   buildings.Stand(-2, 6.0F, 0);
   buildings.PutUp(Buildings::Block{.width_m = 41, .depth_m = 12, .storeys = 3});
   buildings.Stand(57, 12, -kPi / 2.0F);
@@ -136,10 +135,10 @@ void PlantAndFurnish(OutdoorKit& kit) {
 }  // namespace
 
 Result<Place> MakeRampWorld() {
-  OutdoorKit kit(kSeed);
+  OutdoorKit kit(kRampSeed);
   LayGround(kit);
   BuildRamp(kit);
-  PutUpBuildings(kit.buildings);
+  PutUpRampBuildings(kit.buildings);
   PlantAndFurnish(kit);
   kit.lighting.toward_sun = kSunBehind;
   return FinishOutdoors(kit, "ramp", GroundMode::kMesh,

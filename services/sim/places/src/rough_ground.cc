@@ -1,9 +1,9 @@
 #include "services/sim/places/src/rough_ground.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "services/sim/core/angles.h"
 #include "services/sim/looks/outdoor_textures.h"
 #include "services/sim/looks/terrain.h"
 #include "services/sim/places/src/outdoor_kit.h"
@@ -11,8 +11,7 @@
 namespace trailcast::sim {
 namespace {
 
-constexpr std::uint64_t kSeed = 1887;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint64_t kRoughGroundSeed = 1887;
 constexpr double kRoughSlip = 0.05;
 // Grass and stones that a wheel would feel stay that far from the way.
 constexpr double kClear_m = 0.75;
@@ -24,7 +23,7 @@ const Polyline& WayPoints() {
 
 class RoughGround {
  public:
-  RoughGround() : terrain_({{14.0F, 0.06F}, {3.4F, 0.019F}, {1.1F, 0.0030F}}, kSeed) {}
+  RoughGround() : terrain_({{14.0F, 0.06F}, {3.4F, 0.019F}, {1.1F, 0.0030F}}, kRoughGroundSeed) {}
 
   Result<Place> Make() {
     AddGround();
@@ -57,20 +56,20 @@ class RoughGround {
   void Plant();
   void PutUpThings();
 
-  OutdoorKit kit_{kSeed};
+  OutdoorKit kit_{kRoughGroundSeed};
   Terrain terrain_;
-  Random random_{kSeed, "rough"};
+  Random random_{kRoughGroundSeed, "rough"};
 };
 
 void RoughGround::AddGround() {
-  const auto meadow = kit_.builder.AddMaterial("meadow", {255, 255, 255}, Meadow(kSeed));
+  const auto meadow = kit_.builder.AddMaterial("meadow", {255, 255, 255}, Meadow(kRoughGroundSeed));
   kit_.builder.Place({0, 0, 0}, 0);
   AddHeightField(kit_.builder, meadow, {-40, -2, 42, 100, 0.22F}, {-60, -4.2F, 4.2F, 60, 0.22F},
                  3.0F, [this](float x, float y) { return Height(x, y); });
 }
 
 void RoughGround::ScatterStones() {
-  const auto stone = kit_.builder.AddMaterial("stone", {255, 255, 255}, Stone(kSeed));
+  const auto stone = kit_.builder.AddMaterial("stone", {255, 255, 255}, Stone(kRoughGroundSeed));
   for (int i = 0; i < 150; ++i) {
     const Eigen::Vector2f at = BesideTheWay(7.0);
     const float size = Between(0.05, 0.22);

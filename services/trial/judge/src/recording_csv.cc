@@ -24,7 +24,7 @@ constexpr std::pair<const char*, int Verdict::*> kCounts[] = {
     {"offs", &Verdict::offs},           {"found_in_time", &Verdict::found_in_time},
 };
 
-std::string Cell(const std::optional<double>& share) {
+std::string CsvCell(const std::optional<double>& share) {
   return share ? fmt::format("{:.4f}", *share) : "";
 }
 
@@ -64,9 +64,9 @@ std::string RecordingCsvLine(const RecordingRow& row) {
   std::string line = fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", CsvText(row.set), ToString(row.kind),
       CsvText(row.teach), CsvText(row.replay), CsvText(row.disturbance), row.method,
-      Cell(shares.following), Cell(shares.right), Cell(shares.wrong), Cell(shares.lost),
-      verdict.arrived ? 1 : 0, Cell(shares.side), Cell(shares.correction), Cell(shares.steering),
-      Cell(shares.found), row.state, CsvText(row.error), row.segments);
+      CsvCell(shares.following), CsvCell(shares.right), CsvCell(shares.wrong), CsvCell(shares.lost),
+      verdict.arrived ? 1 : 0, CsvCell(shares.side), CsvCell(shares.correction),
+      CsvCell(shares.steering), CsvCell(shares.found), row.state, CsvText(row.error), row.segments);
   for (const auto& [name, count] : kCounts) line += fmt::format(",{}", verdict.*count);
   return line + fmt::format(",{:.3f},{:.3f}", fmt::join(verdict.found_s, " "), row.ms_per_frame);
 }

@@ -146,7 +146,7 @@ std::string Line(const std::vector<std::string>& cells) {
   return line + '\n';
 }
 
-std::string Cell(const std::optional<double>& share) {
+std::string MarkdownCell(const std::optional<double>& share) {
   return share ? fmt::format("{:.3f}", *share) : "";
 }
 
@@ -154,10 +154,12 @@ std::string LineOf(const RecordingRow& row) {
   const RecordingShares shares = SharesOf(row.verdict);
   const Verdict& verdict = row.verdict;
   return Line({row.set, ToString(row.kind), row.replay, row.teach, row.disturbance,
-               Cell(shares.following), Cell(shares.right), Cell(shares.wrong), Cell(shares.lost),
+               MarkdownCell(shares.following), MarkdownCell(shares.right),
+               MarkdownCell(shares.wrong), MarkdownCell(shares.lost),
                verdict.offs > 0 ? fmt::format("{} of {}", verdict.found_in_time, verdict.offs) : "",
-               Cell(shares.side), Cell(shares.correction), Cell(shares.steering),
-               fmt::format("{:.2f}", row.ms_per_frame), row.error.empty() ? row.state : row.error});
+               MarkdownCell(shares.side), MarkdownCell(shares.correction),
+               MarkdownCell(shares.steering), fmt::format("{:.2f}", row.ms_per_frame),
+               row.error.empty() ? row.state : row.error});
 }
 
 }  // namespace
