@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "tests/scenario/programs.h"
+#include "tests/scenario/taught_once.h"
 
 namespace trailcast::test {
 
@@ -74,13 +76,19 @@ class RobotsTest : public ProgramsTest {
                       more),
                  log);
   }
+  // The first test that asks for it has it taught, and those after it have a copy of the store.
   void Teach(const std::string& store = "routes.db", const std::string& path = kPath,
              const std::string& route = "hall") {
+    std::string& what = taught_[store];
+    what += route + "\n" + path;
+    const TaughtOnce once(what);
+    if (once.CopyTo(Path(store))) return;
     const auto robot = Robot("scout", {"--scout", "--lockstep"}, path);
     const auto scout =
         RunAgent(With(With({"teach", "--route", route, "--store", Path(store)}, Drives("scout")),
                       {"--lockstep", "--end-when-still", "1"}));
     ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
+    once.Keep(Path(store));
   }
   // The agent of a robot.
   std::unique_ptr<Process> Follow(const std::string& robot, const std::string& store,
@@ -119,6 +127,9 @@ class RobotsTest : public ProgramsTest {
     }
     return value;
   }
+
+ private:
+  std::map<std::string, std::string> taught_;  // by its store
 };
 
 }  // namespace trailcast::test

@@ -12,7 +12,7 @@ using testing::Not;
 
 class UnfinishedRun : public ProgramsTest {
  protected:
-  UnfinishedRun() { std::ofstream(Path("path.csv")) << "x_m,y_m\n1,1.5\n4.5,1.5\n"; }
+  UnfinishedRun() { std::ofstream(Path("path.csv")) << "x_m,y_m\n1,1.5\n6,1.5\n"; }
   [[nodiscard]] Words Teach(const Words& more) const {
     return With({"teach", "--sim", "indoor", "--path", Path("path.csv"), "--route", "hall",
                  "--store", Path("scout.db"), "--server"},
