@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "agent/device/standstill.h"
+#include "agent/elsewhere.h"
 #include "agent/glances.h"
 #include "agent/hands.h"
 #include "agent/link/lasting_exchange.h"
@@ -35,6 +36,10 @@ constexpr std::chrono::seconds kAilsFor{2};
 // for one whose agent has ended.
 constexpr std::chrono::seconds kStandsThere{60};
 constexpr std::chrono::seconds kDeliverAgain{60};
+// A robot that has found itself off its way is told another one by then, or has failed.
+constexpr std::chrono::seconds kToldWithin{60};
+// Of a route on which it looks for itself it drives nothing.
+constexpr double kAtOnce_m = 0.01;
 constexpr const char* kWaitsForWord = "waits before a narrow stretch until a server lets it in";
 
 exchange::AgentStatus FreeStatus(const AgentId& agent) {
@@ -86,6 +91,11 @@ class OnDuty {
   void WaitForWay();
   void GoOtherWay();
   void Follow(const mission::Task& task);
+  void LookElsewhere();
+  [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
+  // None: there is nothing to judge, since it has failed before, or goes another way.
+  [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(const FollowerOptions& follower);
+  [[nodiscard]] bool MayLookElsewhere(const Result<ReplayOutcome>& outcome);
   void Refresh(const ReplayOutcome& outcome);
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
@@ -118,6 +128,8 @@ class OnDuty {
   std::atomic<double> end_m_ = 0.0;
   std::atomic<bool> turned_off_ = false;
   std::string missed_;  // why it stands until it is told another way; empty: it need not
+  Elsewhere elsewhere_;
+  std::optional<steady_clock::time_point> told_until_;  // who has found itself there
   std::optional<steady_clock::time_point> wait_until_;
   std::optional<OwnLens> lens_;  // as the last following knew it
   std::string on_route_;         // where the last following ended
@@ -220,6 +232,9 @@ void OnDuty::SawStatus(const exchange::AgentStatus& status) {
   place_ = status.place;
   if (Held()) {
     TellState(State::kPaused, now_desk_.hold().text);
+  } else if (elsewhere_.looks()) {
+    TellState(State::kFetching,
+              fmt::format("{}; looks whether it is on {}", elsewhere_.Lost(), on_route_));
   } else if (status.mode == exchange::AgentMode::kReplaying ||
              status.mode == exchange::AgentMode::kTeaching) {
     was_under_way_ = true;
@@ -276,6 +291,8 @@ void OnDuty::Work() {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
     TellState(State::kPaused, now_desk_.hold().text);
+  } else if (elsewhere_.looks()) {
+    LookElsewhere();
   } else if (WaitsForWay()) {
     WaitForWay();
   } else if (task.kind == mission::Task::Kind::kWait) {
@@ -304,18 +321,26 @@ bool OnDuty::WaitsForWay() const {
 
 void OnDuty::WaitForWay() {
   const MissionDesk::Current& current = *desk_.current();
+  if (told_until_ && steady_clock::now() > *told_until_) {
+    return End(State::kFailed, fmt::format("{}; {}, and no server tells it another way within {} s",
+                                           elsewhere_.Lost(), missed_, kToldWithin.count()));
+  }
   if (missed_.empty() && Kind(current) == mission::Task::Kind::kWaitLane) {
     const bool told = current.because.starts_with(mission::kWaits);
     return TellState(State::kFetching, told ? current.because : kWaitsForWord);
   }
-  TellState(State::kFetching, "waits for a way: " + (missed_.empty() ? current.because : missed_));
+  TellState(State::kFetching,
+            fmt::format("{}{}", mission::kAsksForWay, missed_.empty() ? current.because : missed_));
 }
 
 // In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.
 void OnDuty::GoOtherWay() {
   missed_.clear();
-  if (!following_) {
+  told_until_.reset();
+  if (!following_ || elsewhere_.looks()) {
     told_.reset();
+    elsewhere_.End();
+    turned_off_ = following_;
     return;
   }
   const auto& tasks = desk_.current()->tasks;
@@ -337,49 +362,98 @@ void OnDuty::GoOtherWay() {
   turned_off_ = true;
 }
 
-void OnDuty::Follow(const mission::Task& task) {
-  const MissionDesk::Current& current = *desk_.current();
+FollowerOptions OnDuty::FollowerFor(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
   follower.link.instance = presence_.status().instance;
   follower.link.now_desk = &now_desk_;
   follower.link.vitals = options_.vitals;
+  follower.link.stop = [this] { return options_.stop() || turned_off_; };
+  follower.session.lens = lens_;
+  follower.glances = &glances_;
+  return follower;
+}
+
+std::optional<Result<ReplayOutcome>> OnDuty::RunFollower(const FollowerOptions& follower) {
+  auto store = options_.open_store();
+  if (!store) {
+    End(State::kFailed, store.error().message);
+    return std::nullopt;
+  }
+  was_under_way_ = false;
+  ails_since_.reset();
+  ailment_.clear();
+  place_.reset();
+  following_ = true;
+  auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
+  following_ = false;
+  if (outcome) lens_ = outcome->lens;
+  const bool arrived = outcome && outcome->success;
+  stands_until_ = arrived ? steady_clock::time_point() : steady_clock::now() + kStandsThere;
+  if (turned_off_.exchange(false)) return std::nullopt;
+  return outcome;
+}
+
+void OnDuty::Follow(const mission::Task& task) {
+  const MissionDesk::Current& current = *desk_.current();
+  FollowerOptions follower = FollowerFor(task);
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   end_m_ = task.to_m;
   follower.end_m = [this] { return end_m_.load(); };
-  follower.link.stop = [this] { return options_.stop() || turned_off_; };
   // Of a stretch it is not to do another part.
   if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
-  follower.session.lens = lens_;
-  follower.glances = &glances_;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
     if (log) follower.diagnosis = *std::move(log);
     if (!log) spdlog::warn("{}", log.error().message);
   }
-  auto store = options_.open_store();
-  if (!store) {
-    End(State::kFailed, store.error().message);
-    return;
-  }
-  was_under_way_ = false;
-  ails_since_.reset();
-  ailment_.clear();
   driven_ = task;
-  place_.reset();
-  following_ = true;
-  const auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
-  following_ = false;
-  if (outcome) lens_ = outcome->lens;
-  const bool arrived = outcome && outcome->success;
-  stands_until_ = arrived ? steady_clock::time_point() : steady_clock::now() + kStandsThere;
-  if (turned_off_.exchange(false)) return;
+  const auto outcome = RunFollower(follower);
+  if (!outcome || MayLookElsewhere(*outcome)) return;
+  const bool arrived = *outcome && (*outcome)->success;
   // It had arrived when it heard that its order ends further on.
   const bool goes_on =
       arrived && end_m_ != task.to_m && place_ && end_m_ > place_->along_m + kOnWay_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
-  if (arrived) Refresh(*outcome);
-  Judge(outcome);
+  if (arrived) Refresh(**outcome);
+  Judge(*outcome);
+}
+
+// Who is only to drive a route may not be led over others.
+bool OnDuty::MayLookElsewhere(const Result<ReplayOutcome>& outcome) {
+  if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
+  const MissionDesk::Current& current = *desk_.current();
+  if (!mission::GoingIn(current.mission.orders)) return false;
+  if (!elsewhere_.Begin(current.tasks, current.task,
+                        fmt::format("{}: {}", outcome->state, outcome->reason))) {
+    return false;
+  }
+  spdlog::warn("{}", elsewhere_.Lost());
+  told_.reset();
+  return true;
+}
+
+void OnDuty::LookElsewhere() {
+  const mission::Task task = elsewhere_.route();
+  spdlog::info("looks whether it is on {}", task.route.route);
+  FollowerOptions follower = FollowerFor(task);
+  follower.link.from_start = true;
+  follower.session.anywhere = true;
+  follower.end_m = [] { return kAtOnce_m; };
+  const auto outcome = RunFollower(follower);
+  if (!outcome) return;
+  if (place_) {
+    elsewhere_.End();
+    missed_ = fmt::format("it finds itself on {} at {:.1f} m", on_route_, place_->along_m);
+    told_until_ = steady_clock::now() + kToldWithin;
+    told_.reset();
+    return spdlog::info("{}", missed_);
+  }
+  if (*outcome && ((*outcome)->state == "STOPPED" || (*outcome)->state == "CANCELLED")) {
+    elsewhere_.End();
+    return Judge(*outcome);
+  }
+  if (elsewhere_.NotThere()) End(State::kFailed, elsewhere_.Lost());
 }
 
 // A server gets it while the robot is free.
@@ -482,6 +556,7 @@ void OnDuty::Judge(const Result<ReplayOutcome>& outcome) {
 }
 
 void OnDuty::Done(const std::string& what) {
+  elsewhere_.Reset();
   wait_until_.reset();
   told_.reset();
   desk_.NoteDone();
@@ -495,6 +570,9 @@ void OnDuty::End(State state, const std::string& why) {
                       mission::ToString(state), why.empty() ? "" : ": ", why);
   desk_.Tell(state, why);
   told_.reset();
+  elsewhere_.Reset();
+  missed_.clear();
+  told_until_.reset();
   wait_until_.reset();
   now_desk_.ForgetCancelled();
 }

@@ -26,6 +26,14 @@ void Append(std::vector<Stretch>& way, const Stretch& next) {
   }
 }
 
+// It stands off the way that it was sent last, by its own word.
+bool AsksForWay(const mission::Record& record) {
+  const auto going = mission::GoingIn(record.mission.orders);
+  return going && record.last.state == mission::State::kFetching &&
+         record.last.detail.starts_with(mission::kAsksForWay) &&
+         mission::WayIn(record.last.detail) == going->way;
+}
+
 }  // namespace
 
 // What is left of a robot's way.
@@ -33,7 +41,8 @@ struct Replanning::Rest {
   mission::Going going{};  // to nowhere: it is sent along routes by hand
   std::vector<Stretch> stretches{};
   std::optional<NetworkBoard::Stand> stand{};  // where it is, if it has said so
-  bool missed = false;                         // it has passed where it was to leave its route
+  bool missed = false;                         // it is off its way,
+  bool passed = false;                         // where it was to leave its route
   bool waits = false;                          // for a way
   std::optional<network::Condition> closed{};  // the first that it leads over
   std::optional<network::Condition> around{};  // that it is on
@@ -59,7 +68,8 @@ std::string Replanning::Look(const AgentId& agent, Time now) {
   Seen& seen = seen_.Touch(agent);
   if (seen.mission != record->mission.id) seen = {.mission = record->mission.id};
   const bool is_news = seen.changes != network_.changes();
-  if (!is_news && (seen.settled || now - seen.looked_at < kLookEvery)) return {};
+  const bool may_rest = seen.settled && !AsksForWay(*record);
+  if (!is_news && (may_rest || now - seen.looked_at < kLookEvery)) return {};
   const std::string who = fmt::format("{}: mission {} ", agent.value(), record->mission.id);
   const auto said = [&](const std::string& text) {
     return PlainText(who + text, exchange::kMaxLineBytes);
@@ -106,23 +116,15 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
     all.push_back(*std::move(stretch));
   }
   if (const auto* stand = network_.StandOf(record.mission.agent)) rest.stand = *stand;
-  auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
-  if (rest.stand && at != all.end()) {
-    const auto holds = [&](const Stretch& each) { return Holds(each, rest.stand->place); };
-    rest.missed = rest.going.way > 1 && rest.stand->place.route == all.front().route &&
-                  rest.stand->place.along_m > all.front().to_m + kBeyond_m &&
-                  std::none_of(all.begin(), all.end(), holds);
-    // Before it drives it may have said where it was before.
+  if (!rest.waits && AsksForWay(record)) {
+    if (rest.stand && !rest.stand->now) rest.stand.reset();
+    rest.missed = rest.stand.has_value();
+    rest.passed = rest.missed && !all.empty() && rest.stand->place.route == all.front().route &&
+                  rest.stand->place.along_m > all.front().to_m;
+  } else {
     const bool drives = record.last.state == mission::State::kUnderWay ||
                         record.last.state == mission::State::kPaused;
-    const auto found = holds(*at) || !drives ? at : std::find_if(all.begin(), all.end(), holds);
-    if (found != all.end()) at = found;
-    if (!rest.missed && !holds(*at)) rest.stand.reset();
-  }
-  rest.stretches.assign(at, all.end());
-  if (!rest.stretches.empty() && rest.stand && !rest.missed && !laps) {
-    Stretch& first = rest.stretches.front();
-    first.from_m = std::clamp(rest.stand->place.along_m, first.from_m, first.to_m);
+    TakeFrom(all, said, drives, laps, rest);
   }
   for (const Stretch& stretch : rest.stretches) {
     auto closed = network_.FirstClosed(stretch);
@@ -137,6 +139,28 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
     rest.around = *std::move(around);
   }
   return rest;
+}
+
+// Of all its stretches what is left from where it stands; `said`: which it is at by its own word.
+void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, bool drives, bool laps,
+                          Rest& rest) {
+  auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
+  if (rest.stand && at != all.end()) {
+    const auto holds = [&](const Stretch& each) { return Holds(each, rest.stand->place); };
+    rest.missed = rest.going.way > 1 && rest.stand->place.route == all.front().route &&
+                  rest.stand->place.along_m > all.front().to_m + kBeyond_m &&
+                  std::none_of(all.begin(), all.end(), holds);
+    rest.passed = rest.missed;
+    // Before it drives it may have said where it was before.
+    const auto found = holds(*at) || !drives ? at : std::find_if(all.begin(), all.end(), holds);
+    if (found != all.end()) at = found;
+    if (!rest.missed && !holds(*at)) rest.stand.reset();
+  }
+  rest.stretches.assign(at, all.end());
+  if (!rest.stretches.empty() && rest.stand && !rest.missed && !laps) {
+    Stretch& first = rest.stretches.front();
+    first.from_m = std::clamp(rest.stand->place.along_m, first.from_m, first.to_m);
+  }
 }
 
 Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
@@ -184,7 +208,8 @@ Result<std::string> Replanning::Replan(const mission::Record& record, const Rest
   if (!has_way && !rest.stand) return std::string();
   if (!has_way && rest.waits && !rest.closed && !rest.missed) return std::string();
   std::string because = rest.closed   ? network_.Called(*rest.closed) + " was closed"
-                        : rest.missed ? "it had passed where it was to leave its route"
+                        : rest.passed ? "it had passed where it was to leave its route"
+                        : rest.missed ? "it has found itself elsewhere"
                                       : "there is a way";
   if (!has_way) because += "; " + plan->no_way;
   auto planned = network_.TasksOf(plan->way, network_.HeldBy(record.mission.agent));

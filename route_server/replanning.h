@@ -12,9 +12,10 @@
 
 namespace trailcast::server {
 
-// Has robots that are going to a place (mission::Going) go another way when theirs is closed, and
-// stand where they are and wait where there is none. It plans from where a robot will be once it
-// has heard of it; one that is on a closed part drives on out of it. No clock of its own.
+// Has robots that are going to a place (mission::Going) go another way when theirs is closed, or
+// when they say that they are off it, and stand where they are and wait where there is none. It
+// plans from where a robot will be once it has heard of it; one that is on a closed part drives on
+// out of it. No clock of its own.
 class Replanning {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -40,6 +41,8 @@ class Replanning {
  private:
   struct Rest;
   [[nodiscard]] Result<Rest> RestOf(const mission::Record& record);
+  static void TakeFrom(const std::vector<network::Stretch>& all, std::size_t said, bool drives,
+                       bool laps, Rest& rest);
   [[nodiscard]] Result<std::string> Replan(const mission::Record& record, const Rest& rest);
   struct Plan;
   [[nodiscard]] Result<Plan> PlanOn(const Rest& rest, double ahead_m);

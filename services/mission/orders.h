@@ -42,6 +42,9 @@ struct Task {
 // What the reason of a way begins with that waits before a lane, or has been let in.
 inline constexpr std::string_view kWaits = "waits for ";
 inline constexpr std::string_view kEnters = "enters ";
+// What the detail of a robot begins with that stands and asks to be told another way from where it
+// is; or waits for one, as it was told to.
+inline constexpr std::string_view kAsksForWay = "waits for a way: ";
 
 // What a robot is going to, beside the way there.
 struct Going {

@@ -63,18 +63,24 @@ class ReplanningTest : public testing::Test {
                       now_, 1000);
     Say(State::kAccepted, 0);
   }
-  void Say(State state, std::uint32_t task) {
-    missions_->Handle(
-        mission::Report{
-            .agent = robot_, .mission = "m1", .change = ++change_, .state = state, .task = task},
-        now_, 1000);
+  void Say(State state, std::uint32_t task, const std::string& detail = "") {
+    missions_->Handle(mission::Report{.agent = robot_,
+                                      .mission = "m1",
+                                      .change = ++change_,
+                                      .state = state,
+                                      .task = task,
+                                      .detail = detail},
+                      now_, 1000);
   }
   // What is said of it when it is heard.
   std::string IsAt(unsigned route, double along_m, double speed_mps = 0.0) {
+    return Hear(exchange::PlaceOnRoute{test::KeyNumber(route, 1), along_m}, speed_mps);
+  }
+  std::string Hear(const std::optional<exchange::PlaceOnRoute>& place, double speed_mps = 0.0) {
     exchange::AgentStatus status;
     status.agent = robot_;
     status.role = exchange::AgentRole::kFollower;
-    status.place = {test::KeyNumber(route, 1), along_m};
+    status.place = place;
     status.speed_mps = speed_mps;
     network_->Hear(status);
     return replanning_->Look(robot_, now_);
@@ -180,6 +186,36 @@ TEST_F(ReplanningTest, OneThatHasMissedWhereItWasToLeaveIsPlannedAnew) {
   EXPECT_THAT(Orders(), HasSubstr("way 3 wait way"));
   Edit("open hall");
   EXPECT_THAT(Orders(), HasSubstr("way 4 follow hall 5.9..12 follow office 0..8"));
+}
+
+TEST_F(ReplanningTest, OneThatHasFoundItselfElsewhereIsLedOnFromThere) {
+  Drives(direct_, 1, 3.0, 0.5);
+  Say(State::kFetching, 0, "LOST: no path; looks whether it is on yard");
+  EXPECT_EQ(Hear({}), "");
+  now_ += seconds(5);
+  Say(State::kFetching, 0, "waits for a way: it finds itself on yard at 4.0 m");
+  EXPECT_EQ(Hear({}), "") << "not from where it was before";
+  now_ += seconds(2);
+  EXPECT_EQ(IsAt(3, 4.0),
+            "robot1: mission m1 is re-planned: it has found itself elsewhere: follow yard 4..30 "
+            "follow office 4..8");
+  EXPECT_THAT(Orders(), HasSubstr("goto office@8 way 2 follow yard 4..30"));
+  now_ += seconds(2);
+  EXPECT_EQ(IsAt(3, 4.0), "") << "it may not have heard of that yet";
+  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 2.0 m (way 2)");
+  now_ += seconds(4);
+  EXPECT_THAT(IsAt(1, 2.0), HasSubstr("found itself elsewhere: follow hall 2..12"));
+}
+
+TEST_F(ReplanningTest, OneThatHasFoundItselfWhereNoWayLeadsOnWaits) {
+  Drives(direct_, 1, 3.0, 0.5);
+  Say(State::kFetching, 0, "waits for a way: it finds itself on office at 9.0 m");
+  now_ += seconds(2);
+  EXPECT_THAT(IsAt(2, 9.0), AllOf(HasSubstr("waits for a way: it has found itself elsewhere"),
+                                  HasSubstr("no way leads from office@9 to office@8")));
+  EXPECT_THAT(Orders(), HasSubstr("way 2 wait way because"));
+  Edit("join office@9.5 yard@2");
+  EXPECT_THAT(Orders(), HasSubstr("way 3 follow office 9..9.5 follow yard 2..30"));
 }
 
 TEST_F(ReplanningTest, OneThatWasSentByHandIsTold) {
