@@ -1,6 +1,6 @@
 #include "agent/elsewhere.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -9,28 +9,37 @@ namespace trailcast::agent {
 
 using mission::Task;
 
-bool Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string lost) {
+bool Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string lost,
+                      const std::vector<std::string>& seen, const Turning& turning) {
   lost_ = std::move(lost);
   not_on_.clear();
-  routes_.clear();
+  looks_.clear();
   if (++times_ > kMostTimes) return false;
+  std::vector<Task> routes;
+  const auto add = [&](const route::RouteRef& route) {
+    const auto is_it = [&](const Task& known) { return known.route.route == route.route; };
+    if (std::none_of(routes.begin(), routes.end(), is_it)) routes.push_back({.route = route});
+  };
   for (std::size_t i = 0; i < way.size(); ++i) {
     const Task& next = way[(task + i) % way.size()];
-    const auto is_known = [&](const Task& known) {
-      return known.route.route == next.route.route && known.route.revision == next.route.revision;
-    };
-    if (next.kind != Task::Kind::kFollow || std::any_of(routes_.begin(), routes_.end(), is_known)) {
-      continue;
-    }
-    routes_.push_back({.route = next.route});
+    if (next.kind == Task::Kind::kFollow) add(next.route);
+    if (i > 0) continue;
+    for (const std::string& name : seen) add({name});
   }
-  return looks();
+  for (const bool turns : {false, true}) {
+    const bool looks = turns ? turning.may_turn : turning.knows_lens || !turning.may_turn;
+    for (const Task& route : routes) {
+      if (looks) looks_.push_back({route, turns});
+    }
+  }
+  return this->looks();
 }
 
 bool Elsewhere::NotThere() {
-  not_on_ += fmt::format("{}{}", not_on_.empty() ? "" : " or ", routes_.front().route.route);
-  routes_.pop_front();
-  return routes_.empty();
+  const std::string& route = looks_.front().route.route.route;
+  if (std::find(not_on_.begin(), not_on_.end(), route) == not_on_.end()) not_on_.push_back(route);
+  looks_.pop_front();
+  return looks_.empty();
 }
 
 void Elsewhere::Reset() {
@@ -39,8 +48,8 @@ void Elsewhere::Reset() {
 }
 
 std::string Elsewhere::Lost() const {
-  return not_on_.empty() ? lost_
-                         : fmt::format("{}; and it does not find itself on {}", lost_, not_on_);
+  if (not_on_.empty()) return lost_;
+  return fmt::format("{}; and it does not find itself on {}", lost_, fmt::join(not_on_, " or "));
 }
 
 }  // namespace trailcast::agent

@@ -17,10 +17,12 @@
 #include "agent/link/now_desk.h"
 #include "agent/link/outbox.h"
 #include "agent/other_way.h"
+#include "agent/routes_seen.h"
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/publish.h"
 #include "services/program/presence.h"
+#include "services/vision/view_features.h"
 
 namespace trailcast::agent {
 namespace {
@@ -96,6 +98,7 @@ class OnDuty {
   // None: there is nothing to judge, since it has failed before, or goes another way.
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(const FollowerOptions& follower);
   [[nodiscard]] bool MayLookElsewhere(const Result<ReplayOutcome>& outcome);
+  [[nodiscard]] std::vector<std::string> RoutesInView();
   void Refresh(const ReplayOutcome& outcome);
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
@@ -290,6 +293,7 @@ void OnDuty::Work() {
   if (now_desk_.hold().cancelled) {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
+    if (told_until_) told_until_ = steady_clock::now() + kToldWithin;
     TellState(State::kPaused, now_desk_.hold().text);
   } else if (elsewhere_.looks()) {
     LookElsewhere();
@@ -424,8 +428,12 @@ bool OnDuty::MayLookElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
   const MissionDesk::Current& current = *desk_.current();
   if (!mission::GoingIn(current.mission.orders)) return false;
+  const Elsewhere::Turning turning{
+      .knows_lens = lens_.has_value(),
+      .may_turn = FollowerFor(current.tasks[current.task]).session.look_around_rad > 0.0};
   if (!elsewhere_.Begin(current.tasks, current.task,
-                        fmt::format("{}: {}", outcome->state, outcome->reason))) {
+                        fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView(),
+                        turning)) {
     return false;
   }
   spdlog::warn("{}", elsewhere_.Lost());
@@ -433,10 +441,20 @@ bool OnDuty::MayLookElsewhere(const Result<ReplayOutcome>& outcome) {
   return true;
 }
 
+// Of those that it holds.
+std::vector<std::string> OnDuty::RoutesInView() {
+  const auto store = options_.open_store();
+  auto seen = device_.Next();
+  if (!store || !seen || !*seen) return {};
+  return RoutesSeen(**store, vision::DescribeForQuery((*seen)->image));
+}
+
 void OnDuty::LookElsewhere() {
-  const mission::Task task = elsewhere_.route();
-  spdlog::info("looks whether it is on {}", task.route.route);
-  FollowerOptions follower = FollowerFor(task);
+  const auto [route, turns] = elsewhere_.now();
+  spdlog::info("looks whether it is on {}{}", route.route.route,
+               turns ? ", turning on the spot" : "");
+  FollowerOptions follower = FollowerFor(route);
+  if (!turns) follower.session.look_around_rad = 0.0;
   follower.link.from_start = true;
   follower.session.anywhere = true;
   follower.end_m = [] { return kAtOnce_m; };
