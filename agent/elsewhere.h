@@ -12,31 +12,23 @@ namespace trailcast::agent {
 
 // On which routes a robot looks for itself that is going to a place and has lost its path: all
 // along its own, on those that look like what it sees, then on the others that its way leads over,
-// first from there on; as it stands, and then once more turning on the spot, which takes longer.
+// first from there on.
 class Elsewhere {
  public:
   // From one place on its way to the next one that it reaches.
   static constexpr int kMostTimes = 3;
 
-  struct Turning {
-    bool knows_lens = false;  // without turning, what is near cannot be told from what looks large
-    bool may_turn = false;
-  };
   // `task`: of `way`, which it followed; `lost`: why no longer; `seen`: names of routes that look
   // like what it sees. False: it has looked so often.
   [[nodiscard]] bool Begin(std::span<const mission::Task> way, std::uint32_t task, std::string lost,
-                           const std::vector<std::string>& seen, const Turning& turning);
-  [[nodiscard]] bool looks() const { return !looks_.empty(); }
-  struct Look {
-    mission::Task route{};  // anywhere along it
-    bool turns = false;     // on the spot
-  };
-  // What it does now; only while it looks.
-  [[nodiscard]] const Look& now() const { return looks_.front(); }
+                           const std::vector<std::string>& seen);
+  [[nodiscard]] bool looks() const { return !routes_.empty(); }
+  // Where it looks now, anywhere along it; only while it looks.
+  [[nodiscard]] const mission::Task& route() const { return routes_.front(); }
   // It is not there: true if that was the last one.
   [[nodiscard]] bool NotThere();
   // It stands there; or need not look any more.
-  void End() { looks_.clear(); }
+  void End() { routes_.clear(); }
   // It has got further: it may look anew.
   void Reset();
 
@@ -44,7 +36,7 @@ class Elsewhere {
   [[nodiscard]] std::string Lost() const;
 
  private:
-  std::deque<Look> looks_;
+  std::deque<mission::Task> routes_;
   std::string lost_;
   std::vector<std::string> not_on_;
   int times_ = 0;

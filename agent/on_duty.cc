@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -42,6 +43,8 @@ constexpr std::chrono::seconds kDeliverAgain{60};
 constexpr std::chrono::seconds kToldWithin{60};
 // Of a route on which it looks for itself it drives nothing.
 constexpr double kAtOnce_m = 0.01;
+// Who does not know its camera turns so far to either side to see how large that shows things.
+constexpr double kForLens_rad = 0.2;
 constexpr const char* kWaitsForWord = "waits before a narrow stretch until a server lets it in";
 
 exchange::AgentStatus FreeStatus(const AgentId& agent) {
@@ -428,12 +431,8 @@ bool OnDuty::MayLookElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
   const MissionDesk::Current& current = *desk_.current();
   if (!mission::GoingIn(current.mission.orders)) return false;
-  const Elsewhere::Turning turning{
-      .knows_lens = lens_.has_value(),
-      .may_turn = FollowerFor(current.tasks[current.task]).session.look_around_rad > 0.0};
   if (!elsewhere_.Begin(current.tasks, current.task,
-                        fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView(),
-                        turning)) {
+                        fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView())) {
     return false;
   }
   spdlog::warn("{}", elsewhere_.Lost());
@@ -450,11 +449,12 @@ std::vector<std::string> OnDuty::RoutesInView() {
 }
 
 void OnDuty::LookElsewhere() {
-  const auto [route, turns] = elsewhere_.now();
-  spdlog::info("looks whether it is on {}{}", route.route.route,
-               turns ? ", turning on the spot" : "");
+  const mission::Task route = elsewhere_.route();
+  spdlog::info("looks whether it is on {}", route.route.route);
   FollowerOptions follower = FollowerFor(route);
-  if (!turns) follower.session.look_around_rad = 0.0;
+  // Looking all round takes most of a minute a route.
+  double& turn_rad = follower.session.look_around_rad;
+  turn_rad = lens_ ? 0.0 : std::min(turn_rad, kForLens_rad);
   follower.link.from_start = true;
   follower.session.anywhere = true;
   follower.end_m = [] { return kAtOnce_m; };
