@@ -9,12 +9,12 @@ namespace trailcast::agent {
 
 using mission::Task;
 
-bool Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string lost,
+void Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string lost,
                       const std::vector<std::string>& seen) {
   lost_ = std::move(lost);
   not_on_.clear();
   routes_.clear();
-  if (++times_ > kMostTimes) return false;
+  ++times_;
   const auto add = [&](const route::RouteRef& route) {
     const auto is_it = [&](const Task& known) { return known.route.route == route.route; };
     if (std::none_of(routes_.begin(), routes_.end(), is_it)) routes_.push_back({.route = route});
@@ -25,7 +25,6 @@ bool Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string
     if (i > 0) continue;
     for (const std::string& name : seen) add({name});
   }
-  return looks();
 }
 
 bool Elsewhere::NotThere() {

@@ -18,10 +18,11 @@ class Elsewhere {
   // From one place on its way to the next one that it reaches.
   static constexpr int kMostTimes = 3;
 
+  [[nodiscard]] bool MayBegin() const { return times_ < kMostTimes; }
   // `task`: of `way`, which it followed; `lost`: why no longer; `seen`: names of routes that look
-  // like what it sees. False: it has looked so often.
-  [[nodiscard]] bool Begin(std::span<const mission::Task> way, std::uint32_t task, std::string lost,
-                           const std::vector<std::string>& seen);
+  // like what it sees.
+  void Begin(std::span<const mission::Task> way, std::uint32_t task, std::string lost,
+             const std::vector<std::string>& seen);
   [[nodiscard]] bool looks() const { return !routes_.empty(); }
   // Where it looks now, anywhere along it; only while it looks.
   [[nodiscard]] const mission::Task& route() const { return routes_.front(); }

@@ -100,7 +100,7 @@ class OnDuty {
   [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
   // None: there is nothing to judge, since it has failed before, or goes another way.
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(const FollowerOptions& follower);
-  [[nodiscard]] bool MayLookElsewhere(const Result<ReplayOutcome>& outcome);
+  [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
   [[nodiscard]] std::vector<std::string> RoutesInView();
   void Refresh(const ReplayOutcome& outcome);
   void Teach(const mission::Task& task);
@@ -416,7 +416,7 @@ void OnDuty::Follow(const mission::Task& task) {
   }
   driven_ = task;
   const auto outcome = RunFollower(follower);
-  if (!outcome || MayLookElsewhere(*outcome)) return;
+  if (!outcome || LooksElsewhere(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had arrived when it heard that its order ends further on.
   const bool goes_on =
@@ -426,15 +426,13 @@ void OnDuty::Follow(const mission::Task& task) {
   Judge(*outcome);
 }
 
-// Who is only to drive a route may not be led over others.
-bool OnDuty::MayLookElsewhere(const Result<ReplayOutcome>& outcome) {
+// True: it looks elsewhere from now on. Who is only to drive a route may not be led over others.
+bool OnDuty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
   const MissionDesk::Current& current = *desk_.current();
-  if (!mission::GoingIn(current.mission.orders)) return false;
-  if (!elsewhere_.Begin(current.tasks, current.task,
-                        fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView())) {
-    return false;
-  }
+  if (!mission::GoingIn(current.mission.orders) || !elsewhere_.MayBegin()) return false;
+  elsewhere_.Begin(current.tasks, current.task,
+                   fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView());
   spdlog::warn("{}", elsewhere_.Lost());
   told_.reset();
   return true;

@@ -11,7 +11,8 @@ const auto kWay = *mission::ParseOrders(
 TEST(ElsewhereTest, LooksOnItsOwnRouteThenOnThoseToComeThenOnThoseBefore) {
   Elsewhere elsewhere;
   EXPECT_FALSE(elsewhere.looks());
-  ASSERT_TRUE(elsewhere.Begin(kWay, 1, "LOST: no path", {}));
+  elsewhere.Begin(kWay, 1, "LOST: no path", {});
+  ASSERT_TRUE(elsewhere.looks());
   EXPECT_EQ(elsewhere.Lost(), "LOST: no path");
   EXPECT_EQ(mission::ToText(elsewhere.route()), "follow office") << "all along it";
   EXPECT_FALSE(elsewhere.NotThere());
@@ -27,8 +28,8 @@ TEST(ElsewhereTest, LooksOnItsOwnRouteThenOnThoseToComeThenOnThoseBefore) {
 TEST(ElsewhereTest, LooksOnWhatItSeesBeforeTheRestOfItsWay) {
   Elsewhere elsewhere;
   std::string looks;
-  for (bool more = elsewhere.Begin(kWay, 3, "LOST", {"dock", "hall"}); more;
-       more = !elsewhere.NotThere()) {
+  elsewhere.Begin(kWay, 3, "LOST", {"dock", "hall"});
+  for (bool more = elsewhere.looks(); more; more = !elsewhere.NotThere()) {
     looks += elsewhere.route().route.route + " ";
   }
   EXPECT_EQ(looks, "yard dock hall office ");
@@ -37,13 +38,15 @@ TEST(ElsewhereTest, LooksOnWhatItSeesBeforeTheRestOfItsWay) {
 TEST(ElsewhereTest, LooksSoOftenAndAnewOnceItHasGotFurther) {
   Elsewhere elsewhere;
   for (int i = 0; i < Elsewhere::kMostTimes; ++i) {
-    EXPECT_TRUE(elsewhere.Begin(kWay, 0, "LOST", {}));
+    EXPECT_TRUE(elsewhere.MayBegin());
+    elsewhere.Begin(kWay, 0, "LOST", {});
+    EXPECT_TRUE(elsewhere.looks());
     elsewhere.End();
   }
-  EXPECT_FALSE(elsewhere.Begin(kWay, 0, "LOST", {}));
+  EXPECT_FALSE(elsewhere.MayBegin());
   EXPECT_FALSE(elsewhere.looks());
   elsewhere.Reset();
-  EXPECT_TRUE(elsewhere.Begin(kWay, 0, "LOST", {}));
+  EXPECT_TRUE(elsewhere.MayBegin());
 }
 
 }  // namespace
