@@ -15,6 +15,7 @@
 #include "services/exchange/messages.h"
 #include "services/mission/orders.h"
 #include "services/network/changes.h"
+#include "services/network/passing.h"
 #include "services/network/words.h"
 #include "services/store/network_store.h"
 #include "services/store/route_store.h"
@@ -91,6 +92,8 @@ class NetworkBoard {
   [[nodiscard]] std::string Called(const network::Condition& closed) const;  // "hall 3..7"
   [[nodiscard]] Result<std::vector<network::Stretch>> WayOn(const network::Place& from,
                                                             const std::string& goal);
+  // Where it is on other routes: of joints that were found, as far as the routes run together.
+  [[nodiscard]] Result<std::vector<network::Place>> AlsoAt(const network::Place& place);
 
   // Narrow places, by their positions here until one is made or goes (changes()), and who has them:
   // on the disk when it returns.
@@ -156,6 +159,11 @@ class NetworkBoard {
   // By joints that are used and that are proposed: of those that were found as far as the routes
   // run together, of others as far as one is the same joint.
   [[nodiscard]] Result<std::vector<std::string>> WhatPasses(const network::Goal& goal);
+  // Where the other route of a joint passes at `place`, if it does and is not found yet.
+  void AddPassing(const network::Place& place, const network::Joint& joint, double shared_m,
+                  std::optional<double> confidence, std::vector<network::Passing>& found) const;
+  // Metres that its routes run together, as they were found to; 0: nobody knows.
+  [[nodiscard]] double SharedBy(const network::Joint& joint) const;
 
   // The complete revision that ROUTE[@REVISION] means, of some length.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;

@@ -28,6 +28,42 @@ std::optional<double> AlongOther(const Place& place, const Place& here, const Pl
 
 }  // namespace
 
+void NetworkBoard::AddPassing(const Place& place, const Joint& joint, double shared_m,
+                              std::optional<double> confidence, std::vector<Passing>& found) const {
+  for (const auto& [here, there] :
+       {std::pair(&joint.from, &joint.to), std::pair(&joint.to, &joint.from)}) {
+    const auto along_m = AlongOther(place, *here, *there, shared_m);
+    if (!along_m) continue;
+    const double length_m = known_.at(KeyOf(there->route).route).followed->length_m;
+    const Place at{there->route, ToCentimetre(std::clamp(*along_m, 0.0, length_m))};
+    const bool is_found = std::any_of(found.begin(), found.end(), [&](const Passing& each) {
+      return each.at.route == at.route && std::abs(each.at.along_m - at.along_m) <= kSameMeeting_m;
+    });
+    if (!is_found) found.push_back({at, joint, confidence});
+  }
+}
+
+double NetworkBoard::SharedBy(const Joint& joint) const {
+  const auto proposed =
+      std::find_if(proposed_.begin(), proposed_.end(), [&](const store::ProposedJoint& each) {
+        return each.proposal.joint.from == joint.from && each.proposal.joint.to == joint.to;
+      });
+  return proposed == proposed_.end() ? 0.0 : proposed->length_m;
+}
+
+Result<std::vector<Place>> NetworkBoard::AlsoAt(const Place& place) {
+  if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
+  std::vector<Passing> found;
+  for (const Joint& joint : joints_) {
+    const double shared_m = SharedBy(joint);
+    const bool is_measured = shared_m > 0.0 && IsUsed(joint.from) && IsUsed(joint.to);
+    if (is_measured) AddPassing(place, joint, shared_m, {}, found);
+  }
+  std::vector<Place> also;
+  for (const Passing& each : found) also.push_back(each.at);
+  return also;
+}
+
 Result<std::vector<std::string>> NetworkBoard::WhatPasses(const network::Goal& goal) {
   const auto place = Resolve(goal);
   if (!place) return tl::unexpected(place.error());
@@ -42,34 +78,15 @@ Result<std::vector<std::string>> NetworkBoard::WhatPasses(const network::Goal& g
   }
 
   std::vector<Passing> found;
-  const auto look = [&](const Joint& joint, std::optional<double> confidence, double shared_m) {
-    for (const auto& [here, there] :
-         {std::pair(&joint.from, &joint.to), std::pair(&joint.to, &joint.from)}) {
-      const auto along_m = AlongOther(*place, *here, *there, shared_m);
-      if (!along_m) continue;
-      const double length_m = known_.at(KeyOf(there->route).route).followed->length_m;
-      const Place at{there->route, ToCentimetre(std::clamp(*along_m, 0.0, length_m))};
-      const bool is_found = std::any_of(found.begin(), found.end(), [&](const Passing& each) {
-        return each.at.route == at.route &&
-               std::abs(each.at.along_m - at.along_m) <= kSameMeeting_m;
-      });
-      if (!is_found) found.push_back({at, joint, confidence});
-    }
-  };
-  const auto shared_by = [&](const Joint& joint) {
-    const auto proposed =
-        std::find_if(proposed_.begin(), proposed_.end(), [&](const store::ProposedJoint& each) {
-          return each.proposal.joint.from == joint.from && each.proposal.joint.to == joint.to;
-        });
-    return proposed == proposed_.end() ? 0.0 : proposed->length_m;
-  };
   for (const Joint& joint : joints_) {
     if (joint.from.route != place->route && joint.to.route != place->route) continue;
-    if (IsUsed(joint.from) && IsUsed(joint.to)) look(joint, {}, shared_by(joint));
+    if (IsUsed(joint.from) && IsUsed(joint.to)) {
+      AddPassing(*place, joint, SharedBy(joint), {}, found);
+    }
   }
   for (const std::size_t each : Open()) {
     const network::Proposal& proposal = proposed_[each].proposal;
-    look(proposal.joint, proposal.confidence, proposed_[each].length_m);
+    AddPassing(*place, proposal.joint, proposed_[each].length_m, proposal.confidence, found);
   }
 
   std::vector<std::string> lines{network::AtPlace(*called)};

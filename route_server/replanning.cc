@@ -184,6 +184,13 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
     }
   }
   auto on = network_.WayOn(from, rest.going.to);
+  if (!on && rest.missed) {  // it stands, and may be on several routes, of which it has said one
+    const auto also = network_.AlsoAt(from);
+    if (!also) return tl::unexpected(also.error());
+    for (std::size_t i = 0; !on && i < also->size(); ++i) {
+      if (auto by = network_.WayOn((*also)[i], rest.going.to)) on = std::move(by);
+    }
+  }
   if (on) {
     for (const Stretch& stretch : *on) Append(plan.way, stretch);
     return plan;

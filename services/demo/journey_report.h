@@ -16,7 +16,7 @@ struct JourneyRow {
   std::string from;         // where it stood
   std::string said;         // what `send` said of it last
   bool arrived = false;     // by its own word and by the truth
-  bool gave_up = false;     // by its own word, which says why
+  bool gave_up = false;     // or waits where no way leads on; by its own word, which says why
   double goal_m = 0.0;      // from where it was sent
   double beside_m = 0.0;    // at most, from the nearest taught path, before it was carried off
   bool trespassed = false;  // on what is closed

@@ -43,6 +43,8 @@ class NetworkShow {
   [[nodiscard]] Result<void> TypeNext();
   [[nodiscard]] Result<void> SendAll();
   [[nodiscard]] bool AllTaught(const FleetView& view) const;
+  // Who was carried to where no way leads on may wait for one.
+  [[nodiscard]] bool AllEnded(const FleetView& view, Time now);
 
   std::filesystem::path programs_;
   std::filesystem::path folder_;
@@ -54,6 +56,7 @@ class NetworkShow {
   std::vector<ChildProcess> sends_;
   std::vector<std::string> typed_;
   Time proposals_until_{};
+  std::optional<Time> waits_since_{};
   int logs_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "services/demo/demo_report.h"
+#include "services/mission/orders.h"
 #include "services/sim/core/path.h"
 
 namespace trailcast::demo {
@@ -110,7 +111,9 @@ Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, const std::vector<s
       row.goal_m = (row.legs.back().end_m() - goal).norm();
       row.beside_m = Beside_m(row.legs.front(), report.taught);
       row.arrived = row.said == row.robot.name + ": arrived" && row.goal_m < kThere_m;
-      row.gave_up = row.said.starts_with(row.robot.name + ": failed: ");
+      row.gave_up = row.said.starts_with(row.robot.name + ": failed: ") ||
+                    row.said.starts_with(
+                        fmt::format("{}: fetching: {}", row.robot.name, mission::kAsksForWay));
       row.trespassed = Trespassed(row, plan, to_goal);
     }
     report.rows.push_back(std::move(row));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "services/demo/src/network_words.h"
+#include "services/mission/orders.h"
 
 namespace trailcast::demo {
 namespace {
@@ -17,6 +18,8 @@ using exchange::AgentMode;
 constexpr std::chrono::seconds kProposalsWithin{15};
 constexpr std::ptrdiff_t kEnoughProposals = 2;
 constexpr std::size_t kLastLines = 40;
+// A robot that was carried to where no way leads on waits for one: it is told of one by then.
+constexpr std::chrono::seconds kWaitsFor{10};
 
 }  // namespace
 
@@ -124,10 +127,25 @@ Result<void> NetworkShow::Step(const FleetView& view, Time now) {
     case Stage::kOver:
       break;
   }
-  const bool ended = std::all_of(sends_.begin(), sends_.end(),
-                                 [](ChildProcess& send) { return send.Poll().has_value(); });
-  if (ended) stage_ = Stage::kOver;
+  if (AllEnded(view, now)) stage_ = Stage::kOver;
   return {};
+}
+
+bool NetworkShow::AllEnded(const FleetView& view, Time now) {
+  bool one_waits = false;
+  for (std::size_t i = 0; i < sends_.size(); ++i) {
+    if (sends_[i].Poll()) continue;
+    const DemoRobot& robot = plan_.robots[plan_.journeys[i].robot];
+    const auto* status = view.Find(AgentId(robot.name));
+    one_waits = !robot.carry.empty() && status != nullptr &&
+                status->detail.starts_with(mission::kAsksForWay);
+    if (!one_waits) {
+      waits_since_.reset();
+      return false;
+    }
+  }
+  if (one_waits && !waits_since_) waits_since_ = now;
+  return !one_waits || now - *waits_since_ >= kWaitsFor;
 }
 
 std::vector<std::string> NetworkShow::LastWords() const {

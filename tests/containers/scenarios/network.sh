@@ -52,7 +52,16 @@ start_planned() {
 send_planned() {
   operate send "$1" goto lab-2 --from "$(field_of "$1" 7)" --wait >"$plan/$1.said" 2>&1 &
 }
-all_have_ended() { [[ -z $(jobs -pr) ]]; }
+
+# Who was carried to where no way leads on waits for one.
+all_have_ended() {
+  local name waiting=0
+  for name in "${robots[@]}"; do
+    [[ $(field_of "$name" 8) == - ]] || ! tail -n 1 "$plan/$name.said" | grep -q 'no way leads' ||
+      waiting=$((waiting + 1))
+  done
+  (($(jobs -pr | wc -l) <= waiting))
+}
 
 told_network() {
   local told

@@ -218,6 +218,24 @@ TEST_F(ReplanningTest, OneThatHasFoundItselfWhereNoWayLeadsOnWaits) {
   EXPECT_THAT(Orders(), HasSubstr("way 3 follow office 9..9.5 follow yard 2..30"));
 }
 
+// Beyond the joint, where both routes still run side by side.
+TEST_F(ReplanningTest, OneThatHasFoundItselfOnOneOfTwoRoutesGoesOnByTheOther) {
+  ASSERT_TRUE(network_->Propose({.a = test::KeyNumber(1, 1),
+                                 .b = test::KeyNumber(2, 1),
+                                 .at_a_m = 15.0,
+                                 .at_b_m = 3.0,
+                                 .length_m = 6.0,
+                                 .confidence = 0.95},
+                                0.9, 1000));
+  Drives(direct_, 1, 3.0, 0.5);
+  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 17.0 m");
+  now_ += seconds(2);
+  EXPECT_THAT(IsAt(1, 17.0), HasSubstr(": follow office 5..8"));
+  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 19.5 m (way 2)");
+  now_ += seconds(4);
+  EXPECT_THAT(IsAt(1, 19.5), HasSubstr("no way leads from hall@19.5")) << "they have parted";
+}
+
 TEST_F(ReplanningTest, OneThatWasSentByHandIsTold) {
   Drives("follow hall", 1, 2.0);
   EXPECT_THAT(Edit("close hall 7..9"),
