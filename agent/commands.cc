@@ -293,7 +293,7 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file, kOfCopies);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, WithGlances(FollowersTopics(options)));
+  auto exchange = Join(options, WithGlances(FollowersTopics(options, exchange::ReplayTopics())));
   if (!exchange) return tl::unexpected(exchange.error());
   Glances glances(AgentId(options.common.name));
   FollowerOptions follower = MakeFollowerOptions(options, replay, *ref);

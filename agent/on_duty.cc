@@ -13,6 +13,7 @@
 #include "agent/elsewhere.h"
 #include "agent/glances.h"
 #include "agent/hands.h"
+#include "agent/link/followed_note.h"
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
@@ -69,6 +70,7 @@ class OnDuty {
         glances_(options.agent),
         exchange_(glances_.Through(std::move(exchange))),
         now_desk_(options.agent, options.stop_file),
+        followed_note_(options.agent),
         desk_(options.agent, options.missions_file),
         own_visit_(exchange_.Visit()),
         presence_(*own_visit_, FreeStatus(options.agent)) {
@@ -117,6 +119,7 @@ class OnDuty {
   Glances glances_;
   LastingExchange exchange_;
   NowDesk now_desk_;
+  FollowedNote followed_note_;
   MissionDesk desk_;
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
@@ -169,6 +172,8 @@ void OnDuty::Say(exchange::RouteExchange& to) {
   TellNews();
   if (following_) return;
   (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
+  // Where no server was heard while it followed.
+  if (presence_.server()) (void)exchange::PublishAll(to, followed_note_.Due(now));
   if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
   if (delivering_) return;
   ShowFree();
@@ -373,6 +378,7 @@ FollowerOptions OnDuty::FollowerFor(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
   follower.link.instance = presence_.status().instance;
   follower.link.now_desk = &now_desk_;
+  follower.link.followed_note = &followed_note_;
   follower.link.vitals = options_.vitals;
   follower.link.stop = [this] { return options_.stop() || turned_off_; };
   follower.session.lens = lens_;

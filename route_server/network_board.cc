@@ -100,6 +100,9 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   if (!searched) return tl::unexpected(searched.error());
   auto lanes = board->store_->Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
+  const auto followed = board->store_->Followed();
+  if (!followed) return tl::unexpected(followed.error());
+  board->followed_.Load(*followed);
   board->lanes_ = *std::move(lanes);
   board->proposed_ = *std::move(proposed);
   board->searched_.insert(searched->begin(), searched->end());
@@ -333,6 +336,7 @@ Result<Lines> NetworkBoard::All() {
     condition.route = Called(RouteId(condition.route));
     lines.push_back(network::ToText(condition));
   }
+  for (std::string& line : PoorLines()) lines.push_back(std::move(line));
   for (const store::KeptLane& kept : lanes_) {
     std::string line = network::ToText(CalledLane(kept));
     if (!kept.holders.empty()) {
@@ -520,7 +524,7 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
   std::vector<Joint> joints;
   std::copy_if(joints_.begin(), joints_.end(), std::back_inserter(joints),
                [&](const Joint& joint) { return IsUsed(joint.from) && IsUsed(joint.to); });
-  std::vector<Condition> conditions;
+  std::vector<Condition> conditions = CostsOfPoor();
   for (Condition condition : conditions_) {
     const Known& known = known_.at(RouteId(condition.route));
     if (!known.followed) continue;

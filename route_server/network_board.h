@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "route_server/followed_lately.h"
 #include "route_server/meeting.h"
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
@@ -50,6 +51,10 @@ class NetworkBoard {
   [[nodiscard]] exchange::NetworkReply Answer(const exchange::NetworkRequest& request);
   // Where robots say that they stand.
   void Hear(const exchange::AgentStatus& status);
+  // What robots say of how they follow.
+  [[nodiscard]] FollowedLately& followed() { return followed_; }
+  // From now on ways lead by what was heard of that, and it is on the disk.
+  [[nodiscard]] Result<void> KeepFollowed(std::int64_t now_unix_ms);
   // What is known of a revision may have changed.
   void Note(const route::RouteInfo& info);
 
@@ -123,7 +128,10 @@ class NetworkBoard {
   };
   NetworkBoard(AgentId server, std::unique_ptr<store::NetworkStore> store,
                store::RouteStore& routes)
-      : server_(std::move(server)), store_(std::move(store)), routes_(routes) {}
+      : server_(std::move(server)),
+        store_(std::move(store)),
+        routes_(routes),
+        followed_([this](const route::RouteKey& key) { return LengthOf(key); }) {}
 
   [[nodiscard]] Result<std::vector<std::string>> Carry(const network::Edit& edit,
                                                        const std::string& by,
@@ -172,6 +180,9 @@ class NetworkBoard {
   // Looks up what is not known of the routes that are joined or have named places, and of these.
   [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
   [[nodiscard]] Result<Known> LookUp(const RouteId& route) const;
+  [[nodiscard]] std::optional<double> LengthOf(const route::RouteKey& key) const;
+  [[nodiscard]] std::vector<network::Condition> CostsOfPoor() const;
+  [[nodiscard]] std::vector<std::string> PoorLines() const;
   void NoteChange();
   [[nodiscard]] bool IsUsed(const network::Place& place) const;
   // As people are shown it: "hall@12", "hall@1@12" of a revision that is not followed.
@@ -189,8 +200,10 @@ class NetworkBoard {
   std::vector<store::ProposedJoint> proposed_;   // of revisions
   std::vector<store::KeptLane> lanes_;           // of routes
   std::set<AgentId> vacated_;
-  std::set<std::string> searched_;    // revisions
-  std::vector<std::string> unsaved_;  // of these
+  FollowedLately followed_;
+  std::vector<FollowedLately::Poor> poor_;  // by which ways lead
+  std::set<std::string> searched_;          // revisions
+  std::vector<std::string> unsaved_;        // of these
   std::map<RouteId, Known> known_;
   std::set<std::string> names_;              // of those
   std::optional<network::Network> network_;  // of those, by revision

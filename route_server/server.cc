@@ -85,6 +85,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
   SaveSearched(steady_clock::now());
+  KeepFollowed(steady_clock::now());
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();
   const exchange::KeeperCounters& counters = keeper_->counters();
@@ -156,6 +157,10 @@ void Server::Receive(exchange::Message message) {
     if (network_) network_->Hear(*status);
     Replan(status->agent);
   }
+  if (const auto* followed = std::get_if<exchange::FollowedStretches>(&message);
+      followed != nullptr && network_) {
+    network_->followed().Hear(*followed, NowUnixMs());
+  }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
     // Another server may have changed it in the store that both share.
@@ -203,6 +208,7 @@ void Server::Serve() {
   NoteAnnounced(outgoing);
   FillViews(outgoing);
   KeepLookingForJoints(now);
+  if (now >= followed_due_) KeepFollowed(now);
   upkeep_->Tick(now);
   TellAgents();
   TellMissions();

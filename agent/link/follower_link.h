@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "agent/link/followed_note.h"
 #include "agent/link/neighbours.h"
 #include "agent/link/now_desk.h"
 #include "agent/link/place_note.h"
@@ -36,9 +37,11 @@ struct FollowerLinkOptions {
   std::filesystem::path stop_file;   // where an operator's stop is kept; empty: nowhere
   double begin_m = 0.0;  // how far along the route the robot is set down; whatever was noted
   // Of an agent that follows many routes: its process in the fleet, which has claimed the name, and
-  // what operators have told it, which outlives the link. 0 and null: this link is all there is.
+  // what operators have told it and what it is to tell of how it followed, which outlive the link.
+  // 0 and null: this link is all there is.
   std::uint64_t instance = 0;
   NowDesk* now_desk = nullptr;
+  FollowedNote* followed_note = nullptr;
   std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
   bool feeds_segments = true;   // false: nobody drives, the segments are stored and not read back
   bool hears_operators = true;  // false: there is nothing that could be held
@@ -124,6 +127,7 @@ class FollowerLink {
   void HearOperators(const exchange::Message& message);
   void AnswerOperators();
   [[nodiscard]] bool TellHold();  // false: not yet
+  void TellFollowed(const std::vector<exchange::Message>& messages);
   [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
 
   FollowerLinkOptions options_;
@@ -142,6 +146,8 @@ class FollowerLink {
   std::vector<Neighbour> told_;      // to the control loop
   std::optional<NowDesk> own_desk_;  // unless it was lent one
   NowDesk& now_desk_;
+  FollowedNote own_note_;  // likewise
+  FollowedNote& followed_note_;
   Hold hold_told_;  // to the control loop
   std::vector<route::RouteKey> held_revisions_;
   std::uint32_t held_ = 0;         // segments in the own store without a gap

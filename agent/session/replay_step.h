@@ -40,6 +40,8 @@ struct ReplayStep {
   std::optional<Believed> believed;
   std::string reason;   // kLost, kBlind, kWaiting: one line for people
   std::string passing;  // as replay::Passing says it
+  // The camera gave nothing to look at: `trust` says nothing of the path.
+  bool saw_nothing = false;
   // What of the robot has failed, for which it stands until that is over; empty: nothing.
   std::string robot_trouble;
   // What the robot stands for that is no failure, until it is gone; empty: nothing.

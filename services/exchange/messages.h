@@ -303,6 +303,23 @@ struct NetworkReply {
   bool operator==(const NetworkReply&) const = default;
 };
 
+// Of these stretches along a route it is told how robots follow.
+inline constexpr double kFollowedStretch_m = 5.0;
+
+// trailcast/followed: how a follower has followed a revision since it last said so.
+struct FollowedStretches {
+  struct Stretch {
+    std::uint32_t number = 0;  // along the route, from 0
+    std::uint32_t passed = 0;  // how often it came over it
+    std::uint32_t lost = 0;    // of those, how often it lost its path, found again or not
+    bool operator==(const Stretch&) const = default;
+  };
+  AgentId agent{};
+  route::RouteKey key{};
+  std::vector<Stretch> stretches{};
+  bool operator==(const FollowedStretches&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -315,6 +332,6 @@ using Message =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
-                 AgentGone>;
+                 FollowedStretches, AgentGone>;
 
 }  // namespace trailcast::exchange

@@ -34,6 +34,7 @@ enum class Topic : std::uint8_t {
   kNetworkEdits,
   kNetworkRequests,
   kNetworkReplies,
+  kFollowed,
 };
 
 struct TopicUse {
@@ -61,6 +62,7 @@ struct TopicUse {
 [[nodiscard]] TopicUse OperatorTopics();    // reads routes, agents, catalog replies; asks the
                                             // catalog, edits routes
 [[nodiscard]] TopicUse DispatcherTopics();  // of who tells robots what to do now
+[[nodiscard]] TopicUse ReplayTopics();      // a follower's that drives, and tells how that went
 [[nodiscard]] TopicUse OnDutyTopics();      // a follower's that is sent on missions
 [[nodiscard]] TopicUse TeachingTopics();    // a scout's that is driven by operators
 [[nodiscard]] TopicUse SenderTopics();      // of who sends missions

@@ -66,6 +66,17 @@ struct Proposal {
   bool operator==(const Proposal&) const = default;
 };
 
+// A stretch where robots lost their path lately, and ways are longer for it.
+struct LostStretch {
+  std::string route{};
+  double from_m = 0.0;
+  double to_m = 0.0;    // above from_m
+  double passed = 0.0;  // times; what is long ago counts in part
+  double lost = 0.0;    // of these
+  double cost = 1.0;    // a metre counts as so many
+  bool operator==(const LostStretch&) const = default;
+};
+
 // Of a condition that ends where its route does.
 inline constexpr double kToTheEnd_m = 1e7;
 
@@ -73,12 +84,15 @@ inline constexpr double kToTheEnd_m = 1e7;
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
 
 // A line of what a server lists: a route that it names, "route ROUTE METRES", what is so, as the
-// edit that brings it about, or what it proposes. Of a line that a later version may have, nothing.
+// edit that brings it about, what it proposes, or where robots were lost. Of a line that a later
+// version may have, nothing.
 struct Listed {
   bool used = true;              // false: of a revision that robots do not follow
   std::optional<Route> route{};  // its name and length
   std::optional<Edit> edit{};
-  std::optional<Proposal> proposal{};   // "proposed join PLACE PLACE .. confidence F"
+  std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
+  // "lost ROUTE FROM..TO N of M times lately, a metre counts as F"
+  std::optional<LostStretch> lost{};
   std::vector<std::string> taken_by{};  // of a narrow place, "narrow .., taken by robot1 robot2"
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
@@ -113,6 +127,7 @@ struct Question {
 [[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
 [[nodiscard]] std::string ToText(const Proposal& proposal);    // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);            // "narrow .."
+[[nodiscard]] std::string ToText(const LostStretch& lost);     // "lost .."
 
 // What holds after such an edit: of one kind, a closed stretch or a limit, one at each place.
 [[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);

@@ -11,6 +11,7 @@
 #include "services/base/ids.h"
 #include "services/base/result.h"
 #include "services/network/words.h"
+#include "services/route/route.h"
 
 namespace trailcast::store {
 
@@ -30,12 +31,23 @@ struct KeptLane {
   std::set<AgentId> holders{};
 };
 
+// How a stretch of a revision was followed: how often robots came over it, and lost their path
+// there, as it counts at a time.
+struct FollowedStretch {
+  route::RouteKey key{};
+  std::int64_t number = 0;  // along the route
+  double passed = 0.0;
+  double lost = 0.0;
+  std::int64_t at_unix_ms = 0;
+  bool operator==(const FollowedStretch&) const = default;
+};
+
 // How routes are joined, what holds on parts of them and what places are called, as operators said,
-// which joints are proposed to them, and who has which narrow place: a SQLite file of its own,
-// created if missing. What a call has stored is on the disk when it returns. Which routes places
-// and conditions name is the caller's affair. Errors name the file: kUnavailable (disk full, no
-// such folder, too many), kConflict (another process has it open), kCorrupt (no such file of ours,
-// or a damaged one).
+// which joints are proposed to them, who has which narrow place, and how stretches were followed: a
+// SQLite file of its own, created if missing. What a call has stored is on the disk when it
+// returns. Which routes places and conditions name is the caller's affair. Errors name the file:
+// kUnavailable (disk full, no such folder, too many), kConflict (another process has it open),
+// kCorrupt (no such file of ours, or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJoints = 100'000;
@@ -44,6 +56,7 @@ class NetworkStore {
   static constexpr std::int64_t kMostProposals = 20'000;
   static constexpr std::int64_t kMostLaneParts = 10'000;
   static constexpr std::int64_t kMostHolders = 10'000;
+  static constexpr std::int64_t kMostFollowed = 50'000;
 
   [[nodiscard]] static Result<std::unique_ptr<NetworkStore>> Open(
       const std::filesystem::path& file);
@@ -59,6 +72,7 @@ class NetworkStore {
   // Revisions whose joints were looked for.
   [[nodiscard]] Result<std::vector<std::string>> Searched();
   [[nodiscard]] Result<std::vector<KeptLane>> Lanes();
+  [[nodiscard]] Result<std::vector<FollowedStretch>> Followed();  // the oldest first
 
   // In place of that from and to the same places. `by`: who said so, and when by the caller's
   // clock.
@@ -86,6 +100,8 @@ class NetworkStore {
   // All or nothing.
   [[nodiscard]] Result<void> Hold(std::span<const std::int64_t> lanes, const AgentId& agent);
   [[nodiscard]] Result<void> Release(std::span<const std::int64_t> lanes, const AgentId& agent);
+  // In place of what is kept of the same. All or nothing; of more than kMostFollowed the oldest go.
+  [[nodiscard]] Result<void> Put(std::span<const FollowedStretch> followed);
   // The revision is there no more: no more of its proposals either.
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 

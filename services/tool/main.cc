@@ -21,7 +21,7 @@ constexpr const char* kMainExamples =
     "  trailcast send robot2 follow hall      # a robot on duty; 'missions' tells what became of "
     "it\n"
     "  trailcast network join hall@12 office@0   # routes become a network\n"
-    "  trailcast send robot2 goto office@8    # the shortest way over it\n"
+    "  trailcast send robot2 goto office@8    # the best way over it\n"
     "  trailcast glance robot2                # what its camera sees, as a picture\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"

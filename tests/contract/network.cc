@@ -86,6 +86,8 @@ Message ProbeFor(Topic topic) {
       return exchange::NetworkRequest{.client = kProbe};
     case Topic::kNetworkReplies:
       return exchange::NetworkReply{.server = kProbe, .client = kProbe};
+    case Topic::kFollowed:
+      return exchange::FollowedStretches{.agent = kProbe, .key = key};
     case Topic::kAgents:
       break;
   }
@@ -120,6 +122,7 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
     AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
     AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
+    AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

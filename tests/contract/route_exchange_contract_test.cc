@@ -222,6 +222,17 @@ TEST_P(RouteExchangeContract, CarriesWordsOfTheNetwork) {
                   Topic::kNetworkReplies);
 }
 
+TEST_P(RouteExchangeContract, CarriesHowStretchesWereFollowed) {
+  constexpr std::uint32_t kMost = exchange::kMaxTimesPassed;
+  ExpectRoundTrip(
+      exchange::FollowedStretches{
+          .agent = AgentId("r"),
+          .key = KeyNumber(1),
+          .stretches = std::vector(exchange::kMaxStretchesTold,
+                                   exchange::FollowedStretches::Stretch{7, kMost, kMost})},
+      Topic::kFollowed);
+}
+
 TEST_P(RouteExchangeContract, CarriesARefusal) {
   Receipt receipt{.server = AgentId("s"), .key = KeyNumber(1)};
   receipt.refusal = exchange::Refusal::kFull;

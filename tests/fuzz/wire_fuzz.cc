@@ -205,6 +205,18 @@ class Samples {
     wire.followers._length = Count();
     wire.followers._buffer = Many<trailcast_wire_RouteFollower>(followers_, wire.followers._length);
   }
+  void Fill(trailcast_wire_FollowedStretches& wire) {
+    wire.agent = Name();
+    Fill(wire.on);
+    wire.stretches._length = Count();
+    wire.stretches._buffer =
+        Many<trailcast_wire_FollowedStretch>(stretches_, wire.stretches._length);
+  }
+  void Fill(trailcast_wire_FollowedStretch& wire) {
+    wire.number = input_.ConsumeIntegral<std::uint32_t>();
+    wire.passed = input_.ConsumeIntegral<std::uint32_t>();
+    wire.lost = input_.ConsumeIntegral<std::uint32_t>();
+  }
   void Fill(trailcast_wire_NowCommand& wire) {
     wire.client = Name();
     wire.number = input_.ConsumeIntegral<std::uint64_t>();
@@ -386,6 +398,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
   std::deque<std::vector<trailcast_wire_ClaimedName>> claimed_;
   std::deque<std::vector<trailcast_wire_RouteFollower>> followers_;
+  std::deque<std::vector<trailcast_wire_FollowedStretch>> stretches_;
   std::deque<std::vector<trailcast_wire_MissionRecord>> missions_;
   std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
   std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
@@ -495,6 +508,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kNetworkReplies:
       FillAndTakeIn<trailcast_wire_NetworkReply>(topic, input);
+      break;
+    case Topic::kFollowed:
+      FillAndTakeIn<trailcast_wire_FollowedStretches>(topic, input);
       break;
   }
   return 0;

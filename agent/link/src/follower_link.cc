@@ -51,7 +51,10 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
           [this](const route::RouteKey& key) { return store_->FindRoute(key); }),
       place_note_(options_.place_file),
       neighbours_(options_.agent),
-      now_desk_(DeskOf(options_, own_desk_)) {
+      now_desk_(DeskOf(options_, own_desk_)),
+      own_note_(options_.agent),
+      followed_note_(options_.followed_note != nullptr ? *options_.followed_note : own_note_) {
+  followed_note_.Begin();
   if (!exchange_) return;
   presence_.emplace(*exchange_, FollowerStatus(options_));
   presence_->FeelBy(options_.vitals);
@@ -173,6 +176,7 @@ void FollowerLink::Trade() {
   AnswerOperators();
   if (auto listening = Listen(now); !listening) spdlog::debug("{}", listening.error().message);
   Say(now);
+  if (presence_->server()) TellFollowed(followed_note_.Due(now));
   HearServer();
   TellNeighbours(now);
   ShowStatus();

@@ -78,6 +78,7 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   report.state = lost ? ReplayState::kLost : ReplayState::kBlind;
   report.trust = lost ? Trust::kLost : Trust::kBlind;
   report.reason = why;
+  report.saw_nothing = true;
   standing.trust = report.trust;
   if (lost) {
     standing.state = report.state;
@@ -129,6 +130,7 @@ ReplayStep ReplaySession::State::StandMisturned() {
   step.state = standing.state;
   step.trust = standing.trust;
   step.reason = standing.reason;
+  step.saw_nothing = true;
   return step;
 }
 

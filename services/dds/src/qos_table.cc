@@ -48,6 +48,7 @@ constexpr std::array kTable = {
     Row{T::kNetworkEdits,    {false,    16,        kForever}},
     Row{T::kNetworkRequests, {false,    16,        kForever}},
     Row{T::kNetworkReplies,  {false,    16,        kForever}},
+    Row{T::kFollowed,        {false,    16,        kForever}},
 };
 // clang-format on
 

@@ -372,6 +372,14 @@ Message From(const trailcast_wire_NetworkReply& wire) {
                       .error = Text(wire.error)};
 }
 
+Message From(const trailcast_wire_FollowedStretches& wire) {
+  FollowedStretches all{.agent = AgentId(Text(wire.agent)), .key = From(wire.on)};
+  for (const trailcast_wire_FollowedStretch& each : Elements(wire.stretches)) {
+    all.stretches.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
+  }
+  return all;
+}
+
 Message From(const trailcast_wire_RouteFollowers& wire) {
   RouteFollowers all{.server = AgentId(Text(wire.server)), .key = From(wire.key), .followers = {}};
   for (const trailcast_wire_RouteFollower& follower : Elements(wire.followers)) {
@@ -428,6 +436,8 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_NetworkRequest*>(sample));
     case Topic::kNetworkReplies:
       return From(*static_cast<const trailcast_wire_NetworkReply*>(sample));
+    case Topic::kFollowed:
+      return From(*static_cast<const trailcast_wire_FollowedStretches*>(sample));
     case Topic::kAgents:
       break;
   }

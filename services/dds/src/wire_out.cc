@@ -460,6 +460,19 @@ Result<void> With(const NetworkReply& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const FollowedStretches& message, const UseSample& use) {
+  std::vector<trailcast_wire_FollowedStretch> stretches;
+  stretches.reserve(message.stretches.size());
+  for (const FollowedStretches::Stretch& each : message.stretches) {
+    stretches.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
+  }
+  trailcast_wire_FollowedStretches sample{};
+  sample.agent = Lend(message.agent.value());
+  sample.on = ToWire(message.key);
+  Lend(stretches, sample.stretches);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -468,28 +481,30 @@ Result<void> With(const AgentGone& message, const UseSample&) {
 }  // namespace
 
 const dds_topic_descriptor_t& TypeOf(Topic topic) {
-  static constexpr const dds_topic_descriptor_t* kTypes[] = {&trailcast_wire_RouteAnnouncement_desc,
-                                                             &trailcast_wire_SegmentBatch_desc,
-                                                             &trailcast_wire_SegmentRequest_desc,
-                                                             &trailcast_wire_Receipt_desc,
-                                                             &trailcast_wire_CatalogRequest_desc,
-                                                             &trailcast_wire_CatalogReply_desc,
-                                                             &trailcast_wire_AgentStatus_desc,
-                                                             &trailcast_wire_RouteEditRequest_desc,
-                                                             &trailcast_wire_Fleet_desc,
-                                                             &trailcast_wire_RouteFollowers_desc,
-                                                             &trailcast_wire_NowCommand_desc,
-                                                             &trailcast_wire_NowAnswer_desc,
-                                                             &trailcast_wire_Mission_desc,
-                                                             &trailcast_wire_MissionReport_desc,
-                                                             &trailcast_wire_MissionRequest_desc,
-                                                             &trailcast_wire_MissionReply_desc,
-                                                             &trailcast_wire_DriveCommand_desc,
-                                                             &trailcast_wire_GlanceRequest_desc,
-                                                             &trailcast_wire_Glance_desc,
-                                                             &trailcast_wire_NetworkEdit_desc,
-                                                             &trailcast_wire_NetworkRequest_desc,
-                                                             &trailcast_wire_NetworkReply_desc};
+  static constexpr const dds_topic_descriptor_t* kTypes[] = {
+      &trailcast_wire_RouteAnnouncement_desc,
+      &trailcast_wire_SegmentBatch_desc,
+      &trailcast_wire_SegmentRequest_desc,
+      &trailcast_wire_Receipt_desc,
+      &trailcast_wire_CatalogRequest_desc,
+      &trailcast_wire_CatalogReply_desc,
+      &trailcast_wire_AgentStatus_desc,
+      &trailcast_wire_RouteEditRequest_desc,
+      &trailcast_wire_Fleet_desc,
+      &trailcast_wire_RouteFollowers_desc,
+      &trailcast_wire_NowCommand_desc,
+      &trailcast_wire_NowAnswer_desc,
+      &trailcast_wire_Mission_desc,
+      &trailcast_wire_MissionReport_desc,
+      &trailcast_wire_MissionRequest_desc,
+      &trailcast_wire_MissionReply_desc,
+      &trailcast_wire_DriveCommand_desc,
+      &trailcast_wire_GlanceRequest_desc,
+      &trailcast_wire_Glance_desc,
+      &trailcast_wire_NetworkEdit_desc,
+      &trailcast_wire_NetworkRequest_desc,
+      &trailcast_wire_NetworkReply_desc,
+      &trailcast_wire_FollowedStretches_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

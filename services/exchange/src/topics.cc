@@ -38,15 +38,16 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
-                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
-                    Topic::kMissions, Topic::kMissionStates},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
-                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
-                   Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
-                   Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests},
-          .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
-                           Topic::kMissionReplies, Topic::kNetworkReplies}};
+  return {
+      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
+                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions,
+                Topic::kMissionStates},
+      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests,
+               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers,
+               Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests,
+               Topic::kNetworkEdits, Topic::kNetworkRequests, Topic::kFollowed},
+      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                       Topic::kMissionReplies, Topic::kNetworkReplies}};
 }
 
 TopicUse OperatorTopics() {
@@ -58,8 +59,14 @@ TopicUse DispatcherTopics() {
   return {.write = {Topic::kNow}, .read = {Topic::kNowAnswers, Topic::kAgents}};
 }
 
-TopicUse OnDutyTopics() {
+TopicUse ReplayTopics() {
   TopicUse use = FollowerTopics();
+  use.write.push_back(Topic::kFollowed);
+  return use;
+}
+
+TopicUse OnDutyTopics() {
+  TopicUse use = ReplayTopics();
   use.read.push_back(Topic::kMissions);
   use.read.push_back(Topic::kMissionStates);  // what servers have
   use.write.push_back(Topic::kMissionStates);
@@ -123,7 +130,8 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kGlances,
                                        Topic::kNetworkEdits,
                                        Topic::kNetworkRequests,
-                                       Topic::kNetworkReplies};
+                                       Topic::kNetworkReplies,
+                                       Topic::kFollowed};
   if (message.index() >= std::size(kInOrder)) return std::nullopt;
   return kInOrder[message.index()];
 }
@@ -182,6 +190,8 @@ const char* NameOf(Topic topic) {
       return "trailcast/network_requests";
     case Topic::kNetworkReplies:
       return "trailcast/network_replies";
+    case Topic::kFollowed:
+      return "trailcast/followed";
   }
   return "unknown topic";
 }

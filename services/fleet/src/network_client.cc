@@ -92,6 +92,13 @@ std::string LaneJson(const network::Lane& lane, const Lines& taken_by) {
   return fmt::format("{{\"parts\": {}, \"taken_by\": {}}}", JsonList(parts), JsonTexts(taken_by));
 }
 
+std::string LostJson(const network::LostStretch& lost) {
+  return fmt::format(
+      "{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"passed\": {:g}, \"lost\": {:g}, "
+      "\"cost\": {:g}}}",
+      JsonText(lost.route), lost.from_m, lost.to_m, lost.passed, lost.lost, lost.cost);
+}
+
 std::string RouteJson(const network::Route& route) {
   return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(route.name),
                      route.length_m);
@@ -189,10 +196,12 @@ std::string NetworkJson(const Lines& lines) {
   Lines narrow;
   Lines names;
   Lines proposed;
+  Lines lost_on;
   for (const std::string& line : lines) {
-    const auto [used, route, edit, proposal, taken_by] = network::ParseListed(line);
+    const auto [used, route, edit, proposal, lost, taken_by] = network::ParseListed(line);
     if (route) routes.push_back(RouteJson(*route));
     if (proposal) proposed.push_back(ProposalJson(*proposal));
+    if (lost) lost_on.push_back(LostJson(*lost));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
       joints.push_back(JointJson(edit->joint, used));
@@ -207,9 +216,9 @@ std::string NetworkJson(const Lines& lines) {
   }
   return fmt::format(
       "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"narrow\": {}, "
-      "\"names\": {}, \"proposed\": {}}}\n",
+      "\"names\": {}, \"proposed\": {}, \"lost\": {}}}\n",
       JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(narrow),
-      JsonList(names), JsonList(proposed));
+      JsonList(names), JsonList(proposed), JsonList(lost_on));
 }
 
 std::string PassingText(const network::Passings& passings) {

@@ -27,6 +27,8 @@ constexpr const char* kEdits =
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
 constexpr std::string_view kConfidence = " confidence ";
+constexpr std::string_view kLost = "lost ";
+constexpr std::string_view kTimes = " times lately, a metre counts as ";
 
 // To the centimetre.
 std::string Metres(double metres) {
@@ -254,6 +256,21 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
   return Proposal{std::move(edit->joint), *confidence};
 }
 
+// ROUTE FROM..TO N of M times lately, a metre counts as F
+std::optional<LostStretch> ParseLost(std::string_view text) {
+  const std::size_t at = text.rfind(kTimes);
+  if (at == std::string_view::npos) return std::nullopt;
+  Words words(text.substr(0, at));
+  auto stretch = TakeStretch(words);
+  const auto lost = ParseNumber<double>(words.Take());
+  const bool of = words.TakeIf("of");
+  const auto passed = ParseNumber<double>(words.Take());
+  const auto cost = ParseNumberWithin(text.substr(at + kTimes.size()), 1.0, kMostFactor);
+  if (!stretch || !lost || !of || !passed || !words.empty() || !cost) return std::nullopt;
+  return LostStretch{
+      std::move(stretch->route), stretch->from_m, stretch->to_m, *passed, *lost, *cost};
+}
+
 }  // namespace
 
 Listed ParseListed(std::string_view line) {
@@ -269,6 +286,10 @@ Listed ParseListed(std::string_view line) {
   }
   if (line.starts_with(kProposed)) {
     listed.proposal = ParseProposal(line.substr(kProposed.size()));
+    return listed;
+  }
+  if (line.starts_with(kLost)) {
+    listed.lost = ParseLost(line.substr(kLost.size()));
     return listed;
   }
   listed.used = !line.starts_with(kUnused);
@@ -351,6 +372,11 @@ std::string ToText(const Lane& lane) {
     text += fmt::format(" {} {}..{}", part.route, Metres(part.from_m), Metres(part.to_m));
   }
   return text;
+}
+
+std::string ToText(const LostStretch& lost) {
+  return fmt::format("{}{} {}..{} {:g} of {:g}{}{:g}", kLost, lost.route, Metres(lost.from_m),
+                     Metres(lost.to_m), lost.lost, lost.passed, kTimes, lost.cost);
 }
 
 std::string ToText(const Proposal& proposal) {

@@ -26,6 +26,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kDrives, "robots that teach were driven by operators"},
     {exchange::Topic::kGlanceRequests, "operators looked through robots' cameras"},
     {exchange::Topic::kNetworkReplies, "routes were joined"},
+    {exchange::Topic::kFollowed, "robots told servers where they lose their path"},
 };
 
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {

@@ -104,6 +104,18 @@ CREATE TABLE IF NOT EXISTS lane_holder (
 ) STRICT;
 )";
 
+constexpr const char* kFollowed = R"(
+CREATE TABLE IF NOT EXISTS followed_stretch (
+  route TEXT NOT NULL,
+  teaching INTEGER NOT NULL,
+  number INTEGER NOT NULL,
+  passed REAL NOT NULL,
+  lost REAL NOT NULL,
+  at_unix_ms INTEGER NOT NULL,
+  PRIMARY KEY (route, teaching, number)
+) STRICT;
+)";
+
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
                        .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
@@ -140,6 +152,15 @@ ProposedJoint ProposedIn(SQLite::Statement& row) {
           .length_m = row.getColumn(10).getDouble()};
 }
 
+FollowedStretch FollowedIn(SQLite::Statement& row) {
+  return {.key = {RouteId(row.getColumn(0).getString()),
+                  TeachingId(static_cast<std::uint64_t>(row.getColumn(1).getInt64()))},
+          .number = row.getColumn(2).getInt64(),
+          .passed = row.getColumn(3).getDouble(),
+          .lost = row.getColumn(4).getDouble(),
+          .at_unix_ms = row.getColumn(5).getInt64()};
+}
+
 std::string TextIn(SQLite::Statement& row) { return row.getColumn(0).getString(); }
 
 void BindPlaces(SQLite::Statement& statement, const network::Joint& joint) {
@@ -168,6 +189,7 @@ struct NetworkStore::Database : OwnDatabase {
     db.exec(kProposals);
     db.exec(kShared);
     db.exec(kLanes);
+    db.exec(kFollowed);
   }
 
   template <typename Value>
@@ -490,6 +512,41 @@ Result<void> NetworkStore::DropProposals(const std::string& revision) {
       remove->bind(1, revision);
       remove->exec();
     }
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<std::vector<FollowedStretch>> NetworkStore::Followed() {
+  return database_->Guarded(
+      "reading how routes were followed", [&]() -> Result<std::vector<FollowedStretch>> {
+        return database_->All(
+            "SELECT route, teaching, number, passed, lost, at_unix_ms FROM followed_stretch ORDER "
+            "BY at_unix_ms, rowid",
+            FollowedIn);
+      });
+}
+
+Result<void> NetworkStore::Put(std::span<const FollowedStretch> followed) {
+  return database_->Guarded("storing how routes were followed", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const FollowedStretch& each : followed) {
+      auto put = database_->compiled.Take(
+          "INSERT OR REPLACE INTO followed_stretch (route, teaching, number, passed, lost, "
+          "at_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+      put->bind(1, each.key.route.value());
+      put->bind(2, static_cast<std::int64_t>(each.key.teaching.value()));
+      put->bind(3, each.number);
+      put->bind(4, each.passed);
+      put->bind(5, each.lost);
+      put->bind(6, each.at_unix_ms);
+      put->exec();
+    }
+    auto forget = database_->compiled.Take(
+        "DELETE FROM followed_stretch WHERE rowid IN (SELECT rowid FROM followed_stretch ORDER BY "
+        "at_unix_ms DESC, rowid DESC LIMIT -1 OFFSET ?1)");
+    forget->bind(1, kMostFollowed);
+    forget->exec();
     transaction.commit();
     return {};
   });

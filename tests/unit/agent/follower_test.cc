@@ -337,6 +337,37 @@ TEST_F(FollowerTest, ArrivesWhereItsStretchEndsAndIsLostWhereItIsFoundFarBeyond)
   EXPECT_EQ(carried.told.back(), motion::VelocityCommand{});
 }
 
+TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
+  swarm_.StartServer();
+  WalkDevice scout(kFrames);
+  ASSERT_TRUE(swarm_.Teach(scout, swarm_.ScoutNamed("scout"), true));
+  const auto server = swarm_.Join({.write = {}, .read = {exchange::Topic::kFollowed}});
+  const auto told = [&] {
+    using namespace std::chrono_literals;
+    std::vector<exchange::FollowedStretches::Stretch> stretches;
+    for (const exchange::Message& message : server->Take(0ms)) {
+      const auto* followed = std::get_if<exchange::FollowedStretches>(&message);
+      if (followed != nullptr && followed->agent == AgentId("robot")) {
+        stretches.insert(stretches.end(), followed->stretches.begin(), followed->stretches.end());
+      }
+    }
+    return stretches;
+  };
+  auto options = swarm_.FollowerNamed("robot");
+  ASSERT_TRUE(swarm_.Replay(device_, options, true)->success);
+  using Stretch = exchange::FollowedStretches::Stretch;
+  EXPECT_THAT(told(), testing::ElementsAre(Stretch{0, 1, 0}));
+  // By this method it drives on for a while, as if the lens was not covered.
+  options.session.method = ReplayMethod::kPaper;
+  WalkDevice loses(kFollowerFrames);
+  loses.before_frame = [&](int frame) {
+    loses.blind = frame > 60;
+    return Result<void>{};
+  };
+  EXPECT_EQ(swarm_.Replay(loses, options, true)->state, "LOST");
+  EXPECT_THAT(told(), testing::ElementsAre(Stretch{0, 1, 1}));
+}
+
 TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {
   TeachInto("robot");
   class Wall : public WalkDevice {

@@ -72,7 +72,7 @@ class Swarm {
   Result<agent::ReplayOutcome> Replay(agent::RobotDevice& device,
                                       const agent::FollowerOptions& options, bool with_server) {
     return agent::Replay(device, options, OpenStore(options.link.agent.value()),
-                         with_server ? Join(exchange::FollowerTopics()) : nullptr);
+                         with_server ? Join(exchange::ReplayTopics()) : nullptr);
   }
 
   Result<void> server_result;

@@ -83,17 +83,20 @@ TEST_F(NetworkClientTest, TellsWhyAChangeWasNotMade) {
 }
 
 TEST(NetworkTexts, AreForPeopleAndForPrograms) {
-  const std::vector<std::string> lines{"route hall 20.00",
-                                       "unused join hall@1@12 office@0 both",
-                                       "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
-                                       "close hall 3..",
-                                       "limit hall 1..2 speed 0.5",
-                                       "narrow hall 1..2",
-                                       "proposed join hall@3 office@4 both confidence 0.93"};
+  const std::vector<std::string> lines{
+      "route hall 20.00",
+      "unused join hall@1@12 office@0 both",
+      "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
+      "close hall 3..",
+      "limit hall 1..2 speed 0.5",
+      "narrow hall 1..2",
+      "lost hall 5..10 2 of 7.5 times lately, a metre counts as 1.8",
+      "proposed join hall@3 office@4 both confidence 0.93"};
   EXPECT_THAT(NetworkText(lines),
               AllOf(HasSubstr("route hall 20.00 m\n"),
                     HasSubstr("join hall@1@12 office@0 both   (not used:"),
-                    HasSubstr("\nclose hall 3..\n"), HasSubstr("narrow hall 1..2\n")));
+                    HasSubstr("\nclose hall 3..\n"), HasSubstr("narrow hall 1..2\n"),
+                    HasSubstr("lost hall 5..10 2 of 7.5 times lately, a metre counts as 1.8\n")));
   const std::string json = NetworkJson(lines);
   EXPECT_THAT(json, HasSubstr(R"({"route": "hall", "length_m": 20.00})"));
   EXPECT_THAT(json, HasSubstr(R"("from": {"route": "hall@1", "along_m": 12.00})"));
@@ -107,6 +110,8 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
       HasSubstr(
           R"("proposed": [{"from": {"route": "hall", "along_m": 3.00}, "to": {"route": "office", )"
           R"("along_m": 4.00}, "both": true, "lie": null, "confidence": 0.93}])"));
+  EXPECT_THAT(json, HasSubstr(R"("lost": [{"route": "hall", "from_m": 5.00, "to_m": 10.00, )"
+                              R"("passed": 7.5, "lost": 2, "cost": 1.8}])"));
   EXPECT_THAT(NetworkText({}), HasSubstr("no routes are joined"));
 
   const std::vector<std::string> way{"follow hall 2..12", "follow office ..8.5 speed 0.5"};

@@ -425,5 +425,43 @@ TEST_F(NetworkBoardTest, ALongListIsGivenInPages) {
   EXPECT_THAT(Ask("", 5000).lines, IsEmpty());
 }
 
+// Between hall's 4 m and its 10 m one may go round over ring, which is 2 m and a joint more.
+TEST_F(NetworkBoardTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
+  Done("join hall@14 office@8");
+  Done("join hall@4 ring@0");
+  Done("join ring@8 hall@10");
+  const std::vector<std::string> straight{"follow hall 4..14", "follow office 8..9"};
+  const std::vector<std::string> round{"follow ring 0..8", "follow hall 10..14",
+                                       "follow office 8..9"};
+  EXPECT_EQ(Asked("way hall@4 office@9"), straight);
+  const std::uint64_t changes = board_->changes();
+  board_->followed().Hear({AgentId("robot1"), Key(1), {{0, 1, 0}, {1, 1, 1}}}, 1000);
+  board_->followed().Hear({AgentId("robot1"), Key(2, 7), {{1, 1, 1}}}, 1000);  // not known
+  ASSERT_TRUE(board_->KeepFollowed(1000));
+  EXPECT_EQ(Asked("way hall@4 office@9"), round);
+  EXPECT_THAT(Asked(), Contains("lost hall 5..10 1 of 1 times lately, a metre counts as 2.3"));
+  EXPECT_EQ(board_->changes(), changes) << "who is under way goes on";
+  Restart();
+  ASSERT_TRUE(board_->KeepFollowed(1000));
+  EXPECT_EQ(Asked("way hall@4 office@9"), round) << "it is durable";
+  Done("close ring");
+  EXPECT_EQ(Asked("way hall@4 office@9"), straight) << "where there is no other";
+  Done("open ring");
+  const auto week_ms = static_cast<std::int64_t>(FollowedLately::kHalfAfter_ms);
+  ASSERT_TRUE(board_->KeepFollowed(1000 + 10 * week_ms));
+  EXPECT_EQ(Asked("way hall@4 office@9"), straight) << "it was not lately";
+  EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
+}
+
+TEST_F(NetworkBoardTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGoesRoundIt) {
+  Done("join hall@14 office@8");
+  board_->followed().Hear({AgentId("robot1"), Key(2), {{1, 1, 1}}}, 1000);
+  ASSERT_TRUE(board_->KeepFollowed(1000));
+  EXPECT_THAT(Asked(), Contains("lost office 5..10 1 of 1 times lately, a metre counts as 2.3"));
+  Put(2, "office", 10.0, 1, route::Standing::kRetired, 1);
+  Put(2, "office", 10.0, 2, route::Standing::kActive, 1);
+  EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
+}
+
 }  // namespace
 }  // namespace trailcast::server

@@ -33,6 +33,8 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
     EXPECT_EQ(may(Topic::kMissionReplies), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kNetworkEdits), role == Role::kOperator) << NameOf(role);
     EXPECT_EQ(may(Topic::kNetworkReplies), role == Role::kServer) << NameOf(role);
+    EXPECT_EQ(may(Topic::kFollowed), role == Role::kFollower || role == Role::kScout)
+        << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
