@@ -40,6 +40,7 @@ class MissionDesk {
     std::uint32_t lap = 0;   // and what of its laps is done
     bool begun = false;      // an earlier run was at it
     std::string because{};   // of another way than at first: why
+    [[nodiscard]] mission::Task::Kind kind() const { return tasks[task].kind; }
   };
   // What is to be done; none: the robot is free.
   [[nodiscard]] const std::optional<Current>& current() const { return current_; }
