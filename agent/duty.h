@@ -15,6 +15,7 @@
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
 #include "agent/on_duty.h"
+#include "agent/view_question.h"
 #include "services/program/presence.h"
 
 namespace trailcast::agent {
@@ -56,6 +57,7 @@ class Duty {
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(const FollowerOptions& follower);
   [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
   [[nodiscard]] std::vector<std::string> RoutesInView();
+  [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);
   void Refresh(const ReplayOutcome& outcome);
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
@@ -89,7 +91,8 @@ class Duty {
   std::atomic<bool> turned_off_ = false;
   std::string missed_;  // why it stands until it is told another way; empty: it need not
   Elsewhere elsewhere_;
-  std::optional<Time> told_until_;  // who has found itself there
+  std::optional<ViewQuestion> question_;  // while it asks servers what it sees
+  std::optional<Time> told_until_;        // who has found itself there
   std::optional<Time> wait_until_;
   std::optional<OwnLens> lens_;  // as the last following knew it
   std::string on_route_;         // where the last following ended

@@ -11,6 +11,7 @@
 #include "agent/other_way.h"
 #include "agent/routes_seen.h"
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
 #include "services/vision/view_features.h"
 
 namespace trailcast::agent {
@@ -24,6 +25,8 @@ constexpr std::chrono::seconds kStandsThere{60};
 constexpr std::chrono::seconds kDeliverAgain{60};
 // A robot that has found itself off its way is told another one by then, or has failed.
 constexpr std::chrono::seconds kToldWithin{60};
+constexpr std::chrono::milliseconds kWait{50};
+constexpr std::chrono::seconds kAnsweredWithin{3};
 // Of a route on which it looks for itself it drives nothing.
 constexpr double kAtOnce_m = 0.01;
 // Who does not know its camera turns so far to either side to see how large that shows things.
@@ -180,12 +183,34 @@ bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   return true;
 }
 
-// Of those that it holds.
+// Of those that it holds, and of those that a server has.
 std::vector<std::string> Duty::RoutesInView() {
   const auto store = options_.open_store();
   auto seen = device_.Next();
   if (!store || !seen || !*seen) return {};
-  return RoutesSeen(**store, vision::DescribeForQuery((*seen)->image));
+  const route::View view = vision::DescribeForQuery((*seen)->image);
+  std::vector<std::string> routes = RoutesSeen(**store, view);
+  for (std::string& served : AskWhatIsInView(view)) {
+    const bool is_new = std::find(routes.begin(), routes.end(), served) == routes.end();
+    if (is_new) routes.push_back(std::move(served));
+  }
+  return routes;
+}
+
+std::vector<std::string> Duty::AskWhatIsInView(const route::View& view) {
+  if (!presence_.server()) return {};
+  question_.emplace(options_.agent, static_cast<std::uint64_t>(NowUnixMs()), view);
+  const auto until = steady_clock::now() + kAnsweredWithin;
+  // What cannot be handed over is not asked: its own routes are there yet.
+  if (const auto asked = own_visit_->Publish(question_->request()); !asked) {
+    spdlog::debug("{}", asked.error().message);
+  }
+  while (!question_->answered() && steady_clock::now() < until && !options_.stop()) {
+    (void)exchange_.Take(kWait);
+  }
+  auto routes = question_->routes();
+  question_.reset();
+  return routes;
 }
 
 void Duty::LookElsewhere() {

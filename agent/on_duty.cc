@@ -51,6 +51,7 @@ void Duty::Hear(const exchange::Message& message) {
   desk_.Handle(message);
   if (desk_.TakeAmended()) GoOtherWay();
   if (claimed_) presence_.Handle(message);
+  if (question_) question_->Hear(message);
   if (following_) return;
   const bool teaches = hands_ != nullptr;
   now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());

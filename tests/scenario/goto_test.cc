@@ -62,7 +62,8 @@ TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
   EXPECT_THAT(Tool({"missions"}).output, HasSubstr("follow hall 0..1.5 follow office 1.5..3"));
 }
 
-// Set down round the corner, upon a route that its way does not lead over.
+// Set down round the corner, upon a route that its way does not lead over, and of which it has
+// nothing: a server tells it what looks like that.
 TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   Teach("routes.db", "1,1.5\n6,1.5\n");
   Teach("routes.db", "5,1.5\n6,1.5\n7.2,3.2\n", "office");
@@ -74,7 +75,7 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   ASSERT_EQ(Network({"join", "dock@2.1", "office@2"}).status, 0);
   const auto robot =
       Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-carry", "7.2,4.2,90@1.2"});
-  const auto agent = Serve("robot1", "duty", {"--look-around", "0"});
+  const auto agent = Serve("robot1", "duty", {"--look-around", "0"}, "robot1.db");
   ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
   const Ended sent = Send({"goto", "office@2.5", "--from", "hall@0"});
   ASSERT_EQ(sent.status, 0) << sent.output;

@@ -69,8 +69,8 @@ class RobotsTest : public ProgramsTest {
   static constexpr const char* kUnhurried_mps = "0.25";
   // A robot's agent, on duty; the store has its routes.
   std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty",
-                                 const Words& more = {}) {
-    return Agent(With(With({"serve", "--store", Path("routes.db"), "--name", robot, "--max-speed",
+                                 const Words& more = {}, const std::string& store = "routes.db") {
+    return Agent(With(With({"serve", "--store", Path(store), "--name", robot, "--max-speed",
                             kUnhurried_mps, "--battery-topic", "battery_state"},
                            Drives(robot)),
                       more),
