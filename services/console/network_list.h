@@ -26,8 +26,8 @@ class NetworkList {
   [[nodiscard]] std::string Body(const NetworkQuery& query) const;
 
  private:
-  enum class Kind { kJoint, kProposed, kCondition, kLane, kName };
-  static constexpr std::size_t kKinds = 5;
+  enum class Kind { kJoint, kProposed, kCondition, kLost, kLane, kName };
+  static constexpr auto kKinds = static_cast<std::size_t>(Kind::kName) + 1;
   struct Route {
     std::string name{};
     std::string lower{};  // that is searched in: names of places upon it, too

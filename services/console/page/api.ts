@@ -254,6 +254,8 @@ export type Joint = { from: Place; to: Place; both: boolean; used: boolean };
 // That a server has found by what scouts saw; 0.5 to 1.
 export type Proposal = Omit<Joint, 'used'> & { confidence: number };
 export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
+// How often robots came over it lately, and lost their path there.
+export type LostStretch = Stretch & { passed: number; lost: number; cost: number };
 export type NamedPlace = { name: string; place: Place; used: boolean };
 
 // Routes that were asked for, with what is on them and between them; and of how many.
@@ -265,6 +267,7 @@ export type NetworkPart = {
     closed: Stretch[];
     limits: Stretch[];
     narrow?: { parts: Stretch[]; taken_by: string[] }[];  // not of an older server
+    lost?: LostStretch[];  // likewise
     names: NamedPlace[];
   };
   elsewhere: { route: string; joints: number }[];

@@ -1,5 +1,5 @@
 // Routes as lines of a railway map: metres along them to scale, how they bend not at all.
-import type { Joint, NamedPlace, NetworkPart, Place, Proposal, Robot, Route, Stretch } from './api';
+import type { Joint, LostStretch, NamedPlace, NetworkPart, Place, Proposal, Robot, Route, Stretch } from './api';
 
 export type Part = { from_m: number; to_m: number; stretch: Stretch };
 // Where it stands, or stood last: then it is drawn as one that is not heard.
@@ -12,6 +12,7 @@ export type Row = {
   closed: Part[];
   limits: Part[];
   narrow: (Part & { takenBy: string[] })[];
+  lost: (Part & { stretch: LostStretch })[];
   names: (NamedPlace & { along_m: number })[];
   joints: Joint[];
   proposed: Proposal[];
@@ -120,7 +121,7 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   }
   const rows = inOrder([...lengths.keys()], network.joints).map((name): Row => ({
     name, length_m: lengths.get(name)!, start_m: 0, joined: joined.has(name),
-    closed: [], limits: [], narrow: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
+    closed: [], limits: [], narrow: [], lost: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
   }));
   const links: Link[] = [];
   for (const joint of network.joints) {
@@ -152,6 +153,10 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
       const row = rows[rowOf(rows, stretch.route)];
       row?.narrow.push({ ...partOf(stretch, row.length_m), takenBy });
     }
+  }
+  for (const stretch of network.lost ?? []) {
+    const row = rows[rowOf(rows, stretch.route)];
+    row?.lost.push({ ...partOf(stretch, row.length_m), stretch });
   }
   for (const named of network.names) {
     const spot = spotOf(rows, named.place);
@@ -194,17 +199,22 @@ export function withRobots(layout: Layout, robots: Robot[], live: Route[]): Layo
   return { ...layout, rows, strays };
 }
 
+// "2 of 7 times lately, a metre counts as 1.9".
+export const lostText = ({ lost, passed, cost }: LostStretch) => `${lost} of ${passed} times lately, a metre counts as ${cost}`;
+
 // What there is, for who does not see it.
 export function told(layout: Layout): string {
   const { rows, links } = layout;
   const closed = rows.flatMap((row) => row.closed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
   const narrow = rows.flatMap((row) => row.narrow.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`
     + (part.takenBy.length > 0 ? `, taken by ${part.takenBy.join(' and ')}` : '')));
+  const lost = rows.flatMap((row) => row.lost.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m, ${lostText(part.stretch)}`));
   const robots = rows.flatMap((row) => row.robots.map((robot) => `${robot.name} ${standsHow(robot)} of ${row.name}`));
   const some = (words: string[]) => words.slice(0, 20).join('; ') + (words.length > 20 ? ` and ${words.length - 20} more` : '');
   const proposed = links.filter((link) => link.confidence !== null).length;
   return `${rows.length} routes, ${links.length - proposed} joints${proposed > 0 ? `, ${proposed} proposed` : ''}. `
     + (closed.length > 0 ? `Closed: ${some(closed)}. ` : 'Nothing is closed. ')
     + (narrow.length > 0 ? `Narrow: ${some(narrow)}. ` : '')
+    + (lost.length > 0 ? `Robots lost their path on ${some(lost)}. ` : '')
     + (robots.length > 0 ? `${some(robots)}.` : 'No robot is on them.');
 }

@@ -1,7 +1,7 @@
 import { memo, useId, useRef, useState, type MouseEvent } from 'react';
 import type { Place } from './api';
 import { Robots } from './map';
-import { metres, placeOf, rowOf, spotOf, textOf, told, type Layout, type Link, type Row } from './network-layout';
+import { lostText, metres, placeOf, rowOf, spotOf, textOf, told, type Layout, type Link, type Row } from './network-layout';
 import { roundLength, type OnPlan } from './plan';
 import { useOnScreen } from './shape';
 import { stands } from './strip';
@@ -100,6 +100,11 @@ const Lines = memo(function Lines({ rows, links, frame, chosen, hatch }: {
             {row.narrow.map(({ from_m, to_m, takenBy }, each) => (
               <path key={`n${each}`} className="narrow" d={`M${xOf(frame, row, from_m)} ${y - 7}H${xOf(frame, row, to_m)}M${xOf(frame, row, from_m)} ${y + 7}H${xOf(frame, row, to_m)}`}>
                 <title>{`${row.name} is narrow from ${metres(from_m)} to ${metres(to_m)} m${takenBy.length > 0 ? `, taken by ${takenBy.join(' and ')}` : ''}`}</title>
+              </path>
+            ))}
+            {row.lost.map(({ from_m, to_m, stretch }, each) => (
+              <path key={`x${each}`} className="lost-at" d={`M${xOf(frame, row, from_m)} ${y}H${xOf(frame, row, to_m)}`}>
+                <title>{`robots lost their path on ${row.name} ${metres(from_m)} to ${metres(to_m)} m ${lostText(stretch)}`}</title>
               </path>
             ))}
             {row.closed.map(({ from_m, to_m }, each) => {
@@ -255,6 +260,7 @@ function NetworkLegend() {
       <span>{sample(<path className="narrow" d="M3 3H31M3 15H31" />)}narrow</span>
       <span>{sample(<g className="closed"><rect className="sample" x="3" y="3" width="28" height="12" /><path d="M11 3l12 12m0-12l-12 12" /></g>)}closed</span>
       <span>{sample(<path className="limited" d="M3 9H31" />)}slower, or counts as longer</span>
+      <span>{sample(<path className="lost-at" d="M3 9H31" />)}robots lost their path there</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>
       <span>{sample(<g className="on-line free unheard"><circle cx="17" cy="9" r="7" /></g>)}where a robot stood last</span>
     </p>

@@ -1,6 +1,6 @@
 import { memo } from 'react';
 import type { Joint } from './api';
-import { metres, rangeOf, sidesOf, standsHow, textOf, type Part, type Row } from './network-layout';
+import { lostText, metres, rangeOf, sidesOf, standsHow, textOf, type Part, type Row } from './network-layout';
 
 const kMostRobots = 20;
 
@@ -53,7 +53,7 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           )}
         </ul>
       </td>
-      <td data-label="Closed">
+      <td data-label="Closed, lost">
         <ul className="plain">
           {row.closed.map((part, i) => (
             <li key={i}><strong className="lost">closed</strong> {partText(part)} {take('Open', `${row.name} ${partText(part)}`, `open ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
@@ -63,6 +63,9 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           ))}
           {row.limits.map((part, i) => (
             <li key={`l${i}`}>{limitText(part)} {take('No limit', `on ${row.name} ${partText(part)}`, `limit ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
+          ))}
+          {row.lost.map((part, i) => (
+            <li key={`x${i}`}>robots lost their path {partText(part)}: {lostText(part.stretch)}</li>
           ))}
         </ul>
       </td>
@@ -90,7 +93,7 @@ export function NetworkTable({ rows, chosen, ...does }: Props & { rows: Row[] })
   return (
     <table>
       <thead>
-        <tr><th>Route</th><th>Joints</th><th>Closed, slower</th><th>Places</th><th>Robots</th></tr>
+        <tr><th>Route</th><th>Joints</th><th>Closed, slower, lost</th><th>Places</th><th>Robots</th></tr>
       </thead>
       <tbody>
         {rows.map((row) => <Line key={row.name} row={row} isChosen={row.name === chosen} {...does} />)}

@@ -47,6 +47,10 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
 
   for (const auto& [line, listed] : marks) {
     if (listed.proposal) TakeJoint(Kind::kProposed, listed.proposal->joint, *line);
+    if (listed.lost) {
+      if (const auto at = Find(listed.lost->route))
+        marks_.push_back({Kind::kLost, *at, *at, *line});
+    }
     if (!listed.edit) continue;
     const Edit& edit = *listed.edit;
     if (edit.kind == Edit::Kind::kJoin) {

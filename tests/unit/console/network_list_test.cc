@@ -30,7 +30,8 @@ const NetworkList& ThreeRoutes() {
        "join Office@8 yard@1", "unused join hall@2@1 Office@3", "join hall@10 hall@0",
        "join gone@1 hall@2", "close hall 3..7", "limit yard speed 0.5", "name loading-bay yard@28",
        "close gone 1..2", "dance hall", "proposed join hall@1 yard@1 confidence 0.82",
-       "proposed dance", ""},
+       "proposed dance", "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9",
+       "lost gone 0..5 1 of 1 times lately, a metre counts as 2.3", ""},
       true);
   return kList;
 }
@@ -55,6 +56,9 @@ TEST(NetworkListTest, OfAllRoutesThereIsAllThatIsOnThemAndBetweenThem) {
   EXPECT_EQ(network["closed"].size(), 1U);
   EXPECT_EQ(network["closed"][0]["to_m"], 7.0);
   EXPECT_EQ(network["limits"][0]["to_m"], nullptr);
+  ASSERT_EQ(network["lost"].size(), 1U) << network;
+  EXPECT_EQ(network["lost"][0]["route"], "hall");
+  EXPECT_EQ(network["lost"][0]["cost"], 1.9);
   EXPECT_EQ(network["names"][0]["name"], "loading-bay");
   ASSERT_EQ(network["proposed"].size(), 1U) << network;
   EXPECT_EQ(network["proposed"][0]["confidence"], 0.82);
