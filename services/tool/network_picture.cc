@@ -44,6 +44,10 @@ class Reader {
 
   void TakeProposal(const network::Proposal& proposal) { TakeJoint(proposal.joint, false); }
 
+  void TakeLost(const network::LostStretch& lost) {
+    Mark(lost.route, {NetworkPicture::Part::kLost, lost.from_m, lost.to_m});
+  }
+
   [[nodiscard]] NetworkPicture picture() && { return std::move(picture_); }
 
  private:
@@ -90,6 +94,7 @@ Result<NetworkPicture> PictureOf(const std::vector<std::string>& lines) {
   for (const network::Listed& each : listed) {
     if (each.edit) reader.TakeEdit(*each.edit, each.used);
     if (each.proposal) reader.TakeProposal(*each.proposal);
+    if (each.lost) reader.TakeLost(*each.lost);
   }
   NetworkPicture picture = std::move(reader).picture();
   if (picture.routes.empty()) {

@@ -23,6 +23,8 @@ constexpr double kNetworkRight_px = 30.0;
 constexpr double kWide_px = 960.0;
 constexpr double kBow_px = 20.0;
 constexpr double kWall_px = 7.0;
+constexpr double kTick_px = 5.0;
+constexpr double kTicks_px = 7.0;
 constexpr double kArrow_px = 8.0;
 constexpr double kScale_px = 46.0;  // below the last row
 constexpr Color kQuiet{120, 120, 120};
@@ -78,6 +80,10 @@ class Map {
         DrawWalls(drawing, from, to);
         continue;
       }
+      if (marked.part == Picture::Part::kLost) {
+        DrawTicks(drawing, from, to);
+        continue;
+      }
       const bool closed = marked.part == Picture::Part::kClosed;
       drawing.Line({from, to}, closed ? kOrange : kGreen, closed ? 10.0 : 6.0);
       if (!closed) continue;
@@ -92,6 +98,13 @@ class Map {
   static void DrawWalls(Drawing& drawing, PixelPoint from, PixelPoint to) {
     for (const double side : {-kWall_px, kWall_px}) {
       drawing.Line({{from.x, from.y + side}, {to.x, to.y + side}}, kInk, 2.0);
+    }
+  }
+
+  // Across where robots lose their path.
+  static void DrawTicks(Drawing& drawing, PixelPoint from, PixelPoint to) {
+    for (double x = from.x; x <= to.x; x += kTicks_px) {
+      drawing.Line({{x, from.y - kTick_px}, {x, from.y + kTick_px}}, kOrange, 2.0);
     }
   }
 

@@ -43,6 +43,9 @@ TEST(DrawNetwork, EachPartIsThereInItsColour) {
   EXPECT_GT(CountNear(network, kOrange), 10 * 4 * 30);
   EXPECT_GT(CountNear(network, kGreen), 6 * 10 * 30) << "up to its end";
   EXPECT_LT(CountNear(network, kBlue), route - 4 * 14 * 30);
+  network.routes[0].marked = {{NetworkPicture::Part::kLost, 3.0, 7.0}};
+  EXPECT_GT(CountNear(network, kOrange), 20 * 10) << "tick by tick";
+  EXPECT_LT(CountNear(network, kOrange), 10 * 4 * 30);
   const int ink = CountNear(network, kInk);
   network.names = {{"loading-bay", {1, 8.0}}};
   EXPECT_GT(CountNear(network, kInk), ink + 50);
