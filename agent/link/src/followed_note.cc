@@ -104,7 +104,9 @@ std::vector<exchange::Message> FollowedNote::Take() {
   std::map<route::RouteKey, FollowedStretches> told;
   std::vector<exchange::Message> messages;
   for (const auto& [where, count] : counts_) {
-    FollowedStretches& of = told.try_emplace(where.first, agent_, where.first).first->second;
+    FollowedStretches& of = told[where.first];
+    of.agent = agent_;
+    of.key = where.first;
     of.stretches.push_back({where.second, count.passed, count.lost});
     if (of.stretches.size() < exchange::kMaxStretchesTold) continue;
     messages.emplace_back(std::move(of));
