@@ -156,8 +156,11 @@ void Duty::Follow(const mission::Task& task) {
   if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
-    if (log) follower.diagnosis = *std::move(log);
-    if (!log) spdlog::warn("{}", log.error().message);
+    if (log) {
+      follower.diagnosis = *std::move(log);
+    } else {
+      spdlog::warn("{}", log.error().message);
+    }
   }
   driven_ = task;
   const auto outcome = RunFollower(follower);
