@@ -193,10 +193,7 @@ std::vector<std::string> Duty::RoutesInView() {
   if (!store || !seen || !*seen) return {};
   const route::View view = vision::DescribeForQuery((*seen)->image);
   std::vector<std::string> routes = RoutesSeen(**store, view);
-  for (std::string& served : AskWhatIsInView(view)) {
-    const bool is_new = std::find(routes.begin(), routes.end(), served) == routes.end();
-    if (is_new) routes.push_back(std::move(served));
-  }
+  for (std::string& served : AskWhatIsInView(view)) routes.push_back(std::move(served));
   return routes;
 }
 

@@ -72,7 +72,7 @@ void Duty::Say(exchange::RouteExchange& to) {
   if (following_) return;
   (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
   // Where no server was heard while it followed.
-  if (presence_.server()) (void)exchange::PublishAll(to, followed_note_.Due(now));
+  if (presence_.server()) followed_note_.TellIfDue(to, now);
   if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
   if (delivering_) return;
   ShowFree();

@@ -22,6 +22,7 @@ constexpr milliseconds kWait{50};
 constexpr milliseconds kWaitAnswering{1};
 constexpr milliseconds kStatusEvery{1000};
 constexpr milliseconds kMetricsEvery{1000};
+constexpr milliseconds kKeepingEvery{10'000};  // of what is learnt of the network
 constexpr milliseconds kRetentionEvery{1000};  // some routes at a time
 constexpr std::size_t kViewsASlice = 100;      // segments: about 20 ms
 
@@ -84,8 +85,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   if (!routes) return tl::unexpected(routes.error());
   spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
-  SaveSearched(steady_clock::now());
-  KeepFollowed(steady_clock::now());
+  KeepWhatIsLearnt();
   ShowStatus(exchange::AgentMode::kStopped, "stopped by a signal");
   presence_.Publish();
   const exchange::KeeperCounters& counters = keeper_->counters();
@@ -208,7 +208,10 @@ void Server::Serve() {
   NoteAnnounced(outgoing);
   FillViews(outgoing);
   KeepLookingForJoints(now);
-  if (now >= followed_due_) KeepFollowed(now);
+  if (now >= keeping_due_ && upkeep_->store_trouble().empty()) {
+    keeping_due_ = now + kKeepingEvery;
+    KeepWhatIsLearnt();
+  }
   upkeep_->Tick(now);
   TellAgents();
   TellMissions();

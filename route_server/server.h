@@ -96,8 +96,7 @@ class Server {
   void AnswerHistory(const exchange::NetworkRequest& request, std::int64_t since_unix_ms);
   void NoteOfNetwork(const route::RouteInfo& info);
   void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
-  void KeepFollowed(std::chrono::steady_clock::time_point now);
-  void SaveSearched(std::chrono::steady_clock::time_point now);
+  void KeepWhatIsLearnt();
   void Propose(const Meeting& meeting);
   void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
   void DeleteOutdated();
@@ -124,8 +123,7 @@ class Server {
   bool takes_sure_joints_ = false;
   std::unique_ptr<History> history_;      // none: it keeps none
   std::vector<route::RouteKey> planned_;  // to be changed
-  std::chrono::steady_clock::time_point searched_due_{};
-  std::chrono::steady_clock::time_point followed_due_{};
+  std::chrono::steady_clock::time_point keeping_due_{};  // of what is learnt of the network
   std::optional<Replanning> replanning_;  // with both
   std::optional<LaneKeeper> lanes_;       // likewise
   std::uint64_t told_dropped_ = 0;

@@ -23,16 +23,16 @@ void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
     ++metrics_.joints.routes_searched;
     network_->MarkSearched(key);
   }
-  if (now >= searched_due_) SaveSearched(now);
 }
 
-// A commit of each would hold up receipts where many are searched.
-void Server::SaveSearched(std::chrono::steady_clock::time_point now) {
-  constexpr std::chrono::seconds kEvery{10};
-  searched_due_ = now + kEvery;
+// A commit of each would hold up receipts where many are searched, and many robots follow.
+void Server::KeepWhatIsLearnt() {
   if (!network_) return;
   if (const auto saved = network_->SaveSearched(); !saved) {
     spdlog::warn("some routes will be searched for joints again: {}", saved.error().message);
+  }
+  if (const auto kept = network_->KeepFollowed(NowUnixMs()); !kept) {
+    spdlog::warn("how well robots follow is not saved: {}", kept.error().message);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "agent/session/replay_step.h"
 #include "services/base/ids.h"
 #include "services/base/newest_map.h"
-#include "services/exchange/messages.h"
+#include "services/exchange/route_exchange.h"
 
 namespace trailcast::agent {
 
@@ -17,7 +17,7 @@ namespace trailcast::agent {
 // are told: how often it came over it, and how often it lost its path there, found again or not.
 //
 // It counts from when the robot was sure of its path. What has it stand for another reason (its
-// camera, people, other robots) is no fault of the stretch. No clock, no I/O.
+// camera, people, other robots) is no fault of the stretch. No clock.
 class FollowedNote {
  public:
   using Clock = std::chrono::steady_clock;
@@ -34,12 +34,10 @@ class FollowedNote {
   // What became of a frame on the route.
   void Note(const ReplayStep& step, const route::RouteInfo& route);
 
-  // What is to be told now, every kEvery; no more than that of it is kept.
-  [[nodiscard]] std::vector<exchange::Message> Due(Clock::time_point now);
-  // All that is to be told.
-  [[nodiscard]] std::vector<exchange::Message> Take();
-  // Of what was taken: to be told again.
-  void NotSent(const exchange::Message& message);
+  // Publishes all that is to be told; what cannot be handed over is kept.
+  void Tell(exchange::RouteExchange& to);
+  // The same, every kEvery.
+  void TellIfDue(exchange::RouteExchange& to, Clock::time_point now);
 
  private:
   using Where = std::pair<route::RouteKey, std::uint32_t>;
@@ -55,6 +53,8 @@ class FollowedNote {
   };
   void Leave();
   void Add(const Where& where, Count more);
+  [[nodiscard]] std::vector<exchange::Message> Take();
+  void NotSent(const exchange::Message& message);
 
   AgentId agent_;
   std::optional<Visit> visit_;

@@ -127,7 +127,6 @@ class FollowerLink {
   void HearOperators(const exchange::Message& message);
   void AnswerOperators();
   [[nodiscard]] bool TellHold();  // false: not yet
-  void TellFollowed(const std::vector<exchange::Message>& messages);
   [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
 
   FollowerLinkOptions options_;

@@ -1,10 +1,13 @@
 #include "agent/link/followed_note.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "services/exchange/bounds.h"
+#include "services/exchange/publish.h"
 
 namespace trailcast::agent {
 namespace {
@@ -94,10 +97,19 @@ void FollowedNote::Add(const Where& where, Count more) {
   count.lost += more.lost;
 }
 
-std::vector<exchange::Message> FollowedNote::Due(Clock::time_point now) {
-  if (now < due_) return {};
+void FollowedNote::Tell(exchange::RouteExchange& to) {
+  const auto told = [this](const exchange::Message& message, bool sent) {
+    if (!sent) NotSent(message);
+  };
+  if (auto sent = exchange::PublishAll(to, Take(), told); !sent) {
+    spdlog::debug("{}", sent.error().message);
+  }
+}
+
+void FollowedNote::TellIfDue(exchange::RouteExchange& to, Clock::time_point now) {
+  if (now < due_) return;
   due_ = now + kEvery;
-  return Take();
+  Tell(to);
 }
 
 std::vector<exchange::Message> FollowedNote::Take() {

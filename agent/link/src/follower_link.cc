@@ -176,7 +176,7 @@ void FollowerLink::Trade() {
   AnswerOperators();
   if (auto listening = Listen(now); !listening) spdlog::debug("{}", listening.error().message);
   Say(now);
-  if (presence_->server()) TellFollowed(followed_note_.Due(now));
+  if (presence_->server()) followed_note_.TellIfDue(*exchange_, now);
   HearServer();
   TellNeighbours(now);
   ShowStatus();

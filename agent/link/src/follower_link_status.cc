@@ -35,7 +35,7 @@ void FollowerLink::Close(exchange::AgentMode mode, const std::string& detail) {
   TakeReports();
   EndNote(mode);
   if (!presence_) return;
-  if (presence_->server()) TellFollowed(followed_note_.Take());
+  if (presence_->server()) followed_note_.Tell(*exchange_);
   ShowStatus();
   exchange::AgentStatus status = presence_->status();
   status.mode = mode;
@@ -93,15 +93,6 @@ bool FollowerLink::TellHold() {
   hold_told_ = now_desk_.hold();
   fed_.Ring();
   return true;
-}
-
-void FollowerLink::TellFollowed(const std::vector<exchange::Message>& messages) {
-  const auto told = [this](const exchange::Message& message, bool sent) {
-    if (!sent) followed_note_.NotSent(message);
-  };
-  if (auto sent = exchange::PublishAll(*exchange_, messages, told); !sent) {
-    spdlog::debug("{}", sent.error().message);
-  }
 }
 
 void FollowerLink::HearServer() {

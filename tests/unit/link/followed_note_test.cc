@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "services/exchange/bounds.h"
+#include "services/exchange/in_process_exchange.h"
+#include "tests/support/faulty_exchange.h"
 #include "tests/support/pieces.h"
 
 namespace trailcast::agent {
@@ -41,8 +43,12 @@ class FollowedNoteTest : public testing::Test {
   }
   // "number: lost of passed" of all that is told.
   std::vector<std::string> Told() {
+    note_.Tell(robot_);
+    return Heard();
+  }
+  std::vector<std::string> Heard() {
     std::vector<std::string> told;
-    for (const exchange::Message& message : note_.Take()) {
+    for (const exchange::Message& message : server_->Take(std::chrono::milliseconds(0))) {
       EXPECT_TRUE(exchange::CheckBounds(message));
       const auto& followed = std::get<FollowedStretches>(message);
       EXPECT_EQ(followed.agent, AgentId("robot1"));
@@ -53,6 +59,11 @@ class FollowedNoteTest : public testing::Test {
     return told;
   }
 
+  exchange::InProcessBus bus_;
+  std::unique_ptr<exchange::RouteExchange> server_ =
+      bus_.Open({.write = {}, .read = {exchange::Topic::kFollowed}});
+  exchange::FaultyExchange robot_{
+      bus_.Open({.write = {exchange::Topic::kFollowed}, .read = {}}), {}, 1};
   route::RouteInfo route_;
   FollowedNote note_{AgentId("robot1")};
 };
@@ -122,17 +133,21 @@ TEST_F(FollowedNoteTest, WhoOnlyStoodThereHasNotComeOverIt) {
 
 TEST_F(FollowedNoteTest, WhatCouldNotBeSentIsToldAgain) {
   Drive(0.0, 6.0);
-  for (const exchange::Message& message : note_.Take()) note_.NotSent(message);
+  robot_.set_refusing(true);
+  EXPECT_THAT(Told(), IsEmpty());
+  robot_.set_refusing(false);
   Note(6.0, Trust::kLost);
   EXPECT_THAT(Told(), ElementsAre("0: 0 of 1", "1: 1 of 1"));
 }
 
 TEST_F(FollowedNoteTest, TellsOnceInAWhile) {
   const FollowedNote::Clock::time_point at{std::chrono::hours(1)};
-  EXPECT_THAT(note_.Due(at), IsEmpty());
+  note_.TellIfDue(robot_, at);
   Drive(0.0, 6.0);
-  EXPECT_THAT(note_.Due(at + std::chrono::seconds(9)), IsEmpty());
-  EXPECT_THAT(note_.Due(at + std::chrono::seconds(10)), SizeIs(1));
+  note_.TellIfDue(robot_, at + std::chrono::seconds(9));
+  EXPECT_THAT(Heard(), IsEmpty());
+  note_.TellIfDue(robot_, at + std::chrono::seconds(10));
+  EXPECT_THAT(Heard(), SizeIs(1));
 }
 
 TEST_F(FollowedNoteTest, WhatNobodyHearsIsKeptAsFarAsThereIsRoom) {
