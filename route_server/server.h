@@ -121,11 +121,11 @@ class Server {
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
-  std::unique_ptr<History> history_;      // none: it keeps none
-  std::vector<route::RouteKey> planned_;  // to be changed
+  std::unique_ptr<History> history_;                     // none: it keeps none
+  std::vector<route::RouteKey> planned_;                 // to be changed
   std::chrono::steady_clock::time_point keeping_due_{};  // of what is learnt of the network
-  std::optional<Replanning> replanning_;  // with both
-  std::optional<LaneKeeper> lanes_;       // likewise
+  std::optional<Replanning> replanning_;                 // with both
+  std::optional<LaneKeeper> lanes_;                      // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;
