@@ -119,6 +119,7 @@ class FeatureFollower {
   std::optional<PlaceFinder> place_finder_;   // until it has found the place
   bool anywhere_;                             // on the route it may be, until it is found
   std::string not_there_;                     // where it looks along the whole route: why
+  std::string outside_;                       // what it sees is of the route, but not from it: how
   std::optional<ExperienceTaker> experience_;
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };

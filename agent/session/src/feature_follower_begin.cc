@@ -30,6 +30,9 @@ constexpr double kCompare_s = 0.5;
 constexpr double kSamePlace = 0.6;
 constexpr double kFarFewer = 0.6;
 constexpr int kEnoughHeld = 6;  // features, where the belief holds it to be there
+// So far before the route's beginning, or beyond its end, one begins there; further off it is not
+// on the route.
+constexpr double kOutside = 1.0;
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
@@ -166,7 +169,8 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
   const bool lost = verdict.trust == Trust::kLost;
   standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
               lost ? Trust::kLost : Trust::kSeeking,
-              not_there_ + "looks where on the route it is: " + verdict.reason};
+              not_there_ + "looks where on the route it is: " +
+                  (outside_.empty() ? verdict.reason : outside_)};
   if (!lost) look_around_.Rest();
   if (!place_.where().held && place_.where().agreed < kEnoughAgreed) return false;
   if (!turned && MeasuresLens(seen, standing)) return false;
@@ -212,7 +216,7 @@ double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
 
 // Views look alike that are of places apart, and from half a metre further on. Where it is tell the
 // features of each: how many lie as a robot would see them from anywhere thereabouts, and from
-// where. Begins there, if that is one place.
+// where. Begins there, if that is one place, and on the route.
 void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
   struct Candidate {
     double along = 0.0;  // by its features
@@ -241,8 +245,16 @@ void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
                other.agreeing < kFarFewer * candidates.front().agreeing;
       });
   const int enough = place_.where().held ? kEnoughHeld : kEnoughAgreed;
+  outside_.clear();
   if (candidates.empty() || candidates.front().agreeing < enough || !one_place) return;
-  const double along = std::clamp(candidates.front().along, 0.0, place_.belief().length());
+  const double seen_from = candidates.front().along;
+  const double along = std::clamp(seen_from, 0.0, place_.belief().length());
+  if (std::abs(seen_from - along) > kOutside) {
+    outside_ = fmt::format("what it sees is of the route, from {:.1f} {} {}",
+                           std::abs(seen_from - along), place_.metric() ? "m" : "s of teaching",
+                           seen_from < along ? "before its beginning" : "beyond its end");
+    return;
+  }
   const RoutePoint point = place_.PointAt(along);
   const double magnification = candidates.front().magnification;
   if (focal_) search_.hand_over().KnowMagnification(magnification);

@@ -25,9 +25,9 @@ constexpr double kStep_m = 0.02;
 
 SensorTime StampOf(int frame) { return FromSeconds(frame / kFrames_hz); }
 
-std::optional<motion::Pose2> PoseAt(int frame, bool odometry) {
+std::optional<motion::Pose2> PoseAt(int frame, bool odometry, double step_m = kStep_m) {
   if (!odometry) return std::nullopt;
-  return motion::Pose2{kStep_m * frame, 0.0, 0.0};
+  return motion::Pose2{step_m * frame, 0.0, 0.0};
 }
 
 const std::vector<image::GrayImage>& Walk() {
@@ -54,15 +54,16 @@ const std::vector<image::GrayImage>& TwoWalls() {
 }
 
 std::vector<route::Segment> Taught(bool odometry,
-                                   const std::vector<image::GrayImage>& frames = Walk()) {
+                                   const std::vector<image::GrayImage>& frames = Walk(),
+                                   double step_m = kStep_m) {
   TeachSession session;
   std::vector<route::Segment> segments;
   const auto keep = [&](std::optional<route::Segment> segment) {
     if (segment) segments.push_back(std::move(*segment));
   };
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
-    auto step =
-        session.Observe({StampOf(i), frames[static_cast<std::size_t>(i)], PoseAt(i, odometry)});
+    auto step = session.Observe(
+        {StampOf(i), frames[static_cast<std::size_t>(i)], PoseAt(i, odometry, step_m)});
     EXPECT_TRUE(step);
     keep(std::move(step->finished));
   }
@@ -151,6 +152,21 @@ TEST_P(ReplaySessionTest, NotAtTheStartItLooksAlongTheWholeRouteIfItMay) {
   }
   ASSERT_TRUE(found);
   EXPECT_NEAR(*found, kStands / (2.0 * kFrames - 1.0), 0.15);
+}
+
+// A wall that is 10 m ahead at the route's beginning (10 cm nearer: one percent larger).
+TEST(ReplaySessionOutside, IsNotTakenToBeAtTheBeginningFromWellBeforeIt) {
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(true, Walk(), 0.1), options);
+  const image::GrayImage before = test::WalkFrame(-25);
+  ReplayStep step;
+  for (int i = 0; i < 90; ++i) {
+    step = session.Observe({StampOf(i), before, PoseAt(0, true)}).value();
+    EXPECT_TRUE(Stands(step)) << step.reason;
+    EXPECT_NE(step.state, ReplayState::kFollowing) << i;
+  }
+  EXPECT_THAT(step.reason, HasSubstr("before its beginning"));
 }
 
 TEST(ReplaySessionLost, LooksForItselfAlongTheWholeRouteAndGoesOn) {
