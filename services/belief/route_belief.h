@@ -116,9 +116,9 @@ class RouteBelief {
   // of what was seen at held places; nothing before.
   [[nodiscard]] std::optional<double> log_magnification() const { return log_magnification_; }
 
-  // The likeliest places, each more than a window from the others, at most so many; none of less
-  // than this probability.
-  [[nodiscard]] std::vector<double> Likeliest(std::size_t most, double least) const;
+  // The likeliest places, each more than `apart` from the others, at most so many; none of which
+  // the window has less than this probability.
+  [[nodiscard]] std::vector<double> Likeliest(std::size_t most, double least, double apart) const;
 
   // The views before and after a place, at most so many in all, in order.
   [[nodiscard]] std::vector<std::size_t> Around(double along, std::size_t most) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -78,11 +79,12 @@ struct FollowStep {
 class Follower {
  public:
   virtual ~Follower() = default;
-  Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
   // A segment of the route that is known before it is driven; in any order, each once.
   virtual void Learn(const route::Segment& segment) = 0;
+  // One that has learnt and begun the same.
+  [[nodiscard]] virtual std::unique_ptr<Follower> Clone() const = 0;
   // The first segment, the next one after Step said `ended`, or, for a robot that found itself
   // again, any.
   virtual void Begin(const route::Segment& segment) = 0;
@@ -124,6 +126,7 @@ class Follower {
 
  protected:
   Follower() = default;
+  Follower(const Follower&) = default;  // to Clone
 };
 
 }  // namespace trailcast::replay

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "services/motion/motion.h"
@@ -53,6 +54,9 @@ class FunnelFollower final : public Follower {
                  const FunnelFollowerOptions& options = {});
 
   void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
+  [[nodiscard]] std::unique_ptr<Follower> Clone() const override {
+    return std::make_unique<FunnelFollower>(*this);
+  }
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
   void BeginAbout(const route::Segment& segment, double fraction,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "services/replay/follower.h"
@@ -36,6 +37,9 @@ class PathFollower final : public Follower {
   PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
 
   void Learn(const route::Segment& segment) override;
+  [[nodiscard]] std::unique_ptr<Follower> Clone() const override {
+    return std::make_unique<PathFollower>(*this);
+  }
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
   void BeginAbout(const route::Segment& segment, double fraction, const RoughPlace& rough) override;

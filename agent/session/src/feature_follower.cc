@@ -22,15 +22,6 @@ constexpr double kShareToSkip = 0.5;
 constexpr double kLookThere_s = 1.5;
 constexpr double kLensTurn_rad = 0.2;
 
-// How many of these places, from the image centre, are in the picture.
-int InPicture(const std::vector<route::TrackedFeature>& places, const image::GrayImage& frame) {
-  return static_cast<int>(
-      std::count_if(places.begin(), places.end(), [&](const route::TrackedFeature& place) {
-        return std::abs(place.u_px) < 0.5 * frame.width &&
-               std::abs(place.v_px) < 0.5 * frame.height;
-      }));
-}
-
 ConfidenceOptions ConfidenceOf(ReplayMethod method) {
   ConfidenceOptions options;
   options.stand_when_covered = !AsPrinted(method);
@@ -177,6 +168,17 @@ bool FeatureFollower::EndsAtTheAxle() const {
   return route_.stands_after(follower_->segment().index);
 }
 
+// How many of the segment's features should be in this frame.
+int FeatureFollower::InPicture() const {
+  const std::vector<route::TrackedFeature> places = follower_->Expect();
+  const image::GrayImage& frame = search_.frame();
+  return static_cast<int>(
+      std::count_if(places.begin(), places.end(), [&](const route::TrackedFeature& place) {
+        return std::abs(place.u_px) < 0.5 * frame.width &&
+               std::abs(place.v_px) < 0.5 * frame.height;
+      }));
+}
+
 Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {
   const route::Segment& segment = follower_->segment();
   Sighting sighting{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
@@ -185,7 +187,7 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
   sighting.carried_off = step.carried_left_m.has_value();
   if (step.offset) {
     sighting.left_sigma_m = step.offset->left_sigma_m;
-    sighting.in_picture = InPicture(follower_->Expect(), *seen.frame);
+    sighting.in_picture = InPicture();
   }
   Compare({segment.index, step.fraction}, sighting);
   return sighting;
@@ -230,11 +232,11 @@ void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
   if (standing.trust == Trust::kLost && confidence_.ever_sure()) TurnToLook(seen, standing);
 }
 
-// Nor does one that may be anywhere on the route, and does not see where.
+// Nor does one that may be anywhere on the route, and recognises nothing of it.
 replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
   replay::FollowStep step;
   if (lens_turn_.turns()) step.command = {0.0, lens_turn_.turn_rate_radps()};
-  if (!anywhere_ || follower_ || standing.trust != Trust::kLost) return step;
+  if (!anywhere_ || follower_ || standing.trust != Trust::kLost || !nowhere_.empty()) return step;
   TurnToLook(seen, standing);
   step.command = {0.0, look_around_.turn_rate_radps()};
   return step;

@@ -77,7 +77,19 @@ class FeatureFollower {
   [[nodiscard]] bool BeginAbout(const RoutePoint& point);
   [[nodiscard]] bool BeginBy(const RoutePoint& point);
   void BeginUnseen(const RoutePoint& point, double magnification);
-  void BeginAtLikeliest(const std::vector<double>& places);
+  // Where a robot that stands sees a segment's features from.
+  struct PlaceByFeatures {
+    double along = 0.0;
+    int agreeing = 0;
+    double share = 0.0;  // of those that should be in the picture
+    double magnification = 1.0;
+    double speaks = 0.0;  // for it: features, less for a camera that it can hardly have
+  };
+  [[nodiscard]] bool MayBeRecognised() const;
+  void ComparePlaces();
+  void CompareSome();
+  void BeginAtLikeliest();
+  [[nodiscard]] double Unlikely(const std::optional<replay::FocalLength>& focal) const;
   void Make(const route::Segment& first);
   void Begin(const route::Segment& segment);
   void EndSegment(Standing& standing);
@@ -88,6 +100,7 @@ class FeatureFollower {
   [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
   [[nodiscard]] bool EndsAtTheAxle() const;
   void RefuseReverse(Standing& standing) const;
+  [[nodiscard]] int InPicture() const;
   [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
@@ -119,9 +132,16 @@ class FeatureFollower {
   std::optional<PlaceFinder> place_finder_;   // until it has found the place
   bool anywhere_;                             // on the route it may be, until it is found
   std::string not_there_;                     // where it looks along the whole route: why
-  std::string outside_;                       // what it sees is of the route, but not from it: how
+  std::vector<RoutePoint> to_compare_;        // places that it may be at,
+  std::vector<PlaceByFeatures> compared_;     // and what their features say
+  std::string nowhere_;                       // why it begins at none of them
+  double moved_m_ = 0.0;                      // since then
   std::optional<ExperienceTaker> experience_;
-  std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
+  // Made when the first segment begins: one that knows the route, and is nowhere yet; and its copy
+  // that is somewhere.
+  std::unique_ptr<replay::Follower> fresh_;
+  bool fresh_by_odometry_ = false;
+  std::unique_ptr<replay::Follower> follower_;
 };
 
 }  // namespace trailcast::agent

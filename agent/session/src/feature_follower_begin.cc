@@ -9,6 +9,7 @@
 
 #include "agent/session/src/feature_follower.h"
 #include "services/base/angles.h"
+#include "services/base/square.h"
 
 namespace trailcast::agent {
 namespace {
@@ -22,13 +23,19 @@ constexpr double kFound_m = 0.3;
 constexpr double kTold_m = 0.3;
 constexpr double kAlike_m = 2.0;
 // Of places that look alike: how many are compared, of which probability at least, and how often
-// while the robot stands; which are the same by their features; and how many fewer agree with a
-// wrong one.
-constexpr std::size_t kMostCompared = 3;
-constexpr double kLeastCompared = 0.05;
+// while the robot stands; how far before and behind each one looks, in the route's units; how many
+// segments in one frame; how many features fewer speak for a wrong one, and by what share of those
+// in view fewer agree, where they are not far fewer in all: segments have more and less of them;
+// and how far apart they may be that are one place.
+constexpr std::size_t kMostCompared = 6;
+constexpr double kLeastCompared = 0.01;
 constexpr double kCompare_s = 0.5;
-constexpr double kSamePlace = 0.6;
-constexpr double kFarFewer = 0.6;
+constexpr double kLooksAlike = 20.0;
+constexpr std::size_t kComparedAtOnce = 3;
+constexpr double kFarLess = 3.0;
+constexpr double kFarSmaller = 0.1;
+constexpr double kFarFewer = 0.8;
+constexpr double kOnePlace = 3.0;
 constexpr int kEnoughHeld = 6;  // features, where the belief holds it to be there
 // So far before the route's beginning, or beyond its end, one begins there; further off it is not
 // on the route.
@@ -40,11 +47,14 @@ constexpr double kEndShare = 0.05;
 }  // namespace
 
 void FeatureFollower::Learn(const route::Segment& segment) {
-  if (follower_ && segment.index.value() < kMostLearnt) follower_->Learn(segment);
+  if (segment.index.value() >= kMostLearnt) return;
+  if (follower_) follower_->Learn(segment);
+  if (fresh_) fresh_->Learn(segment);
 }
 
 void FeatureFollower::GoOnFrom(const LeftAt& left) {
   place_finder_.emplace(left);
+  fresh_.reset();
   if (left.magnification) search_.hand_over().KnowMagnification(*left.magnification);
   ConfidenceOptions confidence = confidence_.options();
   confidence.not_found = "the place where it was left is not found";
@@ -52,13 +62,18 @@ void FeatureFollower::GoOnFrom(const LeftAt& left) {
 }
 
 void FeatureFollower::Make(const route::Segment& first) {
-  const auto known =
-      place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
-  const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
-  follower_ = MakeFollower(options_, eyes_.has_odometry() && first.has_odometry, scout_width_px_,
-                           known.value_or(alike), known.has_value());
-  const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
-  for (std::size_t i = 0; i < learnt; ++i) follower_->Learn(route_.segments()[i]);
+  const bool odometry = eyes_.has_odometry() && first.has_odometry;
+  if (!fresh_ || fresh_by_odometry_ != odometry) {
+    const auto known = place_finder_ && !place_finder_->told() ? place_finder_->left().magnification
+                                                               : std::nullopt;
+    const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
+    fresh_ =
+        MakeFollower(options_, odometry, scout_width_px_, known.value_or(alike), known.has_value());
+    fresh_by_odometry_ = odometry;
+    const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
+    for (std::size_t i = 0; i < learnt; ++i) fresh_->Learn(route_.segments()[i]);
+  }
+  follower_ = fresh_->Clone();
 }
 
 // Hand-over: the segment's stored features are found in this frame and followed from here.
@@ -146,11 +161,14 @@ bool FeatureFollower::LooksElsewhere(Standing& standing) {
   }
   anywhere_ = true;
   follower_.reset();
+  fresh_.reset();
   place_finder_.reset();
   search_.Forget();
   place_.StartAnywhere();
   place_trust_ = PlaceTrust();
   look_again_at_s_ = 0.0;
+  to_compare_.clear();
+  nowhere_.clear();
   standing = {ReplayState::kBlind, Trust::kSeeking, not_there_ + "looks where on the route it is"};
   return true;
 }
@@ -167,22 +185,29 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
   Verdict verdict = place_trust_.Judge(place_.where(), seen.looked_s,
                                        "a place is recognised, but too few of its features");
   const bool lost = verdict.trust == Trust::kLost;
-  standing = {lost ? ReplayState::kLost : ReplayState::kBlind,
-              lost ? Trust::kLost : Trust::kSeeking,
-              not_there_ + "looks where on the route it is: " +
-                  (outside_.empty() ? verdict.reason : outside_)};
+  standing = {
+      lost ? ReplayState::kLost : ReplayState::kBlind, lost ? Trust::kLost : Trust::kSeeking,
+      not_there_ +
+          "looks where on the route it is: " + (nowhere_.empty() ? verdict.reason : nowhere_)};
+  // To look at the same ever again would be to guess.
+  if (seen.driven) moved_m_ += std::abs(seen.driven->distance_m);
+  if (moved_m_ > kOnePlace || !MayBeRecognised()) nowhere_.clear();
+  if (lost && !nowhere_.empty()) return false;
   if (!lost) look_around_.Rest();
-  if (!place_.where().held && place_.where().agreed < kEnoughAgreed) return false;
-  if (!turned && MeasuresLens(seen, standing)) return false;
+  if (!turned && MayBeRecognised() && MeasuresLens(seen, standing)) return false;
   look_again_at_s_ -= seen.looked_s;
-  if (look_again_at_s_ > kTimeSlack_s) return false;
-  look_again_at_s_ = kCompare_s;
-  if (place_.where().held) {
-    BeginAtLikeliest({place_.where().along});
-  } else {
-    BeginAtLikeliest(place_.belief().Likeliest(kMostCompared, kLeastCompared));
+  if (to_compare_.empty() && MayBeRecognised() && look_again_at_s_ <= kTimeSlack_s) {
+    look_again_at_s_ = kCompare_s;
+    ComparePlaces();
   }
+  if (to_compare_.empty()) return false;
+  CompareSome();
+  if (to_compare_.empty()) BeginAtLikeliest();
   return follower_ != nullptr;
+}
+
+bool FeatureFollower::MayBeRecognised() const {
+  return place_.where().held || place_.where().agreed >= kEnoughAgreed;
 }
 
 // Where it is, and how large its camera shows things, is one unknown to a robot that stands;
@@ -214,52 +239,97 @@ double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
   return alike ? magnification * focal.px / alike->px : magnification;
 }
 
-// Views look alike that are of places apart, and from half a metre further on. Where it is tell the
-// features of each: how many lie as a robot would see them from anywhere thereabouts, and from
-// where. Begins there, if that is one place, and on the route.
-void FeatureFollower::BeginAtLikeliest(const std::vector<double>& places) {
-  struct Candidate {
-    double along = 0.0;  // by its features
-    int agreeing = 0;
-    double magnification = 1.0;
-  };
-  std::vector<Candidate> candidates;
+// Views look alike that are of places apart, and from many metres further on: which places may be
+// it, and, where its camera is known, which makes it cheap and tells near from far, every segment's
+// beginning about them. Their features are compared next.
+void FeatureFollower::ComparePlaces() {
+  compared_.clear();
+  std::vector<double> places{place_.where().along};
+  if (!place_.where().held) {
+    places = place_.belief().Likeliest(kMostCompared, kLeastCompared, kAlike_m);
+  }
+  if (!focal_) {
+    for (const double place : places) to_compare_.push_back(place_.PointAt(place));
+    return;
+  }
+  for (const route::Segment& segment : route_.segments()) {
+    const double begins = place_.AlongOf({segment.index, 0.0});
+    const auto is_near = [&](double place) { return std::abs(place - begins) < kLooksAlike; };
+    if (std::any_of(places.begin(), places.end(), is_near)) {
+      to_compare_.push_back({segment.index, 0.0});
+    }
+  }
+}
+
+// As many as one picture leaves time for: how many of a segment's features lie as a robot would see
+// them from somewhere about there, and from where.
+void FeatureFollower::CompareSome() {
   const HandOver unlearnt = search_.hand_over();
-  for (const double along : places) {
-    if (!BeginAbout(place_.PointAt(along))) continue;
-    const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
-    const SegmentIndex segment = follower_->segment().index;
-    const double by_features = step.offset && place_.metric()
-                                   ? place_.AlongOf({segment, 0.0}) + step.offset->along_m
-                                   : place_.AlongOf({segment, step.fraction});
-    candidates.push_back({by_features, step.agreeing, follower_->magnification()});
+  const auto magnification = focal_ ? std::optional(MagnificationBy(*focal_)) : std::nullopt;
+  for (std::size_t i = 0; i < kComparedAtOnce && !to_compare_.empty(); ++i) {
+    const RoutePoint point = to_compare_.back();
+    to_compare_.pop_back();
+    if (magnification) search_.hand_over().KnowMagnification(*magnification);
+    if (focal_ ? BeginBy(point) : BeginAbout(point)) {
+      const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
+      const SegmentIndex segment = follower_->segment().index;
+      const double by_features = step.offset && place_.metric()
+                                     ? place_.AlongOf({segment, 0.0}) + step.offset->along_m
+                                     : place_.AlongOf({segment, step.fraction});
+      compared_.push_back({by_features, step.agreeing,
+                           static_cast<double>(step.agreeing) / std::max(1, InPicture()),
+                           follower_->magnification(),
+                           step.agreeing - Unlikely(follower_->focal())});
+    }
     search_.hand_over() = unlearnt;
   }
   follower_.reset();
   search_.Forget();
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.agreeing > b.agreeing; });
-  const bool one_place =
-      std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
-        return std::abs(other.along - candidates.front().along) < kSamePlace ||
-               other.agreeing < kFarFewer * candidates.front().agreeing;
-      });
-  const int enough = place_.where().held ? kEnoughHeld : kEnoughAgreed;
-  outside_.clear();
-  if (candidates.empty() || candidates.front().agreeing < enough || !one_place) return;
-  const double seen_from = candidates.front().along;
-  const double along = std::clamp(seen_from, 0.0, place_.belief().length());
-  if (std::abs(seen_from - along) > kOutside) {
-    outside_ = fmt::format("what it sees is of the route, from {:.1f} {} {}",
-                           std::abs(seen_from - along), place_.metric() ? "m" : "s of teaching",
-                           seen_from < along ? "before its beginning" : "beyond its end");
-    return;
+}
+
+// Of those that were compared, if that is one place, and on the route.
+void FeatureFollower::BeginAtLikeliest() {
+  nowhere_.clear();
+  moved_m_ = 0.0;
+  if (compared_.empty()) return;
+  const PlaceByFeatures& best = *std::max_element(
+      compared_.begin(), compared_.end(),
+      [](const PlaceByFeatures& a, const PlaceByFeatures& b) { return a.speaks < b.speaks; });
+  if (best.agreeing < (place_.where().held ? kEnoughHeld : kEnoughAgreed)) return;
+  double first = best.along;
+  double last = best.along;
+  for (const PlaceByFeatures& other : compared_) {
+    const bool as_well =
+        other.share > best.share - kFarSmaller && other.agreeing > kFarFewer * best.agreeing;
+    if (other.speaks < best.speaks - kFarLess && !as_well) continue;
+    first = std::min(first, other.along);
+    last = std::max(last, other.along);
   }
+  const char* unit = place_.metric() ? "m" : "s of teaching";
+  const double along = std::clamp(best.along, 0.0, place_.belief().length());
+  const double outside = std::abs(best.along - along);
+  if (last - first > kOnePlace) {
+    nowhere_ = fmt::format(
+        "from {:.1f} to {:.1f} {} along the route it looks alike: begin where more is "
+        "near, or at the beginning",
+        first, last, unit);
+  } else if (outside > kOutside) {
+    nowhere_ =
+        fmt::format("what it sees is of the route, from {:.1f} {} {}: put it on the route", outside,
+                    unit, best.along < along ? "before its beginning" : "beyond its end");
+  }
+  if (!nowhere_.empty()) return;
   const RoutePoint point = place_.PointAt(along);
-  const double magnification = candidates.front().magnification;
+  const double magnification = best.magnification;
   if (focal_) search_.hand_over().KnowMagnification(magnification);
   if (!BeginAbout(point)) BeginUnseen(point, magnification);
-  place_.StartAt(along, kFound_m);
+  place_.StartAt(along, std::max(kFound_m, last - first));
+}
+
+// That its camera is of such a focal length, by what turning has told of it: in features.
+double FeatureFollower::Unlikely(const std::optional<replay::FocalLength>& focal) const {
+  if (!focal || !focal_) return 0.0;
+  return 0.25 * Square(std::log(focal->px / focal_->px) / std::hypot(focal->sigma, focal_->sigma));
 }
 
 // What tells the place need not be of the segment there: a narrow camera sees what is further on.

@@ -286,19 +286,23 @@ void RouteBelief::Locate() {
   place_.sigma = std::sqrt(std::max(0.0, second / mass - mean * mean));
 }
 
-std::vector<double> RouteBelief::Likeliest(std::size_t most, double least) const {
+std::vector<double> RouteBelief::Likeliest(std::size_t most, double least, double apart) const {
   std::vector<double> places;
-  const auto near = static_cast<std::size_t>(options_.window / options_.cell);
   std::vector<double> left(cells_.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = cells_.at(i);
   while (places.size() < most && !left.empty()) {
     const auto peak = std::max_element(left.begin(), left.end());
     const auto at = static_cast<std::size_t>(peak - left.begin());
-    const auto first = peak - static_cast<std::ptrdiff_t>(std::min(at, near));
-    const auto end = peak + static_cast<std::ptrdiff_t>(std::min(left.size() - at, near + 1));
+    const auto within = [&](double reach) {
+      const auto cells = static_cast<std::size_t>(reach / options_.cell);
+      return std::pair(peak - static_cast<std::ptrdiff_t>(std::min(at, cells)),
+                       peak + static_cast<std::ptrdiff_t>(std::min(left.size() - at, cells + 1)));
+    };
+    const auto [first, end] = within(options_.window);
     if (*peak <= 0.0 || std::accumulate(first, end, 0.0) < least) break;
     places.push_back(std::clamp(cell_at(at), 0.0, length_));
-    std::fill(first, end, 0.0);
+    const auto [cleared, cleared_end] = within(std::max(apart, options_.window));
+    std::fill(cleared, cleared_end, 0.0);
   }
   return places;
 }

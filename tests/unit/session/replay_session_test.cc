@@ -169,6 +169,22 @@ TEST(ReplaySessionOutside, IsNotTakenToBeAtTheBeginningFromWellBeforeIt) {
   EXPECT_THAT(step.reason, HasSubstr("before its beginning"));
 }
 
+TEST(ReplaySessionOutside, DoesNotGuessWhereTwoPlacesLookAlike) {
+  std::vector<image::GrayImage> twice = Walk();
+  twice.insert(twice.end(), Walk().begin(), Walk().end());
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(true, twice, 0.1), options);
+  ReplayStep step;
+  for (int i = 0; i < 90; ++i) {
+    step = session.Observe({StampOf(i), Walk()[30], PoseAt(0, true)}).value();
+    EXPECT_TRUE(Stands(step)) << step.reason;
+    EXPECT_NE(step.state, ReplayState::kFollowing) << i;
+  }
+  EXPECT_EQ(step.state, ReplayState::kLost);
+  EXPECT_THAT(step.reason, HasSubstr("along the route it looks alike"));
+}
+
 TEST(ReplaySessionLost, LooksForItselfAlongTheWholeRouteAndGoesOn) {
   constexpr int kFollows = 20;
   constexpr int kPutTo = 45;
