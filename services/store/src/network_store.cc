@@ -544,9 +544,8 @@ Result<void> NetworkStore::Put(std::span<const FollowedStretch> followed) {
     }
     if (database_->Count("SELECT count(*) FROM followed_stretch") > kMostFollowed) {
       auto forget = database_->compiled.Take(
-          "DELETE FROM followed_stretch WHERE rowid IN (SELECT rowid FROM followed_stretch ORDER "
-          "BY "
-          "at_unix_ms DESC, rowid DESC LIMIT -1 OFFSET ?1)");
+          "DELETE FROM followed_stretch WHERE rowid IN (SELECT rowid FROM followed_stretch "
+          "ORDER BY at_unix_ms DESC, rowid DESC LIMIT -1 OFFSET ?1)");
       forget->bind(1, kMostFollowed);
       forget->exec();
     }
