@@ -14,6 +14,7 @@
 #include "agent/session/src/eyes.h"
 #include "agent/session/src/feature_search.h"
 #include "agent/session/src/known_route.h"
+#include "agent/session/src/likeliest_place.h"
 #include "agent/session/src/place_keeper.h"
 #include "agent/session/src/place_trust.h"
 #include "agent/session/src/standing.h"
@@ -77,19 +78,13 @@ class FeatureFollower {
   [[nodiscard]] bool BeginAbout(const RoutePoint& point);
   [[nodiscard]] bool BeginBy(const RoutePoint& point);
   void BeginUnseen(const RoutePoint& point, double magnification);
-  // Where a robot that stands sees a segment's features from.
-  struct PlaceByFeatures {
-    double along = 0.0;
-    int agreeing = 0;
-    double share = 0.0;  // of those that should be in the picture
-    double magnification = 1.0;
-    double speaks = 0.0;  // for it: features, less for a camera that it can hardly have
-  };
   [[nodiscard]] bool MayBeRecognised() const;
+  void ForgetCompared();
   void ComparePlaces();
   void CompareSome();
   void BeginAtLikeliest();
   [[nodiscard]] double Unlikely(const std::optional<replay::FocalLength>& focal) const;
+  [[nodiscard]] const replay::Follower& Fresh(const route::Segment& first);
   void Make(const route::Segment& first);
   void Begin(const route::Segment& segment);
   void EndSegment(Standing& standing);
@@ -135,13 +130,12 @@ class FeatureFollower {
   std::vector<RoutePoint> to_compare_;        // places that it may be at,
   std::vector<PlaceByFeatures> compared_;     // and what their features say
   std::string nowhere_;                       // why it begins at none of them
-  double moved_m_ = 0.0;                      // since then
+  double moved_m_ = 0.0;                      // since it began to compare
   std::optional<ExperienceTaker> experience_;
-  // Made when the first segment begins: one that knows the route, and is nowhere yet; and its copy
-  // that is somewhere.
+  // One that knows the route, and is nowhere yet, as long as it is worth keeping: to be copied.
   std::unique_ptr<replay::Follower> fresh_;
   bool fresh_by_odometry_ = false;
-  std::unique_ptr<replay::Follower> follower_;
+  std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };
 
 }  // namespace trailcast::agent

@@ -24,17 +24,12 @@ constexpr double kTold_m = 0.3;
 constexpr double kAlike_m = 2.0;
 // Of places that look alike: how many are compared, of which probability at least, and how often
 // while the robot stands; how far before and behind each one looks, in the route's units; how many
-// segments in one frame; how many features fewer speak for a wrong one, and by what share of those
-// in view fewer agree, where they are not far fewer in all: segments have more and less of them;
-// and how far apart they may be that are one place.
+// segments in one frame; and how far apart they may be that are one place.
 constexpr std::size_t kMostCompared = 6;
 constexpr double kLeastCompared = 0.01;
 constexpr double kCompare_s = 0.5;
 constexpr double kLooksAlike = 20.0;
 constexpr std::size_t kComparedAtOnce = 3;
-constexpr double kFarLess = 3.0;
-constexpr double kFarSmaller = 0.1;
-constexpr double kFarFewer = 0.8;
 constexpr double kOnePlace = 3.0;
 constexpr int kEnoughHeld = 6;  // features, where the belief holds it to be there
 // So far before the route's beginning, or beyond its end, one begins there; further off it is not
@@ -47,34 +42,33 @@ constexpr double kEndShare = 0.05;
 }  // namespace
 
 void FeatureFollower::Learn(const route::Segment& segment) {
-  if (segment.index.value() >= kMostLearnt) return;
-  if (follower_) follower_->Learn(segment);
-  if (fresh_) fresh_->Learn(segment);
+  if (follower_ && segment.index.value() < kMostLearnt) follower_->Learn(segment);
+  fresh_.reset();
 }
 
 void FeatureFollower::GoOnFrom(const LeftAt& left) {
   place_finder_.emplace(left);
-  fresh_.reset();
   if (left.magnification) search_.hand_over().KnowMagnification(*left.magnification);
   ConfidenceOptions confidence = confidence_.options();
   confidence.not_found = "the place where it was left is not found";
   confidence_ = Confidence(confidence);
 }
 
-void FeatureFollower::Make(const route::Segment& first) {
+const replay::Follower& FeatureFollower::Fresh(const route::Segment& first) {
   const bool odometry = eyes_.has_odometry() && first.has_odometry;
-  if (!fresh_ || fresh_by_odometry_ != odometry) {
-    const auto known = place_finder_ && !place_finder_->told() ? place_finder_->left().magnification
-                                                               : std::nullopt;
-    const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
-    fresh_ =
-        MakeFollower(options_, odometry, scout_width_px_, known.value_or(alike), known.has_value());
-    fresh_by_odometry_ = odometry;
-    const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
-    for (std::size_t i = 0; i < learnt; ++i) fresh_->Learn(route_.segments()[i]);
-  }
-  follower_ = fresh_->Clone();
+  if (fresh_ && fresh_by_odometry_ == odometry) return *fresh_;
+  const auto known =
+      place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
+  const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
+  fresh_ =
+      MakeFollower(options_, odometry, scout_width_px_, known.value_or(alike), known.has_value());
+  fresh_by_odometry_ = odometry;
+  const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
+  for (std::size_t i = 0; i < learnt; ++i) fresh_->Learn(route_.segments()[i]);
+  return *fresh_;
 }
+
+void FeatureFollower::Make(const route::Segment& first) { follower_ = Fresh(first).Clone(); }
 
 // Hand-over: the segment's stored features are found in this frame and followed from here.
 void FeatureFollower::Begin(const route::Segment& segment) {
@@ -167,8 +161,7 @@ bool FeatureFollower::LooksElsewhere(Standing& standing) {
   place_.StartAnywhere();
   place_trust_ = PlaceTrust();
   look_again_at_s_ = 0.0;
-  to_compare_.clear();
-  nowhere_.clear();
+  ForgetCompared();
   standing = {ReplayState::kBlind, Trust::kSeeking, not_there_ + "looks where on the route it is"};
   return true;
 }
@@ -189,10 +182,9 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
       lost ? ReplayState::kLost : ReplayState::kBlind, lost ? Trust::kLost : Trust::kSeeking,
       not_there_ +
           "looks where on the route it is: " + (nowhere_.empty() ? verdict.reason : nowhere_)};
-  // To look at the same ever again would be to guess.
   if (seen.driven) moved_m_ += std::abs(seen.driven->distance_m);
-  if (moved_m_ > kOnePlace || !MayBeRecognised()) nowhere_.clear();
-  if (lost && !nowhere_.empty()) return false;
+  if (moved_m_ > kOnePlace || !MayBeRecognised()) ForgetCompared();
+  if (lost && !nowhere_.empty()) return false;  // to look at the same ever again would be to guess
   if (!lost) look_around_.Rest();
   if (!turned && MayBeRecognised() && MeasuresLens(seen, standing)) return false;
   look_again_at_s_ -= seen.looked_s;
@@ -204,6 +196,14 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
   CompareSome();
   if (to_compare_.empty()) BeginAtLikeliest();
   return follower_ != nullptr;
+}
+
+// Somewhere else it would count for a place that it has left.
+void FeatureFollower::ForgetCompared() {
+  to_compare_.clear();
+  compared_.clear();
+  nowhere_.clear();
+  moved_m_ = 0.0;
 }
 
 bool FeatureFollower::MayBeRecognised() const {
@@ -232,11 +232,9 @@ bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
 
 // By what the route says of the scout's camera.
 double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
-  Make(route_.segments().front());
-  const double magnification = follower_->magnification();
-  const auto alike = follower_->focal();
-  follower_.reset();
-  return alike ? magnification * focal.px / alike->px : magnification;
+  const replay::Follower& alike = Fresh(route_.segments().front());
+  const auto its = alike.focal();
+  return its ? alike.magnification() * focal.px / its->px : alike.magnification();
 }
 
 // Views look alike that are of places apart, and from many metres further on: which places may be
@@ -244,6 +242,7 @@ double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
 // beginning about them. Their features are compared next.
 void FeatureFollower::ComparePlaces() {
   compared_.clear();
+  moved_m_ = 0.0;
   std::vector<double> places{place_.where().along};
   if (!place_.where().held) {
     places = place_.belief().Likeliest(kMostCompared, kLeastCompared, kAlike_m);
@@ -290,39 +289,29 @@ void FeatureFollower::CompareSome() {
 // Of those that were compared, if that is one place, and on the route.
 void FeatureFollower::BeginAtLikeliest() {
   nowhere_.clear();
-  moved_m_ = 0.0;
-  if (compared_.empty()) return;
-  const PlaceByFeatures& best = *std::max_element(
-      compared_.begin(), compared_.end(),
-      [](const PlaceByFeatures& a, const PlaceByFeatures& b) { return a.speaks < b.speaks; });
-  if (best.agreeing < (place_.where().held ? kEnoughHeld : kEnoughAgreed)) return;
-  double first = best.along;
-  double last = best.along;
-  for (const PlaceByFeatures& other : compared_) {
-    const bool as_well =
-        other.share > best.share - kFarSmaller && other.agreeing > kFarFewer * best.agreeing;
-    if (other.speaks < best.speaks - kFarLess && !as_well) continue;
-    first = std::min(first, other.along);
-    last = std::max(last, other.along);
-  }
+  const auto likeliest = LikeliestOf(compared_);
+  const int enough = place_.where().held ? kEnoughHeld : kEnoughAgreed;
+  if (!likeliest || likeliest->best.agreeing < enough) return;
+  const auto& [best, first, last] = *likeliest;
   const char* unit = place_.metric() ? "m" : "s of teaching";
   const double along = std::clamp(best.along, 0.0, place_.belief().length());
   const double outside = std::abs(best.along - along);
   if (last - first > kOnePlace) {
     nowhere_ = fmt::format(
-        "from {:.1f} to {:.1f} {} along the route it looks alike: begin where more is "
-        "near, or at the beginning",
+        "from {:.1f} to {:.1f} {} along the route it looks alike: begin where more is near, or at "
+        "the beginning",
         first, last, unit);
-  } else if (outside > kOutside) {
+    return;
+  }
+  if (outside > kOutside) {
     nowhere_ =
         fmt::format("what it sees is of the route, from {:.1f} {} {}: put it on the route", outside,
                     unit, best.along < along ? "before its beginning" : "beyond its end");
+    return;
   }
-  if (!nowhere_.empty()) return;
   const RoutePoint point = place_.PointAt(along);
-  const double magnification = best.magnification;
-  if (focal_) search_.hand_over().KnowMagnification(magnification);
-  if (!BeginAbout(point)) BeginUnseen(point, magnification);
+  if (focal_) search_.hand_over().KnowMagnification(best.magnification);
+  if (!BeginAbout(point)) BeginUnseen(point, best.magnification);
   place_.StartAt(along, std::max(kFound_m, last - first));
 }
 

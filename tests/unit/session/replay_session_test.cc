@@ -185,6 +185,25 @@ TEST(ReplaySessionOutside, DoesNotGuessWhereTwoPlacesLookAlike) {
   EXPECT_THAT(step.reason, HasSubstr("along the route it looks alike"));
 }
 
+// It was about to compare places once more when it gave up.
+TEST(ReplaySessionOutside, WhatWasComparedCountsForNothingOnceSomethingElseIsSeen) {
+  constexpr double kSlower_hz = 7.0;
+  constexpr int kGaveUp = 25;
+  std::vector<image::GrayImage> twice = Walk();
+  twice.insert(twice.end(), Walk().begin(), Walk().end());
+  ReplayMethodOptions options;
+  options.anywhere = true;
+  ReplaySession session = SessionOn(Taught(true, twice, 0.1), options);
+  for (int i = 0; i < kGaveUp + 20; ++i) {
+    const image::GrayImage picture =
+        i < kGaveUp ? Walk()[30] : Noise(static_cast<unsigned>(i) + 1U);
+    const ReplayStep step =
+        session.Observe({FromSeconds(i / kSlower_hz), picture, PoseAt(0, true)}).value();
+    EXPECT_TRUE(Stands(step)) << i;
+    EXPECT_THAT(step.reason, HasSubstr("looks where on the route it is")) << i;
+  }
+}
+
 TEST(ReplaySessionLost, LooksForItselfAlongTheWholeRouteAndGoesOn) {
   constexpr int kFollows = 20;
   constexpr int kPutTo = 45;

@@ -1,0 +1,46 @@
+#include "agent/session/src/likeliest_place.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace trailcast::agent {
+namespace {
+
+// All of whose features that should be in view are `in_view`.
+PlaceByFeatures Place(double along, int agreeing, int in_view, double unlikely = 0.0) {
+  return {along, agreeing, static_cast<double>(agreeing) / in_view, 1.0, agreeing - unlikely};
+}
+
+void ExpectPlaces(const std::vector<PlaceByFeatures>& compared, double best, double first,
+                  double last) {
+  const auto likeliest = LikeliestOf(compared);
+  ASSERT_TRUE(likeliest);
+  EXPECT_DOUBLE_EQ(likeliest->best.along, best);
+  EXPECT_DOUBLE_EQ(likeliest->first, first);
+  EXPECT_DOUBLE_EQ(likeliest->last, last);
+}
+
+TEST(LikeliestPlaceTest, IsNoneOfNone) { EXPECT_FALSE(LikeliestOf({})); }
+
+TEST(LikeliestPlaceTest, IsWhereMostAgree) {
+  ExpectPlaces({Place(40.0, 27, 43), Place(45.0, 41, 42), Place(50.0, 30, 49)}, 45.0, 45.0, 45.0);
+}
+
+TEST(LikeliestPlaceTest, ACameraThatItCanHardlyHaveCountsAgainstAPlace) {
+  ExpectPlaces({Place(116.0, 38, 40), Place(149.0, 39, 49, 11.0)}, 116.0, 116.0, 116.0);
+}
+
+TEST(LikeliestPlaceTest, WhereFeaturesDoAboutAsWellItMayBeThere) {
+  ExpectPlaces({Place(225.0, 31, 32), Place(228.0, 20, 30), Place(230.0, 29, 42)}, 225.0, 225.0,
+               230.0);
+}
+
+// Of two places that look the same, one's segment has fewer features.
+TEST(LikeliestPlaceTest, WhereAsLargeAShareOfFewerFeaturesAgreesItMayBeThere) {
+  ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 50, 52)}, 9.0, 3.0, 9.0);
+  ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 40, 40)}, 9.0, 9.0, 9.0);
+}
+
+}  // namespace
+}  // namespace trailcast::agent
