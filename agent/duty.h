@@ -14,8 +14,10 @@
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
+#include "agent/next_path.h"
 #include "agent/on_duty.h"
 #include "agent/view_question.h"
+#include "services/base/mailbox.h"
 #include "services/program/presence.h"
 
 namespace trailcast::agent {
@@ -50,15 +52,19 @@ class Duty {
   [[nodiscard]] bool WaitsForWay() const;
   void WaitForWay();
   void GoOtherWay();
-  void Follow(const mission::Task& task);
+  void GoAlong();
+  void Follow(const mission::Task& task, std::unique_ptr<NextPath> begun);
+  [[nodiscard]] std::optional<mission::Task> TaskAfter() const;
+  [[nodiscard]] FollowerOptions::Next PrepareNext(const std::optional<OwnLens>& lens);
   void LookElsewhere();
   [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
   // None: there is nothing to judge, since it has failed before, or goes another way.
-  [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(const FollowerOptions& follower);
+  [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(
+      const FollowerOptions& follower, std::unique_ptr<NextPath> begun = nullptr);
   [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
   [[nodiscard]] std::vector<std::string> RoutesInView();
   [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);
-  void Refresh(const ReplayOutcome& outcome);
+  void RefreshVisited();
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
   void FindUndelivered();
@@ -77,6 +83,7 @@ class Duty {
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
   bool claimed_ = false;
+  std::uint64_t instance_ = 0;  // of this process, once it is claimed
   bool following_ = false;
   bool delivering_ = false;
   bool undelivered_ = false;  // what it taught before
@@ -89,7 +96,18 @@ class Duty {
   // Of that: where it ends, and that it ends at once, since it goes another way.
   std::atomic<double> end_m_ = 0.0;
   std::atomic<bool> turned_off_ = false;
-  std::string missed_;  // why it stands until it is told another way; empty: it need not
+  // What comes after it, told by the link's thread to the control loop, which makes it ready, and
+  // what it is then to be made ready for.
+  Mailbox<std::optional<mission::Task>> tasks_after_{4};
+  std::optional<mission::Task> task_after_;
+  std::string made_ready_;
+  std::unique_ptr<NextPath> next_;  // that the robot drives along
+  struct Visited {
+    route::RouteInfo route;
+    refresh::Visit visit;
+  };
+  std::vector<Visited> visited_;  // to refresh the routes by once the robot stands
+  std::string missed_;            // why it stands until it is told another way; empty: it need not
   Elsewhere elsewhere_;
   std::optional<ViewQuestion> question_;  // while it asks servers what it sees
   std::optional<Time> told_until_;        // who has found itself there

@@ -37,6 +37,7 @@ constexpr const char* kWaitsForWord = "waits before a narrow stretch until a ser
 
 void Duty::Work() {
   const mission::Task task = desk_.current()->tasks[desk_.current()->task];
+  auto begun = std::move(next_);  // along which nobody drives on who does anything else now
   if (now_desk_.hold().cancelled) {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
@@ -51,7 +52,7 @@ void Duty::Work() {
   } else if (task.kind == mission::Task::Kind::kTeach) {
     Teach(task);
   } else {
-    Follow(task);
+    Follow(task, std::move(begun));
   }
 }
 
@@ -86,6 +87,11 @@ void Duty::WaitForWay() {
 
 // In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.
 void Duty::GoOtherWay() {
+  GoAlong();
+  (void)tasks_after_.TryPut(TaskAfter());  // full: it is looked at again where it changes over
+}
+
+void Duty::GoAlong() {
   missed_.clear();
   told_until_.reset();
   if (!following_ || elsewhere_.looks()) {
@@ -115,7 +121,7 @@ void Duty::GoOtherWay() {
 
 FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
-  follower.link.instance = presence_.status().instance;
+  follower.link.instance = instance_;
   follower.link.now_desk = &now_desk_;
   follower.link.followed_note = &followed_note_;
   follower.link.vitals = options_.vitals;
@@ -125,18 +131,19 @@ FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   return follower;
 }
 
-std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& follower) {
+std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& follower,
+                                                       std::unique_ptr<NextPath> begun) {
   auto store = options_.open_store();
   if (!store) {
     End(State::kFailed, store.error().message);
     return std::nullopt;
   }
-  was_under_way_ = false;
+  was_under_way_ = begun != nullptr;
   ails_since_.reset();
   ailment_.clear();
   place_.reset();
   following_ = true;
-  auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit());
+  auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit(), std::move(begun));
   following_ = false;
   if (outcome) lens_ = outcome->lens;
   const bool arrived = outcome && outcome->success;
@@ -145,8 +152,38 @@ std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& fo
   return outcome;
 }
 
-void Duty::Follow(const mission::Task& task) {
+// Of a robot that goes to a place: the route that it is to drive along after this one.
+std::optional<mission::Task> Duty::TaskAfter() const {
+  const auto& current = desk_.current();
+  if (!current || !mission::GoingIn(current->mission.orders)) return std::nullopt;
+  const std::size_t after = current->task + 1;
+  if (after >= current->tasks.size()) return std::nullopt;
+  const mission::Task& task = current->tasks[after];
+  return task.kind == mission::Task::Kind::kFollow ? std::optional(task) : std::nullopt;
+}
+
+// In the control loop's thread. A robot that does not know its camera yet finds itself on no other
+// route while it drives.
+FollowerOptions::Next Duty::PrepareNext(const std::optional<OwnLens>& lens) {
+  while (auto after = tasks_after_.TryGet()) {
+    task_after_ = *std::move(after);
+    made_ready_.clear();
+    if (!task_after_) return FollowerOptions::Next(nullptr);
+  }
+  if (!task_after_ || !lens) return std::nullopt;
+  const mission::Task task = *std::exchange(task_after_, std::nullopt);
+  FollowerOptions follower = FollowerFor(task);
+  follower.session.lens = lens;
+  follower.session.else_anywhere = false;
+  made_ready_ = mission::ToText(task);
+  return std::make_unique<NextPath>(
+      device_, RouteWish{0, follower.link.route, follower.link.revision, task.from_m},
+      KnownPath(follower.session, follower.terrain, follower.comfort));
+}
+
+void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   const MissionDesk::Current& current = *desk_.current();
+  if (begun && mission::ToText(task) != made_ready_) begun.reset();
   FollowerOptions follower = FollowerFor(task);
   follower.link.from_start = !current.begun;
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
@@ -163,14 +200,22 @@ void Duty::Follow(const mission::Task& task) {
     }
   }
   driven_ = task;
-  const auto outcome = RunFollower(follower);
+  task_after_ = TaskAfter();
+  made_ready_.clear();
+  while (tasks_after_.TryGet()) {
+  }
+  follower.next = [this](const std::optional<OwnLens>& lens) { return PrepareNext(lens); };
+  auto outcome = RunFollower(follower, std::move(begun));
   if (!outcome || LooksElsewhere(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had arrived when it heard that its order ends further on.
   const bool goes_on =
       arrived && end_m_ != task.to_m && place_ && end_m_ > place_->along_m + kOnWay_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
-  if (arrived) Refresh(**outcome);
+  if (arrived && (*outcome)->visit) {
+    visited_.push_back({*(*outcome)->followed, *std::move((*outcome)->visit)});
+  }
+  if (arrived) next_ = std::move((*outcome)->next);
   Judge(*outcome);
 }
 
@@ -240,16 +285,19 @@ void Duty::LookElsewhere() {
 }
 
 // A server gets it while the robot is free.
-void Duty::Refresh(const ReplayOutcome& outcome) {
-  if (options_.refreshing == Refreshing::kOff || !outcome.visit) return;
+void Duty::RefreshVisited() {
+  const auto visited = std::exchange(visited_, {});
+  if (options_.refreshing == Refreshing::kOff || visited.empty()) return;
   auto store = options_.open_scouts_store();
   if (!store) return spdlog::error("{}", store.error().message);
-  const auto refreshed = StoreRefreshed(options_.agent, *outcome.followed, *outcome.visit,
-                                        options_.refreshing, **store);
-  TellRefreshed(refreshed);
-  if (!refreshed || !options_.why_no_scout.empty()) return;
-  undelivered_ = true;
-  deliver_at_ = {};
+  for (const Visited& one : visited) {
+    const auto refreshed =
+        StoreRefreshed(options_.agent, one.route, one.visit, options_.refreshing, **store);
+    TellRefreshed(refreshed);
+    if (!refreshed || !options_.why_no_scout.empty()) continue;
+    undelivered_ = true;
+    deliver_at_ = {};
+  }
 }
 
 ScoutOptions Duty::ScoutFor(const mission::Task& task) {
@@ -257,7 +305,7 @@ ScoutOptions Duty::ScoutFor(const mission::Task& task) {
   scout.route = task.route.route;
   scout.tags = task.tags;
   scout.glances = &glances_;
-  scout.link.instance = presence_.status().instance;
+  scout.link.instance = instance_;
   scout.link.vitals = options_.vitals;
   scout.link.besides = [this](exchange::AgentStatus& status) { AddDuty(status); };
   return scout;

@@ -6,10 +6,10 @@
 #include <ctime>
 #include <utility>
 
-#include "agent/comfort.h"
 #include "agent/device/ear_for_trouble.h"
 #include "agent/device/standstill.h"
 #include "agent/glances.h"
+#include "agent/known_path.h"
 #include "agent/progress_watch.h"
 #include "agent/stand.h"
 #include "agent/yielding.h"
@@ -22,6 +22,11 @@ using std::chrono::steady_clock;
 
 // Further beyond the end of its stretch than this nobody drives who looks at each frame.
 constexpr double kDrivenPast_m = 1.0;
+// Where it is to change over to another route: how far it goes on along this one until it has found
+// that.
+constexpr double kChangesWithin_m = 0.3;
+// What is learnt of a segment of another route takes a fraction of a millisecond, while it drives.
+constexpr int kLearntAtOnce = 4;
 constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
 // How often a robot that stands behind another reads its sensors.
 constexpr milliseconds kStandingFrame{33};
@@ -43,15 +48,18 @@ class Loop {
         diagnosis_(std::move(diagnosis)),
         watch_(options.stuck_after),
         yielding_(options.link.agent, options.keep_distance),
-        terrain_(options.terrain),
-        comfort_(options.comfort) {}
+        path_(options.session, options.terrain, options.comfort) {}
+
+  // Before Run: the robot drives along this already.
+  void DriveOn(NextPath::Begun begun);
 
   // Ends when there is no more to do; the error is final.
-  [[nodiscard]] Result<void> Run();
+  [[nodiscard]] Result<void> Run(Standstill& standstill);
   [[nodiscard]] ReplayOutcome Outcome(const Result<void>& ran,
                                       const std::optional<route::RouteInfo>& route) &&;
 
  private:
+  void BeginDiagnosis();
   [[nodiscard]] Result<void> TakeFeed();
   [[nodiscard]] Result<bool> WaitForFeed();
   [[nodiscard]] Result<bool> Step(const Observation& observation);
@@ -61,6 +69,10 @@ class Loop {
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
   [[nodiscard]] bool PassedEnd(double end_m) const;  // where it was to end before the route does
+  void PrepareNext();
+  // At the end of what it was to drive of this route.
+  [[nodiscard]] bool ChangesOver(const Observation& observation, double end_m);
+  [[nodiscard]] Result<bool> EndAt(double end_m);
   void ShowGlance(const ReplayStep& step);
   void ShowWaiting();
   void Tell(const ReplayStep& step);
@@ -75,13 +87,11 @@ class Loop {
   Yielding yielding_;
   Hold hold_;
   Stand stand_;  // while an operator holds it
-  TerrainCheck terrain_;
-  Comfort comfort_;
-  bool all_is_to_come_ = false;  // the route is complete, if not here
-  std::optional<ReplaySession> session_;
-  std::uint32_t segments_ = 0;  // given to the session
-  bool complete_ = false;
-  std::optional<LeftAt> left_;
+  KnownPath path_;
+  std::unique_ptr<NextPath> next_;
+  std::uint32_t wishes_ = 0;            // of next ones
+  bool wished_ = false;                 // the link has heard the last
+  bool changes_over_ = false;           // drives along the next one
   std::optional<double> went_on_at_m_;  // where it then found itself
   bool fed_ = false;                    // since the last frame
   bool looked_ = false;                 // at this frame
@@ -94,46 +104,46 @@ class Loop {
   ReplayLog log_;
 };
 
+void Loop::DriveOn(NextPath::Begun begun) {
+  path_ = std::move(begun.path);
+  BeginDiagnosis();
+  Tell(begun.step);
+  last_ = std::move(begun.step);
+}
+
+void Loop::BeginDiagnosis() {
+  diagnosis_.Begin({*path_.route(), options_.link.agent.value(), device_.camera(),
+                    ToString(options_.session.method)});
+}
+
 Result<void> Loop::TakeFeed() {
   while (auto item = link_.TryTake()) {
     fed_ = true;
-    if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
-      session_.emplace(options_.session, *route);
-      all_is_to_come_ = route->state == route::RouteState::kComplete;
-      diagnosis_.Begin({*route, options_.link.agent.value(), device_.camera(),
-                        ToString(options_.session.method)});
-    } else if (const auto* left = std::get_if<LeftAt>(&*item)) {
-      session_->GoOnFrom(*left);
-      left_ = *left;
-    } else if (auto* segment = std::get_if<route::Segment>(&*item)) {
-      terrain_.Add(*segment);
-      comfort_.Add(*segment);
-      if (auto added = session_->AddSegment(std::move(*segment)); !added) return added;
-      ++segments_;
-    } else if (std::get_if<RouteComplete>(&*item) != nullptr) {
-      session_->MarkComplete();
-      complete_ = true;
-      if (const auto text = terrain_.NotKnown()) spdlog::warn("{}", *text);
-      diagnosis_.Note("complete", fmt::format("all {} segments are known", segments_));
-    } else if (auto* error = std::get_if<Error>(&*item)) {
-      return tl::unexpected(*error);
-    }
+    const bool knew_route = path_.route().has_value();
+    const bool knew_all = path_.complete();
+    if (auto taken = path_.Take(*std::move(item)); !taken) return taken;
+    if (!knew_route) BeginDiagnosis();
+    if (knew_all || !path_.complete()) continue;
+    if (const auto text = path_.NotKnown()) spdlog::warn("{}", *text);
+    diagnosis_.Note("complete", fmt::format("all {} segments are known", path_.segments()));
   }
   return {};
 }
 
 bool Loop::NothingToFollow() const {
   // It begins with all that its own store holds: a run over one store is the same each time.
-  if (segments_ == 0 || segments_ < link_.held_before()) return true;
-  if (terrain_.any() && all_is_to_come_ && !complete_) return true;
-  if (left_ && !complete_ && session_->known_m() <= left_->along_m) return true;
+  if (path_.segments() == 0 || path_.segments() < link_.held_before()) return true;
+  if (path_.AwaitsAll()) return true;
+  const bool complete = path_.complete();
+  const auto& left = path_.left();
+  if (left && !complete && path_.session()->known_m() <= left->along_m) return true;
   const bool waiting = last_ && last_->state == ReplayState::kWaiting;
-  return waiting && !fed_ && !complete_;
+  return waiting && !fed_ && !complete;
 }
 
 // Where the ground is more than the robot can drive; it ends the run.
 bool Loop::Refuses() {
-  const auto refusal = terrain_.Refusal(left_ ? left_->along_m : 0.0);
+  const auto refusal = path_.Refusal();
   if (refusal) End("REFUSED", *refusal);
   return refusal.has_value();
 }
@@ -146,17 +156,18 @@ bool Loop::TakeHold() {
 // False: the run is over.
 Result<bool> Loop::WaitForFeed() {
   auto began = steady_clock::now();
-  auto known = segments_;
+  auto known = path_.segments();
   while (NothingToFollow()) {
-    if (std::exchange(known, segments_) != segments_) began = steady_clock::now();
+    if (std::exchange(known, path_.segments()) != path_.segments()) began = steady_clock::now();
     if (options_.link.stop()) return End("STOPPED", "stopped by a signal");
     // Before the first segment the link has bounds of its own, and says more precisely what fails.
-    const auto bound = options_.link.wait + (session_ ? milliseconds(0) : milliseconds(5000));
+    const auto bound =
+        options_.link.wait + (path_.session() ? milliseconds(0) : milliseconds(5000));
     if (steady_clock::now() - began > bound) {
       return End("WAITING",
                  fmt::format("no further segment within {:.0f} s: only {} segments are known, and "
                              "nobody who holds the rest answers",
-                             Seconds(options_.link.wait), segments_));
+                             Seconds(options_.link.wait), path_.segments()));
     }
     link_.WaitForNews(kWakeUp);
     ShowWaiting();
@@ -166,8 +177,7 @@ Result<bool> Loop::WaitForFeed() {
   return true;
 }
 
-Result<void> Loop::Run() {
-  const Standstill standstill(device_);
+Result<void> Loop::Run(Standstill& standstill) {
   const EarForTrouble ear(device_, [this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
   while (true) {
     if (options_.link.stop()) {
@@ -178,6 +188,10 @@ Result<void> Loop::Run() {
     auto ready = WaitForFeed();
     if (!ready) return tl::unexpected(ready.error());
     if (!*ready || Refuses()) return {};
+    if (const std::string& why = path_.superseded(); !why.empty()) {
+      End(ToString(ReplayState::kLost), why);
+      return {};
+    }
     const bool stands =
         last_ && (last_->state == ReplayState::kYielding || last_->state == ReplayState::kHeld);
     if (stands) link_.WaitForNews(kStandingFrame);
@@ -192,6 +206,7 @@ Result<void> Loop::Run() {
     }
     auto on = Step(**observation);
     if (!on) return tl::unexpected(on.error());
+    if (changes_over_) standstill.Leave();
     if (!*on) return {};
   }
 }
@@ -205,7 +220,7 @@ Result<ReplayStep> Loop::Decide(const Observation& observation) {
   }
   const auto now = steady_clock::now();
   if (auto standing = yielding_.StandOn(observation.stamp, now)) return *standing;
-  auto step = session_->Observe(observation);
+  auto step = path_.session()->Observe(observation);
   if (!step) return step;
   looked_ = true;
   if (held && step->state != ReplayState::kLost) {
@@ -213,7 +228,7 @@ Result<ReplayStep> Loop::Decide(const Observation& observation) {
     return StandingStep(*std::move(step), ReplayState::kHeld, hold_.text);
   }
   stand_.End();
-  return yielding_.Apply(comfort_.Apply(*std::move(step)), observation.stamp, now);
+  return yielding_.Apply(path_.Comfortable(*std::move(step)), observation.stamp, now);
 }
 
 // False: the run is over.
@@ -223,7 +238,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   auto step = Decide(observation);
   const double cpu_ms = CpuMs() - before_ms;
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
-  if (!looked_) session_->Pass(observation);
+  if (!looked_) path_.session()->Pass(observation);
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
   ShowGlance(*step);
@@ -232,21 +247,14 @@ Result<bool> Loop::Step(const Observation& observation) {
                                             observation.unknown.distance_m));
   }
   log_.Add(observation.stamp, *step, cpu_ms);
-  diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, *session_, *step);
+  diagnosis_.Add({observation.stamp, observation.odometry, cpu_ms, {}}, *path_.session(), *step);
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;
+  PrepareNext();
   if (const double end_m = options_.end_m(); PassedEnd(end_m)) {
-    if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
-    if (*last_->along_m > end_m + kDrivenPast_m) {
-      return End(
-          ToString(ReplayState::kLost),
-          fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
-                      "was it carried there? Send it on from where it stands",
-                      end_m, *last_->along_m));
-    }
-    return End(ToString(ReplayState::kArrived),
-               fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
+    if (ChangesOver(observation, end_m)) return !changes_over_;
+    return EndAt(end_m);
   }
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
@@ -256,6 +264,51 @@ Result<bool> Loop::Step(const Observation& observation) {
   return End("STUCK",
              fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
+}
+
+void Loop::PrepareNext() {
+  if (!options_.next) return;
+  if (auto next = options_.next(path_.session()->lens())) {
+    next_ = *std::move(next);
+    wishes_ += 1;
+    wished_ = false;
+  }
+  if (!next_) return;
+  if (!wished_) {
+    RouteWish wish = next_->wish();
+    wish.number = wishes_;
+    wished_ = link_.Wish(std::move(wish));
+  }
+  for (int i = 0; i < kLearntAtOnce; ++i) {
+    auto fed = link_.TryTakeAhead();
+    if (!fed) return;
+    if (fed->wish == wishes_ && !next_->Learn(std::move(fed->item))) return next_.reset();
+  }
+}
+
+// True: it goes on meanwhile, or along the next one.
+bool Loop::ChangesOver(const Observation& observation, double end_m) {
+  const bool sure = last_->state == ReplayState::kFollowing && last_->trust == Trust::kSure;
+  if (!next_ || !next_->ready() || !sure || *last_->along_m > end_m + kChangesWithin_m)
+    return false;
+  changes_over_ = next_->TakesOver(observation);
+  if (changes_over_) {
+    End(ToString(ReplayState::kArrived),
+        fmt::format("{:.1f} m along the route, where it changed over", *last_->along_m));
+  }
+  return true;
+}
+
+Result<bool> Loop::EndAt(double end_m) {
+  if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
+  if (*last_->along_m > end_m + kDrivenPast_m) {
+    return End(ToString(ReplayState::kLost),
+               fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
+                           "was it carried there? Send it on from where it stands",
+                           end_m, *last_->along_m));
+  }
+  return End(ToString(ReplayState::kArrived),
+             fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
 }
 
 // Also who is at the route's own end.
@@ -269,9 +322,9 @@ bool Loop::PassedEnd(double end_m) const {
 void Loop::ShowGlance(const ReplayStep& step) {
   if (options_.glances == nullptr || !options_.glances->wanted()) return;
   GlanceFrame frame;
-  frame.picture = *session_->picture();
+  frame.picture = *path_.session()->picture();
   if (looked_) {
-    frame.features = session_->ViewFeatures(step);
+    frame.features = path_.session()->ViewFeatures(step);
     frame.stored = step.sight.stored;
     frame.turn_rad = step.turn_rad;
   }
@@ -283,10 +336,10 @@ void Loop::ShowWaiting() {
 }
 
 void Loop::Tell(const ReplayStep& step) {
-  if (left_ && !went_on_at_m_ && step.along_m) {
+  if (path_.left() && !went_on_at_m_ && step.along_m) {
     went_on_at_m_ = step.along_m;
     spdlog::info("goes on {:.1f} m along the route, left at {:.1f} m", *went_on_at_m_,
-                 left_->along_m);
+                 path_.left()->along_m);
   }
   if (!last_ || last_->state != step.state) {
     spdlog::info("{} in segment {}{}{}", ToString(step.state), step.segment.value(),
@@ -332,9 +385,10 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   outcome.state = state_;
   outcome.reason = reason_;
   outcome.diagnosed = diagnosis_.End(state_, reason_);
-  if (session_) outcome.lens = session_->lens();
-  if (arrived && session_ && complete_ && route) {
-    outcome.visit = session_->TakeVisit();
+  if (path_.session()) outcome.lens = path_.session()->lens();
+  if (changes_over_) outcome.next = std::move(next_);
+  if (arrived && path_.complete() && route) {
+    outcome.visit = path_.session()->TakeVisit();
     if (outcome.visit) outcome.followed = route;
   }
   const ReplayStep last = last_.value_or(ReplayStep{});
@@ -343,7 +397,7 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
   summary.Add("state", state_);
   summary.Add("reason", reason_);
   summary.Add("route", route ? route->name : options_.link.route);
-  summary.Add("segments", std::to_string(segments_));
+  summary.Add("segments", std::to_string(path_.segments()));
   summary.Add("segment", std::to_string(last.segment.value()));
   if (went_on_at_m_) summary.Add("went_on_at_m", fmt::format("{:.2f}", *went_on_at_m_));
   summary.Add("progress", fmt::format("{:.4f}", last.progress));
@@ -374,14 +428,16 @@ exchange::AgentMode LastMode(const ReplayOutcome& outcome, bool open_loop) {
 
 Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
                              std::unique_ptr<store::RouteStore> store,
-                             std::unique_ptr<exchange::RouteExchange> exchange) {
-  const Standstill standstill(device);
+                             std::unique_ptr<exchange::RouteExchange> exchange,
+                             std::unique_ptr<NextPath> begun) {
+  Standstill standstill(device);
   auto diagnosis = Diagnosis::Open(options.diagnosis);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   FollowerLink link(options.link, std::move(store), std::move(exchange));
   if (auto started = link.Start(); !started) return tl::unexpected(started.error());
   Loop loop(device, options, link, std::move(*diagnosis));
-  const auto ran = loop.Run();
+  if (begun) loop.DriveOn(begun->Take());
+  const auto ran = loop.Run(standstill);
   link.Finish();
   ReplayOutcome outcome = std::move(loop).Outcome(ran, link.route());
   link.Close(LastMode(outcome, options.open_loop), outcome.reason);

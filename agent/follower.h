@@ -12,6 +12,7 @@
 #include "agent/diagnosis/summary.h"
 #include "agent/keep_distance.h"
 #include "agent/link/follower_link.h"
+#include "agent/next_path.h"
 #include "agent/terrain_check.h"
 #include "services/refresh/visit.h"
 
@@ -36,6 +37,10 @@ struct FollowerOptions {
   TerrainLimits terrain{};
   bool comfort = false;        // it drives slower where the ground is rough
   Glances* glances = nullptr;  // for those who look through its camera; null: nobody does
+  // Asked at each frame, with what is known of the robot's camera: along which route it goes on
+  // where this one ends for it; null: along none. Nothing: that is as before.
+  using Next = std::optional<std::unique_ptr<NextPath>>;
+  std::function<Next(const std::optional<OwnLens>&)> next = {};
 };
 
 struct ReplayOutcome {
@@ -48,7 +53,9 @@ struct ReplayOutcome {
   std::optional<route::RouteInfo> followed;
   std::optional<refresh::Visit> visit;
   std::optional<OwnLens> lens;  // what is known of the robot's camera, for its next run
-  Result<void> diagnosed;       // whether log and pictures are complete
+  // It has arrived, and drives on along this. Whoever drops it has the robot stand.
+  std::unique_ptr<NextPath> next;
+  Result<void> diagnosed;  // whether log and pictures are complete
   ReplayLog log;
 };
 
@@ -56,8 +63,10 @@ struct ReplayOutcome {
 // are asked of the device only while there is something to follow. `exchange` may be null: then the
 // route comes from `store` alone. The errors: another agent has the name; the log
 // cannot be made.
+// `begun`: the robot drives along it already, and goes on so.
 [[nodiscard]] Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options,
                                            std::unique_ptr<store::RouteStore> store,
-                                           std::unique_ptr<exchange::RouteExchange> exchange);
+                                           std::unique_ptr<exchange::RouteExchange> exchange,
+                                           std::unique_ptr<NextPath> begun = nullptr);
 
 }  // namespace trailcast::agent

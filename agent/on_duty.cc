@@ -164,6 +164,7 @@ Result<void> Duty::Run() {
     return claimed;
   }
   claimed_ = true;
+  instance_ = presence_.status().instance;
   FindUndelivered();
   if (const auto& current = desk_.current();
       current && current->begun && current->kind() == mission::Task::Kind::kTeach) {
@@ -176,12 +177,14 @@ Result<void> Duty::Run() {
   }
   spdlog::info("on duty as '{}'", options_.agent.value());
   while (!options_.stop()) {
-    (void)exchange_.Take(kWait);
+    (void)exchange_.Take(next_ ? milliseconds(0) : kWait);
+    if (!next_) RefreshVisited();
     glances_.ShowIfWanted(device_);
     NoteAilment(steady_clock::now());
     if (desk_.current()) {
       Work();
     } else {
+      next_.reset();
       now_desk_.ForgetCancelled();  // there was nothing to cancel
       if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
     }

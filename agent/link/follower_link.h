@@ -12,10 +12,12 @@
 #include <variant>
 #include <vector>
 
+#include "agent/link/feed.h"
 #include "agent/link/followed_note.h"
 #include "agent/link/neighbours.h"
 #include "agent/link/now_desk.h"
 #include "agent/link/place_note.h"
+#include "agent/link/route_wish.h"
 #include "agent/session/replay_session.h"
 #include "services/base/mailbox.h"
 #include "services/exchange/route_fetcher.h"
@@ -25,6 +27,8 @@
 #include "services/store/route_store.h"
 
 namespace trailcast::agent {
+
+class RouteAhead;
 
 struct FollowerLinkOptions {
   AgentId agent;
@@ -49,13 +53,6 @@ struct FollowerLinkOptions {
   std::chrono::milliseconds wait{30'000};
   std::function<bool()> stop = [] { return false; };  // any thread
 };
-
-// What the link gives the control loop, in this order: the route, where the robot was left on it
-// (if it was), its segments, that it is complete (or that no more can be had); or why there will be
-// nothing more.
-struct RouteComplete {};
-using Feed =
-    std::variant<std::monostate, route::RouteInfo, LeftAt, route::Segment, RouteComplete, Error>;
 
 // The follower's other half: a thread that owns store and exchange, finds the route, fetches into
 // the own store what is missing, and feeds the control loop from there.
@@ -85,6 +82,14 @@ class FollowerLink {
   // How operators have the robot stand, whenever that has changed; before the route is fed, if an
   // earlier run was stopped.
   [[nodiscard]] std::optional<Hold> TryTakeHold() { return told_hold_.TryGet(); }
+  // Another route, to be had ready besides, once all of this one is here; instead of the one wished
+  // for before. False: it does not hear that now.
+  [[nodiscard]] bool Wish(RouteWish wish) { return wishes_.TryPut(std::move(wish)); }
+  struct AheadFeed {
+    std::uint32_t wish = 0;  // its number
+    Feed item{};
+  };
+  [[nodiscard]] std::optional<AheadFeed> TryTakeAhead() { return ahead_feed_.TryGet(); }
   // While the robot stands: waits until something was fed, others have moved, or `at_most`.
   void WaitForNews(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
 
@@ -115,6 +120,8 @@ class FollowerLink {
   [[nodiscard]] Result<void> TellHeld();
   void CountHeld(SegmentIndex stored);
   [[nodiscard]] Result<void> FeedAll();
+  void HearWish();
+  [[nodiscard]] Result<void> FeedAhead();
   [[nodiscard]] bool all_known() const;
   [[nodiscard]] bool TryPut(Feed item);
   [[nodiscard]] std::optional<LeftAt> ReadPlace() const;
@@ -137,6 +144,7 @@ class FollowerLink {
   std::optional<route::RouteInfo> route_;   // the newest that is known of it
   std::optional<route::RouteInfo> stored_;  // what of that is in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
+  std::unique_ptr<RouteAhead> ahead_;
   exchange::SpareHolder spare_;
   PlaceNote place_note_;
   std::optional<NotedPlace> place_;  // the last that the robot was sure of
@@ -160,6 +168,8 @@ class FollowerLink {
   std::optional<AgentId> told_server_;
 
   Mailbox<Feed> feed_{16};
+  Mailbox<RouteWish> wishes_{4};
+  Mailbox<AheadFeed> ahead_feed_{16};
   Mailbox<std::vector<Neighbour>> told_neighbours_{4};
   Mailbox<Hold> told_hold_{4};
   Mailbox<ReplayStep> reports_{64};

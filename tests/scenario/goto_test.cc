@@ -15,6 +15,17 @@ class GotoTest : public RobotsTest {
   Ended Network(const Words& words) { return Tool(With({"network"}, words)); }
   Ended Send(const Words& words) { return Tool(With({"send", "robot1"}, words)); }
 
+  // Frames in which it stood between two places along its path.
+  int StoodBetween(double from_x_m, double to_x_m) {
+    const std::vector<Place> places = TruePlaces();
+    int stood = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const double x_m = places[i].x_m;
+      if (x_m > from_x_m && x_m < to_x_m && x_m - places[i - 1].x_m < 1e-3) ++stood;
+    }
+    return stood;
+  }
+
   int tools_ = 0;
 };
 
@@ -46,6 +57,8 @@ TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
   EXPECT_EQ(sent.status, 0) << sent.output << agent->output();
   EXPECT_THAT(sent.output, AllOf(HasSubstr("follow office 1.5..3"), HasSubstr("robot1: arrived")));
   EXPECT_NEAR(Along_m("truth.csv"), 4.0, 0.3);
+  EXPECT_THAT(agent->output(), HasSubstr("where it changed over"));
+  EXPECT_EQ(StoodBetween(1.2, 3.7), 0) << agent->output();
 
   const Ended back = Send({"goto", "hall@1"});
   EXPECT_EQ(back.status, 1) << back.output;

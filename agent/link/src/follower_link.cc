@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "agent/link/src/held_revisions.h"
+#include "agent/link/src/route_ahead.h"
 #include "services/base/time.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
@@ -154,6 +155,30 @@ Result<void> FollowerLink::Follow() {
       reported_.Wait(kWait);
     }
     if (auto fed = FeedAll(); !fed) return fed;
+    HearWish();
+    if (auto fed = FeedAhead(); !fed) return fed;
+  }
+  return {};
+}
+
+void FollowerLink::HearWish() {
+  while (auto wish = wishes_.TryGet()) {
+    ahead_ = std::make_unique<RouteAhead>(options_.agent, *std::move(wish), *store_,
+                                          exchange_ != nullptr, steady_clock::now());
+  }
+}
+
+Result<void> FollowerLink::FeedAhead() {
+  if (!ahead_) return {};
+  if (!exchange_) (void)ahead_->Tick(steady_clock::now());  // there is nobody to tell
+  if (ahead_->TakeFetched()) {
+    if (auto told = TellHeld(); !told) return told;
+  }
+  while (auto item = ahead_->Next()) {
+    AheadFeed fed{ahead_->number(), *std::move(item)};
+    if (ahead_feed_.TryPut(std::move(fed))) continue;
+    ahead_->GiveBack(std::move(fed.item));
+    break;
   }
   return {};
 }
@@ -166,6 +191,7 @@ void FollowerLink::Trade() {
     presence_->Handle(message);
     neighbours_.Handle(message, now);
     spare_.Handle(message, now);
+    if (ahead_) ahead_->Handle(message, now);
     if (fetcher_) {
       fetcher_->Handle(std::move(message), now);
     } else {
@@ -188,6 +214,7 @@ Result<void> FollowerLink::Listen(Time now) {
   std::set<route::RouteKey> routes = spare_.ListensTo(now);
   const bool fetches = fetcher_ && !fetcher_->Complete() && !fetcher_->deleted();
   if (fetches) routes.insert(route_->key);
+  if (const auto ahead = ahead_ ? ahead_->listens_to() : std::nullopt) routes.insert(*ahead);
   if (auto listening = exchange_->Listen(exchange::Topic::kSegments, routes); !listening) {
     return listening;
   }
@@ -198,6 +225,9 @@ Result<void> FollowerLink::Listen(Time now) {
 
 void FollowerLink::Say(steady_clock::time_point now) {
   auto outgoing = fetcher_ ? fetcher_->Tick(now) : finder_.Tick(now);
+  if (ahead_ && fed_all_) {
+    for (exchange::Message& ahead : ahead_->Tick(now)) outgoing.push_back(std::move(ahead));
+  }
   for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
   const auto told = [this, now](const exchange::Message& message, bool sent) {
     if (!sent) spare_.NotSent(message, now);

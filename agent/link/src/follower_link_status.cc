@@ -49,7 +49,7 @@ void FollowerLink::ShowStatus() {
   exchange::AgentStatus status;
   status.route = route_ ? route_->name : options_.route;
   status.segments = route_ ? route_->segment_count : 0;
-  const bool started = next_feed_ > 0;
+  const bool started = next_feed_ > 0 || latest_.state != ReplayState::kWaiting;
   status.mode = started ? ModeOf(latest_.state) : exchange::AgentMode::kWaiting;
   status.segment = latest_.segment.value();
   status.progress = latest_.progress;

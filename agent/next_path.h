@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "agent/device/device.h"
+#include "agent/known_path.h"
+#include "agent/link/feed.h"
+#include "agent/link/route_wish.h"
+#include "agent/session/replay_step.h"
+
+namespace trailcast::agent {
+
+// The route that a robot drives along next: learnt while it follows another one, and looked for in
+// the same pictures where it is to change over, so that it need not stand there. The control loop's
+// thread.
+class NextPath {
+ public:
+  // `wish`: which it is; its number is not looked at.
+  NextPath(RobotDevice& device, RouteWish wish, KnownPath path)
+      : device_(device), wish_(std::move(wish)), path_(std::move(path)) {}
+  // A robot that drives along it stands, unless somebody else drives it on (Take).
+  ~NextPath();
+  NextPath(const NextPath&) = delete;
+  NextPath& operator=(const NextPath&) = delete;
+
+  [[nodiscard]] const RouteWish& wish() const { return wish_; }
+  // As a link feeds it. False: it will never be ready, since some of it is not to be had, or the
+  // robot cannot drive it.
+  [[nodiscard]] bool Learn(Feed item);
+  [[nodiscard]] bool ready() const { return path_.complete(); }
+
+  // At the joint, once it is ready. True: the robot is sure that it is on this route, about where
+  // it begins, and drives along it from now on.
+  [[nodiscard]] bool TakesOver(const Observation& observation);
+
+  // Of one that has taken over; once.
+  struct Begun {
+    KnownPath path;
+    ReplayStep step;  // the last
+  };
+  [[nodiscard]] Begun Take();
+
+ private:
+  RobotDevice& device_;
+  RouteWish wish_;
+  KnownPath path_;
+  std::optional<ReplayStep> driving_by_;
+};
+
+}  // namespace trailcast::agent
