@@ -161,6 +161,11 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
                    "With --server: also wait for a route that no server knows yet");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
+  command.add_flag("--backwards", replay.backwards,
+                   "In reverse gear along what was taught forwards, from the route's end to its "
+                   "beginning (which change places in --start), at half the taught speed, the "
+                   "camera looking as it did; by odometry and the default method. What is behind "
+                   "the robot it does not see");
   command
       .add_option("--start", replay.start,
                   "Where the robot is at first: where its last run has left it, or else at the "

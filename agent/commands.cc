@@ -118,21 +118,22 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.wait_for_route = replay.wait_for_route;
   follower.link.wait = ToMilliseconds(replay.wait_s);
   follower.link.stop = [] { return program::StopSignal::requested(); };
-  if (const auto method = FindReplayMethod(replay.method)) follower.session.method = *method;
-  follower.session.speed_factor = replay.speed_factor;
-  follower.session.intake = replay.device.intake;
-  follower.session.camera_ahead_m = replay.device.camera_ahead_m;
-  follower.session.passing.most_m = replay.device.pass_obstacles_m;
-  follower.session.passing.robot = OutlineOf(replay.device.ros2.obstacles);
+  if (const auto method = FindReplayMethod(replay.method)) follower.how.session.method = *method;
+  follower.how.session.speed_factor = replay.speed_factor;
+  follower.how.session.intake = replay.device.intake;
+  follower.how.session.camera_ahead_m = replay.device.camera_ahead_m;
+  follower.how.session.passing.most_m = replay.device.pass_obstacles_m;
+  follower.how.session.passing.robot = OutlineOf(replay.device.ros2.obstacles);
   const bool turns_on_the_spot =
       !replay.device.is_recorded() && replay.device.ros2.limits.turn_radius_m == 0.0;
-  follower.session.look_around_rad = turns_on_the_spot ? Radians(replay.look_around_deg) : 0.0;
-  follower.session.take_experience = RefreshingOf(replay.refresh) != Refreshing::kOff;
+  follower.how.session.look_around_rad = turns_on_the_spot ? Radians(replay.look_around_deg) : 0.0;
+  follower.how.backwards = replay.backwards;
+  follower.how.session.take_experience = RefreshingOf(replay.refresh) != Refreshing::kOff;
   follower.diagnosis = replay.diagnosis;
   follower.open_loop = replay.device.is_recorded();
   follower.diagnosis.patient = follower.open_loop;
-  follower.session.anywhere = replay.start == "anywhere";
-  follower.session.else_anywhere = replay.start == "left" && !follower.open_loop;
+  follower.how.session.anywhere = replay.start == "anywhere";
+  follower.how.session.else_anywhere = replay.start == "left" && !follower.open_loop;
   follower.link.from_start = replay.from_start || replay.start != "left";
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {
@@ -142,9 +143,9 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.link.hears_operators = !follower.open_loop;
   if (!follower.open_loop) follower.link.stop_file = BesideStore(options, "stop");
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
-  if (replay.max_slope_deg) follower.terrain.slope_rad = Radians(*replay.max_slope_deg);
-  follower.terrain.roughness = route::FindRoughness(replay.max_roughness);
-  follower.comfort = replay.comfort;
+  if (replay.max_slope_deg) follower.how.terrain.slope_rad = Radians(*replay.max_slope_deg);
+  follower.how.terrain.roughness = route::FindRoughness(replay.max_roughness);
+  follower.how.comfort = replay.comfort;
   return follower;
 }
 

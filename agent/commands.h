@@ -50,6 +50,7 @@ struct ReplayCommand {
   double wait_s = 30.0;
   bool wait_for_route = false;
   double speed_factor = 1.0;
+  bool backwards = false;
   bool from_start = false;
   std::string start = "left";
   double look_around_deg = kUsualLookAround_deg;

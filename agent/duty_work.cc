@@ -121,12 +121,13 @@ void Duty::GoAlong() {
 
 FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
+  follower.how.backwards = task.backwards;
   follower.link.instance = instance_;
   follower.link.now_desk = &now_desk_;
   follower.link.followed_note = &followed_note_;
   follower.link.vitals = options_.vitals;
   follower.link.stop = [this] { return options_.stop() || turned_off_; };
-  follower.session.lens = lens_;
+  follower.how.session.lens = lens_;
   follower.glances = &glances_;
   return follower;
 }
@@ -159,7 +160,9 @@ std::optional<mission::Task> Duty::TaskAfter() const {
   const std::size_t after = current->task + 1;
   if (after >= current->tasks.size()) return std::nullopt;
   const mission::Task& task = current->tasks[after];
-  return task.kind == mission::Task::Kind::kFollow ? std::optional(task) : std::nullopt;
+  const bool changes_gear = task.backwards != current->tasks[current->task].backwards;
+  return task.kind == mission::Task::Kind::kFollow && !changes_gear ? std::optional(task)
+                                                                    : std::nullopt;
 }
 
 // In the control loop's thread. A robot that does not know its camera yet finds itself on no other
@@ -173,12 +176,12 @@ FollowerOptions::Next Duty::PrepareNext(const std::optional<OwnLens>& lens) {
   if (!task_after_ || !lens) return std::nullopt;
   const mission::Task task = *std::exchange(task_after_, std::nullopt);
   FollowerOptions follower = FollowerFor(task);
-  follower.session.lens = lens;
-  follower.session.else_anywhere = false;
+  follower.how.session.lens = lens;
+  follower.how.session.else_anywhere = false;
   made_ready_ = mission::ToText(task);
   return std::make_unique<NextPath>(
       device_, RouteWish{0, follower.link.route, follower.link.revision, task.from_m},
-      KnownPath(follower.session, follower.terrain, follower.comfort));
+      KnownPath(follower.how));
 }
 
 void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
@@ -190,7 +193,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   end_m_ = task.to_m;
   follower.end_m = [this] { return end_m_.load(); };
   // Of a stretch it is not to do another part.
-  if (task.from_m > 0.0 || task.to_m > 0.0) follower.session.else_anywhere = false;
+  if (task.from_m > 0.0 || task.to_m > 0.0) follower.how.session.else_anywhere = false;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
     if (log) {
@@ -263,10 +266,10 @@ void Duty::LookElsewhere() {
   spdlog::info("looks whether it is on {}", route.route.route);
   FollowerOptions follower = FollowerFor(route);
   // Looking all round takes most of a minute a route.
-  double& turn_rad = follower.session.look_around_rad;
+  double& turn_rad = follower.how.session.look_around_rad;
   turn_rad = lens_ ? 0.0 : std::min(turn_rad, kForLens_rad);
   follower.link.from_start = true;
-  follower.session.anywhere = true;
+  follower.how.session.anywhere = true;
   follower.end_m = [] { return kAtOnce_m; };
   const auto outcome = RunFollower(follower);
   if (!outcome) return;

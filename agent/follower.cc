@@ -48,7 +48,7 @@ class Loop {
         diagnosis_(std::move(diagnosis)),
         watch_(options.stuck_after),
         yielding_(options.link.agent, options.keep_distance),
-        path_(options.session, options.terrain, options.comfort) {}
+        path_(options.how) {}
 
   // Before Run: the robot drives along this already.
   void DriveOn(NextPath::Begun begun);
@@ -64,10 +64,12 @@ class Loop {
   [[nodiscard]] Result<bool> WaitForFeed();
   [[nodiscard]] Result<bool> Step(const Observation& observation);
   [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
+  void HearNeighbours();
   [[nodiscard]] bool NothingToFollow() const;
   // False: an operator has ended the run.
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
+  [[nodiscard]] double PastEnd_m(double end_m) const;
   [[nodiscard]] bool PassedEnd(double end_m) const;  // where it was to end before the route does
   void PrepareNext();
   // At the end of what it was to drive of this route.
@@ -107,13 +109,14 @@ class Loop {
 void Loop::DriveOn(NextPath::Begun begun) {
   path_ = std::move(begun.path);
   BeginDiagnosis();
-  Tell(begun.step);
-  last_ = std::move(begun.step);
+  ReplayStep step = path_.OfRoute(std::move(begun.step));
+  Tell(step);
+  last_ = std::move(step);
 }
 
 void Loop::BeginDiagnosis() {
   diagnosis_.Begin({*path_.route(), options_.link.agent.value(), device_.camera(),
-                    ToString(options_.session.method)});
+                    ToString(options_.how.session.method)});
 }
 
 Result<void> Loop::TakeFeed() {
@@ -211,8 +214,16 @@ Result<void> Loop::Run(Standstill& standstill) {
   }
 }
 
+// Who is ahead is so along the way that is driven.
+void Loop::HearNeighbours() {
+  while (auto neighbours = link_.TryTakeNeighbours()) {
+    for (Neighbour& one : *neighbours) one.along_m = path_.OfRoute(one.along_m);
+    yielding_.Hear(std::move(*neighbours));
+  }
+}
+
 Result<ReplayStep> Loop::Decide(const Observation& observation) {
-  while (auto neighbours = link_.TryTakeNeighbours()) yielding_.Hear(std::move(*neighbours));
+  HearNeighbours();
   const bool held = hold_.kind != Hold::Kind::kNone;
   looked_ = false;
   if (const ReplayStep* wish = held ? stand_.WithoutLooking(observation.stamp) : nullptr) {
@@ -240,6 +251,9 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
   if (!looked_) path_.session()->Pass(observation);
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
+  const bool held = std::exchange(was_held_, held_);
+  const bool stuck = watch_.Stuck(observation.stamp, *step, held);
+  step = path_.OfRoute(*std::move(step));
   link_.Report(*step);
   ShowGlance(*step);
   if (observation.unknown.distance_m > 0.0) {
@@ -259,8 +273,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
   }
-  const bool held = std::exchange(was_held_, held_);
-  if (!watch_.Stuck(observation.stamp, *last_, held)) return true;
+  if (!stuck) return true;
   return End("STUCK",
              fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
@@ -289,8 +302,7 @@ void Loop::PrepareNext() {
 // True: it goes on meanwhile, or along the next one.
 bool Loop::ChangesOver(const Observation& observation, double end_m) {
   const bool sure = last_->state == ReplayState::kFollowing && last_->trust == Trust::kSure;
-  if (!next_ || !next_->ready() || !sure || *last_->along_m > end_m + kChangesWithin_m)
-    return false;
+  if (!next_ || !next_->ready() || !sure || PastEnd_m(end_m) > kChangesWithin_m) return false;
   changes_over_ = next_->TakesOver(observation);
   if (changes_over_) {
     End(ToString(ReplayState::kArrived),
@@ -301,7 +313,7 @@ bool Loop::ChangesOver(const Observation& observation, double end_m) {
 
 Result<bool> Loop::EndAt(double end_m) {
   if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
-  if (*last_->along_m > end_m + kDrivenPast_m) {
+  if (PastEnd_m(end_m) > kDrivenPast_m) {
     return End(ToString(ReplayState::kLost),
                fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
                            "was it carried there? Send it on from where it stands",
@@ -311,11 +323,16 @@ Result<bool> Loop::EndAt(double end_m) {
              fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
 }
 
+double Loop::PastEnd_m(double end_m) const {
+  const double past_m = *last_->along_m - end_m;
+  return options_.how.backwards ? -past_m : past_m;
+}
+
 // Also who is at the route's own end.
 bool Loop::PassedEnd(double end_m) const {
   const bool knows_where =
       last_->state == ReplayState::kFollowing || last_->state == ReplayState::kArrived;
-  return end_m > 0.0 && knows_where && last_->along_m && *last_->along_m >= end_m;
+  return end_m > 0.0 && knows_where && last_->along_m && PastEnd_m(end_m) >= 0.0;
 }
 
 // After the command: who looks delays no more than the next frame, by the time of a copy.
@@ -339,7 +356,7 @@ void Loop::Tell(const ReplayStep& step) {
   if (path_.left() && !went_on_at_m_ && step.along_m) {
     went_on_at_m_ = step.along_m;
     spdlog::info("goes on {:.1f} m along the route, left at {:.1f} m", *went_on_at_m_,
-                 path_.left()->along_m);
+                 path_.OfRoute(path_.left()->along_m));
   }
   if (!last_ || last_->state != step.state) {
     spdlog::info("{} in segment {}{}{}", ToString(step.state), step.segment.value(),
@@ -433,7 +450,9 @@ Result<ReplayOutcome> Replay(RobotDevice& device, const FollowerOptions& options
   Standstill standstill(device);
   auto diagnosis = Diagnosis::Open(options.diagnosis);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  FollowerLink link(options.link, std::move(store), std::move(exchange));
+  FollowerLinkOptions as_told = options.link;
+  as_told.notes_followed = !options.how.backwards;
+  FollowerLink link(std::move(as_told), std::move(store), std::move(exchange));
   if (auto started = link.Start(); !started) return tl::unexpected(started.error());
   Loop loop(device, options, link, std::move(*diagnosis));
   if (begun) loop.DriveOn(begun->Take());

@@ -11,9 +11,9 @@
 #include "agent/diagnosis/replay_log.h"
 #include "agent/diagnosis/summary.h"
 #include "agent/keep_distance.h"
+#include "agent/known_path.h"
 #include "agent/link/follower_link.h"
 #include "agent/next_path.h"
-#include "agent/terrain_check.h"
 #include "services/refresh/visit.h"
 
 namespace trailcast::agent {
@@ -22,20 +22,17 @@ class Glances;
 
 struct FollowerOptions {
   FollowerLinkOptions link;
-  ReplayMethodOptions session;
+  HowToFollow how;
   DiagnosisOptions diagnosis;
   // The device is a recording: every frame is looked at, whatever the follower makes of it.
   bool open_loop = false;
-  // How far along the route it has arrived; 0: at its end. The control loop asks at each frame.
+  // How far along the route it has arrived; 0: at its end, or, backwards, its beginning. The
+  // control loop asks at each frame.
   std::function<double()> end_m = [] { return 0.0; };
   // From followers ahead on the same revision of the route; without `exchange` nobody is heard.
   KeepDistanceOptions keep_distance;
   // A robot that gets no further along the route for so long (by its sensors' time) gives up.
   std::chrono::seconds stuck_after{60};
-  // What ground the robot can drive: with limits, and a route that is complete, it looks at all of
-  // it before it moves; of one that is still being taught it knows no more than has come.
-  TerrainLimits terrain{};
-  bool comfort = false;        // it drives slower where the ground is rough
   Glances* glances = nullptr;  // for those who look through its camera; null: nobody does
   // Asked at each frame, with what is known of the robot's camera: along which route it goes on
   // where this one ends for it; null: along none. Nothing: that is as before.

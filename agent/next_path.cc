@@ -23,7 +23,8 @@ bool NextPath::Learn(Feed item) {
 bool NextPath::TakesOver(const Observation& observation) {
   auto step = path_.session()->Observe(observation);
   if (!step || step->state != ReplayState::kFollowing || step->trust != Trust::kSure) return false;
-  if (!step->along_m || std::abs(*step->along_m - wish_.begin_m) > kFound_m) return false;
+  if (!step->along_m || std::abs(path_.OfRoute(*step->along_m) - wish_.begin_m) > kFound_m)
+    return false;
   ReplayStep comfortable = path_.Comfortable(*std::move(step));
   if (!device_.Drive(comfortable.command)) return false;
   driving_by_ = std::move(comfortable);

@@ -47,6 +47,7 @@ struct FollowerLinkOptions {
   NowDesk* now_desk = nullptr;
   FollowedNote* followed_note = nullptr;
   std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
+  bool notes_followed = true;   // how it follows tells how well the route's stretches are followed
   bool feeds_segments = true;   // false: nobody drives, the segments are stored and not read back
   bool hears_operators = true;  // false: there is nothing that could be held
   // How long the agent waits for a server, the route, or the next segment, while none comes.

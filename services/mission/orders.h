@@ -16,6 +16,8 @@ namespace trailcast::mission {
 // What a mission consists of, one after the other:
 //   follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]   metres along the route, either may be
 //                                                           missing; F times the taught speed
+//   follow ROUTE[@REVISION] backwards [FROM..TO] [speed F]  in reverse gear, from its end, or FROM,
+//                                                           down to its beginning, or TO
 //   teach ROUTE [TAG ...]    a person drives until it is told to be ended; no tag is called as what
 //                            an order begins with
 //   wait SECONDS
@@ -31,8 +33,9 @@ struct Task {
   enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
-  double from_m = 0.0;  // where the robot stands at first; 0: at the route's beginning
-  double to_m = 0.0;    // where it ends; 0: at the route's end
+  double from_m = 0.0;     // where the robot stands at first; 0: at the route's beginning
+  double to_m = 0.0;       // where it ends; 0: at the route's end
+  bool backwards = false;  // and from its end to its beginning
   std::uint32_t laps = 1;
   double speed_factor = 1.0;
   double wait_s = 0.0;

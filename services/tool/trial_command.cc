@@ -110,6 +110,8 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
                  "How often each follower drives the route, without a pause, of a path that ends "
                  "where it begins")
       ->check(CLI::Range(1, 1000));
+  app.add_flag("--backwards", options.backwards,
+               "Followers drive in reverse gear from the taught path's end to its beginning");
   app.add_option("--starts", options.starts,
                  "Followers are set down at so many drawn places along each taught route, told of "
                  "none, and judged by where they take themselves to be and by the metres after")

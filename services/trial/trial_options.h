@@ -36,6 +36,7 @@ struct TrialOptions {
   // Each taught route is followed from so many drawn places along it, by robots that are told no
   // place, until they have come a few metres; 0: from its beginning to its end.
   int starts = 0;
+  bool backwards = false;  // in reverse gear, from the taught path's end to its beginning
   // Each taught route is followed so many times, one follower after the other, while the
   // scenario's change grows from visit to visit; 0: once, in the place as it is by then.
   int visits = 0;

@@ -41,6 +41,7 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
+  bool backwards = false;                       // from the taught path's end to its beginning
   int laps = 1;                                 // that each follower drives, one after the other
   bool sun_moves = false;                       // between teaching and following
   bool same_robot = false;                      // each follower is the scout that taught it

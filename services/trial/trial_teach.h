@@ -28,7 +28,9 @@ struct Taught {
                                        const std::function<bool(double share)>& on_progress);
 
 // What a follower gets: the bytes that the scout made, opened again.
+// `backwards`: to be driven from the end of what was taught to its beginning.
 [[nodiscard]] Result<agent::ReplaySession> OpenSession(const TaughtRoute& taught,
-                                                       const agent::ReplayMethodOptions& options);
+                                                       const agent::ReplayMethodOptions& options,
+                                                       bool backwards = false);
 
 }  // namespace trailcast::trial

@@ -48,6 +48,9 @@ TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
   const Ended rest = Send({"follow", "hall", "2..", "--wait"});
   EXPECT_EQ(rest.status, 0) << rest.output << agent_->output();
   EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+  const Ended back = Send({"follow", "hall", "backwards", "..2.5", "--wait"});
+  EXPECT_EQ(back.status, 0) << back.output << agent_->output();
+  EXPECT_NEAR(Along_m("truth.csv"), 3.5, 0.25) << "in reverse gear from where it stood";
   const Ended history = Missions({"--route", "hall"});
   EXPECT_THAT(history.output, AllOf(HasSubstr("first"), HasSubstr("arrived"),
                                     HasSubstr("follow hall ..2 wait 0.5"), HasSubstr("operator")));

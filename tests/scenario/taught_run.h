@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -42,20 +43,26 @@ struct Ending {
 // Looks on, frame by frame, and may shove the robot.
 using Bystander = std::function<void(sim::Judge& truth, const agent::ReplayStep& step)>;
 
+// Where a follower sets out, if not at the start of the path, and in which gear.
+struct Outset {
+  std::optional<motion::Pose2> start{};
+  bool backwards = false;
+};
+
 // Follows the route from the start of a place's path until it ends one way or the other.
 inline Ending FollowIn(
     const sim::Place& place, const sim::CameraModel& camera, const Taught& taught,
     std::uint64_t seed, const Bystander& bystander = [](sim::Judge&, const agent::ReplayStep&) {},
-    const agent::ReplayMethodOptions& how = {}) {
+    const agent::ReplayMethodOptions& how = {}, const Outset& outset = {}) {
   constexpr double kPatience_s = 90.0;
   sim::SimulatedRobotOptions options;
   options.camera = camera;
-  options.start = sim::StartPose(place.path.points);
+  options.start = outset.start.value_or(sim::StartPose(place.path.points));
   options.start_z_max_m = place.path.z_max_m;
   options.seed = seed;
   const auto robot = sim::SimulatedRobot::Create(place.world, options);
   EXPECT_TRUE(robot) << robot.error().message;
-  auto session = OpenSession(taught.routes.front(), how);
+  auto session = OpenSession(taught.routes.front(), how, outset.backwards);
   EXPECT_TRUE(session) << session.error().message;
   sim::Judge truth(**robot);
   Ending ending;

@@ -47,7 +47,7 @@ std::optional<LeftAt> FollowerLink::ReadPlace() const {
 void FollowerLink::TakeReports() {
   while (auto report = reports_.TryGet()) {
     latest_ = std::move(*report);
-    if (route_) followed_note_.Note(latest_, *route_);
+    if (route_ && options_.notes_followed) followed_note_.Note(latest_, *route_);
   }
   if (latest_.state == ReplayState::kFollowing && latest_.along_m && route_) {
     place_ = {route_->key, *latest_.along_m, latest_.magnification, NowUnixMs()};

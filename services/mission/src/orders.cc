@@ -17,7 +17,8 @@ namespace trailcast::mission {
 namespace {
 
 constexpr const char* kGrammar =
-    "'follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' or 'wait "
+    "'follow ROUTE[@REVISION] [backwards] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' "
+    "or 'wait "
     "SECONDS', one after the other";
 constexpr const char* kWay = "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone";
 constexpr std::string_view kWaySaid = " (way ";
@@ -92,7 +93,8 @@ class Parser {
   [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
-    const bool is_stretch = task.kind == Task::Kind::kFollow && task.to_m > 0.0 && task.laps == 1;
+    const bool is_stretch =
+        task.kind == Task::Kind::kFollow && task.to_m > 0.0 && task.laps == 1 && !task.backwards;
     const bool waits = task.kind == Task::Kind::kWaitWay || task.kind == Task::Kind::kWaitLane;
     if (!ends && (is_stretch || waits)) return {};
     return Wrong(ToText(task), kWay);
@@ -131,10 +133,14 @@ class Parser {
     auto route = route::ParseRouteRef(Take());
     if (!route) return Wrap(route.error(), "orders");
     Task task{.route = *std::move(route)};
+    if (Next() == "backwards") {
+      (void)Take();
+      task.backwards = true;
+    }
     while (true) {
       const std::string word = Next();
       Result<void> taken;
-      if (word == "laps") {
+      if (word == "laps" && !task.backwards) {
         taken = Laps(task);
       } else if (word == "speed") {
         taken = Speed(task);
@@ -170,8 +176,11 @@ class Parser {
     const auto part = ParseRange(word, 0.0, route::kMaxLength_m);
     const double from_m = part ? part->from.value_or(0.0) : 0.0;
     const double to_m = part ? part->to.value_or(0.0) : 0.0;
-    if (!part || (to_m > 0.0 && to_m <= from_m)) {
+    if (!part || (!task.backwards && to_m > 0.0 && to_m <= from_m)) {
       return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
+    }
+    if (task.backwards && from_m > 0.0 && to_m >= from_m) {
+      return Wrong(word, "FROM..TO in metres along the route, backwards, as 10..3, 10.. or ..3");
     }
     task.from_m = from_m;
     task.to_m = to_m;
@@ -230,9 +239,11 @@ std::string ToText(const Task& task) {
   }
   std::string text = "follow " + task.route.route;
   if (task.route.revision > 0) text += fmt::format("@{}", task.route.revision);
+  if (task.backwards) text += " backwards";
   if (task.from_m > 0.0 || task.to_m > 0.0) {
-    text += task.to_m > 0.0 ? fmt::format(" {:g}..{:g}", task.from_m, task.to_m)
-                            : fmt::format(" {:g}..", task.from_m);
+    const bool from_end = task.backwards && task.from_m == 0.0;
+    text += fmt::format(" {}..{}", from_end ? "" : fmt::format("{:g}", task.from_m),
+                        task.to_m > 0.0 ? fmt::format("{:g}", task.to_m) : "");
   }
   if (task.laps > 1) text += fmt::format(" laps {}", task.laps);
   if (task.speed_factor != 1.0) text += fmt::format(" speed {:g}", task.speed_factor);

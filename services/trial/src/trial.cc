@@ -3,10 +3,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
 #include "services/base/cpu_time.h"
+#include "services/route/backwards.h"
 #include "services/sim/core/judge.h"
 #include "services/sim/core/random.h"
 #include "services/sim/core/simulated_robot.h"
@@ -272,6 +274,16 @@ class Replaying {
   std::string reason_;
 };
 
+// What a robot is judged by that drives from its end to its beginning.
+Taught TurnedRound(const Taught& taught) {
+  Taught turned;
+  for (const Eigen::Vector2d& point_m : std::views::reverse(taught.path.points_m())) {
+    turned.path.Add(point_m);
+  }
+  turned.duration_s = taught.duration_s / route::kBackwardsPace;
+  return turned;
+}
+
 TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uint64_t seed,
                   int trial, const Taught& taught, const TaughtRoute& route) {
   TrialRow row;
@@ -307,8 +319,12 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
     seeds.follower = sim::Random(seeds.follower, fmt::format("start {}", trial_case.start)).Bits();
     set_down_m = DrawStart(taught.path, seeds.follower);
   }
-  motion::Pose2 start = set_down_m ? sim::PoseAlong(taught.path.points_m(), *set_down_m, kAbout_m)
-                                   : sim::StartPose(setup.path);
+  const auto along_taught = [&](double along_m) {
+    return sim::PoseAlong(taught.path.points_m(), along_m, kAbout_m);
+  };
+  motion::Pose2 start = set_down_m        ? along_taught(*set_down_m)
+                        : setup.backwards ? along_taught(taught.path.length_m())
+                                          : sim::StartPose(setup.path);
   if (visit.spoiled == Spoiled::kAside) {
     start = motion::Compose(start, {0.0, kPutAside_m, 0.0});
   }
@@ -325,7 +341,7 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   follower.method = trial_case.method;
   follower.intake.roll_deg += flaws.told_roll_deg;
   if (flaws.told_ahead_m) follower.camera_ahead_m = flaws.told_ahead_m;
-  const auto open = [&] { return OpenSession(*served, follower); };
+  const auto open = [&] { return OpenSession(*served, follower, setup.backwards); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
   if (set_down_m && options.told_m) {
@@ -335,7 +351,9 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   std::optional<FlawedRobot> flawed;
   if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
-  Replaying replaying(**robot, std::move(flawed), taught, std::move(*session), open, setup.laps,
+  const Taught turned = setup.backwards ? TurnedRound(taught) : Taught();
+  const Taught& judged_by = setup.backwards ? turned : taught;
+  Replaying replaying(**robot, std::move(flawed), judged_by, std::move(*session), open, setup.laps,
                       std::move(*diagnosis), trial_case.push_m, set_down_m,
                       setup.scanner ? std::optional<ScannedWay>(visit.world) : std::nullopt,
                       visit.spoiled, seeds.follower);
@@ -348,7 +366,7 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
     }
   }
   if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
-  Followed followed{{BeginRow(setup, trial_case, seed, trial, taught, route), taught.path,
+  Followed followed{{BeginRow(setup, trial_case, seed, trial, judged_by, route), judged_by.path,
                      replaying.path(), route.ground.stretches()},
                     replaying.TakeVisit()};
   followed.outcome.row.visit = visit.number;

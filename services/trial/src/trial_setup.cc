@@ -175,6 +175,12 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
   if (options.same_robot) {
     if (auto taken = TakeSameRobot(*scenario, setup); !taken) return tl::unexpected(taken.error());
   }
+  if (options.backwards && (options.starts > 0 || options.visits > 0 || options.laps > 1)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "backwards a route is followed once, from its end: leave out laps, starts and "
+                "visits");
+  }
+  setup.backwards = options.backwards;
   setup.follower_options.anywhere = options.starts > 0 && !options.told_m;
   setup.follower_options.take_experience = options.refresh;
   setup.scout_roll_deg = options.scout_roll_deg;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agent/session/teach_session.h"
+#include "services/route/backwards.h"
 #include "services/route/digest.h"
 #include "services/sim/core/judge.h"
 #include "services/sim/core/path_follow_driver.h"
@@ -115,12 +116,22 @@ Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera
 }
 
 Result<agent::ReplaySession> OpenSession(const TaughtRoute& taught,
-                                         const agent::ReplayMethodOptions& options) {
-  agent::ReplaySession session(options, taught.info);
+                                         const agent::ReplayMethodOptions& options,
+                                         bool backwards) {
+  std::vector<route::Segment> segments;
   for (const route::SegmentPiece& piece : taught.pieces) {
     auto segment = route::Open(piece);
     if (!segment) return tl::unexpected(segment.error());
-    const auto added = session.AddSegment(std::move(*segment));
+    segments.push_back(*std::move(segment));
+  }
+  if (backwards) {
+    auto turned = route::DrivenBackwards(segments);
+    if (!turned) return tl::unexpected(turned.error());
+    segments = *std::move(turned);
+  }
+  agent::ReplaySession session(options, taught.info);
+  for (route::Segment& segment : segments) {
+    const auto added = session.AddSegment(std::move(segment));
     if (!added) return tl::unexpected(added.error());
   }
   session.MarkComplete();

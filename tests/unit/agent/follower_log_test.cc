@@ -31,7 +31,7 @@ class FollowerLogTest : public testing::Test {
     options.diagnosis = diagnosis_;
     options.diagnosis.log = folder_ / name_;
     options.link.now_desk = hold_;
-    options.session.intake.roll_deg = roll_deg_;
+    options.how.session.intake.roll_deg = roll_deg_;
     const auto outcome = swarm_.Replay(device, options, false);
     EXPECT_TRUE(outcome && outcome->diagnosed);
     frames_ = outcome->log.frames();

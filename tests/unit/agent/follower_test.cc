@@ -90,7 +90,7 @@ class SlopeTest : public FollowerTest {
   }
   FollowerOptions Limited(double slope_deg) {
     auto options = swarm_.FollowerNamed("robot");
-    options.terrain.slope_rad = Radians(slope_deg);
+    options.how.terrain.slope_rad = Radians(slope_deg);
     return options;
   }
 };
@@ -358,7 +358,7 @@ TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
   using Stretch = exchange::FollowedStretches::Stretch;
   EXPECT_THAT(told(), testing::ElementsAre(Stretch{0, 1, 0}));
   // By this method it drives on for a while, as if the lens was not covered.
-  options.session.method = ReplayMethod::kPaper;
+  options.how.session.method = ReplayMethod::kPaper;
   WalkDevice loses(kFollowerFrames);
   loses.before_frame = [&](int frame) {
     loses.blind = frame > 60;
@@ -390,6 +390,49 @@ TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->state, "STUCK");
   EXPECT_THAT(outcome->reason, HasSubstr("no progress for 5 s"));
+}
+
+// Walks back the way that it came.
+class WalkBackDevice : public WalkDevice {
+ public:
+  using WalkDevice::WalkDevice;
+  Result<std::optional<Observation>> Next() override {
+    const int frame = next;
+    next = std::max(0, kFrames - 1 - frame);
+    auto seen = WalkDevice::Next();
+    next = frame + 1;
+    if (seen && *seen) (*seen)->stamp = FromSeconds(frame / 30.0);
+    return seen;
+  }
+};
+
+TEST_F(FollowerTest, BacksFromTheEndOfARouteToItsBeginning) {
+  TeachInto("robot");
+  WalkBackDevice back(kFrames + 40);
+  FollowerOptions options = swarm_.FollowerNamed("robot");
+  options.how.backwards = true;
+  options.link.begin_m = 2.6;
+  back.next = 18;  // there
+  const auto outcome = swarm_.Replay(back, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->state, "ARRIVED") << outcome->reason;
+  EXPECT_EQ(*outcome->summary.Find("segment"), "0");
+  EXPECT_LT(back.told[20].linear_mps, 0.0);
+  for (const auto& told : back.told) EXPECT_LE(told.linear_mps, 0.0);
+}
+
+TEST_F(FollowerTest, BacksAsFarAsItIsTo) {
+  TeachInto("robot");
+  WalkBackDevice back(kFrames);
+  FollowerOptions options = swarm_.FollowerNamed("robot");
+  options.how.backwards = true;
+  options.end_m = [] { return 1.2; };
+  const auto outcome = swarm_.Replay(back, options, false);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_THAT(outcome->reason, HasSubstr("1.2 m along the route, where it was to end"));
+  // A wall that is only ever magnified tells the place roughly.
+  EXPECT_NEAR(2.98 - 0.02 * back.next, 1.2, 0.4);
 }
 
 }  // namespace

@@ -53,10 +53,10 @@ class NextPathTest : public testing::Test {
     options.end_m = [] { return kJoint_m; };
     options.next = [this, route](const auto& lens) -> FollowerOptions::Next {
       if (next_ != nullptr || !lens) return std::nullopt;
-      ReplayMethodOptions method;
-      method.lens = lens;
-      auto next = std::make_unique<NextPath>(device_, RouteWish{0, route, {}, kJoint_m},
-                                             KnownPath(method, {}, false));
+      HowToFollow how;
+      how.session.lens = lens;
+      auto next =
+          std::make_unique<NextPath>(device_, RouteWish{0, route, {}, kJoint_m}, KnownPath(how));
       next_ = next.get();
       return next;
     };
@@ -152,7 +152,7 @@ TEST_F(NextPathTest, WhoDoesNotFindItStands) {
 TEST_F(NextPathTest, AnotherRevisionThanTheOneThatItDrivesAlongIsToldOf) {
   route::RouteInfo route;
   route.name = "office";
-  KnownPath path({}, {}, false);
+  KnownPath path({});
   ASSERT_TRUE(path.Take(route));
   EXPECT_EQ(path.superseded(), "");
   ASSERT_TRUE(path.Take(route));

@@ -33,7 +33,7 @@ class RefreshingTest : public testing::Test {
   ReplayOutcome Follow(const std::string& name, bool take_experience) {
     WalkDevice device(kFollowedFrames);
     FollowerOptions options = swarm_.FollowerNamed(name);
-    options.session.take_experience = take_experience;
+    options.how.session.take_experience = take_experience;
     auto outcome = swarm_.Replay(device, options, true);
     EXPECT_TRUE(outcome) << outcome.error().message;
     EXPECT_TRUE(outcome->success) << outcome->reason;

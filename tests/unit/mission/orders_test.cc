@@ -35,7 +35,9 @@ TEST(Orders, AreFollowedAndWaitedForInTheirOrder) {
 TEST(Orders, AsTextAreTheSameOrders) {
   for (const char* text :
        {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5", "follow a3f9c21 2..",
-        "follow hall 0..7.5", "teach yard", "teach yard wet laps 2.5-ton"}) {
+        "follow hall 0..7.5", "follow hall backwards", "follow hall backwards 10..3 speed 0.5",
+        "follow hall backwards ..3", "follow hall@2 backwards 10..", "teach yard",
+        "teach yard wet laps 2.5-ton"}) {
     const auto tasks = ParseOrders(text);
     ASSERT_TRUE(tasks) << tasks.error().message;
     EXPECT_EQ(ToText(tasks->front()), text);
@@ -102,6 +104,9 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("follow hall speed nan"), HasSubstr("'nan'"));
   EXPECT_THAT(why("follow hall 10..3"), HasSubstr("FROM..TO"));
   EXPECT_THAT(why("follow hall -1..3"), HasSubstr("FROM..TO"));
+  EXPECT_THAT(why("follow hall backwards 3..10"), HasSubstr("backwards, as 10..3"));
+  EXPECT_THAT(why("follow hall backwards laps 2"), HasSubstr("'laps'"));
+  EXPECT_THAT(why("goto bay follow hall backwards 3..1"), HasSubstr("FROM..TO' alone"));
   EXPECT_THAT(why("teach"), HasSubstr("route to teach"));
   EXPECT_THAT(why("teach hall@2"), HasSubstr("hall@2"));
   EXPECT_THAT(why("teach hall a/b"), HasSubstr("'a/b' was not understood: expected a tag"));

@@ -1,0 +1,132 @@
+#include "services/route/backwards.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trailcast::route {
+namespace {
+
+constexpr double kMean = 8.0;  // of a patch
+constexpr double kMost = 15.0;
+// A pattern that is shown larger is blurred.
+constexpr double kLargest = 3.0;
+
+// h(L - x) - h(L): against the metres from the other end, and counted from there.
+HeadingPolynomial FromTheEnd(const HeadingPolynomial& heading, double length_m) {
+  const auto& c = heading.c;
+  return {{-(c[0] + length_m * (2.0 * c[1] + 3.0 * length_m * c[2])), c[1] + 3.0 * length_m * c[2],
+           -c[2]}};
+}
+
+double Sample(const Patch& patch, double x, double y) {
+  const auto at = [&](int column, int row) {
+    const int last = kPatchSize - 1;
+    return static_cast<double>(
+        patch[static_cast<std::size_t>(std::clamp(row, 0, last)) * kPatchSize +
+              static_cast<std::size_t>(std::clamp(column, 0, last))]);
+  };
+  const int column = static_cast<int>(std::floor(x));
+  const int row = static_cast<int>(std::floor(y));
+  const double right = x - column;
+  const double down = y - row;
+  return (1.0 - down) * ((1.0 - right) * at(column, row) + right * at(column + 1, row)) +
+         down * ((1.0 - right) * at(column, row + 1) + right * at(column + 1, row + 1));
+}
+
+// Its middle, and its contrast as ever.
+Patch Enlarged(const Patch& patch, double times) {
+  std::array<double, std::tuple_size_v<Patch>> grey{};
+  const double middle = 0.5 * (kPatchSize - 1);
+  double most = 0.0;
+  double mean = 0.0;
+  for (int row = 0; row < kPatchSize; ++row) {
+    for (int column = 0; column < kPatchSize; ++column) {
+      const double value =
+          Sample(patch, middle + (column - middle) / times, middle + (row - middle) / times);
+      grey[static_cast<std::size_t>(row) * kPatchSize + static_cast<std::size_t>(column)] = value;
+      mean += value / static_cast<double>(grey.size());
+    }
+  }
+  for (const double value : grey) most = std::max(most, std::abs(value - mean));
+  const double gain = most > 0.0 ? (kMean - 1.0) / most : 1.0;
+  Patch enlarged{};
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const double value = std::clamp(std::round(kMean + gain * (grey[i] - mean)), 0.0, kMost);
+    enlarged[i] = static_cast<std::uint8_t>(value);
+  }
+  return enlarged;
+}
+
+// How much larger what a segment shows is at its end than at its beginning: the middle one of its
+// features, by how far each has moved away from the middle of all.
+double Growth(const Segment& segment) {
+  double first_u = 0.0;
+  double first_v = 0.0;
+  double last_u = 0.0;
+  double last_v = 0.0;
+  const auto count = static_cast<double>(segment.features.size());
+  for (const Feature& feature : segment.features) {
+    first_u += feature.first().u_px / count;
+    first_v += feature.first().v_px / count;
+    last_u += feature.milestone().u_px / count;
+    last_v += feature.milestone().v_px / count;
+  }
+  std::vector<double> grown;
+  for (const Feature& feature : segment.features) {
+    const double before =
+        std::hypot(feature.first().u_px - first_u, feature.first().v_px - first_v);
+    const double after =
+        std::hypot(feature.milestone().u_px - last_u, feature.milestone().v_px - last_v);
+    if (before > 0.0) grown.push_back(after / before);
+  }
+  if (grown.empty()) return 1.0;
+  const auto middle = grown.begin() + static_cast<std::ptrdiff_t>(grown.size() / 2);
+  std::nth_element(grown.begin(), middle, grown.end());
+  return std::clamp(*middle, 1.0, kLargest);
+}
+
+}  // namespace
+
+Segment FromOtherEnd(const Segment& segment) {
+  Segment other = segment;
+  other.heading = FromTheEnd(segment.heading, segment.length_m);
+  other.heading_change_rad = -segment.heading_change_rad;
+  for (Feature& feature : other.features) {
+    std::reverse(feature.track.begin(), feature.track.end());
+    for (TrackKnot& knot : feature.track) knot.s = 1.0F - knot.s;
+  }
+  std::reverse(other.key_views.begin(), other.key_views.end());
+  for (KeyView& view : other.key_views) view.s = 1.0 - view.s;
+  if (other.terrain.slope_rad) other.terrain.slope_rad = -*other.terrain.slope_rad;
+  return other;
+}
+
+Result<std::vector<Segment>> DrivenBackwards(const std::vector<Segment>& route) {
+  std::vector<Segment> back;
+  back.reserve(route.size());
+  double turn_rad = 0.0;  // before the segment that was driven later
+  for (auto it = route.rbegin(); it != route.rend(); ++it) {
+    if (it->reverse) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "segment {} was taught driving backwards, and is not driven in the other gear",
+                  it->index.value());
+    }
+    if (!it->has_odometry) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "segment {} was taught without odometry, by which a robot backs",
+                  it->index.value());
+    }
+    Segment segment = FromOtherEnd(*it);
+    const double growth = Growth(*it);
+    for (Feature& feature : segment.features) feature.patch = Enlarged(feature.patch, growth);
+    segment.index = SegmentIndex(static_cast<std::uint32_t>(back.size()));
+    segment.reverse = true;
+    segment.duration_s /= kBackwardsPace;
+    segment.turn_before_rad = -std::exchange(turn_rad, it->turn_before_rad);
+    back.push_back(std::move(segment));
+  }
+  return back;
+}
+
+}  // namespace trailcast::route
