@@ -80,13 +80,15 @@ endfunction()
 #                APART b_test.cc DEPS x)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation;
 # with TOGETHER they are one, since they share what is slow to come by. ALONE: nothing runs beside
-# them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock.
+# them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock;
+# WAITS: it mostly waits, and takes half as much of a machine as others: ./run test has twice as many
+# at a time as there are cores, of which the others count for two.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for a minute and more: they are
 # labelled `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
 # NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;NUMERIC" "LABEL;TIMEOUT"
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;WAITS;NUMERIC" "LABEL;TIMEOUT"
                         "SOURCES;APART;DEPS;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 180)
@@ -116,9 +118,14 @@ function(trailcast_test name)
     gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
                          PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
   endif()
+  set(takes 2)
+  if(ARG_WAITS OR ARG_LABEL STREQUAL unit)
+    set(takes 1)
+  endif()
   if(ARG_TOGETHER)
     add_test(NAME ${name} COMMAND ${name} "--gtest_filter=-${long}")
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} COST 500)
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} COST 500
+                                             PROCESSORS ${takes})
     return()
   endif()
   set(beside RUN_SERIAL ${ARG_ALONE})
@@ -126,7 +133,7 @@ function(trailcast_test name)
     set(beside RESOURCE_LOCK real_time COST 1000) # begun first, so that others fill the other cores
   endif()
   gtest_discover_tests(${name} TEST_FILTER "-${long}" ${discovery}
-                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${beside})
+                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${takes} ${beside})
 endfunction()
 
 # trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.

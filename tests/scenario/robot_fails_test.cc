@@ -43,44 +43,5 @@ TEST_F(RobotFailsTest, WhateverFailsTheRobotIsToldToStandWithinHalfASecond) {
   }
 }
 
-TEST_F(RobotFailsTest, ARobotIsFollowedOverWhatRealOnesDo) {
-  Teach();
-  struct Life {
-    const char* name;
-    Words robot;
-    Words said;
-  };
-  for (const Life& life :
-       {Life{"safety stops",
-             {"--fail", "base-stops@2+0.5", "--fail", "base-stops@4+4"},
-             {"by its odometry it stands", "over: base /robot1/cmd_vel"}},
-        Life{"odometry",
-             {"--fail", "odometry-jumps@2", "--fail", "odometry-restarts@5"},
-             {"odometry jumped by "}},
-        Life{"clocks",
-             {"--fail", "camera-clock-back@2", "--fail", "odometry-clock-back@4", "--fail",
-              "camera-stamps-stand@6+1"},
-             {"pictures: its clock went back by 5.0", "odometry: its clock went back by 5.0",
-              "pictures: its stamps stand still"}},
-        Life{"stamps of two clocks", {"--stamps-late", "1.5"}, {"different clocks, 1."}},
-        Life{"delays", {"--picture-delay", "0.2", "--base-delay", "0.2"}, {}},
-        Life{"few pictures", {"--picture-rate", "8", "--drop-pictures", "0.3"}, {}}}) {
-    SCOPED_TRACE(life.name);
-    const auto robot =
-        Robot("robot1", With({"--sim-truth", Path("truth.csv"), "--seed", "3"}, life.robot));
-    ASSERT_TRUE(robot->WaitForOutput("in real time")) << robot->output();
-    const auto follower = Follow({});
-    EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
-    EXPECT_THAT(follower->output(), HasSubstr("state=ARRIVED"));
-    for (const std::string& word : life.said) EXPECT_THAT(follower->output(), HasSubstr(word));
-    robot->Signal(SIGTERM);
-    ASSERT_EQ(End(*robot).status, 0) << robot->output();
-    const auto places = TruePlaces();
-    ASSERT_FALSE(places.empty());
-    EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
-    EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
-  }
-}
-
 }  // namespace
 }  // namespace trailcast::test

@@ -11,6 +11,7 @@ constexpr double kMean = 8.0;  // of a patch
 constexpr double kMost = 15.0;
 // A pattern that is shown larger is blurred.
 constexpr double kLargest = 3.0;
+constexpr double kNearAxis_px = 10.0;
 
 // h(L - x) - h(L): against the metres from the other end, and counted from there.
 HeadingPolynomial FromTheEnd(const HeadingPolynomial& heading, double length_m) {
@@ -58,32 +59,59 @@ Patch Enlarged(const Patch& patch, double times) {
   return enlarged;
 }
 
-// How much larger what a segment shows is at its end than at its beginning: the middle one of its
-// features, by how far each has moved away from the middle of all.
-double Growth(const Segment& segment) {
-  double first_u = 0.0;
-  double first_v = 0.0;
-  double last_u = 0.0;
-  double last_v = 0.0;
-  const auto count = static_cast<double>(segment.features.size());
+// A camera that moves on along its axis, and turns by little, has a feature that was at p at p' = g
+// p
+// + t: how much nearer it has come, and how far it turned, which is the same for all. What turned
+// is what makes p' - t parallel to p, in the least squares.
+struct Shift {
+  double u_px = 0.0;
+  double v_px = 0.0;
+};
+
+Shift Turned(const Segment& segment) {
+  double uu = 1e-9;
+  double uv = 0.0;
+  double vv = 1e-9;
+  double u = 0.0;
+  double v = 0.0;
   for (const Feature& feature : segment.features) {
-    first_u += feature.first().u_px / count;
-    first_v += feature.first().v_px / count;
-    last_u += feature.milestone().u_px / count;
-    last_v += feature.milestone().v_px / count;
+    const double from_axis = std::hypot(feature.first().u_px, feature.first().v_px);
+    if (from_axis < kNearAxis_px) continue;
+    const double across_u = feature.first().v_px / from_axis;
+    const double across_v = -feature.first().u_px / from_axis;
+    const double moved = across_u * feature.milestone().u_px + across_v * feature.milestone().v_px;
+    uu += across_u * across_u;
+    uv += across_u * across_v;
+    vv += across_v * across_v;
+    u += across_u * moved;
+    v += across_v * moved;
   }
-  std::vector<double> grown;
+  const double determinant = uu * vv - uv * uv;
+  return {(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
+}
+
+// How much larger what each feature shows is at the segment's end than at its beginning. Of those
+// near the axis, which hardly move, as much as of all in the middle.
+std::vector<double> Growths(const Segment& segment) {
+  const Shift turned = Turned(segment);
+  std::vector<double> growths;
+  std::vector<double> sorted;
   for (const Feature& feature : segment.features) {
-    const double before =
-        std::hypot(feature.first().u_px - first_u, feature.first().v_px - first_v);
-    const double after =
-        std::hypot(feature.milestone().u_px - last_u, feature.milestone().v_px - last_v);
-    if (before > 0.0) grown.push_back(after / before);
+    const auto& [s, u_px, v_px] = feature.first();
+    const double squared = u_px * u_px + v_px * v_px;
+    const double along = u_px * (feature.milestone().u_px - turned.u_px) +
+                         v_px * (feature.milestone().v_px - turned.v_px);
+    const bool near_axis = squared < kNearAxis_px * kNearAxis_px;
+    growths.push_back(near_axis ? 0.0 : along / squared);
+    if (!near_axis) sorted.push_back(growths.back());
   }
-  if (grown.empty()) return 1.0;
-  const auto middle = grown.begin() + static_cast<std::ptrdiff_t>(grown.size() / 2);
-  std::nth_element(grown.begin(), middle, grown.end());
-  return std::clamp(*middle, 1.0, kLargest);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual = sorted.empty() ? 1.0 : *middle;
+  for (double& growth : growths) {
+    growth = std::clamp(growth == 0.0 ? usual : growth, 1.0, kLargest);
+  }
+  return growths;
 }
 
 }  // namespace
@@ -118,8 +146,10 @@ Result<std::vector<Segment>> DrivenBackwards(const std::vector<Segment>& route) 
                   it->index.value());
     }
     Segment segment = FromOtherEnd(*it);
-    const double growth = Growth(*it);
-    for (Feature& feature : segment.features) feature.patch = Enlarged(feature.patch, growth);
+    const std::vector<double> growths = Growths(*it);
+    for (std::size_t i = 0; i < growths.size(); ++i) {
+      segment.features[i].patch = Enlarged(segment.features[i].patch, growths[i]);
+    }
     segment.index = SegmentIndex(static_cast<std::uint32_t>(back.size()));
     segment.reverse = true;
     segment.duration_s /= kBackwardsPace;
