@@ -24,7 +24,7 @@ using std::chrono::steady_clock;
 constexpr double kDrivenPast_m = 1.0;
 // Where it is to change over to another route: how far it goes on along this one until it has found
 // that.
-constexpr double kChangesWithin_m = 0.3;
+constexpr double kChangesWithin_m = 0.1;
 // What is learnt of a segment of another route takes a fraction of a millisecond, while it drives.
 constexpr int kLearntAtOnce = 4;
 constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
