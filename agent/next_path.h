@@ -28,7 +28,8 @@ class NextPath {
   // As a link feeds it. False: it will never be ready, since some of it is not to be had, or the
   // robot cannot drive it.
   [[nodiscard]] bool Learn(Feed item);
-  [[nodiscard]] bool ready() const { return path_.complete(); }
+  // It may be looked for: all of it is known, and it was not looked for in vain.
+  [[nodiscard]] bool ready() const;
 
   // At the joint, once it is ready. True: the robot is sure that it is on this route, about where
   // it begins, and drives along it from now on.
@@ -45,6 +46,7 @@ class NextPath {
   RobotDevice& device_;
   RouteWish wish_;
   KnownPath path_;
+  int looks_ = 0;
   std::optional<ReplayStep> driving_by_;
 };
 

@@ -99,7 +99,7 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   ASSERT_TRUE(agent->WaitForOutput("arrived: 2.")) << agent->output();
   const Place end = TruePlaces().back();
   EXPECT_NEAR(end.x_m, 7.2, 0.2);
-  EXPECT_NEAR(end.y_m, 5.3, 0.3);
+  EXPECT_NEAR(end.y_m, 5.3, 0.3) << agent->output();
 }
 
 }  // namespace
