@@ -83,8 +83,8 @@ endfunction()
 # them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock;
 # WAITS: it mostly waits, and takes half as much of a machine as others: ./run test has twice as many
 # at a time as there are cores, of which the others count for two.
-# LONG: cases, as GoogleTest filters them, that drive simulated robots for a minute and more: they are
-# labelled `trial`, which ./run trials runs.
+# LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
+# `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
 # NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
