@@ -12,13 +12,13 @@
 #include "services/base/unix_time.h"
 #include "services/exchange/revision_numbers.h"
 #include "services/refresh/refresh.h"
+#include "services/refresh/successor.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 
 namespace trailcast::agent {
 namespace {
 
-constexpr const char* kTag = "refreshed";
 // Of the features judged: so few that were missed are no news worth a revision.
 constexpr double kFewMissed = 0.05;
 
@@ -51,13 +51,10 @@ route::RouteInfo InfoOf(const AgentId& self, const route::RouteInfo& followed,
   info.edition = 0;
   info.cut_off = false;
   info.to_review = how == Refreshing::kReview;
-  info.description =
-      fmt::format("revision {} refreshed by {}: {} features new, {} gone; {} of {} were found",
-                  followed.revision.value(), self.value(), counts.added, counts.dropped,
-                  counts.found, counts.found + counts.missed);
-  const auto place = std::lower_bound(info.tags.begin(), info.tags.end(), kTag);
-  const bool tagged = place != info.tags.end() && *place == kTag;
-  if (!tagged && info.tags.size() < route::kMaxTags) info.tags.insert(place, kTag);
+  info.description = refresh::DescribeRefreshed(followed.revision, self, counts);
+  const auto place = std::lower_bound(info.tags.begin(), info.tags.end(), refresh::kTag);
+  const bool tagged = place != info.tags.end() && *place == refresh::kTag;
+  if (!tagged && info.tags.size() < route::kMaxTags) info.tags.emplace(place, refresh::kTag);
   return info;
 }
 

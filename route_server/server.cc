@@ -54,7 +54,9 @@ Server::Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
       exchange_(std::move(exchange)),
       presence_(*exchange_, ServerStatus(name), kStatusEvery),
       fleet_(name),
-      followers_(name) {}
+      followers_(name),
+      refreshes_(*store_),
+      refresh_request_(static_cast<std::uint64_t>(NowUnixMs())) {}
 
 Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
                                              std::unique_ptr<store::RouteStore> store,
@@ -208,6 +210,7 @@ void Server::Serve() {
   NoteAnnounced(outgoing);
   FillViews(outgoing);
   KeepLookingForJoints(now);
+  LookAtRefreshed();
   if (now >= keeping_due_ && upkeep_->store_trouble().empty()) {
     keeping_due_ = now + kKeepingEvery;
     KeepWhatIsLearnt();
@@ -299,6 +302,7 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
   for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {
     const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
+    if (announced != nullptr) refreshes_.Note(announced->info);
     if (announced != nullptr && network_) NoteOfNetwork(announced->info);
     if (announced != nullptr && announced->info.standing == route::Standing::kDeleted) {
       views_.Forget(announced->info.key);

@@ -18,6 +18,7 @@
 #include "route_server/mission_board.h"
 #include "route_server/network_board.h"
 #include "route_server/quotas.h"
+#include "route_server/refresh_watch.h"
 #include "route_server/replanning.h"
 #include "route_server/request_queue.h"
 #include "route_server/route_followers.h"
@@ -96,6 +97,7 @@ class Server {
   void AnswerHistory(const exchange::NetworkRequest& request, std::int64_t since_unix_ms);
   void NoteOfNetwork(const route::RouteInfo& info);
   void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
+  void LookAtRefreshed();
   void KeepWhatIsLearnt();
   void Propose(const Meeting& meeting);
   void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
@@ -121,6 +123,8 @@ class Server {
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
+  RefreshWatch refreshes_;
+  std::uint64_t refresh_request_;                        // of the next edit that it asks for itself
   std::unique_ptr<History> history_;                     // none: it keeps none
   std::vector<route::RouteKey> planned_;                 // to be changed
   std::chrono::steady_clock::time_point keeping_due_{};  // of what is learnt of the network

@@ -98,6 +98,27 @@ TEST_F(RefreshingTest, WhatIsRefreshedReachesTheServerToBeReviewedAndNobodyFollo
   }
 }
 
+TEST_F(RefreshingTest, WhereNobodyIsToBeAskedTheServerHasRobotsFollowIt) {
+  const ReplayOutcome outcome = Follow("keen", true);
+  ASSERT_TRUE(outcome.followed);
+  auto store = swarm_.OpenStore("keen");
+  const auto refreshed =
+      StoreRefreshed(AgentId("keen"), *outcome.followed, VisitMissing(*store, *outcome.followed, 3),
+                     Refreshing::kAuto, *store);
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  ScoutLinkOptions link;
+  link.agent = AgentId("keen");
+  link.store_file = swarm_.StoreFile("keen").string();
+  const auto sent = DeliverBacklog(link, std::move(store), swarm_.Join(exchange::ScoutTopics()));
+  ASSERT_TRUE(sent) << sent.error().message;
+  // The server compares it after its receipts.
+  std::uint32_t followed = 1;
+  for (int i = 0; i < 20 && followed == 1; ++i) {
+    followed = Follow("other", true).followed->revision.value();
+  }
+  EXPECT_EQ(followed, 2U);
+}
+
 TEST_F(RefreshingTest, ARouteThatIsAsItWasTaughtIsLeftAlone) {
   const ReplayOutcome outcome = Follow("keen", true);
   ASSERT_TRUE(outcome.followed);

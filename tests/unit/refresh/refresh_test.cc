@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "services/refresh/successor.h"
 #include "services/route/codec.h"
 #include "tests/unit/route/sample_segment.h"
 
@@ -192,6 +193,52 @@ TEST(Refresh, WhatNoScoutCouldHaveTaughtIsNotTaken) {
   ASSERT_TRUE(refreshed);
   EXPECT_EQ(refreshed->counts.added, 1);
   EXPECT_EQ(refreshed->segments[0].features.back(), NewFeature(3));
+}
+
+TEST(Successor, IsTheSameRouteWithAFewFeaturesGoneAndAFewNew) {
+  const std::vector<Segment> route = SampleRoute();
+  const auto refreshed = Refresh(route, VisitOf(route, 30), WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_TRUE(IsRefreshed(refreshed->segments[0], route[0]));
+  EXPECT_TRUE(IsRefreshed(route[0], route[0]));
+  Segment missed = route[0];
+  missed.features[3].missed = 2;
+  EXPECT_TRUE(IsRefreshed(missed, route[0])) << "no longer found, and there yet";
+  Segment fewer = route[0];
+  fewer.features.erase(fewer.features.begin() + 4, fewer.features.begin() + 9);
+  EXPECT_TRUE(IsRefreshed(fewer, route[0])) << "a quarter of 20";
+  fewer.features.pop_back();
+  EXPECT_FALSE(IsRefreshed(fewer, route[0]));
+}
+
+TEST(Successor, IsNotOneWhosePathIsAnotherOrWhoseFeaturesWereMoved) {
+  const Segment before = SampleRoute().front();
+  Segment longer = before;
+  longer.length_m += 0.001;
+  EXPECT_FALSE(IsRefreshed(longer, before));
+  Segment turned = before;
+  turned.heading.c[0] += 0.001;
+  EXPECT_FALSE(IsRefreshed(turned, before));
+  Segment seen_elsewhere = before;
+  seen_elsewhere.key_views.front().features.front().u_px += 1.0F;
+  EXPECT_FALSE(IsRefreshed(seen_elsewhere, before));
+  Segment moved = before;
+  for (Feature& feature : moved.features) feature.track.back().u_px += 1.0F;
+  EXPECT_FALSE(IsRefreshed(moved, before));
+}
+
+TEST(Successor, SaysWhichRevisionItRefreshes) {
+  route::RouteInfo info;
+  info.description = DescribeRefreshed(RevisionNumber(12), AgentId("robot2"), {8, 2, 0, 1, 3});
+  EXPECT_EQ(info.description,
+            "revision 12 refreshed by robot2: 3 features new, 1 gone; 8 of 10 were found");
+  EXPECT_FALSE(RevisionRefreshed(info)) << "it is not tagged so";
+  info.tags = {std::string(kTag)};
+  EXPECT_EQ(RevisionRefreshed(info), RevisionNumber(12));
+  info.description = "revision twelve refreshed by robot2";
+  EXPECT_FALSE(RevisionRefreshed(info));
+  info.description = "the yard";
+  EXPECT_FALSE(RevisionRefreshed(info));
 }
 
 }  // namespace

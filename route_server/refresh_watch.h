@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/store/route_store.h"
+
+namespace trailcast::server {
+
+// Revisions by which robots refresh the one that is followed, without asking for a look at them:
+// whether they are what they say, segment by segment, and so may take its place. A small part at a
+// time.
+class RefreshWatch {
+ public:
+  explicit RefreshWatch(store::RouteStore& store) : store_(store) {}  // which outlives it
+
+  // What is known of a revision has changed.
+  void Note(const route::RouteInfo& info);
+  // Compares a segment. False: there is nothing to do. An error is the store's: what was compared
+  // stays as it is.
+  [[nodiscard]] Result<bool> Step();
+
+  struct Judged {
+    route::RouteInfo info;
+    std::string why_not;  // one line for people; empty: robots may follow it
+  };
+  // Since the last call.
+  [[nodiscard]] std::vector<Judged> TakeJudged() { return std::exchange(judged_, {}); }
+
+ private:
+  static constexpr std::size_t kMostWaiting = 1000;
+
+  struct Comparison {
+    route::RouteInfo refreshed;
+    route::RouteInfo followed;
+    std::uint32_t next = 0;
+  };
+  [[nodiscard]] Result<void> Begin(route::RouteInfo refreshed);
+  [[nodiscard]] Result<bool> TryStep();
+  void Judge(route::RouteInfo info, std::string why_not);
+
+  store::RouteStore& store_;
+  std::deque<route::RouteInfo> waiting_;
+  std::optional<Comparison> comparison_;
+  std::vector<Judged> judged_;
+};
+
+}  // namespace trailcast::server
