@@ -1,9 +1,9 @@
 #include "services/trial/trial.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -277,9 +277,9 @@ class Replaying {
 // What a robot is judged by that drives from its end to its beginning.
 Taught TurnedRound(const Taught& taught) {
   Taught turned;
-  for (const Eigen::Vector2d& point_m : std::views::reverse(taught.path.points_m())) {
-    turned.path.Add(point_m);
-  }
+  const auto& points_m = taught.path.points_m();
+  std::for_each(points_m.rbegin(), points_m.rend(),
+                [&](const Eigen::Vector2d& point_m) { turned.path.Add(point_m); });
   turned.duration_s = taught.duration_s / route::kBackwardsPace;
   return turned;
 }

@@ -26,7 +26,7 @@ class ElsewhereDevice : public WalkDevice {
   using WalkDevice::WalkDevice;
   Result<std::optional<Observation>> Next() override {
     auto seen = WalkDevice::Next();
-    if (seen && *seen) std::ranges::reverse((*seen)->image.pixels);
+    if (seen && *seen) std::reverse((*seen)->image.pixels.begin(), (*seen)->image.pixels.end());
     return seen;
   }
 };
