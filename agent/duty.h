@@ -82,17 +82,17 @@ class Duty {
   MissionDesk desk_;
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
-  bool claimed_ = false;
   std::uint64_t instance_ = 0;  // of this process, once it is claimed
+  bool claimed_ = false;
   bool following_ = false;
   bool delivering_ = false;
-  bool undelivered_ = false;  // what it taught before
+  bool was_under_way_ = false;  // in this following
+  bool undelivered_ = false;    // what it taught before
   Time deliver_at_{};
   Hands* hands_ = nullptr;     // while it teaches
   std::optional<State> told_;  // of the mission under way
   std::string told_why_;
-  bool was_under_way_ = false;  // in this following
-  mission::Task driven_;        // what is followed
+  mission::Task driven_;  // what is followed
   // Of that: where it ends, and that it ends at once, since it goes another way.
   std::atomic<double> end_m_ = 0.0;
   std::atomic<bool> turned_off_ = false;
