@@ -159,9 +159,9 @@ bool Loop::TakeHold() {
 // False: the run is over.
 Result<bool> Loop::WaitForFeed() {
   auto began = steady_clock::now();
-  auto known = path_.segments();
+  auto known = path_.taken();
   while (NothingToFollow()) {
-    if (std::exchange(known, path_.segments()) != path_.segments()) began = steady_clock::now();
+    if (std::exchange(known, path_.taken()) != path_.taken()) began = steady_clock::now();
     if (options_.link.stop()) return End("STOPPED", "stopped by a signal");
     // Before the first segment the link has bounds of its own, and says more precisely what fails.
     const auto bound =
@@ -170,7 +170,7 @@ Result<bool> Loop::WaitForFeed() {
       return End("WAITING",
                  fmt::format("no further segment within {:.0f} s: only {} segments are known, and "
                              "nobody who holds the rest answers",
-                             Seconds(options_.link.wait), path_.segments()));
+                             Seconds(options_.link.wait), path_.taken()));
     }
     link_.WaitForNews(kWakeUp);
     ShowWaiting();

@@ -43,7 +43,9 @@ class KnownPath {
   [[nodiscard]] ReplaySession* session() { return session_ ? &*session_ : nullptr; }
   [[nodiscard]] const ReplaySession* session() const { return session_ ? &*session_ : nullptr; }
   [[nodiscard]] std::uint32_t segments() const { return segments_; }  // given to the session
-  [[nodiscard]] bool complete() const { return complete_; }           // those are all
+  // Those that are kept until all are known, too.
+  [[nodiscard]] std::size_t taken() const { return segments_ + to_turn_.size(); }
+  [[nodiscard]] bool complete() const { return complete_; }  // those are all
   // As it is driven.
   [[nodiscard]] const std::optional<LeftAt>& left() const { return left_; }
   // The link follows another revision than the one that the session was made of; one line for

@@ -14,11 +14,6 @@ constexpr int kLooks = 5;
 
 }  // namespace
 
-NextPath::~NextPath() {
-  // A base that cannot even be told to stand is the base's own watchdog's matter.
-  if (driving_by_) (void)device_.Drive({});
-}
-
 bool NextPath::Learn(Feed item) {
   return path_.Take(std::move(item)) && !(path_.complete() && path_.Refusal());
 }
@@ -31,16 +26,15 @@ bool NextPath::TakesOver(const Observation& observation) {
   if (!step || step->state != ReplayState::kFollowing || step->trust != Trust::kSure) return false;
   if (!step->along_m || std::abs(path_.OfRoute(*step->along_m) - wish_.begin_m) > kFound_m)
     return false;
-  ReplayStep comfortable = path_.Comfortable(*std::move(step));
-  if (!device_.Drive(comfortable.command)) return false;
-  driving_by_ = std::move(comfortable);
+  driving_by_ = path_.Comfortable(*std::move(step));
+  if (!device_.Drive(driving_by_.command)) return false;
+  standstill_.emplace(device_);
   return true;
 }
 
 NextPath::Begun NextPath::Take() {
-  Begun begun{std::move(path_), *std::move(driving_by_)};
-  driving_by_.reset();
-  return begun;
+  standstill_->Leave();
+  return {std::move(path_), std::move(driving_by_)};
 }
 
 }  // namespace trailcast::agent

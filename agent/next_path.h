@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "agent/device/device.h"
+#include "agent/device/standstill.h"
 #include "agent/known_path.h"
 #include "agent/link/feed.h"
 #include "agent/link/route_wish.h"
@@ -19,11 +20,6 @@ class NextPath {
   // `wish`: which it is; its number is not looked at.
   NextPath(RobotDevice& device, RouteWish wish, KnownPath path)
       : device_(device), wish_(std::move(wish)), path_(std::move(path)) {}
-  // A robot that drives along it stands, unless somebody else drives it on (Take).
-  ~NextPath();
-  NextPath(const NextPath&) = delete;
-  NextPath& operator=(const NextPath&) = delete;
-
   [[nodiscard]] const RouteWish& wish() const { return wish_; }
   // As a link feeds it. False: it will never be ready, since some of it is not to be had, or the
   // robot cannot drive it.
@@ -47,7 +43,9 @@ class NextPath {
   RouteWish wish_;
   KnownPath path_;
   int looks_ = 0;
-  std::optional<ReplayStep> driving_by_;
+  // Of a robot that drives along it, which stands unless somebody else drives it on (Take).
+  std::optional<Standstill> standstill_;
+  ReplayStep driving_by_;
 };
 
 }  // namespace trailcast::agent

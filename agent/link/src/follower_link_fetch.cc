@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agent/link/follower_link.h"
-#include "services/route/digest.h"
+#include "agent/link/src/fetcher_for.h"
 #include "services/route/labels.h"
 
 namespace trailcast::agent {
@@ -24,17 +24,9 @@ std::string Names(const std::set<AgentId>& senders) {
 Result<void> FollowerLink::MakeFetcher(const std::vector<exchange::RouteFetcher::Held>& held) {
   const auto now = std::chrono::steady_clock::now();
   const route::RouteKey key = route_->key;
-  auto others = store_->FindRevisions(key.route);
-  if (!others) return tl::unexpected(others.error());
-  std::erase_if(*others, [&](const route::RouteInfo& info) { return info.key == key; });
-  exchange::RouteFetcherOptions options;
-  if (!others->empty()) {
-    options.own_content = [this](const route::Digest& digest) {
-      return store_->FindContent(digest).value_or(std::nullopt);
-    };
-  }
-  fetcher_.emplace(options_.agent, key, held,
-                   exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now, options);
+  auto made = FetcherFor(options_.agent, key, held, *store_, now);
+  if (!made) return tl::unexpected(made.error());
+  fetcher_.emplace(std::move(*made));
   fetcher_->Learn(*route_, now);
   // What the own store knows may be more than what the finder heard.
   auto own = store_->FindRoute(key);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "agent/link/src/fetcher_for.h"
 #include "services/route/digest.h"
 
 namespace trailcast::agent {
@@ -67,8 +68,10 @@ void RouteAhead::FetchMissing(Time now) {
       held.push_back({index, piece->digest});
     }
   }
-  fetcher_.emplace(self_, route_->key, held,
-                   exchange::Integrity{route::CheckDigest, route::ManifestDigest}, now);
+  auto made = FetcherFor(self_, route_->key, held, store_, now);
+  fails_ = !made;
+  if (fails_) return;
+  fetcher_.emplace(std::move(*made));
   fetcher_->Learn(*route_, now);
   route::RouteInfo begun = *route_;
   begun.state = route::RouteState::kTeaching;  // until all of it is here, and right
