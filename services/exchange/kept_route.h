@@ -30,6 +30,8 @@ class KeptRoute {
   };
   // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.
   ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
+  // Somebody announced it before.
+  [[nodiscard]] bool heard() const { return heard_; }
 
   void MarkHeld(SegmentIndex index, const route::Digest& digest, Time now);
   // Its bytes on the disk are not what they were: no longer held, and asked for from now on.
@@ -107,6 +109,7 @@ class KeptRoute {
 
   std::optional<route::RouteInfo> stored_;
   std::optional<route::RouteInfo> claim_;
+  bool heard_ = false;
   SegmentDigests held_;
   SegmentDigests damaged_;
   std::uint32_t prefix_ = 0;  // all below are held

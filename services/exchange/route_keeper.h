@@ -23,6 +23,9 @@ namespace trailcast::exchange {
 struct RouteKeeperOptions {
   WantList::Options want{};
   std::chrono::milliseconds fresh_grace{200};  // as in RouteFetcherOptions
+  // What a route has grown by since it was heard of was written to this keeper too: a reliable
+  // writer brings it, in its own time after an outage. Asked for sooner it goes over the air twice.
+  std::chrono::milliseconds grown_grace{1000};
   AnswerQueue::Options answers{};
   std::chrono::milliseconds announce_every{250};     // at most so often while a route grows
   std::chrono::milliseconds announced_together{50};  // those due within so long: one commit

@@ -23,6 +23,7 @@ KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::H
 }
 
 KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
+  heard_ = true;
   if (deleted()) return ClaimResult::kDeleted;
   if (complete()) {
     auto after = route::AfterNews(*stored_, info);

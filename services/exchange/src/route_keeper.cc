@@ -71,7 +71,8 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
   const RouteInfo& info = announcement.info;
   KeptRoute* kept = Find(info.key, now);
   if (kept == nullptr) return;
-  switch (kept->Claim(info, now + options_.fresh_grace)) {
+  const auto grace = kept->heard() ? options_.grown_grace : options_.fresh_grace;
+  switch (kept->Claim(info, now + grace)) {
     case KeptRoute::ClaimResult::kNews:
       kept->announce_due = true;
       break;

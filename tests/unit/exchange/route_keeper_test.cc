@@ -189,6 +189,19 @@ TEST_F(RouteKeeperTest, AsksTheScoutForGapsAndAgainAfterARestart) {
   EXPECT_EQ(Only<SegmentRequest>(TickAfter(milliseconds(200))), asked);
 }
 
+// After an outage an announcement may come before the segments that were written with it.
+TEST_F(RouteKeeperTest, LeavesWhatARouteHasGrownByToTheWriterOfItForASecond) {
+  Announce(1);
+  Deliver({pieces_[0]});
+  (void)Tick();
+  Announce(4);
+  Deliver({pieces_[1], pieces_[3]});
+  EXPECT_TRUE(Only<SegmentRequest>(TickAfter(milliseconds(990))).empty());
+  const auto asked = Only<SegmentRequest>(TickAfter(milliseconds(10)));
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].lacking, std::vector{SegmentIndex(2)});
+}
+
 TEST_F(RouteKeeperTest, AnnouncesAndReceiptsWhatItHoldsAfterARestart) {
   Announce(2, RouteState::kComplete);
   Deliver({pieces_[0], pieces_[1]});
