@@ -69,11 +69,14 @@ class Loop {
   // False: an operator has ended the run.
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
-  [[nodiscard]] double PastEnd_m(double end_m) const;
-  [[nodiscard]] bool PassedEnd(double end_m) const;  // where it was to end before the route does
+  [[nodiscard]] double PastEnd_m(const ReplayStep& step, double end_m) const;
+  // Of what it was to drive of this route.
+  [[nodiscard]] bool PassedEnd(const ReplayStep& step, double end_m) const;
   void PrepareNext();
-  // At the end of what it was to drive of this route.
-  [[nodiscard]] bool ChangesOver(const Observation& observation, double end_m);
+  // Past that end it looks for the next route, before it has come so much further.
+  [[nodiscard]] std::optional<double> LeftToLookForNext_m(const ReplayStep& step,
+                                                          double end_m) const;
+  [[nodiscard]] bool ChangesOver(const Observation& observation);
   [[nodiscard]] Result<bool> EndAt(double end_m);
   void ShowGlance(const ReplayStep& step);
   void ShowWaiting();
@@ -250,10 +253,13 @@ Result<bool> Loop::Step(const Observation& observation) {
   const double cpu_ms = CpuMs() - before_ms;
   if (!step) return Wrap(step.error(), fmt::format("frame {}", log_.frames()));
   if (!looked_) path_.session()->Pass(observation);
-  if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   const bool held = std::exchange(was_held_, held_);
   const bool stuck = watch_.Stuck(observation.stamp, *step, held);
   step = path_.OfRoute(*std::move(step));
+  const double end_m = options_.open_loop ? 0.0 : options_.end_m();
+  const auto left_to_look_m = LeftToLookForNext_m(*step, end_m);
+  if (left_to_look_m) step->command = next_->WhileItLooks(step->command, *left_to_look_m);
+  if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   link_.Report(*step);
   ShowGlance(*step);
   if (observation.unknown.distance_m > 0.0) {
@@ -265,11 +271,9 @@ Result<bool> Loop::Step(const Observation& observation) {
   Tell(*step);
   last_ = std::move(*step);
   if (options_.open_loop) return true;
+  if (left_to_look_m) return !ChangesOver(observation);
   PrepareNext();
-  if (const double end_m = options_.end_m(); PassedEnd(end_m)) {
-    if (ChangesOver(observation, end_m)) return !changes_over_;
-    return EndAt(end_m);
-  }
+  if (PassedEnd(*last_, end_m)) return EndAt(end_m);
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
     return End(ToString(last_->state), last_->reason);
   }
@@ -299,21 +303,25 @@ void Loop::PrepareNext() {
   }
 }
 
-// True: it goes on meanwhile, or along the next one.
-bool Loop::ChangesOver(const Observation& observation, double end_m) {
-  const bool sure = last_->state == ReplayState::kFollowing && last_->trust == Trust::kSure;
-  if (!next_ || !next_->ready() || !sure || PastEnd_m(end_m) > kChangesWithin_m) return false;
+std::optional<double> Loop::LeftToLookForNext_m(const ReplayStep& step, double end_m) const {
+  const bool sure = step.state == ReplayState::kFollowing && step.trust == Trust::kSure;
+  if (!next_ || !next_->ready() || !sure || !PassedEnd(step, end_m)) return std::nullopt;
+  const double left_m = kChangesWithin_m - PastEnd_m(step, end_m);
+  return left_m >= 0.0 ? std::optional(left_m) : std::nullopt;
+}
+
+bool Loop::ChangesOver(const Observation& observation) {
   changes_over_ = next_->TakesOver(observation);
   if (changes_over_) {
     End(ToString(ReplayState::kArrived),
         fmt::format("{:.1f} m along the route, where it changed over", *last_->along_m));
   }
-  return true;
+  return changes_over_;
 }
 
 Result<bool> Loop::EndAt(double end_m) {
   if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
-  if (PastEnd_m(end_m) > kDrivenPast_m) {
+  if (PastEnd_m(*last_, end_m) > kDrivenPast_m) {
     return End(ToString(ReplayState::kLost),
                fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
                            "was it carried there? Send it on from where it stands",
@@ -323,16 +331,16 @@ Result<bool> Loop::EndAt(double end_m) {
              fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
 }
 
-double Loop::PastEnd_m(double end_m) const {
-  const double past_m = *last_->along_m - end_m;
+double Loop::PastEnd_m(const ReplayStep& step, double end_m) const {
+  const double past_m = *step.along_m - end_m;
   return options_.how.backwards ? -past_m : past_m;
 }
 
 // Also who is at the route's own end.
-bool Loop::PassedEnd(double end_m) const {
+bool Loop::PassedEnd(const ReplayStep& step, double end_m) const {
   const bool knows_where =
-      last_->state == ReplayState::kFollowing || last_->state == ReplayState::kArrived;
-  return end_m > 0.0 && knows_where && last_->along_m && PastEnd_m(end_m) >= 0.0;
+      step.state == ReplayState::kFollowing || step.state == ReplayState::kArrived;
+  return end_m > 0.0 && knows_where && step.along_m && PastEnd_m(step, end_m) >= 0.0;
 }
 
 // After the command: who looks delays no more than the next frame, by the time of a copy.

@@ -149,6 +149,19 @@ TEST_F(NextPathTest, WhoDoesNotFindItStands) {
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
+// However slow it is to look.
+TEST_F(NextPathTest, WhoLooksDrivesNoFurtherThanIsLeft) {
+  NextPath next(device_, {}, KnownPath({}));
+  const auto creeps = next.WhileItLooks({0.6, -0.3}, 0.05);
+  EXPECT_DOUBLE_EQ(creeps.linear_mps, 0.1);
+  EXPECT_DOUBLE_EQ(creeps.angular_radps, -0.05);
+  const auto backs = next.WhileItLooks({-0.6, 0.3}, 0.05);
+  EXPECT_DOUBLE_EQ(backs.linear_mps, -0.1);
+  EXPECT_DOUBLE_EQ(backs.angular_radps, 0.05);
+  const motion::VelocityCommand slow{0.08, 0.3};
+  EXPECT_EQ(next.WhileItLooks(slow, 0.05), slow);
+}
+
 TEST_F(NextPathTest, AnotherRevisionThanTheOneThatItDrivesAlongIsToldOf) {
   route::RouteInfo route;
   route.name = "office";
