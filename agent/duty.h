@@ -16,6 +16,7 @@
 #include "agent/link/now_desk.h"
 #include "agent/next_path.h"
 #include "agent/on_duty.h"
+#include "agent/turning.h"
 #include "agent/view_question.h"
 #include "services/base/mailbox.h"
 #include "services/program/presence.h"
@@ -49,6 +50,7 @@ class Duty {
 
   void Work();
   void WaitOn(const mission::Task& task);
+  void Turn(const mission::Task& task);
   [[nodiscard]] bool WaitsForWay() const;
   void WaitForWay();
   void GoOtherWay();
@@ -112,6 +114,10 @@ class Duty {
   std::optional<ViewQuestion> question_;  // while it asks servers what it sees
   std::optional<Time> told_until_;        // who has found itself there
   std::optional<Time> wait_until_;
+  std::optional<Turning> turning_;  // while it turns on the spot
+  // How far it has turned to the left of an order that it has not done: who is to do something else
+  // turns back first.
+  double turned_rad_ = 0.0;
   std::optional<OwnLens> lens_;  // as the last following knew it
   std::string on_route_;         // where the last following ended
   std::optional<exchange::PlaceOnRoute> place_;

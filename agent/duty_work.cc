@@ -38,6 +38,7 @@ constexpr const char* kWaitsForWord = "waits before a narrow stretch until a ser
 void Duty::Work() {
   const mission::Task task = desk_.current()->tasks[desk_.current()->task];
   auto begun = std::move(next_);  // along which nobody drives on who does anything else now
+  if (Held() || now_desk_.hold().cancelled || WaitsForWay()) turning_.reset();
   if (now_desk_.hold().cancelled) {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
@@ -47,6 +48,8 @@ void Duty::Work() {
     LookElsewhere();
   } else if (WaitsForWay()) {
     WaitForWay();
+  } else if (task.kind == mission::Task::Kind::kTurn || turned_rad_ != 0.0) {
+    Turn(task);
   } else if (task.kind == mission::Task::Kind::kWait) {
     WaitOn(task);
   } else if (task.kind == mission::Task::Kind::kTeach) {
@@ -61,6 +64,23 @@ void Duty::WaitOn(const mission::Task& task) {
   TellState(State::kUnderWay, mission::ToText(task));
   if (!wait_until_) wait_until_ = now + ToMilliseconds(task.wait_s);
   if (now >= *wait_until_) Done();
+}
+
+void Duty::Turn(const mission::Task& task) {
+  const bool is_order = task.kind == mission::Task::Kind::kTurn;
+  if (is_order && options_.follower(task).how.session.look_around_rad <= 0.0) {
+    return End(State::kRefused,
+               "it is to turn on the spot, which its agent was told it may not: --look-around 0");
+  }
+  TellState(State::kUnderWay, mission::ToText(task));
+  if (!turning_) turning_.emplace(device_, turned_rad_);
+  const auto there = turning_->TurnOnTo(is_order ? task.turn_rad : 0.0);
+  turned_rad_ = turning_->turned_rad();
+  if (!there) return End(State::kFailed, there.error().message);
+  if (!*there) return;
+  turning_.reset();
+  turned_rad_ = 0.0;
+  if (is_order) Done();
 }
 
 bool Duty::WaitsForWay() const {
@@ -212,8 +232,8 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   if (!outcome || LooksElsewhere(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had arrived when it heard that its order ends further on.
-  const bool goes_on =
-      arrived && end_m_ != task.to_m && place_ && end_m_ > place_->along_m + kOnWay_m;
+  const double on_m = place_ ? end_m_ - place_->along_m : 0.0;
+  const bool goes_on = arrived && end_m_ != task.to_m && (task.backwards ? -on_m : on_m) > kOnWay_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
   if (arrived && (*outcome)->visit) {
     visited_.push_back({*(*outcome)->followed, *std::move((*outcome)->visit)});
@@ -408,6 +428,8 @@ void Duty::End(State state, const std::string& why) {
   missed_.clear();
   told_until_.reset();
   wait_until_.reset();
+  turning_.reset();
+  turned_rad_ = 0.0;
   now_desk_.ForgetCancelled();
 }
 

@@ -177,8 +177,9 @@ Result<void> Duty::Run() {
   }
   spdlog::info("on duty as '{}'", options_.agent.value());
   while (!options_.stop()) {
-    (void)exchange_.Take(next_ ? milliseconds(0) : kWait);
-    if (!next_) RefreshVisited();
+    const bool drives = next_ || turning_;
+    (void)exchange_.Take(drives ? milliseconds(0) : kWait);
+    if (!drives) RefreshVisited();
     glances_.ShowIfWanted(device_);
     NoteAilment(steady_clock::now());
     if (desk_.current()) {

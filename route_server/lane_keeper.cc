@@ -43,11 +43,11 @@ std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
                              const network::Place& place) {
   double before_m = 0.0;
   for (const Stretch& stretch : way) {
-    const bool is_on = place.route == stretch.route && place.along_m >= stretch.from_m &&
-                       place.along_m <= stretch.to_m;
-    const double along_m = before_m + place.along_m - stretch.from_m;
-    if (is_on && along_m <= within_m) return along_m;
-    before_m += stretch.to_m - stretch.from_m;
+    const double driven_m = stretch.DrivenAt(place.along_m);
+    const bool is_on =
+        place.route == stretch.route && driven_m >= 0.0 && driven_m <= stretch.length_m();
+    if (is_on && before_m + driven_m <= within_m) return before_m + driven_m;
+    before_m += stretch.length_m();
   }
   return std::nullopt;
 }
@@ -68,6 +68,11 @@ struct LaneKeeper::Rest {
   bool heard = false;
   bool placed = false;  // where it is is known
   double speed_mps = 0.0;
+
+  [[nodiscard]] bool backwards() const {
+    const std::vector<Stretch>& next = now.empty() ? later : now;
+    return !next.empty() && next.front().backwards();
+  }
 };
 
 LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
@@ -122,7 +127,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     robot.mission = sent.id;
     robot.orders = sent.orders;
     robot.at = 0;
-    robot.at_m = 0.0;
+    robot.driven_m = 0.0;
   }
   const auto tasks = mission::ParseOrders(sent.orders);
   if (!tasks) return tl::unexpected(tasks.error());
@@ -130,12 +135,15 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
   rest.going = mission::GoingIn(sent.orders).value_or(mission::Going{});
   bool waits = false;
   bool laps = false;
+  double turn_rad = 0.0;
   for (const Task& task : *tasks) {
     waits |= task.kind == Task::Kind::kWaitLane;
+    if (task.kind == Task::Kind::kTurn) turn_rad = task.turn_rad;
     laps |= task.laps > 1;
     if (task.kind != Task::Kind::kFollow) continue;
     auto stretch = network_.StretchOf(task);
     if (!stretch) return tl::unexpected(stretch.error());
+    stretch->turn_rad = std::exchange(turn_rad, 0.0);
     (waits ? rest.later : rest.now).push_back(*std::move(stretch));
   }
   rest.heard = mission::WayIn(last.detail) >= rest.going.way;
@@ -153,13 +161,13 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     is_on |= found != rest.now.end();
     if (found != rest.now.end()) {
       robot.at = static_cast<std::size_t>(found - rest.now.begin());
-      robot.at_m = std::clamp(stand->place.along_m, found->from_m, found->to_m);
+      robot.driven_m = found->DrivenAt(stand->place.along_m);
       rest.placed = true;
     }
   }
   if (robot.at < rest.now.size()) {
     Stretch& first = rest.now[robot.at];
-    first.from_m = std::clamp(robot.at_m, first.from_m, first.to_m);
+    first.BeginAt(first.AlongAfter(robot.driven_m));
   }
   rest.now.erase(rest.now.begin(), rest.now.begin() + static_cast<std::ptrdiff_t>(robot.at));
   rest.stands = rest.heard && last.state == State::kFetching && last.task < tasks->size() &&
@@ -179,18 +187,23 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
   const mission::Record* record = missions_.CurrentOf(agent);
   const auto* stand = network_.StandOf(agent);
   const LaneSet held = network_.HeldBy(agent);
+  std::optional<Rest> rest;
+  if (record != nullptr) {
+    auto left = RestOf(*record, robot);
+    if (!left) return tl::unexpected(left.error());
+    rest = *std::move(left);
+  }
   LaneSet in;
   if (stand != nullptr) {
-    in = network::LanesAt(stand->place, *lanes);
+    const bool backwards = rest && rest->backwards();
+    in = network::LanesAt(stand->place, *lanes, backwards);
     // Who has it, and stopped at its very beginning, still has it.
-    in.merge(Common(held, network::LanesAt(stand->place, *lanes, 0.0)));
+    in.merge(Common(held, network::LanesAt(stand->place, *lanes, backwards, 0.0)));
   }
   LaneSet has = in;
   bool heard = true;
   bool by_hand = false;
-  if (record != nullptr) {
-    auto rest = RestOf(*record, robot);
-    if (!rest) return tl::unexpected(rest.error());
+  if (rest) {
     has.merge(network::LanesOn(rest->now, *lanes));
     heard = rest->heard;
     by_hand = rest->going.to.empty();

@@ -49,8 +49,8 @@ class LaneKeeper {
     std::string mission{};
     std::string orders{};
     std::uint64_t changes = 0;
-    std::size_t at = 0;  // which stretch of its first leg it has come to,
-    double at_m = 0.0;   // and where on that
+    std::size_t at = 0;     // which stretch of its first leg it has come to,
+    double driven_m = 0.0;  // and how far it is on that
     std::optional<Time> heard_at{};
     NetworkBoard::LaneSet out_of{};  // of what it has, and since when
     Time out_since{};

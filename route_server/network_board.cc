@@ -202,6 +202,8 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
       return Settle(edit, by, now_unix_ms);
     case Edit::Kind::kNarrow:
       return Narrow(edit.lane, by, now_unix_ms);
+    case Edit::Kind::kBack:
+      return LetBack(edit, by, now_unix_ms);
     case Edit::Kind::kWide:
     case Edit::Kind::kVacate:
       return Leave(edit);
@@ -397,6 +399,7 @@ mission::Task NetworkBoard::TaskOf(const network::Stretch& stretch) const {
   return {.route = {.route = Called(KeyOf(stretch.route).route)},
           .from_m = ToCentimetre(stretch.from_m),
           .to_m = ToCentimetre(stretch.to_m),
+          .backwards = stretch.backwards(),
           .speed_factor = stretch.speed};
 }
 
@@ -404,10 +407,13 @@ Result<network::Stretch> NetworkBoard::StretchOf(const mission::Task& task) {
   const auto& [name, revision] = task.route;
   const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
   if (!meant) return tl::unexpected(meant.error());
-  return network::Stretch{.route = IdOf(meant->key),
-                          .from_m = task.from_m,
-                          .to_m = task.to_m > 0.0 ? task.to_m : meant->length_m,
-                          .speed = task.speed_factor};
+  network::Stretch stretch{.route = IdOf(meant->key),
+                           .from_m = task.from_m,
+                           .to_m = task.to_m,
+                           .speed = task.speed_factor};
+  double& end_m = task.backwards ? stretch.from_m : stretch.to_m;
+  if (end_m <= 0.0) end_m = meant->length_m;
+  return stretch;
 }
 
 Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Stretch& stretch) {
@@ -436,8 +442,9 @@ Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
   }
   auto way = network_->WayOn(from, *to);
   if (!way) return tl::unexpected(way.error());
-  std::erase_if(way->stretches,
-                [](const network::Stretch& each) { return IsNear(each.from_m, each.to_m); });
+  std::erase_if(way->stretches, [](const network::Stretch& each) {
+    return each.length_m() <= kSame_m && each.turn_rad == 0.0;
+  });
   return std::move(way->stretches);
 }
 

@@ -147,6 +147,10 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
   [[nodiscard]] Result<std::vector<std::string>> Narrow(network::Lane lane, const std::string& by,
                                                         std::int64_t now_unix_ms);
+  // Whoever drives backwards would meet those that come the other way: it is narrow there, too.
+  [[nodiscard]] Result<std::vector<std::string>> LetBack(const network::Edit& edit,
+                                                         const std::string& by,
+                                                         std::int64_t now_unix_ms);
   // Of kWide and kVacate.
   [[nodiscard]] Result<std::vector<std::string>> Leave(const network::Edit& edit);
   [[nodiscard]] std::vector<std::int64_t> NumbersOf(const LaneSet& lanes) const;

@@ -56,6 +56,19 @@ Result<Lines> NetworkBoard::Narrow(Lane lane, const std::string& by, std::int64_
   return Lines{network::ToText(CalledLane(*kept))};
 }
 
+Result<Lines> NetworkBoard::LetBack(const network::Edit& edit, const std::string& by,
+                                    std::int64_t now_unix_ms) {
+  const auto meant = Meant(edit.condition.route);
+  if (!meant) return tl::unexpected(meant.error());
+  const double end_m = std::min(edit.condition.to_m, meant->length_m);
+  auto lines = Set(edit, by, now_unix_ms);
+  if (!lines) return lines;
+  auto narrow = Narrow({{{edit.condition.route, edit.condition.from_m, end_m}}}, by, now_unix_ms);
+  if (!narrow) return narrow;
+  lines->insert(lines->end(), narrow->begin(), narrow->end());
+  return lines;
+}
+
 Result<Lines> NetworkBoard::Leave(const network::Edit& edit) {
   const auto meant = Meant(edit.condition.route);
   if (!meant) return tl::unexpected(meant.error());
@@ -157,8 +170,14 @@ std::vector<mission::Task> NetworkBoard::TasksOf(std::span<const network::Leg> l
   for (const network::Leg& leg : legs) {
     if (&leg != &legs.front()) tasks.push_back({.kind = mission::Task::Kind::kWaitLane});
     const network::Stretch* before = nullptr;
+    double turn_rad = 0.0;
     for (const network::Stretch& stretch : leg.stretches) {
-      if (stretch.to_m - stretch.from_m <= kSame_m) continue;
+      turn_rad += stretch.turn_rad;
+      if (stretch.length_m() <= kSame_m) continue;
+      if (turn_rad != 0.0) {
+        tasks.push_back(
+            {.kind = mission::Task::Kind::kTurn, .turn_rad = std::exchange(turn_rad, 0.0)});
+      }
       if (before != nullptr && GoesOn(*before, stretch) && before->speed == stretch.speed) {
         tasks.back().to_m = TaskOf(stretch).to_m;
       } else {

@@ -18,7 +18,8 @@ using network::Stretch;
 
 // Two stretches of which one goes on where the other ends are one to a robot.
 void Append(std::vector<Stretch>& way, const Stretch& next) {
-  if (next.to_m - next.from_m <= NetworkBoard::kSame_m && !way.empty()) return;
+  const bool is_none = next.length_m() <= NetworkBoard::kSame_m && next.turn_rad == 0.0;
+  if (is_none && !way.empty()) return;
   if (!way.empty() && GoesOn(way.back(), next) && way.back().speed == next.speed) {
     way.back().to_m = next.to_m;
   } else {
@@ -107,11 +108,14 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
   std::vector<Stretch> all;
   std::size_t said = 0;  // which of these it is at by its own word
   bool laps = false;
+  double turn_rad = 0.0;
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     if (i == record.last.task) said = all.size();
+    if ((*tasks)[i].kind == Task::Kind::kTurn) turn_rad = (*tasks)[i].turn_rad;
     if ((*tasks)[i].kind != Task::Kind::kFollow) continue;
     auto stretch = network_.StretchOf((*tasks)[i]);
     if (!stretch) return tl::unexpected(stretch.error());
+    stretch->turn_rad = std::exchange(turn_rad, 0.0);
     laps |= i == record.last.task && (*tasks)[i].laps > 1;
     all.push_back(*std::move(stretch));
   }
@@ -120,7 +124,7 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
     if (rest.stand && !rest.stand->now) rest.stand.reset();
     rest.missed = rest.stand.has_value();
     rest.passed = rest.missed && !all.empty() && rest.stand->place.route == all.front().route &&
-                  rest.stand->place.along_m > all.front().to_m;
+                  all.front().DrivenAt(rest.stand->place.along_m) > all.front().length_m();
   } else {
     const bool drives = record.last.state == mission::State::kUnderWay ||
                         record.last.state == mission::State::kPaused;
@@ -147,9 +151,10 @@ void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, boo
   auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
   if (rest.stand && at != all.end()) {
     const auto holds = [&](const Stretch& each) { return Holds(each, rest.stand->place); };
-    rest.missed = rest.going.way > 1 && rest.stand->place.route == all.front().route &&
-                  rest.stand->place.along_m > all.front().to_m + kBeyond_m &&
-                  std::none_of(all.begin(), all.end(), holds);
+    rest.missed =
+        rest.going.way > 1 && rest.stand->place.route == all.front().route &&
+        all.front().DrivenAt(rest.stand->place.along_m) > all.front().length_m() + kBeyond_m &&
+        std::none_of(all.begin(), all.end(), holds);
     rest.passed = rest.missed;
     // Before it drives it may have said where it was before.
     const auto found = holds(*at) || !drives ? at : std::find_if(all.begin(), all.end(), holds);
@@ -158,8 +163,7 @@ void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, boo
   }
   rest.stretches.assign(at, all.end());
   if (!rest.stretches.empty() && rest.stand && !rest.missed && !laps) {
-    Stretch& first = rest.stretches.front();
-    first.from_m = std::clamp(rest.stand->place.along_m, first.from_m, first.to_m);
+    rest.stretches.front().BeginAt(rest.stand->place.along_m);
   }
 }
 
@@ -174,13 +178,17 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
     for (const Stretch& stretch : rest.stretches) {
       const auto closed = network_.FirstClosed(stretch);
       if (!closed) return tl::unexpected(closed.error());
+      double kept_m = std::min(stretch.length_m(), ahead_m);
+      if (*closed) {
+        const double closed_m = stretch.backwards() ? (**closed).to_m : (**closed).from_m;
+        kept_m = std::clamp(stretch.DrivenAt(closed_m), 0.0, kept_m);
+      }
       Stretch kept = stretch;
-      if (*closed) kept.to_m = std::clamp((**closed).from_m, kept.from_m, kept.to_m);
-      kept.to_m = std::min(kept.to_m, kept.from_m + ahead_m);
+      kept.to_m = stretch.AlongAfter(kept_m);
       from = {kept.route, kept.to_m};
-      if (kept.to_m > kept.from_m) Append(plan.way, kept);
-      ahead_m -= kept.to_m - kept.from_m;
-      if (kept.to_m < stretch.to_m || ahead_m <= 0.0) break;
+      if (kept_m > 0.0) Append(plan.way, kept);
+      ahead_m -= kept_m;
+      if (kept_m < stretch.length_m() || ahead_m <= 0.0) break;
     }
   }
   auto on = network_.WayOn(from, rest.going.to);
@@ -198,7 +206,9 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
   plan.no_way = on.error().message;
   plan.way.clear();
   if (rest.around) {
-    plan.way = {{rest.around->route, rest.stand->place.along_m, rest.around->to_m}};
+    plan.way = {{.route = rest.around->route,
+                 .from_m = rest.stand->place.along_m,
+                 .to_m = rest.around->to_m}};
   }
   return plan;
 }

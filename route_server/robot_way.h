@@ -15,8 +15,9 @@ namespace trailcast::server {
 inline constexpr double kOnWay_m = 0.5;
 
 [[nodiscard]] inline bool Holds(const network::Stretch& stretch, const network::Place& place) {
-  return place.route == stretch.route && place.along_m >= stretch.from_m - kOnWay_m &&
-         place.along_m <= stretch.to_m + kOnWay_m;
+  const double driven_m = stretch.DrivenAt(place.along_m);
+  return place.route == stretch.route && driven_m >= -kOnWay_m &&
+         driven_m <= stretch.length_m() + kOnWay_m;
 }
 
 // The orders of the next way to where a robot is going, and why, as far as there is room for it.

@@ -20,17 +20,18 @@ namespace trailcast::mission {
 //                                                           down to its beginning, or TO
 //   teach ROUTE [TAG ...]    a person drives until it is told to be ended; no tag is called as what
 //                            an order begins with
+//   turn DEGREES             on the spot, to the left; below 0 to the right
 //   wait SECONDS
 // as in "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel". Of a robot that is sent to a
-// place they are the way there, of 'follow' alone:
-//   goto PLACE [way N] FOLLOW ... [because WORDS ...]
+// place they are the way there, of 'follow' and 'turn' alone:
+//   goto PLACE [way N] [TURN] FOLLOW ... [because WORDS ...]
 // A server that finds another way while it is going sends the same mission with a higher N, and
 // why. Where there is none, it ends in
 //   wait way                 for such a one
 // and before a narrow place it has
 //   wait lane                until a server has sent it without
 struct Task {
-  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kWaitWay, kWaitLane };
+  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
   double from_m = 0.0;     // where the robot stands at first; 0: at the route's beginning
@@ -39,6 +40,7 @@ struct Task {
   std::uint32_t laps = 1;
   double speed_factor = 1.0;
   double wait_s = 0.0;
+  double turn_rad = 0.0;            // to the left
   std::vector<std::string> tags{};  // of what is taught, in any order
 };
 

@@ -19,7 +19,7 @@ struct Part {
 };
 
 // A narrow place, where robots cannot pass each other: the parts of routes that lead through it,
-// each of which is driven one way alone, as taught.
+// whichever way they are driven.
 struct Lane {
   std::vector<Part> parts{};
   bool operator==(const Lane&) const = default;
@@ -54,8 +54,8 @@ struct Leg {
 // Those that a robot on the first of these stretches, at its beginning, is in, or comes to.
 [[nodiscard]] std::set<std::size_t> LanesOn(std::span<const Stretch> way,
                                             std::span<const Lane> lanes);
-// Those that it is in, at least so far.
+// Those that it is in, at least so far; who drives there `backwards` comes in at their other ends.
 [[nodiscard]] std::set<std::size_t> LanesAt(const Place& place, std::span<const Lane> lanes,
-                                            double in_m = kBarelyInLane_m);
+                                            bool backwards = false, double in_m = kBarelyInLane_m);
 
 }  // namespace trailcast::network

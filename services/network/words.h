@@ -18,6 +18,9 @@ namespace trailcast::network {
 //   part PLACE PLACE                                                no more, neither way
 //   close ROUTE [FROM..TO]     nobody is sent along it
 //   open ROUTE [FROM..TO]
+//   back ROUTE [FROM..TO]      robots may be sent backwards along it, too, one at a time: it is
+//                              narrow there from now on
+//   ahead ROUTE [FROM..TO]     no more
 //   limit ROUTE [FROM..TO] [speed F] [cost F]   F times the taught speed at most; a metre counts as
 //                                               F; neither: no limit any more
 //   narrow ROUTE FROM..TO [ROUTE FROM..TO ...]   robots cannot pass each other there; the parts are
@@ -38,6 +41,8 @@ struct Edit {
     kPart,
     kClose,
     kOpen,
+    kBack,
+    kAhead,
     kLimit,
     kNarrow,
     kWide,
@@ -49,7 +54,8 @@ struct Edit {
   };
   Kind kind = Kind::kJoin;
   Joint joint{};          // of kJoin and kPart; of kConfirm and kRefuse, but for `all`
-  Condition condition{};  // of kClose, kOpen and kLimit; of kWide and kVacate where that is
+  Condition condition{};  // of kClose, kOpen, kBack, kAhead and kLimit; of kWide and kVacate where
+                          // that is
   Lane lane{};            // of kNarrow
   NamedPlace named{};     // of kName; of kForget its name alone
   struct Sure {
@@ -121,15 +127,17 @@ struct Question {
 // "hall@12", "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
-[[nodiscard]] std::string ToText(const Route& route);          // "route .."
-[[nodiscard]] std::string ToText(const NamedPlace& named);     // "name .."
-[[nodiscard]] std::string ToText(const Joint& joint);          // "join .."
-[[nodiscard]] std::string ToText(const Condition& condition);  // "close .." or "limit .."
-[[nodiscard]] std::string ToText(const Proposal& proposal);    // "proposed join .."
-[[nodiscard]] std::string ToText(const Lane& lane);            // "narrow .."
-[[nodiscard]] std::string ToText(const LostStretch& lost);     // "lost .."
+[[nodiscard]] std::string ToText(const Route& route);       // "route .."
+[[nodiscard]] std::string ToText(const NamedPlace& named);  // "name .."
+[[nodiscard]] std::string ToText(const Joint& joint);       // "join .."
+[[nodiscard]] std::string ToText(
+    const Condition& condition);                             // "close ..", "back .." or "limit .."
+[[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
+[[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
+[[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
 
-// What holds after such an edit: of one kind, a closed stretch or a limit, one at each place.
+// What holds after such an edit: of one kind, a closed stretch, one that is driven backwards, too,
+// or a limit, one at each place.
 [[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);
 
 }  // namespace trailcast::network

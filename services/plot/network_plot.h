@@ -15,7 +15,7 @@ struct NetworkPicture {
     std::size_t route = 0;
     double along_m = 0.0;
   };
-  enum class Part { kClosed, kLimited, kNarrow, kLost };
+  enum class Part { kClosed, kBacked, kLimited, kNarrow, kLost };
   struct Marked {
     Part part = Part::kClosed;
     double from_m = 0.0;

@@ -66,6 +66,7 @@ class NetworkStore {
 
   // In the order in which they were put.
   [[nodiscard]] Result<std::vector<network::Joint>> Joints();
+  // What is driven backwards after the others.
   [[nodiscard]] Result<std::vector<network::Condition>> Conditions();
   [[nodiscard]] Result<std::vector<network::NamedPlace>> Names();  // by name
   [[nodiscard]] Result<std::vector<ProposedJoint>> Proposals();

@@ -51,6 +51,7 @@ constexpr const char* kSendExamples =
     "robot\n"
     "                       it does not see\n"
     "  teach ROUTE [TAG ...]   a person drives until 'trailcast end robot1'\n"
+    "  turn DEGREES           on the spot, by its wheels: to the left, below 0 to the right\n"
     "  wait SECONDS\n"
     "or, alone:\n"
     "  goto PLACE           ROUTE@METRES, or what it is called: the best way over the network of\n"

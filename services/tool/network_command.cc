@@ -26,10 +26,16 @@ constexpr const char* kNetworkExamples =
     "proposed joints:\n"
     "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
     "                       robots may change over from the first place to the second; both: and\n"
-    "                       back; how the second lies there, where it is known\n"
+    "                       back; how the second lies there, where it is known. From 60 degrees "
+    "on\n"
+    "                       a robot turns there on the spot: to a route that was taught the other\n"
+    "                       way, heading 180\n"
     "  part PLACE PLACE     no more, neither way\n"
     "  close ROUTE [FROM..TO]   no robot is sent along it by 'goto', and those under way to a\n"
     "                       place go round it, or stand and wait; open ROUTE [FROM..TO]\n"
+    "  back ROUTE [FROM..TO]    robots may be sent backwards along it, too, a few metres, hardly\n"
+    "                       bent, out of a dead end: it is narrow there from now on; ahead ROUTE\n"
+    "                       [FROM..TO]: no more\n"
     "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
     "                       at most F times the taught speed; a metre counts as F when ways are\n"
     "                       compared; with neither, no limit any more\n"
@@ -58,6 +64,8 @@ constexpr const char* kNetworkExamples =
     "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
     "  trailcast network confirm hall@12 office@0.4\n"
     "  trailcast network confirm all above 0.9     # as 'trailcast-server --joints-auto' does\n"
+    "  trailcast network join hall@20 home@0.5 heading 180\n"
+    "  trailcast network back dock 0..3\n"
     "  trailcast network close hall 3..7\n"
     "  trailcast network narrow hall 3..7 back 10..14\n"
     "  trailcast network name loading-bay office@8\n"
@@ -65,8 +73,9 @@ constexpr const char* kNetworkExamples =
     "  trailcast network way robot1 office@8 --json\n"
     "  trailcast network passing hall@12.3         # office@0.3  join hall@12 office@0\n"
     "  trailcast network --plot network.png\n"
-    "A route is followed in the direction in which it was taught. A joint or a name is of the\n"
-    "revisions that robots follow when it is made; while another is followed, it is not used.\n"
+    "A route is followed in the direction in which it was taught, and backwards where robots may.\n"
+    "A joint or a name is of the revisions that robots follow when it is made; while another is\n"
+    "followed, it is not used.\n"
     "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
 
 bool AsksForProposals(const NetworkOptions& options) {
@@ -90,7 +99,7 @@ std::string ChangedText(const std::string& edit, const std::vector<std::string>&
   const bool settles = edit == "confirm" || edit == "refuse";
   if (lines.empty()) {
     return settles ? "none is proposed that is so sure\n"
-                   : "nothing is closed or limited there now\n";
+                   : "nothing is closed, limited or driven backwards there now\n";
   }
   const bool ends = edit == "part" || edit == "forget" || edit == "refuse" || edit == "wide";
   return (ends ? "no more: " : "") + fleet::NetworkText(lines);

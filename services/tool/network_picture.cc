@@ -36,8 +36,9 @@ class Reader {
         }
         return;
       default:
-        return Mark(edit.condition.route, {edit.condition.closed ? NetworkPicture::Part::kClosed
-                                                                 : NetworkPicture::Part::kLimited,
+        return Mark(edit.condition.route, {edit.condition.closed   ? NetworkPicture::Part::kClosed
+                                           : edit.condition.backed ? NetworkPicture::Part::kBacked
+                                                                   : NetworkPicture::Part::kLimited,
                                            edit.condition.from_m, edit.condition.to_m});
     }
   }

@@ -106,5 +106,31 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   EXPECT_NEAR(end.y_m, 5.3, 0.3) << agent->output();
 }
 
+// A dead end, and beside it what was taught the other way.
+TEST_F(GotoTest, ARobotBacksOutAndTurnsRound) {
+  Teach();
+  Teach("routes.db", "4.5,1.5\n1,1.5\n", "home");
+  const auto server = Server();
+  const Ended delivered = RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"});
+  ASSERT_EQ(delivered.status, 0) << delivered.output;
+  const Ended backed = Network({"back", "hall", "1..3"});
+  ASSERT_EQ(backed.status, 0) << backed.output;
+  EXPECT_THAT(backed.output, AllOf(HasSubstr("back hall 1..3"), HasSubstr("narrow hall 1..3")));
+  ASSERT_EQ(Network({"join", "hall@1.5", "home@2", "heading", "180"}).status, 0);
+
+  const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")});
+  const auto agent = Serve("robot1");
+  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  const Ended in = Send({"goto", "hall@2.8", "--from", "hall@0", "--wait"});
+  ASSERT_EQ(in.status, 0) << in.output << agent->output();
+  EXPECT_NEAR(Along_m("truth.csv"), 3.8, 0.3);
+  const Ended home = Send({"goto", "home@2.8", "--wait"});
+  ASSERT_EQ(home.status, 0) << home.output << agent->output();
+  EXPECT_THAT(home.output, AllOf(HasSubstr("follow hall backwards 2.8"),
+                                 HasSubstr("..1.5\nturn 180\nfollow home 2..2.8\n")));
+  EXPECT_NEAR(TruePlaces().back().x_m, 1.7, 0.3) << agent->output();
+  EXPECT_NEAR(TruePlaces().back().y_m, 1.5, 0.2) << agent->output();
+}
+
 }  // namespace
 }  // namespace trailcast::test

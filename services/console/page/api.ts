@@ -265,6 +265,7 @@ export type NetworkPart = {
     joints: Joint[];
     proposed?: Proposal[];  // not of an older server
     closed: Stretch[];
+    backed?: Stretch[];  // not of an older server
     limits: Stretch[];
     narrow?: { parts: Stretch[]; taken_by: string[] }[];  // not of an older server
     lost?: LostStretch[];  // likewise
@@ -279,7 +280,7 @@ export type NetworkPart = {
 };
 
 export type Way = {
-  way: { length_m: number; stretches: { route: string; from_m: number; to_m: number; speed: number }[] };
+  way: { length_m: number; stretches: { route: string; from_m: number; to_m: number; speed: number; turn_rad?: number }[] };
   orders: string;
 };
 

@@ -10,6 +10,7 @@ export type Row = {
   start_m: number;  // from the drawing's left
   joined: boolean;  // a server lists it
   closed: Part[];
+  backed: Part[];
   limits: Part[];
   narrow: (Part & { takenBy: string[] })[];
   lost: (Part & { stretch: LostStretch })[];
@@ -121,7 +122,7 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   }
   const rows = inOrder([...lengths.keys()], network.joints).map((name): Row => ({
     name, length_m: lengths.get(name)!, start_m: 0, joined: joined.has(name),
-    closed: [], limits: [], narrow: [], lost: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
+    closed: [], backed: [], limits: [], narrow: [], lost: [], names: [], joints: [], proposed: [], elsewhere: 0, robots: [],
   }));
   const links: Link[] = [];
   for (const joint of network.joints) {
@@ -143,6 +144,10 @@ export function layOut(part: NetworkPart, live: Route[]): Layout {
   for (const stretch of network.closed) {
     const row = rows[rowOf(rows, stretch.route)];
     row?.closed.push(partOf(stretch, row.length_m));
+  }
+  for (const stretch of network.backed ?? []) {
+    const row = rows[rowOf(rows, stretch.route)];
+    row?.backed.push(partOf(stretch, row.length_m));
   }
   for (const stretch of network.limits) {
     const row = rows[rowOf(rows, stretch.route)];
@@ -206,6 +211,7 @@ export const lostText = ({ lost, passed, cost }: LostStretch) => `${lost} of ${p
 export function told(layout: Layout): string {
   const { rows, links } = layout;
   const closed = rows.flatMap((row) => row.closed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
+  const backed = rows.flatMap((row) => row.backed.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`));
   const narrow = rows.flatMap((row) => row.narrow.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m`
     + (part.takenBy.length > 0 ? `, taken by ${part.takenBy.join(' and ')}` : '')));
   const lost = rows.flatMap((row) => row.lost.map((part) => `${row.name} ${metres(part.from_m)} to ${metres(part.to_m)} m, ${lostText(part.stretch)}`));
@@ -214,6 +220,7 @@ export function told(layout: Layout): string {
   const proposed = links.filter((link) => link.confidence !== null).length;
   return `${rows.length} routes, ${links.length - proposed} joints${proposed > 0 ? `, ${proposed} proposed` : ''}. `
     + (closed.length > 0 ? `Closed: ${some(closed)}. ` : 'Nothing is closed. ')
+    + (backed.length > 0 ? `Driven backwards, too: ${some(backed)}. ` : '')
     + (narrow.length > 0 ? `Narrow: ${some(narrow)}. ` : '')
     + (lost.length > 0 ? `Robots lost their path on ${some(lost)}. ` : '')
     + (robots.length > 0 ? `${some(robots)}.` : 'No robot is on them.');

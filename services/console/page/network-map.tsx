@@ -97,6 +97,13 @@ const Lines = memo(function Lines({ rows, links, frame, chosen, hatch }: {
                 <title>{`${row.name} ${metres(from_m)} to ${metres(to_m)} m: ${stretch.speed} times the taught speed, a metre counts as ${stretch.cost}`}</title>
               </path>
             ))}
+            {row.backed.map(({ from_m, to_m }, each) => (
+              <g key={`b${each}`} className="backed">
+                <title>{`robots may drive backwards on ${row.name} from ${metres(to_m)} to ${metres(from_m)} m`}</title>
+                <path d={`M${xOf(frame, row, from_m)} ${y + 8}H${xOf(frame, row, to_m)}`} />
+                <path className="head" d={head(xOf(frame, row, from_m), y + 8, -1, 0)} />
+              </g>
+            ))}
             {row.narrow.map(({ from_m, to_m, takenBy }, each) => (
               <path key={`n${each}`} className="narrow" d={`M${xOf(frame, row, from_m)} ${y - 7}H${xOf(frame, row, to_m)}M${xOf(frame, row, from_m)} ${y + 7}H${xOf(frame, row, to_m)}`}>
                 <title>{`${row.name} is narrow from ${metres(from_m)} to ${metres(to_m)} m${takenBy.length > 0 ? `, taken by ${takenBy.join(' and ')}` : ''}`}</title>
@@ -259,6 +266,7 @@ function NetworkLegend() {
       <span>{sample(<g className="joint unused"><path d="M6 2L24 16" /></g>)}not used: of another revision</span>
       <span>{sample(<path className="narrow" d="M3 3H31M3 15H31" />)}narrow</span>
       <span>{sample(<g className="closed"><rect className="sample" x="3" y="3" width="28" height="12" /><path d="M11 3l12 12m0-12l-12 12" /></g>)}closed</span>
+      <span>{sample(<g className="backed"><path d="M3 9H31" /><path className="head" d={head(5, 9, -1, 0)} /></g>)}backwards, too</span>
       <span>{sample(<path className="limited" d="M3 9H31" />)}slower, or counts as longer</span>
       <span>{sample(<path className="lost-at" d="M3 9H31" />)}robots lost their path there</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>

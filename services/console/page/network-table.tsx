@@ -58,6 +58,9 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           {row.closed.map((part, i) => (
             <li key={i}><strong className="lost">closed</strong> {partText(part)} {take('Open', `${row.name} ${partText(part)}`, `open ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}
+          {row.backed.map((part, i) => (
+            <li key={`b${i}`}>backwards, too, {partText(part)} {take('Only ahead', `on ${row.name} ${partText(part)}`, `ahead ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
+          ))}
           {row.narrow.map((part, i) => (
             <li key={`n${i}`}>narrow {partText(part)}{part.takenBy.length > 0 && `, taken by ${part.takenBy.join(' and ')}`} {take('Not narrow', `${row.name} ${partText(part)}`, `wide ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}

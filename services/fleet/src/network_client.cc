@@ -77,7 +77,7 @@ std::string ConditionJson(const network::Condition& condition) {
       condition.to_m >= network::kToTheEnd_m ? "null" : fmt::format("{:.2f}", condition.to_m);
   std::string text = fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {}",
                                  JsonText(condition.route), condition.from_m, to);
-  if (!condition.closed) {
+  if (!condition.closed && !condition.backed) {
     text += fmt::format(", \"speed\": {:g}, \"cost\": {:g}", condition.speed, condition.cost);
   }
   return text + "}";
@@ -114,18 +114,21 @@ bool IsAbout(const Lines& routes, std::span<const std::string> of) {
 }
 
 // The stretches; of orders that are no way, none.
-std::vector<mission::Task> TasksOf(const Lines& way) {
-  auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
-                   .value_or(std::vector<mission::Task>{});
-  std::erase_if(
-      tasks, [](const mission::Task& task) { return task.kind != mission::Task::Kind::kFollow; });
-  return tasks;
-}
-
-double LengthOf(const std::vector<mission::Task>& tasks) {
-  double length_m = 0.0;
-  for (const mission::Task& task : tasks) length_m += task.to_m - task.from_m;
-  return length_m;
+std::vector<network::Stretch> StretchesOf(const Lines& way) {
+  const auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
+                         .value_or(std::vector<mission::Task>{});
+  std::vector<network::Stretch> stretches;
+  double turn_rad = 0.0;
+  for (const mission::Task& task : tasks) {
+    turn_rad += task.turn_rad;
+    if (task.kind != mission::Task::Kind::kFollow) continue;
+    stretches.push_back({.route = task.route.route,
+                         .from_m = task.from_m,
+                         .to_m = task.to_m,
+                         .speed = task.speed_factor,
+                         .turn_rad = std::exchange(turn_rad, 0.0)});
+  }
+  return stretches;
 }
 
 }  // namespace
@@ -192,6 +195,7 @@ std::string NetworkJson(const Lines& lines) {
   Lines routes;
   Lines joints;
   Lines closed;
+  Lines backed;
   Lines limits;
   Lines narrow;
   Lines names;
@@ -211,14 +215,15 @@ std::string NetworkJson(const Lines& lines) {
       names.push_back(fmt::format("{{\"name\": {}, \"place\": {}, \"used\": {}}}",
                                   JsonText(edit->named.name), PlaceJson(edit->named.place), used));
     } else {
-      (edit->condition.closed ? closed : limits).push_back(ConditionJson(edit->condition));
+      Lines& its = edit->condition.closed ? closed : edit->condition.backed ? backed : limits;
+      its.push_back(ConditionJson(edit->condition));
     }
   }
   return fmt::format(
-      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"limits\": {}, \"narrow\": {}, "
-      "\"names\": {}, \"proposed\": {}, \"lost\": {}}}\n",
-      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(limits), JsonList(narrow),
-      JsonList(names), JsonList(proposed), JsonList(lost_on));
+      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"backed\": {}, \"limits\": {}, "
+      "\"narrow\": {}, \"names\": {}, \"proposed\": {}, \"lost\": {}}}\n",
+      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(backed), JsonList(limits),
+      JsonList(narrow), JsonList(names), JsonList(proposed), JsonList(lost_on));
 }
 
 std::string PassingText(const network::Passings& passings) {
@@ -266,19 +271,21 @@ std::string WayText(const Lines& way) {
   if (way.empty()) return "it is there already\n";
   std::string text;
   for (const std::string& stretch : way) text += stretch + "\n";
-  return text + fmt::format("{:.1f} m\n", LengthOf(TasksOf(way)));
+  return text + fmt::format("{:.1f} m\n", network::LengthOf(StretchesOf(way)));
 }
 
 std::string WayJson(const Lines& way) {
-  const auto tasks = TasksOf(way);
+  const auto way_stretches = StretchesOf(way);
   Lines stretches;
-  for (const mission::Task& task : tasks) {
+  for (const network::Stretch& each : way_stretches) {
+    const std::string turn =
+        each.turn_rad == 0.0 ? "" : fmt::format(", \"turn_rad\": {:.3f}", each.turn_rad);
     stretches.push_back(
-        fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"speed\": {:g}}}",
-                    JsonText(task.route.route), task.from_m, task.to_m, task.speed_factor));
+        fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"speed\": {:g}{}}}",
+                    JsonText(each.route), each.from_m, each.to_m, each.speed, turn));
   }
-  return fmt::format("{{\"length_m\": {:.2f}, \"stretches\": {}}}\n", LengthOf(tasks),
-                     JsonList(stretches));
+  return fmt::format("{{\"length_m\": {:.2f}, \"stretches\": {}}}\n",
+                     network::LengthOf(way_stretches), JsonList(stretches));
 }
 
 std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,14 +18,16 @@ namespace trailcast::mission {
 namespace {
 
 constexpr const char* kGrammar =
-    "'follow ROUTE[@REVISION] [backwards] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG ...]' "
-    "or 'wait "
-    "SECONDS', one after the other";
-constexpr const char* kWay = "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone";
+    "'follow ROUTE[@REVISION] [backwards] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG "
+    "...]', 'turn DEGREES' or 'wait SECONDS', one after the other";
+constexpr const char* kWay =
+    "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone, and 'turn DEGREES' before one";
 constexpr std::string_view kWaySaid = " (way ";
 constexpr std::size_t kLongestPlace = 96;
 constexpr std::uint32_t kMostWays = 1'000'000'000;
 constexpr std::uint32_t kMostLaps = 10'000;
+constexpr double kPerDegree = std::numbers::pi / 180.0;
+constexpr double kMostTurn_deg = 360.0;
 constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
 constexpr double kLeastSpeed = 0.1;
 constexpr double kMostSpeed = 3.0;
@@ -40,7 +43,7 @@ std::vector<std::string> Words(std::string_view text) {
 }
 
 bool BeginsAnOrder(const std::string& word) {
-  return word == "follow" || word == "wait" || word == "teach";
+  return word == "follow" || word == "wait" || word == "teach" || word == "turn";
 }
 
 class Parser {
@@ -53,7 +56,10 @@ class Parser {
     }
     std::vector<Task> tasks;
     while (!rest().empty() && !TakeReason()) {
-      auto task = Next() == "wait" ? Wait() : Next() == "teach" ? Teach() : Follow();
+      auto task = Next() == "wait"    ? Wait()
+                  : Next() == "teach" ? Teach()
+                  : Next() == "turn"  ? Turn()
+                                      : Follow();
       if (!task) return tl::unexpected(task.error());
       if (auto fits = CheckOnWay(*task, tasks); !fits) return tl::unexpected(fits.error());
       tasks.push_back(*std::move(task));
@@ -93,10 +99,11 @@ class Parser {
   [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
-    const bool is_stretch =
-        task.kind == Task::Kind::kFollow && task.to_m > 0.0 && task.laps == 1 && !task.backwards;
+    const bool is_stretch = task.kind == Task::Kind::kFollow && task.laps == 1 &&
+                            (task.backwards ? task.from_m : task.to_m) > 0.0;
+    const bool is_turn = task.kind == Task::Kind::kTurn;
     const bool waits = task.kind == Task::Kind::kWaitWay || task.kind == Task::Kind::kWaitLane;
-    if (!ends && (is_stretch || waits)) return {};
+    if (!ends && (is_stretch || is_turn || waits)) return {};
     return Wrong(ToText(task), kWay);
   }
 
@@ -112,6 +119,14 @@ class Parser {
     const auto seconds = ParseNumberWithin(word, 0.0, kLongestWait_s);
     if (!seconds) return Wrong(word, "seconds, a week at most");
     return Task{.kind = Task::Kind::kWait, .wait_s = *seconds};
+  }
+
+  [[nodiscard]] Result<Task> Turn() {
+    (void)Take();
+    const std::string word = Take();
+    const auto degrees = ParseNumberWithin(word, -kMostTurn_deg, kMostTurn_deg);
+    if (!degrees) return Wrong(word, "degrees to the left, -360 to 360");
+    return Task{.kind = Task::Kind::kTurn, .turn_rad = *degrees * kPerDegree};
   }
 
   [[nodiscard]] Result<Task> Teach() {
@@ -233,6 +248,9 @@ std::string ToText(const Task& task) {
   if (task.kind == Task::Kind::kWaitWay) return "wait way";
   if (task.kind == Task::Kind::kWaitLane) return "wait lane";
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
+  if (task.kind == Task::Kind::kTurn) {
+    return fmt::format("turn {:g}", std::round(10.0 * task.turn_rad / kPerDegree) / 10.0);
+  }
   if (task.kind == Task::Kind::kTeach) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",
                        fmt::join(task.tags, " "));

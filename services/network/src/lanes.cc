@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace trailcast::network {
 namespace {
@@ -28,27 +29,53 @@ std::vector<Run> RunsOf(std::span<const Stretch> way) {
     } else {
       runs.push_back({stretch, begin_m});
     }
-    begin_m += stretch.to_m - stretch.from_m;
+    begin_m += stretch.length_m();
   }
   return runs;
+}
+
+// In metres from a stretch's beginning, of which it may be a part.
+struct Through {
+  double enters_m = 0.0;
+  double leaves_m = 0.0;
+};
+
+std::optional<Through> ThroughOf(const Part& part, const Stretch& stretch) {
+  if (part.route != stretch.route) return std::nullopt;
+  const auto [enters_m, leaves_m] =
+      std::minmax({stretch.DrivenAt(part.from_m), stretch.DrivenAt(part.to_m)});
+  return Through{enters_m, leaves_m};
+}
+
+// The second begins where the first ends, and drives back.
+bool TurnsBack(const Stretch& before, const Stretch& next) {
+  return before.route == next.route && before.to_m == next.from_m && next.turn_rad == 0.0 &&
+         before.backwards() != next.backwards();
 }
 
 // In the order in which the way comes to them; without those that it begins in or behind.
 std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const Lane> lanes) {
   std::vector<Passage> passages;
-  for (const Run& run : RunsOf(way)) {
-    const auto& [route, from_m, to_m, speed] = run.stretch;
+  const std::vector<Run> runs = RunsOf(way);
+  std::set<std::size_t> begun_in;
+  for (const Run& run : runs) {
+    const bool is_first = &run == &runs.front();
+    if (!is_first && !TurnsBack((&run - 1)->stretch, run.stretch)) begun_in.clear();
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       for (const Part& part : lanes[i].parts) {
-        const bool meets =
-            part.route == route && to_m > part.from_m && from_m < part.to_m + kRoomBeyondLane_m;
-        const bool begins_in = run.begin_m <= 0.0 && from_m > part.from_m + kBarelyInLane_m;
-        if (!meets || begins_in) continue;
-        double begin_m = std::max(0.0, part.from_m - kBeforeLane_m - from_m);
+        const auto through = ThroughOf(part, run.stretch);
+        const bool meets = through && run.stretch.length_m() > through->enters_m &&
+                           through->leaves_m + kRoomBeyondLane_m > 0.0;
+        if (!meets) continue;
+        const bool begins_in =
+            is_first ? through->enters_m + kBarelyInLane_m < 0.0 : begun_in.contains(i);
+        if (begins_in) begun_in.insert(i);
+        if (begins_in) continue;
+        double begin_m = std::max(0.0, through->enters_m - kBeforeLane_m);
         // Before the route's first metre nobody can come in between; on it somebody could.
         if (run.begin_m > 0.0 && begin_m < kWaitingRoom_m) begin_m = 0.0;
         passages.push_back(
-            {run.begin_m + begin_m, run.begin_m + part.to_m + kRoomBeyondLane_m - from_m, i});
+            {run.begin_m + begin_m, run.begin_m + through->leaves_m + kRoomBeyondLane_m, i});
       }
     }
   }
@@ -61,16 +88,17 @@ std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const La
 void Cut(std::vector<Stretch>& stretches, double at_m, std::vector<Stretch>& rest) {
   std::vector<Stretch> before;
   for (const Stretch& stretch : stretches) {
-    const double length_m = stretch.to_m - stretch.from_m;
+    const double length_m = stretch.length_m();
     if (at_m <= kSame_m) {
       rest.push_back(stretch);
     } else if (at_m >= length_m - kSame_m) {
       before.push_back(stretch);
     } else {
       before.push_back(stretch);
-      before.back().to_m = stretch.from_m + at_m;
+      before.back().to_m = stretch.AlongAfter(at_m);
       rest.push_back(stretch);
-      rest.back().from_m = stretch.from_m + at_m;
+      rest.back().from_m = stretch.AlongAfter(at_m);
+      rest.back().turn_rad = 0.0;
     }
     at_m -= length_m;
   }
@@ -109,8 +137,9 @@ std::set<std::size_t> LanesOn(std::span<const Stretch> way, std::span<const Lane
     for (const Part& part : lanes[i].parts) {
       for (const Run& run : RunsOf(way)) {
         const double beyond_m = run.begin_m > 0.0 ? kRoomBeyondLane_m : kOutOfLane_m;
-        const bool meets = part.route == run.stretch.route && run.stretch.to_m > part.from_m &&
-                           run.stretch.from_m < part.to_m + beyond_m;
+        const auto through = ThroughOf(part, run.stretch);
+        const bool meets = through && run.stretch.length_m() > through->enters_m &&
+                           through->leaves_m + beyond_m > 0.0;
         if (meets) on.insert(i);
       }
     }
@@ -118,12 +147,15 @@ std::set<std::size_t> LanesOn(std::span<const Stretch> way, std::span<const Lane
   return on;
 }
 
-std::set<std::size_t> LanesAt(const Place& place, std::span<const Lane> lanes, double in_m) {
+std::set<std::size_t> LanesAt(const Place& place, std::span<const Lane> lanes, bool backwards,
+                              double in_m) {
+  const double before_m = backwards ? kOutOfLane_m : -in_m;
+  const double beyond_m = backwards ? -in_m : kOutOfLane_m;
   std::set<std::size_t> at;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (const Part& part : lanes[i].parts) {
-      const bool is_in = part.route == place.route && place.along_m > part.from_m + in_m &&
-                         place.along_m < part.to_m + kOutOfLane_m;
+      const bool is_in = part.route == place.route && place.along_m > part.from_m - before_m &&
+                         place.along_m < part.to_m + beyond_m;
       if (is_in) at.insert(i);
     }
   }

@@ -21,15 +21,48 @@ constexpr double kClosedCosts = 1e15;
 
 }  // namespace
 
+void Stretch::BeginAt(double along_m) {
+  from_m = AlongAfter(std::clamp(DrivenAt(along_m), 0.0, length_m()));
+}
+
 bool GoesOn(const Stretch& before, const Stretch& next) {
-  return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m;
+  return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m &&
+         before.backwards() == next.backwards() && next.turn_rad == 0.0;
 }
 
 double LengthOf(std::span<const Stretch> stretches) {
   double length_m = 0.0;
-  for (const Stretch& stretch : stretches) length_m += stretch.to_m - stretch.from_m;
+  for (const Stretch& stretch : stretches) length_m += stretch.length_m();
   return length_m;
 }
+
+// Driven last to first, as a search finds them; without what has no length.
+class Network::Drives {
+ public:
+  void Prepend(Index route, double from_m, double to_m) {
+    if (from_m == to_m) return;
+    const bool goes_on = !drives_.empty() && !joint_ &&
+                         (drives_.back().to_m < drives_.back().from_m) == (to_m < from_m);
+    if (goes_on) {
+      drives_.back().from_m = from_m;
+    } else {
+      drives_.push_back({route, from_m, to_m});
+    }
+    joint_ = false;
+  }
+  void PrependJoint(double turn_rad) {
+    if (!drives_.empty()) drives_.back().turn_rad += turn_rad;
+    joint_ = true;
+  }
+  [[nodiscard]] std::vector<Drive> Take() {
+    std::reverse(drives_.begin(), drives_.end());
+    return std::move(drives_);
+  }
+
+ private:
+  std::vector<Drive> drives_;
+  bool joint_ = false;  // before the last
+};
 
 Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Joint>& joints,
                                std::span<const Condition> conditions) {
@@ -97,6 +130,7 @@ void Network::Weigh(std::span<const Condition> conditions) {
     const Index last = NodeAt({at->second, std::clamp(condition.to_m, 0.0, end_m)});
     for (Index i = NodeAt({at->second, std::clamp(condition.from_m, 0.0, end_m)}); i < last; ++i) {
       nodes_[i].closed |= condition.closed;
+      nodes_[i].backed |= condition.backed;
       nodes_[i].speed = std::min(nodes_[i].speed, condition.speed);
       nodes_[i].cost *= condition.cost;
     }
@@ -104,22 +138,25 @@ void Network::Weigh(std::span<const Condition> conditions) {
 }
 
 void Network::Link(const std::vector<Joint>& joints) {
-  std::vector<std::pair<Index, Index>> links;
   for (const Joint& joint : joints) {
     const Index from = NodeAt(*Find(joint.from));
     const Index to = NodeAt(*Find(joint.to));
-    links.emplace_back(from, to);
-    if (joint.both) links.emplace_back(to, from);
+    const double turn_rad = joint.lie ? joint.lie->turn_rad : 0.0;
+    const float turns_rad =
+        std::abs(turn_rad) > kTurnsFrom_rad ? static_cast<float>(turn_rad) : 0.0F;
+    leaps_.push_back({from, to, turns_rad});
+    if (joint.both) leaps_.push_back({to, from, -turns_rad});
   }
-  std::sort(links.begin(), links.end());
-  for (const auto& [from, to] : links) leaps_.push_back(to);
-  auto next = links.cbegin();
+  std::sort(leaps_.begin(), leaps_.end());
+  auto next = leaps_.cbegin();
   for (Index i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
-    next = std::lower_bound(next, links.cend(), std::pair(i, Index{0}));
+    while (next != leaps_.cend() && next->from < i) ++next;
+    const bool is_first = i == 0 || nodes_[i - 1].route != node.route;
     const bool is_last = i + 1 == nodes_.size() || nodes_[i + 1].route != node.route;
     exits_.push_back({.ahead = is_last ? kNever : Costs(i, node.along_m, nodes_[i + 1].along_m),
-                      .first_leap = static_cast<Index>(next - links.cbegin())});
+                      .first_leap = static_cast<Index>(next - leaps_.cbegin()),
+                      .back = !is_first && nodes_[i - 1].backed});
   }
   exits_.push_back({.first_leap = static_cast<Index>(leaps_.size())});
 }
@@ -139,100 +176,130 @@ double Network::Costs(Index node, double from_m, double to_m, bool though_closed
 }
 
 // Dijkstra's, from node to node; that of the goal is left on the way to it.
-Network::Found Network::Search(const Spot& from, const Spot& to, Index open_until) const {
+Network::Found Network::Search(const Spot& from, const Spot& to, const Open& open) const {
   constexpr Index kNone = std::numeric_limits<Index>::max();
   struct Reached {
     double cost = kNever;
     Index before = kNone;  // the node before it
-    bool leapt = false;    // over a joint
+    Index leap = kNone;    // by which it is reached from there
   };
   std::vector<Reached> reached(nodes_.size());
   using Due = std::pair<double, Index>;
   std::priority_queue<Due, std::vector<Due>, std::greater<>> due;
-  const auto reach = [&](Index node, double cost, Index before, bool leapt) {
+  const auto reach = [&](Index node, double cost, Index before, Index leap) {
     if (!(cost < reached[node].cost)) return;
-    reached[node] = {cost, before, leapt};
+    reached[node] = {cost, before, leap};
     due.emplace(cost, node);
   };
 
   const Index goal = NodeAt(to);
   const Index begin = NodeAt(from);
-  const auto costs = [&](Index node, double from_m, double to_m) {
-    return Costs(node, from_m, to_m, node >= begin && node < open_until);
+  const auto is_open = [&](Index node) { return node >= open.first && node < open.end; };
+  const auto ahead = [&](Index node, double from_m, double to_m) {
+    return Costs(node, from_m, to_m, node >= begin && is_open(node));
+  };
+  const auto back = [&](Index node, double from_m, double to_m) {
+    return kBackwardsCosts * Costs(node, to_m, from_m, node <= begin && is_open(node));
   };
   double best = kNever;
-  if (begin == goal && from.along_m <= to.along_m) best = costs(begin, from.along_m, to.along_m);
-  bool over_goal = false;
+  Index last = kNone;  // the node before the goal; kNone: one drives there straight
+  if (begin == goal && from.along_m <= to.along_m) {
+    best = ahead(begin, from.along_m, to.along_m);
+  } else if (begin == goal && nodes_[begin].backed) {
+    best = back(begin, from.along_m, to.along_m);
+  }
   if (nodes_[begin].along_m >= from.along_m) {
-    reach(begin, 0.0, kNone, false);
+    reach(begin, 0.0, kNone, kNone);
   } else {
-    reach(begin + 1, costs(begin, from.along_m, nodes_[begin + 1].along_m), kNone, false);
+    reach(begin + 1, ahead(begin, from.along_m, nodes_[begin + 1].along_m), kNone, kNone);
+    if (nodes_[begin].backed) {
+      reach(begin, back(begin, from.along_m, nodes_[begin].along_m), kNone, kNone);
+    }
   }
   while (!due.empty() && due.top().first < best) {
     const auto [cost, node] = due.top();
     due.pop();
     if (cost > reached[node].cost) continue;
-    if (node == goal) {
-      const double all = cost + costs(node, nodes_[node].along_m, to.along_m);
-      if (all < best) {
-        best = all;
-        over_goal = true;
-      }
-    }
     const Exits& exits = exits_[node];
+    double all = kNever;
+    if (node == goal) {
+      all = cost + ahead(node, nodes_[node].along_m, to.along_m);
+    } else if (exits.back && node == goal + 1) {
+      all = cost + back(goal, nodes_[node].along_m, to.along_m);
+    }
+    if (all < best) {
+      best = all;
+      last = node;
+    }
     if (exits.ahead < kNever) {
-      const bool is_own = node >= begin && node < open_until;
-      const double ahead =
-          is_own ? costs(node, nodes_[node].along_m, nodes_[node + 1].along_m) : exits.ahead;
-      reach(node + 1, cost + ahead, node, false);
+      const double on =
+          is_open(node) ? ahead(node, nodes_[node].along_m, nodes_[node + 1].along_m) : exits.ahead;
+      reach(node + 1, cost + on, node, kNone);
+    }
+    if (exits.back) {
+      reach(node - 1, cost + back(node - 1, nodes_[node].along_m, nodes_[node - 1].along_m), node,
+            kNone);
     }
     for (Index i = exits.first_leap; i < exits_[node + 1].first_leap; ++i) {
-      reach(leaps_[i], cost + kChangeCosts_m, node, true);
+      const double turn = leaps_[i].turn_rad != 0.0F ? kTurnCosts_m : 0.0;
+      reach(leaps_[i].to, cost + kChangeCosts_m + turn, node, i);
     }
   }
-  if (!over_goal) {
-    return {.cost = best, .drives = {{from.route, from.along_m, to.along_m}}};
+  Drives drives;
+  if (last == kNone) {
+    drives.Prepend(from.route, from.along_m, to.along_m);
+    return {.cost = best, .drives = drives.Take()};
   }
-  std::vector<Drive> drives{{to.route, nodes_[goal].along_m, to.along_m}};
-  for (Index node = goal; reached[node].before != kNone; node = reached[node].before) {
-    const Node& before = nodes_[reached[node].before];
-    if (reached[node].leapt) {
-      drives.push_back({before.route, before.along_m, before.along_m});
+  drives.Prepend(to.route, nodes_[last].along_m, to.along_m);
+  Index node = last;
+  for (; reached[node].before != kNone; node = reached[node].before) {
+    const auto& [cost, before, leap] = reached[node];
+    if (leap != kNone) {
+      drives.PrependJoint(leaps_[leap].turn_rad);
     } else {
-      drives.back().from_m = before.along_m;
+      drives.Prepend(nodes_[node].route, nodes_[before].along_m, nodes_[node].along_m);
     }
   }
-  drives.back().from_m = from.along_m;
-  std::reverse(drives.begin(), drives.end());
-  return {.cost = best, .drives = std::move(drives)};
+  drives.Prepend(from.route, from.along_m, nodes_[node].along_m);
+  return {.cost = best, .drives = drives.Take()};
 }
 
 Way Network::WayOf(const std::vector<Drive>& drives) const {
   Way way;
   for (const Drive& drive : drives) {
+    const bool back = drive.to_m < drive.from_m;
+    double turn_rad = drive.turn_rad;
     bool goes_on = false;
     double at_m = drive.from_m;
-    for (Index i = NodeAt({drive.route, drive.from_m}); at_m < drive.to_m; ++i) {
-      const double end_m = std::min(nodes_[i + 1].along_m, drive.to_m);
+    Index i = NodeAt({drive.route, drive.from_m});
+    if (back && nodes_[i].along_m >= at_m) --i;
+    while (at_m != drive.to_m) {
+      const double end_m = back ? std::max(nodes_[i].along_m, drive.to_m)
+                                : std::min(nodes_[i + 1].along_m, drive.to_m);
       if (goes_on && way.stretches.back().speed == nodes_[i].speed) {
         way.stretches.back().to_m = end_m;
       } else {
-        way.stretches.push_back({routes_[drive.route].id, at_m, end_m, nodes_[i].speed});
+        way.stretches.push_back({.route = routes_[drive.route].id,
+                                 .from_m = at_m,
+                                 .to_m = end_m,
+                                 .speed = nodes_[i].speed,
+                                 .turn_rad = std::exchange(turn_rad, 0.0)});
         goes_on = true;
       }
       at_m = end_m;
+      i += back ? -1 : 1;
     }
-    way.length_m += drive.to_m - drive.from_m;
   }
+  way.length_m = LengthOf(way.stretches);
   return way;
 }
 
 std::string Network::ClosedOn(const std::vector<Drive>& drives) const {
   std::string text;
   for (const Drive& drive : drives) {
-    Index i = NodeAt({drive.route, drive.from_m});
-    while (i + 1 < nodes_.size() && nodes_[i].route == drive.route &&
-           nodes_[i].along_m < drive.to_m) {
+    const auto [from_m, to_m] = std::minmax(drive.from_m, drive.to_m);
+    Index i = NodeAt({drive.route, from_m});
+    while (i + 1 < nodes_.size() && nodes_[i].route == drive.route && nodes_[i].along_m < to_m) {
       Index end = i;
       while (nodes_[end].closed) ++end;
       if (end > i) {
@@ -266,7 +333,7 @@ Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {
   if (!begin) return tl::unexpected(begin.error());
   const auto end = Find(to);
   if (!end) return tl::unexpected(end.error());
-  return WayFound(*begin, *end, Search(*begin, *end, 0));
+  return WayFound(*begin, *end, Search(*begin, *end, {}));
 }
 
 Result<Way> Network::WayOn(const Place& from, const Place& to) const {
@@ -275,34 +342,38 @@ Result<Way> Network::WayOn(const Place& from, const Place& to) const {
   const auto end = Find(to);
   if (!end) return tl::unexpected(end.error());
   const WayOut out = OutOf(*begin);
-  return WayFound(out.from, *end, Search(out.from, *end, out.open_until));
+  return WayFound(out.from, *end, Search(out.from, *end, out.open));
 }
 
 Network::WayOut Network::OutOf(const Spot& spot) const {
   const Index at = NodeAt(spot);
-  Index first = at;
-  while (first > 0 && nodes_[first - 1].closed && nodes_[first - 1].route == spot.route) --first;
-  const bool is_in = nodes_[at].closed && spot.along_m > nodes_[first].along_m;
-  if (!is_in) return {.open_until = at, .from = spot};
-  if (spot.along_m <= nodes_[first].along_m + kBarelyIn_m) {
-    return {.open_until = first, .from = {spot.route, nodes_[first].along_m}};
+  const Open closed = ClosedAbout(at);
+  const double begin_m = nodes_[closed.first].along_m;
+  if (!nodes_[at].closed || spot.along_m <= begin_m) return {.open = {at, at}, .from = spot};
+  if (spot.along_m <= begin_m + kBarelyIn_m) {
+    return {.open = {closed.first, closed.first}, .from = {spot.route, begin_m}};
   }
-  Index end = at;
-  while (nodes_[end].closed) ++end;
-  return {.open_until = end, .from = spot};
+  return {.open = closed, .from = spot};
 }
 
 std::optional<Condition> Network::FirstClosed(const Stretch& stretch) const {
   const auto begin = Find({stretch.route, stretch.from_m});
   if (!begin) return std::nullopt;
   const WayOut out = OutOf(*begin);
-  Index i = std::max(NodeAt(out.from), out.open_until);
-  while (i + 1 < nodes_.size() && nodes_[i].route == begin->route &&
-         nodes_[i].along_m < stretch.to_m) {
-    Index end = i;
-    while (nodes_[end].closed) ++end;
-    if (end > i) return ClosedBetween(i, end);
-    ++i;
+  const Index at = NodeAt(out.from);
+  const Index last = NodeAt({begin->route, stretch.to_m});
+  if (!stretch.backwards()) {
+    for (Index i = std::max(at, out.open.end); i <= last; ++i) {
+      if (nodes_[i].closed && nodes_[i].along_m < stretch.to_m) {
+        return ClosedBetween(ClosedAbout(i));
+      }
+    }
+    return std::nullopt;
+  }
+  for (Index i = out.open.first < out.open.end ? out.open.first : at + 1; i-- > last;) {
+    if (nodes_[i].closed && nodes_[i].along_m < out.from.along_m) {
+      return ClosedBetween(ClosedAbout(i));
+    }
   }
   return std::nullopt;
 }
@@ -310,18 +381,24 @@ std::optional<Condition> Network::FirstClosed(const Stretch& stretch) const {
 std::optional<Condition> Network::ClosedAround(const Place& place) const {
   const auto spot = Find(place);
   if (!spot) return std::nullopt;
-  const Index at = NodeAt(*spot);
-  const Index end = OutOf(*spot).open_until;
-  if (end <= at) return std::nullopt;
-  Index first = at;
-  while (first > 0 && nodes_[first - 1].closed && nodes_[first - 1].route == spot->route) --first;
-  return ClosedBetween(first, end);
+  const Open open = OutOf(*spot).open;
+  return open.first < open.end ? std::optional(ClosedBetween(open)) : std::nullopt;
 }
 
-Condition Network::ClosedBetween(Index first, Index end) const {
-  return {.route = routes_[nodes_[first].route].id,
-          .from_m = nodes_[first].along_m,
-          .to_m = nodes_[end].along_m,
+Network::Open Network::ClosedAbout(Index node) const {
+  const auto is_closed = [&](Index i) {
+    return nodes_[i].closed && nodes_[i].route == nodes_[node].route;
+  };
+  Open part{node, node};
+  while (part.first > 0 && is_closed(part.first - 1)) --part.first;
+  while (is_closed(part.end)) ++part.end;
+  return part;
+}
+
+Condition Network::ClosedBetween(const Open& part) const {
+  return {.route = routes_[nodes_[part.first].route].id,
+          .from_m = nodes_[part.first].along_m,
+          .to_m = nodes_[part.end].along_m,
           .closed = true};
 }
 

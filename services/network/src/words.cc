@@ -19,7 +19,9 @@ constexpr double kLeastFactor = 0.1;
 constexpr double kMostFactor = 1000.0;
 constexpr const char* kEdits =
     "'join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]', 'part PLACE PLACE', 'close "
-    "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]', 'limit ROUTE [FROM..TO] [speed F] [cost F]', "
+    "ROUTE [FROM..TO]', 'open ROUTE [FROM..TO]', 'back ROUTE [FROM..TO]', 'ahead ROUTE "
+    "[FROM..TO]', "
+    "'limit ROUTE [FROM..TO] [speed F] [cost F]', "
     "'narrow ROUTE FROM..TO [ROUTE FROM..TO ...]', 'wide ROUTE [FROM..TO]', 'vacate ROUTE "
     "[FROM..TO]', "
     "'name NAME PLACE', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', 'refuse "
@@ -227,6 +229,10 @@ Result<Edit> ParseEdit(std::string_view text) {
     edit.kind = Edit::Kind::kClose;
   } else if (first == "open") {
     edit.kind = Edit::Kind::kOpen;
+  } else if (first == "back") {
+    edit.kind = Edit::Kind::kBack;
+  } else if (first == "ahead") {
+    edit.kind = Edit::Kind::kAhead;
   } else if (first == "limit") {
     edit.kind = Edit::Kind::kLimit;
   } else {
@@ -236,6 +242,7 @@ Result<Edit> ParseEdit(std::string_view text) {
   if (!stretch) return tl::unexpected(stretch.error());
   edit.condition = *std::move(stretch);
   edit.condition.closed = edit.kind == Edit::Kind::kClose;
+  edit.condition.backed = edit.kind == Edit::Kind::kBack;
   if (edit.kind == Edit::Kind::kLimit) {
     if (auto taken = TakeLimits(words, edit.condition); !taken) {
       return tl::unexpected(taken.error());
@@ -355,7 +362,8 @@ std::string ToText(const Joint& joint) {
 }
 
 std::string ToText(const Condition& condition) {
-  std::string text = (condition.closed ? "close " : "limit ") + condition.route;
+  const char* const verb = condition.closed ? "close " : condition.backed ? "back " : "limit ";
+  std::string text = verb + condition.route;
   const bool to_the_end = condition.to_m >= kToTheEnd_m;
   if (condition.from_m > 0.0 || !to_the_end) {
     text +=
@@ -388,11 +396,13 @@ std::string ToText(const Proposal& proposal) {
 
 std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit) {
   const Condition& now = edit.condition;
-  const bool of_closed = edit.kind != Edit::Kind::kLimit;
+  const bool of_backed = edit.kind == Edit::Kind::kBack || edit.kind == Edit::Kind::kAhead;
+  const bool of_closed = edit.kind != Edit::Kind::kLimit && !of_backed;
   std::vector<Condition> after;
   for (const Condition& before : conditions) {
     const bool stays = before.route != now.route || before.closed != of_closed ||
-                       before.to_m <= now.from_m || before.from_m >= now.to_m;
+                       before.backed != of_backed || before.to_m <= now.from_m ||
+                       before.from_m >= now.to_m;
     if (stays) {
       after.push_back(before);
       continue;
@@ -405,7 +415,7 @@ std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& ed
       after.back().to_m = to_m;
     }
   }
-  if (now.closed || now.speed != 1.0 || now.cost != 1.0) after.push_back(now);
+  if (now.closed || now.backed || now.speed != 1.0 || now.cost != 1.0) after.push_back(now);
   return after;
 }
 

@@ -84,6 +84,10 @@ class Map {
         DrawTicks(drawing, from, to);
         continue;
       }
+      if (marked.part == Picture::Part::kBacked) {
+        DrawBacked(drawing, from, to);
+        continue;
+      }
       const bool closed = marked.part == Picture::Part::kClosed;
       drawing.Line({from, to}, closed ? kOrange : kGreen, closed ? 10.0 : 6.0);
       if (!closed) continue;
@@ -99,6 +103,14 @@ class Map {
     for (const double side : {-kWall_px, kWall_px}) {
       drawing.Line({{from.x, from.y + side}, {to.x, to.y + side}}, kInk, 2.0);
     }
+  }
+
+  // Below where robots may drive backwards, too, an arrow that way.
+  static void DrawBacked(Drawing& drawing, PixelPoint from, PixelPoint to) {
+    const PixelPoint begin{to.x, to.y + kWall_px};
+    const PixelPoint end{from.x, from.y + kWall_px};
+    drawing.Line({begin, end}, kBlue, 2.0);
+    DrawHead(drawing, begin, end, kBlue);
   }
 
   // Across where robots lose their path.

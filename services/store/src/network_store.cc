@@ -116,6 +116,17 @@ CREATE TABLE IF NOT EXISTS followed_stretch (
 ) STRICT;
 )";
 
+constexpr const char* kBacked = R"(
+CREATE TABLE IF NOT EXISTS backed_stretch (
+  number INTEGER PRIMARY KEY,
+  route TEXT NOT NULL,
+  from_m REAL NOT NULL,
+  to_m REAL NOT NULL,
+  set_by TEXT NOT NULL,
+  set_unix_ms INTEGER NOT NULL
+) STRICT;
+)";
+
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
                        .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
@@ -135,6 +146,13 @@ network::Condition ConditionIn(SQLite::Statement& row) {
           .closed = row.getColumn(3).getInt() != 0,
           .speed = row.getColumn(4).getDouble(),
           .cost = row.getColumn(5).getDouble()};
+}
+
+network::Condition BackedIn(SQLite::Statement& row) {
+  return {.route = row.getColumn(0).getString(),
+          .from_m = row.getColumn(1).getDouble(),
+          .to_m = row.getColumn(2).getDouble(),
+          .backed = true};
 }
 
 network::NamedPlace NamedPlaceIn(SQLite::Statement& row) {
@@ -190,6 +208,7 @@ struct NetworkStore::Database : OwnDatabase {
     db.exec(kShared);
     db.exec(kLanes);
     db.exec(kFollowed);
+    db.exec(kBacked);
   }
 
   template <typename Value>
@@ -221,6 +240,27 @@ struct NetworkStore::Database : OwnDatabase {
     insert->bind(10, now_unix_ms);
     insert->exec();
     return {};
+  }
+
+  void Insert(const std::string& route, const network::Condition& condition, const std::string& by,
+              std::int64_t now_unix_ms) {
+    auto insert = compiled.Take(
+        condition.backed
+            ? "INSERT INTO backed_stretch (route, from_m, to_m, set_by, set_unix_ms) VALUES (?1, "
+              "?2, ?3, ?4, ?5)"
+            : "INSERT INTO condition (route, from_m, to_m, set_by, set_unix_ms, closed, speed, "
+              "cost) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)");
+    insert->bind(1, route);
+    insert->bind(2, condition.from_m);
+    insert->bind(3, condition.to_m);
+    insert->bind(4, by);
+    insert->bind(5, now_unix_ms);
+    if (!condition.backed) {
+      insert->bind(6, condition.closed ? 1 : 0);
+      insert->bind(7, condition.speed);
+      insert->bind(8, condition.cost);
+    }
+    insert->exec();
   }
 
   void Insert(const ProposedJoint& proposed, const std::string& by, std::int64_t now_unix_ms) {
@@ -265,9 +305,13 @@ Result<std::vector<network::Joint>> NetworkStore::Joints() {
 
 Result<std::vector<network::Condition>> NetworkStore::Conditions() {
   return database_->Guarded("reading conditions", [&]() -> Result<std::vector<network::Condition>> {
-    return database_->All(
+    auto all = database_->All(
         "SELECT route, from_m, to_m, closed, speed, cost FROM condition ORDER BY number",
         ConditionIn);
+    const auto backed =
+        database_->All("SELECT route, from_m, to_m FROM backed_stretch ORDER BY number", BackedIn);
+    all.insert(all.end(), backed.begin(), backed.end());
+    return all;
   });
 }
 
@@ -316,27 +360,22 @@ Result<void> NetworkStore::Replace(const std::string& route,
                                    const std::string& by, std::int64_t now_unix_ms) {
   return database_->Guarded("storing conditions", [&]() -> Result<void> {
     SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-    auto remove = database_->compiled.Take("DELETE FROM condition WHERE route = ?1");
-    remove->bind(1, route);
-    remove->exec();
-    const std::int64_t others = database_->Count("SELECT count(*) FROM condition");
-    if (others + static_cast<std::int64_t>(conditions.size()) > kMostConditions) {
+    std::int64_t kept = static_cast<std::int64_t>(conditions.size());
+    for (const auto& [remove_sql, count_sql] :
+         {std::pair("DELETE FROM condition WHERE route = ?1", "SELECT count(*) FROM condition"),
+          std::pair("DELETE FROM backed_stretch WHERE route = ?1",
+                    "SELECT count(*) FROM backed_stretch")}) {
+      auto remove = database_->compiled.Take(remove_sql);
+      remove->bind(1, route);
+      remove->exec();
+      kept += database_->Count(count_sql);
+    }
+    if (kept > kMostConditions) {
       return Fail(ErrorCode::kUnavailable, "{} closed stretches and limits are kept: no more",
                   kMostConditions);
     }
     for (const network::Condition& condition : conditions) {
-      auto insert = database_->compiled.Take(
-          "INSERT INTO condition (route, from_m, to_m, closed, speed, cost, set_by, set_unix_ms) "
-          "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)");
-      insert->bind(1, route);
-      insert->bind(2, condition.from_m);
-      insert->bind(3, condition.to_m);
-      insert->bind(4, condition.closed ? 1 : 0);
-      insert->bind(5, condition.speed);
-      insert->bind(6, condition.cost);
-      insert->bind(7, by);
-      insert->bind(8, now_unix_ms);
-      insert->exec();
+      database_->Insert(route, condition, by, now_unix_ms);
     }
     transaction.commit();
     return {};

@@ -28,6 +28,8 @@ using Time = std::chrono::steady_clock::time_point;
 
 constexpr double kStep_s = 0.2;
 constexpr double kKeeps_m = 1.5;
+constexpr double kBay_m = 10.0;
+constexpr double kInBay_m = 8.0;
 
 // One in the world, as OnDuty drives it.
 struct Walker {
@@ -59,11 +61,18 @@ class LanesModel {
       Put(2 * i, fmt::format("out{}", i), lengths_m_[i]);
       Put(2 * i + 1, fmt::format("back{}", i), lengths_m_[i]);
     }
+    has_bay_ = seed % 4 < 2;
+    if (has_bay_) Put(Bay(), Name(Bay()), kBay_m);
     Restart();
     for (std::size_t i = 0; i < corridors_; ++i) AddLanes(i);
     for (std::size_t i = 0; i < corridors_; ++i) AddJoints(i);
+    if (has_bay_) AddBay();
     loses_ = Between(0.0, 0.4);
     restarts_ = seed % 2 == 0;
+    if (has_bay_) {
+      AddRobot("in-bay", std::pair(Bay(), kInBay_m));
+      AddRobot("to-bay", {}, std::pair(Bay(), kInBay_m));
+    }
     const auto robots = static_cast<unsigned>(Between(2.0, 6.99));
     for (unsigned i = 0; i < robots; ++i) AddRobot(fmt::format("robot{}", i));
   }
@@ -83,15 +92,19 @@ class LanesModel {
   }
   [[nodiscard]] std::size_t robots() const { return walkers_.size(); }
   [[nodiscard]] int waits() const { return waits_; }
+  [[nodiscard]] double backed_m() const { return backed_m_; }
 
  private:
+  using Spot = std::pair<std::size_t, double>;
   double Between(double from, double to) {
     return std::uniform_real_distribution<double>(from, to)(random_);
   }
   static route::RouteKey Key(std::size_t route) {
     return test::KeyNumber(static_cast<unsigned>(route + 1), 1);
   }
+  [[nodiscard]] std::size_t Bay() const { return 2 * corridors_; }
   std::string Name(std::size_t route) const {
+    if (route == Bay()) return "bay";
     return fmt::format("{}{}", route % 2 == 0 ? "out" : "back", route / 2);
   }
   void Put(std::size_t route, const std::string& name, double length_m) {
@@ -145,9 +158,10 @@ class LanesModel {
     }
     return false;
   }
-  std::pair<std::size_t, double> Somewhere() {
+  std::pair<std::size_t, double> Somewhere() { return SomewhereIn(corridors_); }
+  std::pair<std::size_t, double> SomewhereIn(std::size_t corridors) {
     while (true) {
-      const auto route = static_cast<std::size_t>(Between(0.0, 2.0 * corridors_ - 0.01));
+      const auto route = static_cast<std::size_t>(Between(0.0, 2.0 * corridors - 0.01));
       const double along_m = std::round(Between(0.0, lengths_m_[route / 2]) * 10.0) / 10.0;
       if (!IsNarrow(route, along_m) && along_m <= lengths_m_[route / 2] - 0.5)
         return {route, along_m};
@@ -166,10 +180,21 @@ class LanesModel {
       if (from != to) Edit(fmt::format("join {}@{} {}@{}", Name(from), from_m, Name(to), to_m));
     }
   }
-  void AddRobot(const std::string& name) {
+  // A dead end, off a corridor and back to it, which robots leave backwards.
+  void AddBay() {
+    Edit(fmt::format("back bay 0..{:g}", kBay_m));
+    Edit("limit bay cost 1000");  // no short cut through who stands there
+    lanes_.push_back({{{"bay", 0.0, kBay_m}}});
+    const auto [from, from_m] = SomewhereIn(1);
+    const auto [to, to_m] = SomewhereIn(1);
+    Edit(fmt::format("join {}@{} bay@0", Name(from), from_m));
+    Edit(fmt::format("join bay@1 {}@{}", Name(to), to_m));
+  }
+  void AddRobot(const std::string& name, std::optional<Spot> begin = {},
+                std::optional<Spot> end = {}) {
     for (int tries = 0; tries < 50; ++tries) {
-      const auto [route, along_m] = Somewhere();
-      const auto [to, to_m] = Somewhere();
+      const auto [route, along_m] = begin ? *begin : Somewhere();
+      const auto [to, to_m] = end ? *end : Somewhere();
       const bool free =
           std::none_of(walkers_.begin(), walkers_.end(), [&, at = route, at_m = along_m](auto& w) {
             return w->route == at && std::abs(w->along_m - at_m) < 3.0;
@@ -289,7 +314,7 @@ class LanesModel {
     }
     if (!walker.driven) {
       walker.driven = task;
-      for (std::size_t i = 0; i < 2 * corridors_; ++i) {
+      for (std::size_t i = 0; i <= Bay(); ++i) {
         if (Name(i) != task.route.route) continue;
         if (i != walker.route) walker.along_m = task.from_m;
         walker.route = i;
@@ -300,16 +325,18 @@ class LanesModel {
     if (now_ < walker.finds_itself) return;
     walker.placed = true;
     Tell(walker, State::kUnderWay, "");
-    double room_m = walker.speed_mps * kStep_s;
+    const double sign = walker.driven->backwards ? -1.0 : 1.0;
+    double room_m = std::min(walker.speed_mps * kStep_s,
+                             std::max(0.0, sign * (walker.driven->to_m - walker.along_m)));
     for (const auto& other : walkers_) {
       const bool counts = other.get() != &walker && !other->arrived && other->route == walker.route;
-      const double ahead_m = other->along_m - walker.along_m;
+      const double ahead_m = sign * (other->along_m - walker.along_m);
       const bool is_ahead = ahead_m > 0.0 || (ahead_m == 0.0 && other->agent < walker.agent);
       if (counts && is_ahead) room_m = std::min(room_m, std::max(0.0, ahead_m - kKeeps_m));
     }
-    walker.along_m =
-        std::min(walker.along_m + room_m, std::max(walker.driven->to_m, walker.along_m));
-    if (walker.along_m < walker.driven->to_m - 1e-6) return;
+    walker.along_m += sign * room_m;
+    if (sign < 0.0) backed_m_ += room_m;
+    if (sign * (walker.driven->to_m - walker.along_m) > 1e-6) return;
     walker.driven.reset();
     walker.told.reset();
     walker.desk.NoteDone();
@@ -367,6 +394,8 @@ class LanesModel {
   std::vector<network::Lane> lanes_;
   double loses_ = 0.0;
   bool restarts_ = false;
+  bool has_bay_ = false;
+  double backed_m_ = 0.0;
   std::vector<std::unique_ptr<Walker>> walkers_;
   Time now_{std::chrono::seconds(1000)};
   std::uint64_t requests_ = 100;
@@ -379,15 +408,18 @@ TEST(LanesModelTest, NeverTwoAreInOneNarrowPlaceAndAllArrive) {
   if (std::filesystem::is_directory("/dev/shm")) setenv("TMPDIR", "/dev/shm", 1);
   std::size_t robots = 0;
   int waits = 0;
+  double backed_m = 0.0;
   for (unsigned seed = 1; seed <= 120; ++seed) {
     LanesModel model(seed);
     const std::string trouble = model.Run();
     ASSERT_EQ(trouble, "") << "seed " << seed;
     robots += model.robots();
     waits += model.waits();
+    backed_m += model.backed_m();
   }
   EXPECT_GT(robots, 240U);
   EXPECT_GT(waits, 40) << "they never met";
+  EXPECT_GT(backed_m, 200.0) << "none left its bay";
 }
 
 }  // namespace

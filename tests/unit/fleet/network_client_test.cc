@@ -88,6 +88,7 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
       "unused join hall@1@12 office@0 both",
       "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
       "close hall 3..",
+      "back hall 1..2",
       "limit hall 1..2 speed 0.5",
       "narrow hall 1..2",
       "lost hall 5..10 2 of 7.5 times lately, a metre counts as 1.8",
@@ -104,6 +105,7 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
   EXPECT_THAT(json,
               HasSubstr(R"("ahead_m": 0.10, "left_m": -0.20, "turn_rad": 1.5708}, "used": true})"));
   EXPECT_THAT(json, HasSubstr(R"({"route": "hall", "from_m": 3.00, "to_m": null})"));
+  EXPECT_THAT(json, HasSubstr(R"("backed": [{"route": "hall", "from_m": 1.00, "to_m": 2.00}])"));
   EXPECT_THAT(json, HasSubstr(R"("to_m": 2.00, "speed": 0.5, "cost": 1})"));
   EXPECT_THAT(
       json,
@@ -120,6 +122,10 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
       WayJson(way),
       AllOf(HasSubstr(R"("length_m": 18.50)"),
             HasSubstr(R"({"route": "office", "from_m": 0.00, "to_m": 8.50, "speed": 0.5})")));
+  EXPECT_THAT(WayJson({"follow hall backwards 5..2", "turn 90", "follow office 1..2"}),
+              AllOf(HasSubstr(R"("length_m": 4.00)"),
+                    HasSubstr(R"("from_m": 5.00, "to_m": 2.00, "speed": 1})"),
+                    HasSubstr(R"("from_m": 1.00, "to_m": 2.00, "speed": 1, "turn_rad": 1.571})")));
   EXPECT_EQ(WayText({}), "it is there already\n");
 }
 

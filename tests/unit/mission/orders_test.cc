@@ -37,7 +37,7 @@ TEST(Orders, AsTextAreTheSameOrders) {
        {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5", "follow a3f9c21 2..",
         "follow hall 0..7.5", "follow hall backwards", "follow hall backwards 10..3 speed 0.5",
         "follow hall backwards ..3", "follow hall@2 backwards 10..", "teach yard",
-        "teach yard wet laps 2.5-ton"}) {
+        "teach yard wet laps 2.5-ton", "turn 180", "turn -57.5"}) {
     const auto tasks = ParseOrders(text);
     ASSERT_TRUE(tasks) << tasks.error().message;
     EXPECT_EQ(ToText(tasks->front()), text);
@@ -50,7 +50,9 @@ TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
         "goto loading-bay way 2 follow hall 0.4..1.5 follow yard 0..3 because hall 3..7 was closed",
         "goto way way 3 wait way because every way there is closed",
         "goto office@3 way 2 follow because 0..2 wait way",
-        "goto office@3 wait lane follow hall 0..12 wait lane follow office 0..3"}) {
+        "goto office@3 wait lane follow hall 0..12 wait lane follow office 0..3",
+        "goto bay follow hall 2..5 follow hall backwards 5..1 turn 180 follow office 0..3",
+        "goto bay follow hall backwards 5.."}) {
     const auto tasks = ParseOrders(text);
     const auto going = GoingIn(text);
     ASSERT_TRUE(tasks && going) << text;
@@ -106,7 +108,9 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("follow hall -1..3"), HasSubstr("FROM..TO"));
   EXPECT_THAT(why("follow hall backwards 3..10"), HasSubstr("backwards, as 10..3"));
   EXPECT_THAT(why("follow hall backwards laps 2"), HasSubstr("'laps'"));
-  EXPECT_THAT(why("goto bay follow hall backwards 3..1"), HasSubstr("FROM..TO' alone"));
+  EXPECT_THAT(why("goto bay follow hall backwards ..1"), HasSubstr("FROM..TO' alone"));
+  EXPECT_THAT(why("turn left"), HasSubstr("'left' was not understood: expected degrees"));
+  EXPECT_THAT(why("turn 400"), HasSubstr("-360 to 360"));
   EXPECT_THAT(why("teach"), HasSubstr("route to teach"));
   EXPECT_THAT(why("teach hall@2"), HasSubstr("hall@2"));
   EXPECT_THAT(why("teach hall a/b"), HasSubstr("'a/b' was not understood: expected a tag"));

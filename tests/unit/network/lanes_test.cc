@@ -81,9 +81,33 @@ TEST(LanesTest, ARobotIsInALaneUntilItIsOutOfIt) {
               ElementsAre(0U))
       << "nobody else is to come out there";
   EXPECT_THAT(LanesAt({"back", 26.2}, kLanes), IsEmpty()) << "it has stopped late";
-  EXPECT_THAT(LanesAt({"back", 26.2}, kLanes, 0.0), ElementsAre(0U));
+  EXPECT_THAT(LanesAt({"back", 26.2}, kLanes, false, 0.0), ElementsAre(0U));
   EXPECT_THAT(LanesAt({"back", 30.4}, kLanes), ElementsAre(0U));
   EXPECT_THAT(LanesAt({"back", 30.6}, kLanes), IsEmpty());
+}
+
+TEST(LanesTest, WhoDrivesBackwardsComesInAtTheOtherEnd) {
+  const auto legs = LegsOf(std::vector<Stretch>{{"hall", 20.0, 4.0}, {"yard", 0.0, 5.0}}, kLanes);
+  EXPECT_THAT(StretchesOf(legs),
+              ElementsAre(ElementsAre(Stretch{"hall", 20.0, 14.5}),
+                          ElementsAre(Stretch{"hall", 14.5, 4.0}, Stretch{"yard", 0.0, 5.0})));
+  EXPECT_DOUBLE_EQ(legs[1].through_m, 6.5);
+  EXPECT_THAT(LegsOf(std::vector<Stretch>{{"hall", 12.0, 4.0}}, kLanes), SizeIs(1));
+  EXPECT_THAT(LegsOf(std::vector<Stretch>{{"hall", 13.8, 4.0}}, kLanes), SizeIs(2));
+  EXPECT_THAT(LegsOf(std::vector<Stretch>{{"hall", 20.0, 14.1}}, kLanes), SizeIs(1));
+  // Out of it, after it has come in ahead.
+  EXPECT_THAT(LegsOf(std::vector<Stretch>{{"hall", 11.0, 13.0}, {"hall", 13.0, 4.0}}, kLanes),
+              SizeIs(1));
+  const auto on = [](double at_m) {
+    return LanesOn(std::vector<Stretch>{{"hall", at_m, 2.0}}, kLanes);
+  };
+  EXPECT_THAT(on(20.0), ElementsAre(0U));
+  EXPECT_THAT(on(9.6), ElementsAre(0U));
+  EXPECT_THAT(on(9.4), IsEmpty());
+  EXPECT_THAT(LanesAt({"hall", 13.8}, kLanes, true), IsEmpty()) << "it has stopped late";
+  EXPECT_THAT(LanesAt({"hall", 13.8}, kLanes, true, 0.0), ElementsAre(0U));
+  EXPECT_THAT(LanesAt({"hall", 9.6}, kLanes, true), ElementsAre(0U));
+  EXPECT_THAT(LanesAt({"hall", 9.4}, kLanes, true), IsEmpty());
 }
 
 }  // namespace

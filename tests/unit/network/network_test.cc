@@ -119,6 +119,61 @@ TEST_F(NetworkTest, ARobotThatIsOnAClosedPartDrivesOutOfItAndIntoNoOther) {
   EXPECT_THAT(way({"h", 6.0}, {"y", 1.0}).error().message, HasSubstr("hall 15..16"));
 }
 
+// Who drives backwards looks where it looked before: it goes on ahead from anywhere.
+TEST_F(NetworkTest, WhereItMayARobotDrivesBackwards) {
+  EXPECT_THAT(Why({"o", 8.0}, {"o", 3.0}), HasSubstr("no way leads"));
+  conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 9.0, .backed = true}};
+  EXPECT_THAT(Found({"o", 8.0}, {"o", 3.0}).stretches, ElementsAre(Stretch{"o", 8.0, 3.0}));
+  EXPECT_DOUBLE_EQ(Found({"o", 8.0}, {"o", 3.0}).length_m, 5.0);
+  EXPECT_THAT(Found({"o", 9.0}, {"o", 2.0}).stretches, ElementsAre(Stretch{"o", 9.0, 2.0}));
+  EXPECT_THAT(Why({"o", 8.0}, {"o", 1.0}), HasSubstr("no way leads"));
+  EXPECT_THAT(Why({"o", 9.5}, {"o", 3.0}), HasSubstr("no way leads"));
+  joints_.push_back({{"o", 4.5}, {"r", 1.0}});
+  EXPECT_THAT(Found({"o", 8.0}, {"r", 3.0}).stretches,
+              ElementsAre(Stretch{"o", 8.0, 4.5}, Stretch{"r", 1.0, 3.0}));
+  EXPECT_THAT(Found({"h", 12.0}, {"o", 8.0}).stretches, ElementsAre(Stretch{"o", 0.0, 8.0}));
+  EXPECT_THAT(Found({"o", 2.0}, {"o", 9.0}).stretches, ElementsAre(Stretch{"o", 2.0, 9.0}));
+}
+
+TEST_F(NetworkTest, BackwardsAMetreCountsAsTwo) {
+  conditions_ = {{.route = "r", .from_m = 0.0, .to_m = 8.0, .backed = true}};
+  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).stretches, ElementsAre(Stretch{"r", 5.0, 3.0}));
+  EXPECT_THAT(Found({"r", 7.0}, {"r", 2.0}).stretches,
+              ElementsAre(Stretch{"r", 7.0, 8.0}, Stretch{"r", 0.0, 2.0}))
+      << "the ring is shorter";
+  conditions_.push_back({.route = "r", .from_m = 1.0, .to_m = 4.0, .speed = 0.5});
+  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).stretches,
+              ElementsAre(Stretch{"r", 5.0, 4.0}, Stretch{"r", 4.0, 3.0, 0.5}));
+}
+
+TEST_F(NetworkTest, WhatIsClosedIsSoBackwards) {
+  conditions_ = {{.route = "o", .from_m = 1.0, .to_m = 9.0, .backed = true},
+                 {.route = "o", .from_m = 4.0, .to_m = 6.0, .closed = true}};
+  EXPECT_THAT(Why({"o", 8.0}, {"o", 3.0}), HasSubstr("on the least closed: office 4..6"));
+  EXPECT_THAT(Found({"o", 8.0}, {"o", 6.0}).stretches, ElementsAre(Stretch{"o", 8.0, 6.0}));
+  const Network network = Made();
+  EXPECT_EQ(network.FirstClosed({"o", 8.0, 3.0})->from_m, 4.0);
+  EXPECT_EQ(network.FirstClosed({"o", 8.0, 6.0}), std::nullopt);
+  EXPECT_EQ(network.FirstClosed({"o", 4.0, 1.0}), std::nullopt);
+  EXPECT_EQ(network.FirstClosed({"o", 5.0, 1.0}), std::nullopt) << "it is in there";
+  const auto out = network.WayOn({"o", 5.0}, {"o", 3.0});
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_THAT(out->stretches, ElementsAre(Stretch{"o", 5.0, 3.0}));
+}
+
+TEST_F(NetworkTest, WhoChangesOverToTheOppositeWayTurnsRound) {
+  constexpr double kRound_rad = 3.0;
+  joints_ = {{{"h", 12.0}, {"o", 1.0}, true, Lie{.turn_rad = kRound_rad}},
+             {{"o", 10.0}, {"y", 0.0}, false, Lie{.turn_rad = 0.4}}};
+  const auto there = Found({"h", 2.0}, {"y", 5.0}).stretches;
+  EXPECT_THAT(there, ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 1.0, 10.0, 1.0, kRound_rad},
+                                 Stretch{"y", 0.0, 5.0}));
+  EXPECT_THAT(Found({"o", 0.0}, {"h", 15.0}).stretches,
+              ElementsAre(Stretch{"o", 0.0, 1.0}, Stretch{"h", 12.0, 15.0, 1.0, -kRound_rad}));
+  EXPECT_FALSE(GoesOn({"h", 2.0, 12.0}, {"h", 12.0, 13.0, 1.0, kRound_rad}));
+  EXPECT_FALSE(GoesOn({"h", 2.0, 12.0}, {"h", 12.0, 11.0}));
+}
+
 TEST_F(NetworkTest, SpeedAndCostDecideAndSpeedIsToldOfEachStretch) {
   conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 3.0, .speed = 0.5}};
   EXPECT_THAT(Found({"h", 11.0}, {"o", 8.0}).stretches,
@@ -170,12 +225,17 @@ TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
     const auto place = [&] { return Place{routes[random() % 3].id, metres(kLength_m)}; };
     std::vector<Joint> joints;
     for (int i = 0; i < 5; ++i) joints.push_back({place(), place()});
-    const Condition closed{.route = "b", .from_m = 4.0, .to_m = 5.0, .closed = true};
+    const std::vector<Condition> conditions{
+        {.route = "b", .from_m = 4.0, .to_m = 5.0, .closed = true},
+        {.route = "c", .from_m = 3.0, .to_m = 8.0, .backed = true}};
     const Place from = place();
     const Place to = place();
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const auto ahead = [&](const Place& begin, const Place& end) {
       const bool barred = begin.route == "b" && begin.along_m < 5.0 && end.along_m > 4.0;
+      const bool backs = begin.route == "c" && end.route == "c" && begin.along_m <= 8.0 &&
+                         end.along_m >= 3.0 && begin.along_m > end.along_m;
+      if (backs) return Network::kBackwardsCosts * (begin.along_m - end.along_m);
       if (begin.route != end.route || begin.along_m > end.along_m) return kNever;
       return barred && begin.along_m < end.along_m ? kNever : end.along_m - begin.along_m;
     };
@@ -190,15 +250,17 @@ TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
       return least;
     };
     const double least = best(from, 5);
-    const auto way = Network::Build(routes, joints, {&closed, 1})->ShortestWay(from, to);
+    const auto way = Network::Build(routes, joints, conditions)->ShortestWay(from, to);
     ASSERT_EQ(way.has_value(), least < kNever) << trial;
     if (!way) continue;
     ++found;
-    double length_m = 0.0;
-    for (const Stretch& stretch : way->stretches) length_m += stretch.to_m - stretch.from_m;
-    EXPECT_NEAR(length_m, way->length_m, 1e-9);
-    EXPECT_LE(way->length_m, least + 1e-9) << trial;
-    EXPECT_GE(way->length_m, least - 5 * Network::kChangeCosts_m - 1e-9) << trial;
+    EXPECT_NEAR(LengthOf(way->stretches), way->length_m, 1e-9);
+    double cost = 0.0;
+    for (const Stretch& stretch : way->stretches) {
+      cost += stretch.length_m() * (stretch.backwards() ? Network::kBackwardsCosts : 1.0);
+    }
+    EXPECT_LE(cost, least + 1e-9) << trial;
+    EXPECT_GE(cost, least - 5 * Network::kChangeCosts_m - 1e-9) << trial;
   }
   EXPECT_GT(found, 80);
 }

@@ -29,8 +29,8 @@ TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
        {"join hall@12 office@0", "join hall@2@12.25 office@0 both",
         "join hall@12 office@0 both offset 0.1,-0.25 heading 3.5",
         "join hall@12 office@0 heading 3.5", "close hall", "close hall 3..7", "close hall 3..",
-        "close hall 0..7", "limit hall 3..7 speed 0.5", "limit hall 3.. speed 0.5 cost 2",
-        "limit a3f9c21 cost 0.5", "name loading-bay office@8"}) {
+        "back hall", "back hall 3..7", "close hall 0..7", "limit hall 3..7 speed 0.5",
+        "limit hall 3.. speed 0.5 cost 2", "limit a3f9c21 cost 0.5", "name loading-bay office@8"}) {
     EXPECT_EQ(Listed(words), words);
   }
   EXPECT_EQ(Listed("  join   hall@12.0 office@0.00  "), "join hall@12 office@0");
@@ -182,7 +182,14 @@ TEST_F(Amending, AtEachPlaceTheLastWordHolds) {
   Edit("limit hall 2..3");
   EXPECT_THAT(Texts(),
               ElementsAre("limit hall 0..2 speed 0.5", "limit hall 3.. speed 0.5", "close office"));
+  Edit("back hall 1..4");
+  Edit("back hall 3..6");
+  Edit("ahead hall 5..9");
+  EXPECT_THAT(Texts(), ElementsAre("limit hall 0..2 speed 0.5", "limit hall 3.. speed 0.5",
+                                   "close office", "back hall 1..3", "back hall 3..5"));
+  Edit("open hall");
   Edit("limit hall");
+  Edit("ahead hall");
   Edit("open office");
   EXPECT_THAT(Texts(), IsEmpty());
 }

@@ -46,6 +46,9 @@ TEST(DrawNetwork, EachPartIsThereInItsColour) {
   network.routes[0].marked = {{NetworkPicture::Part::kLost, 3.0, 7.0}};
   EXPECT_GT(CountNear(network, kOrange), 20 * 10) << "tick by tick";
   EXPECT_LT(CountNear(network, kOrange), 10 * 4 * 30);
+  network.routes[0].marked = {{NetworkPicture::Part::kBacked, 3.0, 7.0}};
+  EXPECT_GT(CountNear(network, kBlue), route + 4 * 30) << "an arrow below it";
+  network.routes[0].marked.clear();
   const int ink = CountNear(network, kInk);
   network.names = {{"loading-bay", {1, 8.0}}};
   EXPECT_GT(CountNear(network, kInk), ink + 50);

@@ -463,5 +463,22 @@ TEST_F(NetworkBoardTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGo
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
 }
 
+TEST_F(NetworkBoardTest, AStretchThatIsDrivenBackwardsTooIsNarrow) {
+  EXPECT_THAT(Done("back office 2.."), ElementsAre("back office 2..", "narrow office 2..10"));
+  EXPECT_THAT(Asked("way office@9 office@3"), ElementsAre("follow office backwards 9..3"));
+  EXPECT_THAT(Refused("back office 12.."), HasSubstr("12 m is beyond it"));
+  Restart();
+  EXPECT_THAT(Asked("way office@9 office@3"), ElementsAre("follow office backwards 9..3"));
+  EXPECT_THAT(Done("ahead office"), IsEmpty());
+  EXPECT_THAT(Ask("way office@9 office@3").error, HasSubstr("no way leads"));
+}
+
+TEST_F(NetworkBoardTest, AWayTurnsRoundWhereAJointLeadsToTheOppositeDirection) {
+  Done("join hall@20 office@1 heading 180");
+  EXPECT_THAT(Asked("way hall@3 office@4"),
+              ElementsAre("follow hall 3..20", "turn 180", "follow office 1..4"));
+  EXPECT_THAT(Asked("way hall@20 office@4"), ElementsAre("turn 180", "follow office 1..4"));
+}
+
 }  // namespace
 }  // namespace trailcast::server

@@ -236,6 +236,35 @@ TEST_F(ReplanningTest, OneThatHasFoundItselfOnOneOfTwoRoutesGoesOnByTheOther) {
   EXPECT_THAT(IsAt(1, 19.5), HasSubstr("no way leads from hall@19.5")) << "they have parted";
 }
 
+TEST_F(ReplanningTest, WhereItMayItBacksOutOfADeadEnd) {
+  Edit("back office");
+  Edit("join office@1 yard@2");
+  Drives("goto yard@10 follow office 3..10", 2, 6.0);
+  EXPECT_THAT(Edit("close office 7..8"),
+              ElementsAre("robot1: mission m1 is re-planned: office 7..8 was closed: follow office "
+                          "backwards 6..1 follow yard 2..10"));
+  Say(State::kUnderWay, 0, "(way 2)");
+  EXPECT_EQ(IsAt(2, 4.0), "");
+  EXPECT_THAT(Edit("close office 2..3"),
+              ElementsAre("robot1: mission m1 waits for a way: office 2..3 was closed; every way "
+                          "from office@4 to yard@10 is closed; on the least closed: office 2..3: "
+                          "wait way"));
+}
+
+TEST_F(ReplanningTest, OneThatIsToTurnRoundBeforeARouteStillIs) {
+  Edit("join hall@20 yard@1 heading 180");
+  Drives("goto yard@9 follow hall 2..20 turn 180 follow yard 1..9", 1, 4.0);
+  EXPECT_THAT(
+      Edit("close yard 4..5"),
+      ElementsAre("robot1: mission m1 waits for a way: yard 4..5 was closed; every way from "
+                  "hall@4 to yard@9 is closed; on the least closed: yard 4..5: wait way"));
+  EXPECT_THAT(Edit("open yard"),
+              ElementsAre("robot1: mission m1 is re-planned: there is a way: follow hall 4..5 "
+                          "follow yard 0..9"));
+  Edit("part hall@5 yard@0");
+  EXPECT_EQ(Orders(), "goto yard@9 way 3 follow hall 4..5 follow yard 0..9 because there is a way");
+}
+
 TEST_F(ReplanningTest, OneThatWasSentByHandIsTold) {
   Drives("follow hall", 1, 2.0);
   EXPECT_THAT(Edit("close hall 7..9"),

@@ -98,10 +98,11 @@ TEST_F(NetworkStoreTest, ConditionsOfARouteReplaceThoseOfBefore) {
   const Condition closed{.route = "a", .from_m = 3.0, .to_m = 7.5, .closed = true};
   const Condition slow{.route = "a", .to_m = 1e7, .speed = 0.5, .cost = 2.0};
   const Condition other{.route = "b", .to_m = 1.0, .closed = true};
-  ASSERT_TRUE(store_->Replace("a", {closed, slow}, "desk", 1000));
+  const Condition backed{.route = "a", .from_m = 1.0, .to_m = 4.0, .backed = true};
+  ASSERT_TRUE(store_->Replace("a", {backed, closed, slow}, "desk", 1000));
   ASSERT_TRUE(store_->Replace("b", {other}, "desk", 1000));
   Reopen();
-  EXPECT_THAT(store_->Conditions().value(), ElementsAre(closed, slow, other));
+  EXPECT_THAT(store_->Conditions().value(), ElementsAre(closed, slow, other, backed));
   ASSERT_TRUE(store_->Replace("a", {slow}, "desk", 2000));
   EXPECT_THAT(store_->Conditions().value(), ElementsAre(other, slow));
   ASSERT_TRUE(store_->Replace("a", {}, "desk", 3000));
