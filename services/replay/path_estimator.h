@@ -27,6 +27,10 @@ struct PathEstimatorOptions {
   double feature_noise_px = 3.0;
   double cauchy_px = 3.0;  // beyond this a residual counts less and less
   double outlier_px = 12.0;
+  // And where all features are about as far away, that looks much as a camera that magnifies more
+  // further back does: the looks of so much of a way tell of the magnification what one of them
+  // does.
+  double magnification_every_m = 0.3;
   // At the route's start.
   double start_left_m = 0.10;
   double start_heading_rad = 0.08;
@@ -119,6 +123,7 @@ class PathEstimator {
   void SetMagnification(double magnification) {
     state_[kMagnification] = magnification;
     last_look_.reset();
+    known_.reset();
   }
   [[nodiscard]] FocalLength focal() const;  // of its own camera
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
@@ -181,6 +186,12 @@ class PathEstimator {
     double moved_m = 0.0;
     double turned_rad = 0.0;
   };
+  // What was believed of the magnification where it was last learnt.
+  struct KnownMagnification {
+    double mean = 0.0;
+    double variance = 0.0;
+    double at_m = 0.0;  // driven
+  };
   // The normal equations of a look, about one state.
   struct Equations {
     Covariance information;
@@ -194,6 +205,9 @@ class PathEstimator {
     int looks = 0;          // that say so
   };
   void BeUnsure();
+  // What is believed before a look, without what the last looks have said of the magnification; of
+  // all else it is what is believed for each magnification.
+  [[nodiscard]] Prior BeforeLook();
   // Whether all that is seen is turned at once by more than odometry can have missed: somebody has
   // turned the robot on its wheels, or its camera on its mount. Which of the two only driving on
   // tells: a robot that was turned gets off the path. Until then either is as likely; but what goes
@@ -243,6 +257,7 @@ class PathEstimator {
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
   std::optional<LastLook> last_look_;  // nothing: what is believed has changed since otherwise
+  std::optional<KnownMagnification> known_;  // the same
   int looks_ = 0;
   double driven_m_ = 0.0;
   double looked_at_m_ = 0.0;   // driven at the last look

@@ -131,6 +131,7 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
   carried_.reset();
   state_ = best;
   covariance_ = covariance;
+  known_.reset();
   return moved_m;
 }
 

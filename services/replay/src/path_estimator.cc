@@ -69,6 +69,7 @@ void PathEstimator::Restart(const route::Segment& segment, double along_m) {
 
 void PathEstimator::BeUnsureWhereAlong(const RoughPlace& rough) {
   rough_ = rough;
+  known_.reset();
   covariance_(kAlong, kAlong) = Square(rough.along_sigma_m);
   if (rough.focal) state_[kMagnification] = MagnificationBy(*rough.focal);
   covariance_(kMagnification, kMagnification) =
@@ -143,6 +144,7 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
 
 // What it has learnt of its own camera's place on the robot stays true wherever that is.
 void PathEstimator::BeUnsure() {
+  known_.reset();
   const double ahead_variance = covariance_(kAhead, kAhead);
   covariance_.setZero();
   covariance_(kAhead, kAhead) = ahead_variance;
@@ -345,10 +347,12 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   const bool stands =
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
-  Prior prior(state_, last_look_->before);
+  Prior prior = BeforeLook();
   if (rough_ && seen.size() >= (rough_->focal ? kFewestByKnownCamera : kFewestToFind)) {
     prior = FindWhereAlong(prior, seen);
     last_look_->before = prior.covariance;
+    known_ = {prior.mean[kMagnification], prior.covariance(kMagnification, kMagnification),
+              driven_m_};
   }
   Equations equations;
   for (int iteration = 0; iteration < kUpdateIterations; ++iteration) {
@@ -360,6 +364,20 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
     equations.agreement.carried_left_m = FindIfCarriedOff(prior, seen);
   }
   return equations.agreement;
+}
+
+PathEstimator::Prior PathEstimator::BeforeLook() {
+  State mean = state_;
+  Covariance covariance = last_look_->before;
+  const double variance = covariance(kMagnification, kMagnification);
+  if (!known_ || driven_m_ - known_->at_m >= options_.magnification_every_m) {
+    known_ = {mean[kMagnification], variance, driven_m_};
+  }
+  const State by_magnification = covariance.col(kMagnification) / variance;
+  mean += by_magnification * (known_->mean - mean[kMagnification]);
+  covariance +=
+      std::max(0.0, known_->variance - variance) * by_magnification * by_magnification.transpose();
+  return {mean, covariance};
 }
 
 bool PathEstimator::KnowsAhead() const {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <tuple>
+#include <vector>
 
 #include "services/replay/lane_keeping.h"
 #include "services/replay/path_follower.h"
@@ -302,6 +304,34 @@ TEST(PathEstimator, IsNoSurerHoweverLongItStands) {
     estimator.Update(test::Matched(kCorridor, run, {1.02 + 0.02 * i, -1.2, 0.0}));
   }
   EXPECT_NEAR(estimator.offset().left_m, -1.2, 0.1);
+}
+
+// Begun on the way, before a wall: each feature is found a little beside where it was taught, and
+// stays so. Look by look that must not add up to another camera further back.
+TEST(PathEstimator, IsNotLedBackByWhatIsWrongWithEachFeatureForGood) {
+  const test::LandmarkScene wall = test::LandmarkScene::Corridor(6.0, 6.4, 60, 5);
+  const auto run = test::TeachArcs(wall, {}, {{2.0, 0.0}});
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<double> wrong_px(2 * run.segment.features.size());
+    for (double& px : wrong_px) px = 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0;
+    PathEstimator estimator(320, 1.0);
+    estimator.Begin(run.segment);
+    estimator.Predict({0.5, 0.0});
+    estimator.BeUnsureWhereAlong({.along_sigma_m = 1.0});
+    double along_m = 0.5;
+    for (; along_m < 1.5; along_m += 0.008) {
+      auto seen = test::Matched(wall, run, {along_m, 0.0, 0.0});
+      for (route::TrackedFeature& feature : seen) {
+        feature.u_px += wrong_px[2 * static_cast<std::size_t>(feature.id)];
+        feature.v_px += wrong_px[2 * static_cast<std::size_t>(feature.id) + 1];
+      }
+      estimator.Update(seen);
+      estimator.Predict({0.008, 0.0});
+    }
+    EXPECT_NEAR(estimator.magnification(), 1.0, 0.02) << seed;
+    EXPECT_NEAR(estimator.offset().along_m, along_m, 0.1) << seed;
+  }
 }
 
 TEST(PathEstimator, FollowsOdometryWithoutFeatures) {
