@@ -186,7 +186,9 @@ class PathEstimator {
     double moved_m = 0.0;
     double turned_rad = 0.0;
   };
-  // What was believed of the magnification where it was last learnt.
+  // What was believed of the magnification where it was last learnt, by a robot that began
+  // somewhere on a segment: where along it is and how large its camera shows things it has from
+  // one look.
   struct KnownMagnification {
     double mean = 0.0;
     double variance = 0.0;
@@ -205,8 +207,8 @@ class PathEstimator {
     int looks = 0;          // that say so
   };
   void BeUnsure();
-  // What is believed before a look, without what the last looks have said of the magnification; of
-  // all else it is what is believed for each magnification.
+  // What is believed before a look: by one that began so without what its last looks have said of
+  // the magnification; of all else it is what is believed for each magnification.
   [[nodiscard]] Prior BeforeLook();
   // Whether all that is seen is turned at once by more than odometry can have missed: somebody has
   // turned the robot on its wheels, or its camera on its mount. Which of the two only driving on
@@ -257,7 +259,7 @@ class PathEstimator {
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
   std::optional<LastLook> last_look_;  // nothing: what is believed has changed since otherwise
-  std::optional<KnownMagnification> known_;  // the same
+  std::optional<KnownMagnification> known_;  // the same, or it did not begin so
   int looks_ = 0;
   double driven_m_ = 0.0;
   double looked_at_m_ = 0.0;   // driven at the last look

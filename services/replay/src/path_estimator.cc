@@ -369,8 +369,9 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
 PathEstimator::Prior PathEstimator::BeforeLook() {
   State mean = state_;
   Covariance covariance = last_look_->before;
+  if (!known_) return {mean, covariance};
   const double variance = covariance(kMagnification, kMagnification);
-  if (!known_ || driven_m_ - known_->at_m >= options_.magnification_every_m) {
+  if (driven_m_ - known_->at_m >= options_.magnification_every_m) {
     known_ = {mean[kMagnification], variance, driven_m_};
   }
   const State by_magnification = covariance.col(kMagnification) / variance;
