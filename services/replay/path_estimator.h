@@ -187,8 +187,8 @@ class PathEstimator {
     double turned_rad = 0.0;
   };
   // What was believed of the magnification where it was last learnt, by a robot that began
-  // somewhere on a segment: where along it is and how large its camera shows things it has from
-  // one look.
+  // somewhere on a segment and holds its camera to be as the scout's: where along it is it has from
+  // how large that shows things.
   struct KnownMagnification {
     double mean = 0.0;
     double variance = 0.0;

@@ -94,6 +94,7 @@ PathEstimator::Prior PathEstimator::FindWhereAlong(const Prior& before,
   const double rarer = std::log(sigma / options_.same_camera);
   if (by_same.second >= by_any.second + rarer) return any_camera;
   state_ = by_same.first;
+  known_ = {own_magnification_, same_camera.covariance(kMagnification, kMagnification), driven_m_};
   return same_camera;
 }
 

@@ -351,8 +351,6 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   if (rough_ && seen.size() >= (rough_->focal ? kFewestByKnownCamera : kFewestToFind)) {
     prior = FindWhereAlong(prior, seen);
     last_look_->before = prior.covariance;
-    known_ = {prior.mean[kMagnification], prior.covariance(kMagnification, kMagnification),
-              driven_m_};
   }
   Equations equations;
   for (int iteration = 0; iteration < kUpdateIterations; ++iteration) {
