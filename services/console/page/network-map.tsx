@@ -100,8 +100,8 @@ const Lines = memo(function Lines({ rows, links, frame, chosen, hatch }: {
             {row.backed.map(({ from_m, to_m }, each) => (
               <g key={`b${each}`} className="backed">
                 <title>{`robots may drive backwards on ${row.name} from ${metres(to_m)} to ${metres(from_m)} m`}</title>
-                <path d={`M${xOf(frame, row, from_m)} ${y + 8}H${xOf(frame, row, to_m)}`} />
-                <path className="head" d={head(xOf(frame, row, from_m), y + 8, -1, 0)} />
+                <path d={`M${xOf(frame, row, from_m)} ${y + 13}H${xOf(frame, row, to_m)}`} />
+                <path className="head" d={head(xOf(frame, row, from_m), y + 13, -1, 0)} />
               </g>
             ))}
             {row.narrow.map(({ from_m, to_m, takenBy }, each) => (

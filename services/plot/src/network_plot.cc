@@ -23,6 +23,7 @@ constexpr double kNetworkRight_px = 30.0;
 constexpr double kWide_px = 960.0;
 constexpr double kBow_px = 20.0;
 constexpr double kWall_px = 7.0;
+constexpr double kBackwards_px = 14.0;
 constexpr double kTick_px = 5.0;
 constexpr double kTicks_px = 7.0;
 constexpr double kArrow_px = 8.0;
@@ -105,10 +106,10 @@ class Map {
     }
   }
 
-  // Below where robots may drive backwards, too, an arrow that way.
+  // Below where robots may drive backwards, too, and its walls, an arrow that way.
   static void DrawBacked(Drawing& drawing, PixelPoint from, PixelPoint to) {
-    const PixelPoint begin{to.x, to.y + kWall_px};
-    const PixelPoint end{from.x, from.y + kWall_px};
+    const PixelPoint begin{to.x, to.y + kBackwards_px};
+    const PixelPoint end{from.x, from.y + kBackwards_px};
     drawing.Line({begin, end}, kBlue, 2.0);
     DrawHead(drawing, begin, end, kBlue);
   }
