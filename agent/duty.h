@@ -50,7 +50,7 @@ class Duty {
 
   void Work();
   void WaitOn(const mission::Task& task);
-  void Turn(const mission::Task& task);
+  void Turn(const mission::Task& task, std::unique_ptr<Turning> turning);
   [[nodiscard]] bool WaitsForWay() const;
   void WaitForWay();
   void GoOtherWay();
@@ -114,7 +114,7 @@ class Duty {
   std::optional<ViewQuestion> question_;  // while it asks servers what it sees
   std::optional<Time> told_until_;        // who has found itself there
   std::optional<Time> wait_until_;
-  std::optional<Turning> turning_;  // while it turns on the spot
+  std::unique_ptr<Turning> turning_;  // while it turns on the spot
   // How far it has turned to the left of an order that it has not done: who is to do something else
   // turns back first.
   double turned_rad_ = 0.0;

@@ -37,8 +37,9 @@ constexpr const char* kWaitsForWord = "waits before a narrow stretch until a ser
 
 void Duty::Work() {
   const mission::Task task = desk_.current()->tasks[desk_.current()->task];
-  auto begun = std::move(next_);  // along which nobody drives on who does anything else now
-  if (Held() || now_desk_.hold().cancelled || WaitsForWay()) turning_.reset();
+  // Nobody drives on along the one, or turns on by the other, who does anything else now.
+  auto begun = std::move(next_);
+  auto turning = std::move(turning_);
   if (now_desk_.hold().cancelled) {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
@@ -49,7 +50,7 @@ void Duty::Work() {
   } else if (WaitsForWay()) {
     WaitForWay();
   } else if (task.kind == mission::Task::Kind::kTurn || turned_rad_ != 0.0) {
-    Turn(task);
+    Turn(task, std::move(turning));
   } else if (task.kind == mission::Task::Kind::kWait) {
     WaitOn(task);
   } else if (task.kind == mission::Task::Kind::kTeach) {
@@ -66,19 +67,23 @@ void Duty::WaitOn(const mission::Task& task) {
   if (now >= *wait_until_) Done();
 }
 
-void Duty::Turn(const mission::Task& task) {
+void Duty::Turn(const mission::Task& task, std::unique_ptr<Turning> turning) {
   const bool is_order = task.kind == mission::Task::Kind::kTurn;
-  if (is_order && options_.follower(task).how.session.look_around_rad <= 0.0) {
-    return End(State::kRefused,
-               "it is to turn on the spot, which its agent was told it may not: --look-around 0");
+  if (!turning) {
+    if (is_order && options_.follower(task).how.session.look_around_rad <= 0.0) {
+      return End(State::kRefused,
+                 "it is to turn on the spot, which its agent was told it may not: --look-around 0");
+    }
+    turning = std::make_unique<Turning>(device_, turned_rad_);
   }
   TellState(State::kUnderWay, mission::ToText(task));
-  if (!turning_) turning_.emplace(device_, turned_rad_);
-  const auto there = turning_->TurnOnTo(is_order ? task.turn_rad : 0.0);
-  turned_rad_ = turning_->turned_rad();
+  const auto there = turning->TurnOnTo(is_order ? task.turn_rad : 0.0);
+  turned_rad_ = turning->turned_rad();
   if (!there) return End(State::kFailed, there.error().message);
-  if (!*there) return;
-  turning_.reset();
+  if (!*there) {
+    turning_ = std::move(turning);
+    return;
+  }
   turned_rad_ = 0.0;
   if (is_order) Done();
 }
@@ -428,7 +433,6 @@ void Duty::End(State state, const std::string& why) {
   missed_.clear();
   told_until_.reset();
   wait_until_.reset();
-  turning_.reset();
   turned_rad_ = 0.0;
   now_desk_.ForgetCancelled();
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "services/base/angles.h"
 
@@ -42,7 +41,7 @@ Result<bool> Turning::TurnOnTo(double to_rad) {
     return Fail(ErrorCode::kUnavailable,
                 "it is to turn on the spot by {:.0f} degrees more, and has not moved for {} s: is "
                 "there something in its way?",
-                std::abs(left_rad) * 180.0 / std::numbers::pi, kPatience.count());
+                Degrees(std::abs(left_rad)), kPatience.count());
   }
   const double rate_radps = std::clamp(kPerSecond * std::abs(left_rad), kLeast_radps, kMost_radps);
   if (auto driven = device_.Drive({0.0, std::copysign(rate_radps, left_rad)}); !driven) {

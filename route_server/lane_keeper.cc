@@ -135,15 +135,13 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
   rest.going = mission::GoingIn(sent.orders).value_or(mission::Going{});
   bool waits = false;
   bool laps = false;
-  double turn_rad = 0.0;
-  for (const Task& task : *tasks) {
+  for (std::size_t i = 0; i < tasks->size(); ++i) {
+    const Task& task = (*tasks)[i];
     waits |= task.kind == Task::Kind::kWaitLane;
-    if (task.kind == Task::Kind::kTurn) turn_rad = task.turn_rad;
     laps |= task.laps > 1;
     if (task.kind != Task::Kind::kFollow) continue;
-    auto stretch = network_.StretchOf(task);
+    auto stretch = network_.StretchOf(*tasks, i);
     if (!stretch) return tl::unexpected(stretch.error());
-    stretch->turn_rad = std::exchange(turn_rad, 0.0);
     (waits ? rest.later : rest.now).push_back(*std::move(stretch));
   }
   rest.heard = mission::WayIn(last.detail) >= rest.going.way;

@@ -401,14 +401,17 @@ mission::Task NetworkBoard::TaskOf(const network::Stretch& stretch) const {
           .speed_factor = stretch.speed};
 }
 
-Result<network::Stretch> NetworkBoard::StretchOf(const mission::Task& task) {
+Result<network::Stretch> NetworkBoard::StretchOf(std::span<const mission::Task> tasks,
+                                                 std::size_t number) {
+  const mission::Task& task = tasks[number];
   const auto& [name, revision] = task.route;
   const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
   if (!meant) return tl::unexpected(meant.error());
   network::Stretch stretch{.route = IdOf(meant->key),
                            .from_m = task.from_m,
                            .to_m = task.to_m,
-                           .speed = task.speed_factor};
+                           .speed = task.speed_factor,
+                           .turn_rad = mission::TurnBefore(tasks, number)};
   double& end_m = task.backwards ? stretch.from_m : stretch.to_m;
   if (end_m <= 0.0) end_m = meant->length_m;
   return stretch;

@@ -87,8 +87,9 @@ class NetworkBoard {
   };
   // Where a robot last said that it is; null: it has not.
   [[nodiscard]] const Stand* StandOf(const AgentId& agent) const { return places_.Find(agent); }
-  // Of an order to follow a part of a route.
-  [[nodiscard]] Result<network::Stretch> StretchOf(const mission::Task& task);
+  // Of orders that one to follow a part of a route.
+  [[nodiscard]] Result<network::Stretch> StretchOf(std::span<const mission::Task> tasks,
+                                                   std::size_t number);
   [[nodiscard]] mission::Task TaskOf(const network::Stretch& stretch) const;
   // As the network has them.
   [[nodiscard]] Result<std::optional<network::Condition>> FirstClosed(

@@ -108,14 +108,11 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
   std::vector<Stretch> all;
   std::size_t said = 0;  // which of these it is at by its own word
   bool laps = false;
-  double turn_rad = 0.0;
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     if (i == record.last.task) said = all.size();
-    if ((*tasks)[i].kind == Task::Kind::kTurn) turn_rad = (*tasks)[i].turn_rad;
     if ((*tasks)[i].kind != Task::Kind::kFollow) continue;
-    auto stretch = network_.StretchOf((*tasks)[i]);
+    auto stretch = network_.StretchOf(*tasks, i);
     if (!stretch) return tl::unexpected(stretch.error());
-    stretch->turn_rad = std::exchange(turn_rad, 0.0);
     laps |= i == record.last.task && (*tasks)[i].laps > 1;
     all.push_back(*std::move(stretch));
   }

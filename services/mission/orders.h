@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -60,6 +61,9 @@ struct Going {
 
 // kInvalidArgument, with the word that was not understood and what was expected.
 [[nodiscard]] Result<std::vector<Task>> ParseOrders(std::string_view orders);
+
+// How far a robot turns on the spot right before it does that one of these; 0: not at all.
+[[nodiscard]] double TurnBefore(std::span<const Task> tasks, std::size_t task);
 
 // None: they are no way to a place, or not understood.
 [[nodiscard]] std::optional<Going> GoingIn(std::string_view orders);

@@ -118,15 +118,14 @@ std::vector<network::Stretch> StretchesOf(const Lines& way) {
   const auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
                          .value_or(std::vector<mission::Task>{});
   std::vector<network::Stretch> stretches;
-  double turn_rad = 0.0;
-  for (const mission::Task& task : tasks) {
-    turn_rad += task.turn_rad;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const mission::Task& task = tasks[i];
     if (task.kind != mission::Task::Kind::kFollow) continue;
     stretches.push_back({.route = task.route.route,
                          .from_m = task.from_m,
                          .to_m = task.to_m,
                          .speed = task.speed_factor,
-                         .turn_rad = std::exchange(turn_rad, 0.0)});
+                         .turn_rad = mission::TurnBefore(tasks, i)});
   }
   return stretches;
 }

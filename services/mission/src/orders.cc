@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "services/base/angles.h"
 #include "services/base/ids.h"
 #include "services/base/number.h"
 #include "services/mission/mission.h"
@@ -26,7 +26,6 @@ constexpr std::string_view kWaySaid = " (way ";
 constexpr std::size_t kLongestPlace = 96;
 constexpr std::uint32_t kMostWays = 1'000'000'000;
 constexpr std::uint32_t kMostLaps = 10'000;
-constexpr double kPerDegree = std::numbers::pi / 180.0;
 constexpr double kMostTurn_deg = 360.0;
 constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
 constexpr double kLeastSpeed = 0.1;
@@ -126,7 +125,7 @@ class Parser {
     const std::string word = Take();
     const auto degrees = ParseNumberWithin(word, -kMostTurn_deg, kMostTurn_deg);
     if (!degrees) return Wrong(word, "degrees to the left, -360 to 360");
-    return Task{.kind = Task::Kind::kTurn, .turn_rad = *degrees * kPerDegree};
+    return Task{.kind = Task::Kind::kTurn, .turn_rad = Radians(*degrees)};
   }
 
   [[nodiscard]] Result<Task> Teach() {
@@ -216,6 +215,11 @@ class Parser {
 
 Result<std::vector<Task>> ParseOrders(std::string_view orders) { return Parser(orders).All(); }
 
+double TurnBefore(std::span<const Task> tasks, std::size_t task) {
+  const bool turns = task > 0 && tasks[task - 1].kind == Task::Kind::kTurn;
+  return turns ? tasks[task - 1].turn_rad : 0.0;
+}
+
 std::optional<Going> GoingIn(std::string_view orders) {
   Parser parser(orders);
   return parser.All() ? parser.going() : std::nullopt;
@@ -249,7 +253,7 @@ std::string ToText(const Task& task) {
   if (task.kind == Task::Kind::kWaitLane) return "wait lane";
   if (task.kind == Task::Kind::kWait) return fmt::format("wait {:g}", task.wait_s);
   if (task.kind == Task::Kind::kTurn) {
-    return fmt::format("turn {:g}", std::round(10.0 * task.turn_rad / kPerDegree) / 10.0);
+    return fmt::format("turn {:g}", std::round(10.0 * Degrees(task.turn_rad)) / 10.0);
   }
   if (task.kind == Task::Kind::kTeach) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",

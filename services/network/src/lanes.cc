@@ -40,10 +40,12 @@ struct Through {
   double leaves_m = 0.0;
 };
 
-std::optional<Through> ThroughOf(const Part& part, const Stretch& stretch) {
+// Nothing where the stretch ends before the part, or begins so far beyond it.
+std::optional<Through> ThroughOf(const Part& part, const Stretch& stretch, double beyond_m) {
   if (part.route != stretch.route) return std::nullopt;
   const auto [enters_m, leaves_m] =
       std::minmax({stretch.DrivenAt(part.from_m), stretch.DrivenAt(part.to_m)});
+  if (stretch.length_m() <= enters_m || leaves_m + beyond_m <= 0.0) return std::nullopt;
   return Through{enters_m, leaves_m};
 }
 
@@ -58,19 +60,20 @@ std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const La
   std::vector<Passage> passages;
   const std::vector<Run> runs = RunsOf(way);
   std::set<std::size_t> begun_in;
+  const Run* before = nullptr;
   for (const Run& run : runs) {
-    const bool is_first = &run == &runs.front();
-    if (!is_first && !TurnsBack((&run - 1)->stretch, run.stretch)) begun_in.clear();
+    if (before != nullptr && !TurnsBack(before->stretch, run.stretch)) begun_in.clear();
+    before = &run;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       for (const Part& part : lanes[i].parts) {
-        const auto through = ThroughOf(part, run.stretch);
-        const bool meets = through && run.stretch.length_m() > through->enters_m &&
-                           through->leaves_m + kRoomBeyondLane_m > 0.0;
-        if (!meets) continue;
+        const auto through = ThroughOf(part, run.stretch, kRoomBeyondLane_m);
+        if (!through) continue;
         const bool begins_in =
-            is_first ? through->enters_m + kBarelyInLane_m < 0.0 : begun_in.contains(i);
-        if (begins_in) begun_in.insert(i);
-        if (begins_in) continue;
+            run.begin_m <= 0.0 ? through->enters_m + kBarelyInLane_m < 0.0 : begun_in.contains(i);
+        if (begins_in) {
+          begun_in.insert(i);
+          continue;
+        }
         double begin_m = std::max(0.0, through->enters_m - kBeforeLane_m);
         // Before the route's first metre nobody can come in between; on it somebody could.
         if (run.begin_m > 0.0 && begin_m < kWaitingRoom_m) begin_m = 0.0;
@@ -137,10 +140,7 @@ std::set<std::size_t> LanesOn(std::span<const Stretch> way, std::span<const Lane
     for (const Part& part : lanes[i].parts) {
       for (const Run& run : RunsOf(way)) {
         const double beyond_m = run.begin_m > 0.0 ? kRoomBeyondLane_m : kOutOfLane_m;
-        const auto through = ThroughOf(part, run.stretch);
-        const bool meets = through && run.stretch.length_m() > through->enters_m &&
-                           through->leaves_m + beyond_m > 0.0;
-        if (meets) on.insert(i);
+        if (ThroughOf(part, run.stretch, beyond_m)) on.insert(i);
       }
     }
   }

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "services/base/angles.h"
 #include "services/base/number.h"
 
 namespace trailcast::network {
 namespace {
 
-constexpr double kPerDegree = std::numbers::pi / 180.0;
 constexpr double kMostOffset_m = 100.0;
 constexpr double kLeastFactor = 0.1;
 constexpr double kMostFactor = 1000.0;
@@ -93,7 +92,7 @@ Result<void> TakeLie(Words& words, Joint& joint) {
     const auto degrees = ParseNumberWithin(word, -180.0, 180.0);
     if (!degrees) return Wrong(word, "degrees to the left, -180 to 180");
     if (!joint.lie) joint.lie.emplace();
-    joint.lie->turn_rad = *degrees * kPerDegree;
+    joint.lie->turn_rad = Radians(*degrees);
   } else {
     return Wrong(words.Next(), "'both', 'offset AHEAD,LEFT', 'heading DEGREES' or nothing more");
   }
@@ -358,7 +357,7 @@ std::string ToText(const Joint& joint) {
   if (!joint.lie) return text;
   const std::string offset = Metres(joint.lie->ahead_m) + "," + Metres(joint.lie->left_m);
   if (offset != "0,0") text += " offset " + offset;
-  return text + fmt::format(" heading {:.1f}", joint.lie->turn_rad / kPerDegree);
+  return text + fmt::format(" heading {:.1f}", Degrees(joint.lie->turn_rad));
 }
 
 std::string ToText(const Condition& condition) {
