@@ -53,10 +53,14 @@ struct TaughtFlowOptions {
   double widening = 0.8;
   double widening_sigma = 0.5;
   double mount_sigma_rad = 0.05;
-  // Of the taught heading within a segment, in each of the three coefficients of its error: wheels
-  // slip, and the polynomial that is stored smooths what the robot did.
+  // Of the taught heading at each quarter of a segment: wheels slip, and the polynomial that is
+  // stored smooths what the robot did, a sharp bend most of all.
   double heading_error_rad = 0.05;
-  double track_noise_px_at_320 = 0.7;  // of a stretch between two knots
+  // Of a stretch between two knots, at least: a camera that rolls and pitches on rough ground moves
+  // all that it sees by more. What the features of a segment are off by in the median counts as
+  // so many times that, for they are off together.
+  double track_noise_px_at_320 = 0.7;
+  double noise_together = 2.0;
 };
 
 // What taught tracks tell by their flow. A landmark's flow is what the turn makes of it, and, away
@@ -65,7 +69,9 @@ struct TaughtFlowOptions {
 // so that each feature's inverse depth rho comes out in the scout's own metres, and f, c and the
 // focus of expansion come out of the whole route: no calibration. The turn is odometry's, which
 // errs: a wrong turn would give features left and right of the camera opposite errors of depth and,
-// where the path is straight, any focal length. So its error is one of the unknowns.
+// where the path is straight, any focal length. So its error is one of the unknowns, and goes in a
+// straight line from quarter to quarter of the segment: of what a polynomial misses of a sharp bend
+// a polynomial misses as much.
 class TaughtFlow {
  public:
   explicit TaughtFlow(int scout_width_px, const TaughtFlowOptions& options = {});
@@ -79,23 +85,25 @@ class TaughtFlow {
   [[nodiscard]] FocalLength focal() const;
 
  private:
-  // The camera's unknowns, and the segment's: the error of its heading, a cubic without constant.
+  // The camera's unknowns, and the segment's: the error of its heading at each quarter, which is
+  // nothing at its beginning.
   static constexpr int kCamera = 4;
-  static constexpr int kHeading = 3;
+  static constexpr int kHeading = 4;
   static constexpr int kSize = kCamera + kHeading;
   enum Index { kAheadU, kAheadV, kLogFocal, kWidening };
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using CameraVector = Eigen::Matrix<double, kCamera, 1>;
   using CameraMatrix = Eigen::Matrix<double, kCamera, kCamera>;
+  using HeadingVector = Eigen::Matrix<double, kHeading, 1>;
 
   // Two knots of a feature's track and what lies between.
   struct Stretch {
     double middle_m = 0.0;
     double length_m = 0.0;
     double turn_rad = 0.0;
-    // What each coefficient of the heading's error adds to the turn.
-    Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();
+    // What each quarter's error adds to the turn.
+    HeadingVector turn_error = HeadingVector::Zero();
     double u_px = 0.0;
     double v_px = 0.0;
     double du_px = 0.0;
@@ -111,12 +119,23 @@ class TaughtFlow {
     std::vector<Landmark> landmarks;
     Vector unknowns = Vector::Zero();
     Matrix information = Matrix::Zero();
+    double noise_px = 0.0;
   };
+  // The heading's error so far along a segment, 0..1, is what it is at the quarters times these.
+  [[nodiscard]] static HeadingVector BetweenQuarters(double s);
   [[nodiscard]] static Landmark MakeLandmark(const route::Segment& segment,
                                              const route::Feature& feature);
-  [[nodiscard]] Fit FitTo(const route::Segment& segment) const;
+  // `shaken`: its features may be off by more than the tracker's noise, all together. That is what
+  // the camera is learnt by; it says nothing of how far landmarks are from each other, and depths
+  // that count for less would be drawn together: one that drives on rough ground would no longer
+  // tell where beside its path it is.
+  [[nodiscard]] Fit FitTo(const route::Segment& segment, bool shaken) const;
   void Improve(Fit& fit, double length_m) const;
-  [[nodiscard]] Equations Linearise(const Landmark& landmark, const Vector& unknowns) const;
+  // By how much a stretch's flow is not what the unknowns make of it.
+  [[nodiscard]] static Eigen::Vector2d Residual(const Stretch& stretch, const InverseDepth& depth,
+                                                const Vector& unknowns);
+  [[nodiscard]] double NoiseOf(const Fit& fit) const;
+  [[nodiscard]] static Equations Linearise(const Landmark& landmark, const Fit& fit);
   void Use(const CameraVector& camera);
 
   TaughtFlowOptions options_;

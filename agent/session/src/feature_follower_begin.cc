@@ -184,7 +184,7 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
           "looks where on the route it is: " + (nowhere_.empty() ? verdict.reason : nowhere_)};
   if (seen.driven) moved_m_ += std::abs(seen.driven->distance_m);
   if (moved_m_ > kOnePlace || !MayBeRecognised()) ForgetCompared();
-  if (lost && !nowhere_.empty()) return false;  // to look at the same ever again would be to guess
+  if (!nowhere_.empty()) return false;  // to look at the same again until it fits would be to guess
   if (!lost) look_around_.Rest();
   if (!turned && MayBeRecognised() && MeasuresLens(seen, standing)) return false;
   look_again_at_s_ -= seen.looked_s;
@@ -271,14 +271,17 @@ void FeatureFollower::CompareSome() {
     if (magnification) search_.hand_over().KnowMagnification(*magnification);
     if (focal_ ? BeginBy(point) : BeginAbout(point)) {
       const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
-      const SegmentIndex segment = follower_->segment().index;
-      const double by_features = step.offset && place_.metric()
-                                     ? place_.AlongOf({segment, 0.0}) + step.offset->along_m
-                                     : place_.AlongOf({segment, step.fraction});
-      compared_.push_back({by_features, step.agreeing,
-                           static_cast<double>(step.agreeing) / std::max(1, InPicture()),
-                           follower_->magnification(),
-                           step.agreeing - Unlikely(follower_->focal())});
+      const RoutePoint there{follower_->segment().index, step.fraction};
+      PlaceByFeatures place{.along = place_.AlongOf(there)};
+      if (step.offset && place_.metric()) {
+        place.along = place_.AlongOf({there.segment, 0.0}) + step.offset->along_m;
+        place.along_sigma = step.offset->along_sigma_m;
+      }
+      place.agreeing = step.agreeing;
+      place.share = static_cast<double>(step.agreeing) / std::max(1, InPicture());
+      place.magnification = follower_->magnification();
+      place.speaks = step.agreeing - Unlikely(follower_->focal());
+      compared_.push_back(place);
     }
     search_.hand_over() = unlearnt;
   }
@@ -300,7 +303,7 @@ void FeatureFollower::BeginAtLikeliest() {
     nowhere_ = fmt::format(
         "from {:.1f} to {:.1f} {} along the route it looks alike: begin where more is near, or at "
         "the beginning",
-        first, last, unit);
+        std::max(0.0, first), std::min(place_.belief().length(), last), unit);
     return;
   }
   if (outside > kOutside) {

@@ -23,11 +23,11 @@ std::optional<LikeliestPlace> LikeliestOf(std::span<const PlaceByFeatures> compa
       compared.begin(), compared.end(),
       [](const PlaceByFeatures& a, const PlaceByFeatures& b) { return a.speaks < b.speaks; });
   if (best == compared.end()) return std::nullopt;
-  LikeliestPlace likeliest{*best, best->along, best->along};
+  LikeliestPlace likeliest{*best, best->along - best->along_sigma, best->along + best->along_sigma};
   for (const PlaceByFeatures& place : compared) {
     if (!IsAboutAsGood(place, *best)) continue;
-    likeliest.first = std::min(likeliest.first, place.along);
-    likeliest.last = std::max(likeliest.last, place.along);
+    likeliest.first = std::min(likeliest.first, place.along - place.along_sigma);
+    likeliest.last = std::max(likeliest.last, place.along + place.along_sigma);
   }
   return likeliest;
 }

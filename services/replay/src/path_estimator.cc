@@ -388,7 +388,8 @@ PathOffset PathEstimator::offset() const {
   const double along_m = state_[kAlong] - ahead_m * std::cos(state_[kHeading]);
   const double turned = TaughtTurn(along_m, state_[kAlong]);
   const double left_m = state_[kLeft] - ahead_m * (std::sin(state_[kHeading]) + 0.5 * turned);
-  return {left_m, state_[kHeading] + turned, along_m, offset_sigma_m()};
+  return {left_m, state_[kHeading] + turned, along_m, offset_sigma_m(),
+          std::sqrt(covariance_(kAlong, kAlong))};
 }
 
 double PathEstimator::offset_sigma_m() const {

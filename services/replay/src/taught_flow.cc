@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "services/base/median.h"
 #include "services/base/square.h"
 #include "services/route/heading.h"
 
@@ -20,9 +22,9 @@ constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer 
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
 constexpr std::size_t kFewestWithASpread = 5;
+constexpr double kMedianOfUnit = 1.18;  // of the lengths of vectors with unit noise in u and in v
+constexpr std::size_t kFewestToTellNoise = 20;
 constexpr double kLeastFocalSigma = 0.04;  // however many bends there were: their odometry erred
-
-Eigen::Vector3d CubicBase(double s) { return {s, s * s, s * s * s}; }
 
 }  // namespace
 
@@ -105,6 +107,15 @@ void TaughtFlow::Use(const CameraVector& camera) {
   camera_.widening = camera[kWidening];
 }
 
+TaughtFlow::HeadingVector TaughtFlow::BetweenQuarters(double s) {
+  HeadingVector share = HeadingVector::Zero();
+  const double quarters = std::clamp(s, 0.0, 1.0) * kHeading;
+  const int after = std::min(static_cast<int>(quarters), kHeading - 1);
+  share[after] = quarters - after;
+  if (after > 0) share[after - 1] = 1.0 - share[after];
+  return share;
+}
+
 TaughtFlow::Landmark TaughtFlow::MakeLandmark(const route::Segment& segment,
                                               const route::Feature& feature) {
   Landmark landmark;
@@ -116,15 +127,27 @@ TaughtFlow::Landmark TaughtFlow::MakeLandmark(const route::Segment& segment,
     landmark.stretches.push_back(
         {0.5 * (from_m + to_m), to_m - from_m,
          route::HeadingAt(segment.heading, to_m) - route::HeadingAt(segment.heading, from_m),
-         CubicBase(b.s) - CubicBase(a.s), 0.5 * (a.u_px + b.u_px), 0.5 * (a.v_px + b.v_px),
-         b.u_px - a.u_px, b.v_px - a.v_px});
+         BetweenQuarters(b.s) - BetweenQuarters(a.s), 0.5 * (a.u_px + b.u_px),
+         0.5 * (a.v_px + b.v_px), b.u_px - a.u_px, b.v_px - a.v_px});
   }
   return landmark;
 }
 
-TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
-                                            const Vector& unknowns) const {
+Eigen::Vector2d TaughtFlow::Residual(const Stretch& stretch, const InverseDepth& depth,
+                                     const Vector& unknowns) {
+  const double f = std::exp(unknowns[kLogFocal]);
+  const double c = unknowns[kWidening];
+  const double turn = stretch.turn_rad + stretch.turn_error.dot(unknowns.tail<kHeading>());
+  const double nearer = depth.At(stretch.middle_m) * stretch.length_m;
+  return {stretch.du_px - turn * (f + c * stretch.u_px * stretch.u_px / f) -
+              nearer * (stretch.u_px - unknowns[kAheadU]),
+          stretch.dv_px - turn * c * stretch.u_px * stretch.v_px / f -
+              nearer * (stretch.v_px - unknowns[kAheadV])};
+}
+
+TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark, const Fit& fit) {
   Equations equations;
+  const Vector& unknowns = fit.unknowns;
   const double f = std::exp(unknowns[kLogFocal]);
   const double c = unknowns[kWidening];
   for (const Stretch& s : landmark.stretches) {
@@ -136,20 +159,30 @@ TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark,
     const double wide_v = s.u_px * s.v_px / f;
     const double out_u = s.u_px - unknowns[kAheadU];
     const double out_v = s.v_px - unknowns[kAheadV];
-    const double residual_u = s.du_px - turn * (f + c * wide_u) - rho * out_u * s.length_m;
-    const double residual_v = s.dv_px - turn * c * wide_v - rho * out_v * s.length_m;
-    const double error2 = (Square(residual_u) + Square(residual_v)) / Square(noise_px_);
-    const double weight = 1.0 / (Square(noise_px_) * (1.0 + error2 / Square(kCauchySigmas)));
+    const Eigen::Vector2d residual = Residual(s, landmark.depth, unknowns);
+    const double error2 = residual.squaredNorm() / Square(fit.noise_px);
+    const double weight = 1.0 / (Square(fit.noise_px) * (1.0 + error2 / Square(kCauchySigmas)));
     Vector slope_u;
     slope_u << -rho * s.length_m, 0.0, turn * (f - c * wide_u), turn * wide_u,
         (f + c * wide_u) * s.turn_error;
     Vector slope_v;
     slope_v << 0.0, -rho * s.length_m, -turn * c * wide_v, turn * wide_v, c * wide_v * s.turn_error;
     const double depth_slope = s.length_m / Square(shrink);
-    equations.Add(slope_u, depth_slope * out_u, residual_u, weight);
-    equations.Add(slope_v, depth_slope * out_v, residual_v, weight);
+    equations.Add(slope_u, depth_slope * out_u, residual.x(), weight);
+    equations.Add(slope_v, depth_slope * out_v, residual.y(), weight);
   }
   return equations;
+}
+
+double TaughtFlow::NoiseOf(const Fit& fit) const {
+  std::vector<double> off_px;
+  for (const Landmark& landmark : fit.landmarks) {
+    for (const Stretch& stretch : landmark.stretches) {
+      off_px.push_back(Residual(stretch, landmark.depth, fit.unknowns).norm());
+    }
+  }
+  if (off_px.size() < kFewestToTellNoise) return noise_px_;
+  return std::max(noise_px_, options_.noise_together * Median(std::move(off_px)) / kMedianOfUnit);
 }
 
 // One step of Gauss-Newton; the depths are eliminated first and follow from the rest.
@@ -165,7 +198,7 @@ void TaughtFlow::Improve(Fit& fit, double length_m) const {
   std::vector<Equations> all;
   all.reserve(fit.landmarks.size());
   for (const Landmark& landmark : fit.landmarks) {
-    const Equations& e = all.emplace_back(Linearise(landmark, fit.unknowns));
+    const Equations& e = all.emplace_back(Linearise(landmark, fit));
     information += e.common - e.mixed * e.mixed.transpose() / e.depth;
     gradient += e.common_gradient - e.mixed * (e.depth_gradient / e.depth);
   }
@@ -183,19 +216,23 @@ void TaughtFlow::Improve(Fit& fit, double length_m) const {
   }
 }
 
-TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment) const {
+TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment, bool shaken) const {
   Fit fit;
   fit.landmarks.reserve(segment.features.size());
   for (const route::Feature& feature : segment.features) {
     fit.landmarks.push_back(MakeLandmark(segment, feature));
   }
   fit.unknowns.head<kCamera>() = mean_;
-  for (int i = 0; i < kFlowIterations; ++i) Improve(fit, segment.length_m);
+  fit.noise_px = noise_px_;
+  for (int i = 0; i < kFlowIterations; ++i) {
+    Improve(fit, segment.length_m);
+    if (shaken && i > 0) fit.noise_px = NoiseOf(fit);
+  }
   return fit;
 }
 
 void TaughtFlow::Learn(const route::Segment& segment) {
-  const Fit fit = FitTo(segment);
+  const Fit fit = FitTo(segment, true);
   if (!fit.unknowns.allFinite()) return;
   // The error of the segment's own heading is no longer of interest.
   const Eigen::Matrix<double, kCamera, kHeading> mixed =
@@ -216,7 +253,7 @@ FocalLength TaughtFlow::focal() const {
 std::vector<InverseDepth> TaughtFlow::Depths(const route::Segment& segment) const {
   std::vector<InverseDepth> depths;
   depths.reserve(segment.features.size());
-  for (const Landmark& landmark : FitTo(segment).landmarks) depths.push_back(landmark.depth);
+  for (const Landmark& landmark : FitTo(segment, false).landmarks) depths.push_back(landmark.depth);
   DrawTogether(depths);
   return depths;
 }

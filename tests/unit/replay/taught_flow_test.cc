@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "tests/support/taught_segment.h"
 
 namespace trailcast::replay {
@@ -66,28 +69,60 @@ TEST(DrawTogether, LeavesAFewAlone) {
   EXPECT_EQ(few[1].sigma_per_m, 0.1);
 }
 
-// What a route of bends teaches of a camera.
-ScoutCamera LearnOnBends(const test::ScoutEye& eye) {
+// What a route of segments, each of these arcs, teaches of a camera.
+TaughtFlow LearnOn(const std::vector<std::vector<test::Arc>>& segments, const test::ScoutEye& eye) {
   const test::LandmarkScene scene = test::LandmarkScene::Corridor(3.0, 20.0, 300, 7);
   TaughtFlow flow(320);
   motion::Pose2 pose;
-  for (const double turn_rad : {0.0, 0.25, -0.25, -0.25, 0.25, 0.0}) {
-    const auto run = test::TeachArcs(scene, pose, {{1.0, turn_rad}}, eye);
+  for (const std::vector<test::Arc>& arcs : segments) {
+    const auto run = test::TeachArcs(scene, pose, arcs, eye);
     flow.Learn(run.segment);
     pose = run.end;
   }
-  return flow.camera();
+  return flow;
+}
+
+TaughtFlow LearnOnBends(const test::ScoutEye& eye) {
+  return LearnOn(
+      {{{1.0, 0.0}}, {{1.0, 0.25}}, {{1.0, -0.25}}, {{1.0, -0.25}}, {{1.0, 0.25}}, {{1.0, 0.0}}},
+      eye);
 }
 
 TEST(TaughtFlow, LearnsTheFocalLengthFromBends) {
-  EXPECT_NEAR(LearnOnBends({.focal_px = 280.0}).focal_px, 280.0, 14.0);
-  EXPECT_NEAR(LearnOnBends({.focal_px = 200.0}).focal_px, 200.0, 10.0);
-  EXPECT_NEAR(LearnOnBends({.focal_px = 420.0}).focal_px, 420.0, 25.0);
+  EXPECT_NEAR(LearnOnBends({.focal_px = 280.0}).camera().focal_px, 280.0, 14.0);
+  EXPECT_NEAR(LearnOnBends({.focal_px = 200.0}).camera().focal_px, 200.0, 10.0);
+  EXPECT_NEAR(LearnOnBends({.focal_px = 420.0}).camera().focal_px, 420.0, 25.0);
+}
+
+// No polynomial follows a corner in the middle of a segment.
+TEST(TaughtFlow, LearnsTheFocalLengthFromCorners) {
+  for (const double focal_px : {200.0, 280.0, 420.0}) {
+    std::vector<std::vector<test::Arc>> segments;
+    for (const double turn_rad : {0.2, -0.2, -0.2, 0.2}) {
+      segments.push_back({{0.2, 0.0}, {0.05, turn_rad}, {1.0, 0.0}});
+      segments.push_back({{0.8, 0.0}, {0.05, -turn_rad}, {0.4, 0.0}});
+    }
+    const TaughtFlow flow = LearnOn(segments, {.focal_px = focal_px});
+    EXPECT_NEAR(flow.focal().px, focal_px, 0.06 * focal_px);
+    EXPECT_LT(flow.focal().sigma, 0.08);
+  }
+}
+
+// A camera that rolls and pitches moves all that it sees; it tells less of itself, and knows it.
+TEST(TaughtFlow, IsNotSureOfAFocalLengthThatRoughGroundHides) {
+  for (const double phase : {0.0, 1.0, 2.0, 3.0}) {
+    const auto tilt = [phase](const motion::Pose2& pose) {
+      return test::Tilt{.roll_rad = 0.05 * std::sin(7.0 * pose.x_m + phase),
+                        .pitch_rad = 0.04 * std::sin(11.0 * pose.x_m + 2.0 * phase)};
+    };
+    const replay::FocalLength focal = LearnOnBends({.focal_px = 280.0, .tilt = tilt}).focal();
+    EXPECT_LT(std::abs(std::log(focal.px / 280.0)), 2.0 * focal.sigma) << focal.px;
+  }
 }
 
 TEST(TaughtFlow, LearnsWhereACrookedCameraIsGoing) {
   // A camera that looks 3 degrees to the left goes to the right of its image centre.
-  const ScoutCamera camera = LearnOnBends({.yaw_rad = 0.0524});
+  const ScoutCamera camera = LearnOnBends({.yaw_rad = 0.0524}).camera();
   EXPECT_NEAR(camera.ahead_u_px, 280.0 * 0.0524, 0.3 * 280.0 * 0.0524);
   EXPECT_NEAR(camera.ahead_v_px, 0.0, 2.0);
 }

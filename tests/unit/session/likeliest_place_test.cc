@@ -9,7 +9,7 @@ namespace {
 
 // All of whose features that should be in view are `in_view`.
 PlaceByFeatures Place(double along, int agreeing, int in_view, double unlikely = 0.0) {
-  return {along, agreeing, static_cast<double>(agreeing) / in_view, 1.0, agreeing - unlikely};
+  return {along, 0.0, agreeing, static_cast<double>(agreeing) / in_view, 1.0, agreeing - unlikely};
 }
 
 void ExpectPlaces(const std::vector<PlaceByFeatures>& compared, double best, double first,
@@ -40,6 +40,16 @@ TEST(LikeliestPlaceTest, WhereFeaturesDoAboutAsWellItMayBeThere) {
 TEST(LikeliestPlaceTest, WhereAsLargeAShareOfFewerFeaturesAgreesItMayBeThere) {
   ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 50, 52)}, 9.0, 3.0, 9.0);
   ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 40, 40)}, 9.0, 9.0, 9.0);
+}
+
+// Far features tell a place along to metres only: how many of them agree makes it no surer.
+TEST(LikeliestPlaceTest, ItIsKnownNoBetterThanItsFeaturesTellIt) {
+  PlaceByFeatures distant = Place(210.0, 27, 30);
+  distant.along_sigma = 2.0;
+  PlaceByFeatures near = Place(213.0, 26, 30);
+  near.along_sigma = 0.5;
+  ExpectPlaces({distant}, 210.0, 208.0, 212.0);
+  ExpectPlaces({distant, near}, 210.0, 208.0, 213.5);
 }
 
 }  // namespace
