@@ -33,7 +33,7 @@ struct PathOffset {
   double heading_rad = 0.0;  // alpha: to the left of the taught heading
   double along_m = 0.0;      // s: driven of the segment
   double left_sigma_m = 0.0;
-  double along_sigma_m = 0.0;
+  double along_sigma_m = 0.0;  // of the camera's place
 };
 
 // How roughly it is known where a robot begins. What is seen looks larger from further along, and

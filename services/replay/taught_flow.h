@@ -125,15 +125,23 @@ class TaughtFlow {
   [[nodiscard]] static HeadingVector BetweenQuarters(double s);
   [[nodiscard]] static Landmark MakeLandmark(const route::Segment& segment,
                                              const route::Feature& feature);
-  // `shaken`: its features may be off by more than the tracker's noise, all together. That is what
-  // the camera is learnt by; it says nothing of how far landmarks are from each other, and depths
-  // that count for less would be drawn together: one that drives on rough ground would no longer
-  // tell where beside its path it is.
-  [[nodiscard]] Fit FitTo(const route::Segment& segment, bool shaken) const;
+  // Of a stretch. The camera is learnt by what a segment's features are off by, if that is more
+  // than a tracker's noise: rough ground shakes all of them together. It says nothing of how far
+  // landmarks are from each other, and depths that count for less would be drawn together: one that
+  // drives on rough ground would no longer tell where beside its path it is.
+  enum class Noise { kOfTracker, kAsMeasured };
+  [[nodiscard]] Fit FitTo(const route::Segment& segment, Noise noise) const;
   void Improve(Fit& fit, double length_m) const;
-  // By how much a stretch's flow is not what the unknowns make of it.
-  [[nodiscard]] static Eigen::Vector2d Residual(const Stretch& stretch, const InverseDepth& depth,
-                                                const Vector& unknowns);
+  // What the unknowns make of a stretch's flow, term by term, and what that leaves of it.
+  struct Flow {
+    double turn_rad = 0.0;
+    Eigen::Vector2d wide = Eigen::Vector2d::Zero();  // (u^2, u v) / f
+    Eigen::Vector2d out = Eigen::Vector2d::Zero();   // from the focus of expansion
+    double nearer = 0.0;                             // rho ds
+    Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  };
+  [[nodiscard]] static Flow FlowOf(const Stretch& stretch, const InverseDepth& depth,
+                                   const Vector& unknowns);
   [[nodiscard]] double NoiseOf(const Fit& fit) const;
   [[nodiscard]] static Equations Linearise(const Landmark& landmark, const Fit& fit);
   void Use(const CameraVector& camera);

@@ -18,7 +18,8 @@ constexpr double kLeastWidening = 1e-4;
 constexpr double kSideways_rad = 1.4;
 
 constexpr int kFlowIterations = 6;
-constexpr double kNearest_m = 0.3;  // beyond the segment's end; nothing nearer is ever in view
+constexpr int kFitsBeforeNoise = 2;  // until what is left over is noise
+constexpr double kNearest_m = 0.3;   // beyond the segment's end; nothing nearer is ever in view
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
 constexpr std::size_t kFewestWithASpread = 5;
@@ -133,43 +134,39 @@ TaughtFlow::Landmark TaughtFlow::MakeLandmark(const route::Segment& segment,
   return landmark;
 }
 
-Eigen::Vector2d TaughtFlow::Residual(const Stretch& stretch, const InverseDepth& depth,
-                                     const Vector& unknowns) {
+TaughtFlow::Flow TaughtFlow::FlowOf(const Stretch& stretch, const InverseDepth& depth,
+                                    const Vector& unknowns) {
   const double f = std::exp(unknowns[kLogFocal]);
   const double c = unknowns[kWidening];
-  const double turn = stretch.turn_rad + stretch.turn_error.dot(unknowns.tail<kHeading>());
-  const double nearer = depth.At(stretch.middle_m) * stretch.length_m;
-  return {stretch.du_px - turn * (f + c * stretch.u_px * stretch.u_px / f) -
-              nearer * (stretch.u_px - unknowns[kAheadU]),
-          stretch.dv_px - turn * c * stretch.u_px * stretch.v_px / f -
-              nearer * (stretch.v_px - unknowns[kAheadV])};
+  Flow flow;
+  flow.turn_rad = stretch.turn_rad + stretch.turn_error.dot(unknowns.tail<kHeading>());
+  flow.wide = stretch.u_px / f * Eigen::Vector2d(stretch.u_px, stretch.v_px);
+  flow.out = {stretch.u_px - unknowns[kAheadU], stretch.v_px - unknowns[kAheadV]};
+  flow.nearer = depth.At(stretch.middle_m) * stretch.length_m;
+  flow.residual = Eigen::Vector2d(stretch.du_px, stretch.dv_px) -
+                  flow.turn_rad * (Eigen::Vector2d(f, 0.0) + c * flow.wide) -
+                  flow.nearer * flow.out;
+  return flow;
 }
 
 TaughtFlow::Equations TaughtFlow::Linearise(const Landmark& landmark, const Fit& fit) {
   Equations equations;
-  const Vector& unknowns = fit.unknowns;
-  const double f = std::exp(unknowns[kLogFocal]);
-  const double c = unknowns[kWidening];
+  const double f = std::exp(fit.unknowns[kLogFocal]);
+  const double c = fit.unknowns[kWidening];
   for (const Stretch& s : landmark.stretches) {
-    const double rho = landmark.depth.At(s.middle_m);
+    const auto [turn, wide, out, nearer, residual] = FlowOf(s, landmark.depth, fit.unknowns);
     const double shrink =
         std::max(kSmallestShrink, 1.0 - landmark.depth.at_start_per_m * s.middle_m);
-    const double turn = s.turn_rad + s.turn_error.dot(unknowns.tail<kHeading>());
-    const double wide_u = s.u_px * s.u_px / f;
-    const double wide_v = s.u_px * s.v_px / f;
-    const double out_u = s.u_px - unknowns[kAheadU];
-    const double out_v = s.v_px - unknowns[kAheadV];
-    const Eigen::Vector2d residual = Residual(s, landmark.depth, unknowns);
     const double error2 = residual.squaredNorm() / Square(fit.noise_px);
     const double weight = 1.0 / (Square(fit.noise_px) * (1.0 + error2 / Square(kCauchySigmas)));
     Vector slope_u;
-    slope_u << -rho * s.length_m, 0.0, turn * (f - c * wide_u), turn * wide_u,
-        (f + c * wide_u) * s.turn_error;
+    slope_u << -nearer, 0.0, turn * (f - c * wide.x()), turn * wide.x(),
+        (f + c * wide.x()) * s.turn_error;
     Vector slope_v;
-    slope_v << 0.0, -rho * s.length_m, -turn * c * wide_v, turn * wide_v, c * wide_v * s.turn_error;
+    slope_v << 0.0, -nearer, -turn * c * wide.y(), turn * wide.y(), c * wide.y() * s.turn_error;
     const double depth_slope = s.length_m / Square(shrink);
-    equations.Add(slope_u, depth_slope * out_u, residual.x(), weight);
-    equations.Add(slope_v, depth_slope * out_v, residual.y(), weight);
+    equations.Add(slope_u, depth_slope * out.x(), residual.x(), weight);
+    equations.Add(slope_v, depth_slope * out.y(), residual.y(), weight);
   }
   return equations;
 }
@@ -178,7 +175,7 @@ double TaughtFlow::NoiseOf(const Fit& fit) const {
   std::vector<double> off_px;
   for (const Landmark& landmark : fit.landmarks) {
     for (const Stretch& stretch : landmark.stretches) {
-      off_px.push_back(Residual(stretch, landmark.depth, fit.unknowns).norm());
+      off_px.push_back(FlowOf(stretch, landmark.depth, fit.unknowns).residual.norm());
     }
   }
   if (off_px.size() < kFewestToTellNoise) return noise_px_;
@@ -216,7 +213,7 @@ void TaughtFlow::Improve(Fit& fit, double length_m) const {
   }
 }
 
-TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment, bool shaken) const {
+TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment, Noise noise) const {
   Fit fit;
   fit.landmarks.reserve(segment.features.size());
   for (const route::Feature& feature : segment.features) {
@@ -225,14 +222,14 @@ TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment, bool shaken) co
   fit.unknowns.head<kCamera>() = mean_;
   fit.noise_px = noise_px_;
   for (int i = 0; i < kFlowIterations; ++i) {
+    if (noise == Noise::kAsMeasured && i >= kFitsBeforeNoise) fit.noise_px = NoiseOf(fit);
     Improve(fit, segment.length_m);
-    if (shaken && i > 0) fit.noise_px = NoiseOf(fit);
   }
   return fit;
 }
 
 void TaughtFlow::Learn(const route::Segment& segment) {
-  const Fit fit = FitTo(segment, true);
+  const Fit fit = FitTo(segment, Noise::kAsMeasured);
   if (!fit.unknowns.allFinite()) return;
   // The error of the segment's own heading is no longer of interest.
   const Eigen::Matrix<double, kCamera, kHeading> mixed =
@@ -253,7 +250,8 @@ FocalLength TaughtFlow::focal() const {
 std::vector<InverseDepth> TaughtFlow::Depths(const route::Segment& segment) const {
   std::vector<InverseDepth> depths;
   depths.reserve(segment.features.size());
-  for (const Landmark& landmark : FitTo(segment, false).landmarks) depths.push_back(landmark.depth);
+  for (const Landmark& landmark : FitTo(segment, Noise::kOfTracker).landmarks)
+    depths.push_back(landmark.depth);
   DrawTogether(depths);
   return depths;
 }
