@@ -88,7 +88,7 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   ASSERT_EQ(Network({"join", "hall@4.5", "office@0.5"}).status, 0);
   ASSERT_EQ(Network({"join", "dock@2.1", "office@2"}).status, 0);
   const auto robot =
-      Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-carry", "7.2,4.2,90@1.2"});
+      Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-carry", "7.2,4.4,90@1.2"});
   const auto agent = Serve("robot1", "duty", {"--look-around", "0"}, "robot1.db");
   ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
   const Ended sent = Send({"goto", "office@2.5", "--from", "hall@0"});
