@@ -90,10 +90,10 @@ void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
   command
       .add_option("--refresh", replay.refresh,
                   "What becomes of a route that has changed since it was taught, once the robot "
-                  "has arrived on it, by odometry and the default method: nothing (off); a "
-                  "revision of it with what is seen today in place of what is long gone, which "
-                  "robots follow once an operator has looked at it and activates it (review); the "
-                  "same, which needs no look (auto)")
+                  "has arrived on it by the default method: nothing (off); a revision of it with "
+                  "what is seen today in place of what is long gone, without odometry only beside "
+                  "what was seen, which robots follow once an operator has looked at it and "
+                  "activates it (review); the same, which needs no look (auto)")
       ->check(CLI::IsMember(RefreshingNames()))
       ->capture_default_str();
   AddDeviceOptions(command, replay.device, use);

@@ -36,13 +36,19 @@ Result<std::vector<route::Segment>> ReadAll(const route::RouteInfo& route,
   return segments;
 }
 
-bool IsWorthARevision(const refresh::RefreshCounts& counts) {
+bool IsWorthARevision(const std::vector<route::Segment>& before,
+                      const refresh::Refreshed& refreshed) {
+  const refresh::RefreshCounts& counts = refreshed.counts;
   return counts.added + counts.dropped > 0 ||
-         counts.missed > kFewMissed * (counts.found + counts.missed);
+         counts.missed > kFewMissed * (counts.found + counts.missed) ||
+         !std::equal(before.begin(), before.end(), refreshed.segments.begin(),
+                     [](const route::Segment& a, const route::Segment& b) {
+                       return a.key_views == b.key_views;
+                     });
 }
 
 route::RouteInfo InfoOf(const AgentId& self, const route::RouteInfo& followed,
-                        const refresh::RefreshCounts& counts, Refreshing how) {
+                        const refresh::Refreshed& refreshed, Refreshing how) {
   route::RouteInfo info = followed;
   info.key.teaching = MakeTeachingId();
   info.scout = self;
@@ -51,7 +57,7 @@ route::RouteInfo InfoOf(const AgentId& self, const route::RouteInfo& followed,
   info.edition = 0;
   info.cut_off = false;
   info.to_review = how == Refreshing::kReview;
-  info.description = refresh::DescribeRefreshed(followed.revision, self, counts);
+  info.description = refresh::DescribeRefreshed(followed.revision, self, refreshed);
   const auto place = std::lower_bound(info.tags.begin(), info.tags.end(), refresh::kTag);
   const bool tagged = place != info.tags.end() && *place == refresh::kTag;
   if (!tagged && info.tags.size() < route::kMaxTags) info.tags.emplace(place, refresh::kTag);
@@ -77,11 +83,11 @@ Result<route::RouteInfo> StoreRefreshed(const AgentId& self, const route::RouteI
   if (!segments) return tl::unexpected(segments.error());
   const auto refreshed = refresh::Refresh(*segments, visit);
   if (!refreshed) return tl::unexpected(refreshed.error());
-  if (!IsWorthARevision(refreshed->counts)) {
-    return Fail(ErrorCode::kUnavailable, "it is as it was taught: {} of {} features were found",
-                refreshed->counts.found, refreshed->counts.found + refreshed->counts.missed);
+  if (!IsWorthARevision(*segments, *refreshed)) {
+    return Fail(ErrorCode::kUnavailable, "it is as it was taught: {}",
+                refresh::Describe(*refreshed));
   }
-  std::vector<route::RouteInfo> one{InfoOf(self, followed, refreshed->counts, how)};
+  std::vector<route::RouteInfo> one{InfoOf(self, followed, *refreshed, how)};
   if (auto numbered = exchange::GiveNumbers(store, one); !numbered) {
     return tl::unexpected(numbered.error());
   }

@@ -132,7 +132,7 @@ Result<void> JointSearch::Read(Search& search) {
     const auto segment = ReadSegment(store_, search.info.key, SegmentIndex(search.next));
     if (!segment) return tl::unexpected(segment.error());
     search.views->Add(*segment);
-    for (route::KeyView& view : view::KeyViewsOf(*segment)) {
+    for (route::KeyView& view : view::ScoutViewsOf(*segment)) {
       search.to_look_for.push_back(std::move(view));
     }
     ++search.next;

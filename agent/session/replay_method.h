@@ -58,8 +58,9 @@ struct ReplayMethodOptions {
   // How far to either side a robot that has lost its path from view turns on the spot to find it
   // again, before it gives up; by the default method with odometry. 0: it stands.
   double look_around_rad = 0.0;
-  // To note what of the route is found, missed, and seen besides, for a refreshed one; by the
-  // default method with odometry. Changes nothing of how it follows.
+  // To note what of the route is found, missed, and seen besides, for a refreshed one: of its key
+  // views, and by the default method with odometry of its features. Changes nothing of how it
+  // follows.
   bool take_experience = false;
 };
 

@@ -17,6 +17,7 @@ struct ViewPlace {
   // By how much larger things are in it than in the view before, as a natural logarithm, to the
   // scout's camera; nothing where the two have too little in common to tell.
   std::optional<double> growth;
+  bool own = true;  // false: how the place of the one before it looked later
 };
 
 // A stored view that was compared with what the camera sees.
@@ -120,7 +121,7 @@ class RouteBelief {
   // the window has less than this probability.
   [[nodiscard]] std::vector<double> Likeliest(std::size_t most, double least, double apart) const;
 
-  // The views before and after a place, at most so many in all, in order.
+  // The views before and after a place, at most so many that are its own in all, in order.
   [[nodiscard]] std::vector<std::size_t> Around(double along, std::size_t most) const;
   // Which views to compare next, at most so many: those about the held place, then the others by
   // turns.

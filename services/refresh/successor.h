@@ -12,16 +12,17 @@ namespace trailcast::refresh {
 // What a revision is tagged with that refreshes another one.
 inline constexpr std::string_view kTag = "refreshed";
 
-// What such a revision says of itself, for people: whose visit to which revision made it, and what
-// has changed.
+// What has changed, and what such a revision says of itself: whose visit to which revision made it,
+// too. For people.
+[[nodiscard]] std::string Describe(const Refreshed& refreshed);
 [[nodiscard]] std::string DescribeRefreshed(RevisionNumber visited, const AgentId& by,
-                                            const RefreshCounts& counts);
+                                            const Refreshed& refreshed);
 
 // The revision that it says it refreshes; nothing: it is tagged, or described, as none.
 [[nodiscard]] std::optional<RevisionNumber> RevisionRefreshed(const route::RouteInfo& info);
 
-// Whether `segment` is `before` as one visit may leave it: as taught but for features, of which no
-// more have gone and come than a visit takes away and adds.
+// Whether `segment` is `before` as one visit may leave it: as taught but for features and added key
+// views, of which no more have gone and come than a visit takes away and adds.
 [[nodiscard]] bool IsRefreshed(const route::Segment& segment, const route::Segment& before,
                                const RefreshOptions& options = {});
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace trailcast::route {
@@ -29,10 +30,14 @@ struct ViewFeature {
 };
 using View = std::vector<ViewFeature>;
 
-// What the scout saw at one moment of a segment, by which a follower tells where it is.
+// What the scout saw at one moment of a segment, by which a follower tells where it is; or how the
+// same place looked to a follower later, told in the scout's pixels: right after the scout's own.
 struct KeyView {
   double s = 0.0;  // fraction of the segment, 0 to 1
   View features;
+  // Of one that a follower added: how many of the last visits in a row did not recognise it.
+  // Nothing: it is the scout's own.
+  std::optional<std::uint8_t> missed{};
 
   bool operator==(const KeyView&) const = default;
 };

@@ -29,6 +29,8 @@ namespace fs = std::filesystem;
 struct JudgeCommand {
   fs::path teach;
   std::vector<fs::path> replays;
+  std::vector<fs::path> visits;
+  std::string visits_disturbance;
   fs::path truth;
   fs::path steering;
   fs::path teach_odometry;
@@ -58,6 +60,7 @@ constexpr const char* kJudgeExamples =
     "none,camera,every=3,jpeg=30+noise=8\n"
     "  trailcast judge drive1/ drive2/ --truth truth.csv --start anywhere --disturb "
     "from=0.2,from=0.7\n"
+    "  trailcast judge drive1/ drive3/ --truth truth3.csv --visit drive2/   # who refreshed it\n"
     "  trailcast judge drive1/ other-hall/                    # must not be followed\n"
     "  trailcast judge --pairs pairs.csv --data recordings/ --csv judged.csv\n"
     "\n"
@@ -81,7 +84,7 @@ constexpr const char* kJudgeExamples =
     "A file of pairs is a CSV with the columns teach,replay and, as far as they are needed,\n"
     "kind (identity, right, wrong), set (pairs that make a column of the tables), truth, "
     "steering,\n"
-    "disturb, teach_odometry, replay_odometry, rate.\n"
+    "disturb, teach_odometry, replay_odometry, rate, visits (with + between), disturb_visits.\n"
     "\n"
     "Disturbances, drawn from --seed; several are joined with '+':\n";
 
@@ -91,6 +94,15 @@ void AddPairOptions(CLI::App& app, JudgeCommand& judge) {
                                "their names) or a video");
   auto* replays =
       app.add_option("replay", judge.replays, "Those that are replayed on its route")->needs(teach);
+  app.add_option(
+         "--visit", judge.visits,
+         "A recording whose robot follows the route before, and refreshes it if it arrives; "
+         "several: one after the other")
+      ->allow_extra_args(false)
+      ->needs(replays);
+  app.add_option("--disturb-visits", judge.visits_disturbance,
+                 "What is done to all of these; see below")
+      ->needs(replays);
   app.add_option("--truth", judge.truth,
                  "Where the replayed frames were taken, as 'trailcast align' writes it")
       ->needs(replays);
@@ -165,7 +177,9 @@ Result<std::vector<trial::RecordingPair>> PairsOf(const JudgeCommand& judge) {
     return Fail(ErrorCode::kInvalidArgument,
                 "--truth and --steering are of one replay: give one, or --pairs");
   }
-  for (const std::string& disturbance : judge.disturbances) {
+  std::vector<std::string> disturbances = judge.disturbances;
+  disturbances.push_back(judge.visits_disturbance);
+  for (const std::string& disturbance : disturbances) {
     const auto parsed = trial::ParseDisturbance(disturbance);
     if (!parsed) return tl::unexpected(parsed.error());
   }
@@ -179,6 +193,8 @@ Result<std::vector<trial::RecordingPair>> PairsOf(const JudgeCommand& judge) {
       pair.replay_name = ShortName(replay);
       pair.teach = {judge.teach, judge.teach_odometry, judge.rate_hz};
       pair.replay = {replay, judge.replay_odometry, judge.rate_hz};
+      for (const fs::path& visit : judge.visits) pair.visits.push_back({visit, {}, judge.rate_hz});
+      pair.visits_disturbance = judge.visits_disturbance;
       pair.reference = judge.truth;
       pair.steering = judge.steering;
       pair.disturbance = disturbance == "none" ? "" : disturbance;

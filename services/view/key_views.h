@@ -10,4 +10,7 @@ namespace trailcast::view {
 // were seen at its beginning, in its middle and at its end.
 [[nodiscard]] std::vector<route::KeyView> KeyViewsOf(const route::Segment& segment);
 
+// The same without those that followers added.
+[[nodiscard]] std::vector<route::KeyView> ScoutViewsOf(const route::Segment& segment);
+
 }  // namespace trailcast::view

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,6 +26,12 @@ struct ViewTable {
 
   [[nodiscard]] std::size_t size() const { return bits.size(); }
 };
+
+// Bits in which two descriptors differ.
+[[nodiscard]] inline int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
+  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
+         std::popcount(a[3] ^ b[3]);
+}
 
 // Features without a descriptor are left out.
 [[nodiscard]] ViewTable Tabulate(std::span<const route::ViewFeature> view, double width_px);

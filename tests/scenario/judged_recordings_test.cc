@@ -89,6 +89,29 @@ TEST_F(JudgedRecordingsTest, DisturbedItIsFollowedNearlyAsWell) {
   }
 }
 
+TEST_F(JudgedRecordingsTest, WhatAnotherLapRefreshedIsKnownToAnotherCameraAndToNoOtherPlace) {
+  RecordingPair as_taught = Pair(PairKind::kRight, "patio_laps/lap0", "patio_laps/lap3");
+  as_taught.reference = data_ / "patio_laps/truth_lap3.csv";
+  as_taught.disturbance = "camera";
+  RecordingPair refreshed = as_taught;
+  refreshed.visits = {{data_ / "patio_laps/lap1", {}, 20.0}};
+  RecordingPair elsewhere = Pair(PairKind::kWrong, "patio_laps/lap0", "donkey_track/replay");
+  elsewhere.visits = refreshed.visits;
+  RecordingPair by_another = Pair(PairKind::kRight, "patio_laps/lap0", "patio_laps/lap3");
+  by_another.reference = as_taught.reference;
+  by_another.visits = {{data_ / "donkey_track/replay", {}, 20.0}};
+  const std::vector<RecordingRow> rows = Run({as_taught, refreshed, elsewhere, by_another});
+  ASSERT_EQ(rows.size(), 4U);
+  ASSERT_EQ(rows[1].visits.size(), 1U);
+  EXPECT_THAT(rows[1].visits[0], testing::HasSubstr("views new, 0 gone"));
+  EXPECT_GT(rows[1].verdict.following, rows[0].verdict.following) << RecordingTable(rows);
+  EXPECT_GE(Shares(rows[1]).right, 0.97) << RecordingTable(rows);
+  EXPECT_LE(Shares(rows[1]).wrong, 0.02) << RecordingTable(rows);
+  EXPECT_EQ(rows[2].verdict.following, 0) << RecordingTable(rows);
+  ASSERT_EQ(rows[3].visits.size(), 1U);
+  EXPECT_THAT(rows[3].visits[0], testing::HasSubstr("it ends LOST")) << "who was elsewhere";
+}
+
 TEST_F(JudgedRecordingsTest, AnotherPlaceIsNotFollowed) {
   const std::vector<RecordingRow> rows =
       Run({Pair(PairKind::kWrong, "donkey_track/teach", "corridor_offset/ref")});

@@ -50,6 +50,30 @@ TEST_P(PatioLapsTest, AnotherLapUnderOtherLightGoesAllTheWayRound) {
 
 INSTANTIATE_TEST_SUITE_P(Laps, PatioLapsTest, testing::Values(1, 2, 3, 4));
 
+// The real programs: what one follower has seen changed, the next gets from the server.
+TEST_F(RecordedRunsTest, PatioIsRefreshedByOneLapAndFollowedSoByTheNext) {
+  if (Absent("patio_laps")) GTEST_SKIP() << "no recorded runs at " << Data("patio_laps");
+  const auto server = Server();
+  const auto follow = [&](const std::string& lap, const std::string& store, const Words& more) {
+    return RunAgent(With({"replay", "--frames", (Data("patio_laps") / lap).string(), "--route",
+                          "patio", "--store", Path(store), "--server"},
+                         more));
+  };
+  const auto taught = RunAgent({"teach", "--frames", (Data("patio_laps") / "lap0").string(),
+                                "--route", "patio", "--store", Path("scout.db"), "--server"});
+  ASSERT_EQ(taught.status, 0) << taught.output;
+  const auto first = follow("lap1", "first.db", {"--refresh", "auto"});
+  EXPECT_EQ(first.status, 0) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("revision 1 refreshed by "));
+  EXPECT_THAT(first.output, HasSubstr(" views new, 0 gone; "));
+  EXPECT_TRUE(server->WaitForOutput("takes the place of the one that it refreshes"))
+      << server->output();
+  const auto second = follow("lap3", "second.db", {});
+  EXPECT_EQ(second.status, 0) << second.output;
+  EXPECT_THAT(second.output, HasSubstr("@2"));
+  EXPECT_THAT(second.output, HasSubstr("state=ARRIVED"));
+}
+
 TEST_F(RecordedRunsTest, CorridorWalkedOnTheLeftAsksForRight) {
   if (Absent("corridor_offset")) GTEST_SKIP() << "no recorded runs at " << Data("corridor_offset");
   const auto [right, left] = RightAndLeft(

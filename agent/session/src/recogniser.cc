@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trailcast::agent {
 
@@ -29,8 +30,10 @@ std::vector<std::optional<double>> Recogniser::Learn(std::span<const route::KeyV
   for (const route::KeyView& view : views) {
     keys_.push_back(view::Tabulate(view.features, scout_width_px_));
     std::optional<double>& growth = growths.emplace_back();
-    if (keys_.size() < 2) continue;
-    const view::Comparison comparison = view::Compare(keys_[keys_.size() - 2], keys_.back());
+    if (view.missed) continue;
+    const auto before = std::exchange(last_own_, keys_.size() - 1);
+    if (!before) continue;
+    const view::Comparison comparison = view::Compare(keys_[*before], keys_.back());
     if (comparison.agreed() >= kEnough) growth = std::log(comparison.scale);
   }
   return growths;

@@ -35,8 +35,9 @@ class Recogniser {
  public:
   explicit Recogniser(int scout_width_px) : scout_width_px_(scout_width_px) {}
 
-  // The route's next key views. By how much of its logarithm each shows things larger than the one
-  // before it; nothing where they have too little in common.
+  // The route's next key views. By how much of its logarithm each of the scout's shows things
+  // larger than the one before it; nothing where they have too little in common, and of those that
+  // followers added.
   std::vector<std::optional<double>> Learn(std::span<const route::KeyView> views);
   [[nodiscard]] Look LookAt(const image::GrayImage& frame, std::span<const std::size_t> views);
   // The same of a picture that is none of this camera's as it is mounted.
@@ -55,6 +56,7 @@ class Recogniser {
   int scout_width_px_;
   vision::ViewDescriber describer_;
   std::vector<view::ViewTable> keys_;
+  std::optional<std::size_t> last_own_;  // of these, the scout's last
 };
 
 }  // namespace trailcast::agent

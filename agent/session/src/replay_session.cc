@@ -13,6 +13,7 @@
 #include "agent/session/src/standing.h"
 #include "agent/session/src/upright_watch.h"
 #include "agent/session/src/view_follower.h"
+#include "agent/session/src/view_taker.h"
 
 namespace trailcast::agent {
 namespace {
@@ -35,7 +36,9 @@ struct ReplaySession::State {
         upright(method.intake),
         place(info.image_width_px),
         by_features(method, {info.image_width_px, info.image_height_px}, route, eyes, place),
-        by_views(method, route, place) {}
+        by_views(method, route, place) {
+    if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
+  }
 
   // Without odometry, in the route or on the robot, our own method goes by what is recognised.
   [[nodiscard]] bool ByViews() const {
@@ -45,7 +48,7 @@ struct ReplaySession::State {
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
-  void Locate(const Seen& seen);
+  bool Locate(const Seen& seen);  // true: what is recognised was looked at
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
   [[nodiscard]] ReplayStep StandMisturned();
 
@@ -57,6 +60,7 @@ struct ReplaySession::State {
   PlaceKeeper place;
   FeatureFollower by_features;
   ViewFollower by_views;
+  std::optional<ViewTaker> views_met;
   std::optional<LeftAt> left;
   bool begun = false;  // a frame was seen while something of the route was known
   Standing standing;
@@ -106,12 +110,14 @@ void ReplaySession::State::StartPlace(int width_px) {
 }
 
 // A robot that is sure of its features asks what is recognised of the route only now and then.
-void ReplaySession::State::Locate(const Seen& seen) {
+bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
   std::optional<motion::OdometryIncrement> along = seen.driven;
   if (along && by_features.reverses()) along->distance_m = -along->distance_m;
   place.Move({along, seen.flow, seen.dt_s, seen.unknown.distance_m});
-  if (ByViews() || standing.trust != Trust::kSure || place.LookIsDue()) place.LookAt(*seen.frame);
+  const bool looks = ByViews() || standing.trust != Trust::kSure || place.LookIsDue();
+  if (looks) place.LookAt(*seen.frame);
+  return looks;
 }
 
 ReplayStep ReplaySession::State::Follow(const Seen& seen) {
@@ -150,6 +156,7 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
   }
   s.by_features.Learn(segment);
   s.place.Learn(segment);
+  if (s.views_met) s.views_met->Learn(segment);
   s.route.Add(std::move(segment));
   return {};
 }
@@ -179,8 +186,9 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
   if (s.standing.state == ReplayState::kArrived || s.upright.misturned()) return s.last;
   if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
-  s.Locate(*seen);
+  const bool looked = s.Locate(*seen);
   s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
+  if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
@@ -195,7 +203,10 @@ void ReplaySession::Pass(const Observation& observation) {
 
 std::optional<refresh::Visit> ReplaySession::TakeVisit() {
   if (state_->standing.state != ReplayState::kArrived) return std::nullopt;
-  return state_->by_features.TakeVisit();
+  if (!state_->views_met) return std::nullopt;
+  refresh::Visit visit = state_->by_features.TakeVisit().value_or(refresh::Visit{});
+  state_->views_met->Take(visit);
+  return visit;
 }
 
 std::optional<OwnLens> ReplaySession::lens() const { return state_->by_features.lens(); }

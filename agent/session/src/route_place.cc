@@ -26,7 +26,7 @@ void RoutePlace::Learn(const route::Segment& segment, std::span<const route::Key
   std::vector<belief::ViewPlace> places;
   places.reserve(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    places.push_back({views[i].s * extent, growths[i]});
+    places.push_back({views[i].s * extent, growths[i], !views[i].missed});
   }
   belief_->Extend(extent, places);
   begins_.push_back(begins_.back() + extent);

@@ -58,7 +58,7 @@ int Median(const std::deque<int>& values) {
 }  // namespace
 
 void RouteBelief::Extend(double length, std::span<const ViewPlace> views) {
-  for (const ViewPlace& view : views) views_.push_back({length_ + view.at, view.growth});
+  for (const ViewPlace& view : views) views_.push_back({length_ + view.at, view.growth, view.own});
   length_ += length;
   const auto cells = static_cast<std::size_t>(std::floor(length_ / options_.cell)) + 1;
   cells_.Grow(cells - cells_.size());
@@ -386,8 +386,13 @@ std::vector<std::size_t> RouteBelief::Around(double along, std::size_t most) con
   const auto before = [](const ViewPlace& view, double place) { return view.at < place; };
   const auto next = static_cast<std::size_t>(
       std::distance(views_.begin(), std::lower_bound(views_.begin(), views_.end(), along, before)));
-  const std::size_t first = next > most / 2 ? next - most / 2 : 0;
-  std::vector<std::size_t> around(std::min(views_.size(), first + most) - first);
+  std::size_t first = next;
+  for (std::size_t own = 0; first > 0 && own < most / 2;) own += views_[--first].own ? 1 : 0;
+  std::size_t after = first;
+  for (std::size_t own = 0; after < views_.size() && (own < most || !views_[after].own); ++after) {
+    own += views_[after].own ? 1 : 0;
+  }
+  std::vector<std::size_t> around(after - first);
   std::iota(around.begin(), around.end(), first);
   return around;
 }

@@ -56,7 +56,7 @@ void ShapeMaker::Add(const route::Segment& segment) {
     shape_.has_odometry = segment.has_odometry;
     if (segment.has_odometry) shape_.points.push_back(at_);
   }
-  std::vector<route::KeyView> views = view::KeyViewsOf(segment);
+  std::vector<route::KeyView> views = view::ScoutViewsOf(segment);
   if (!views.empty()) {
     last_view_ = views.back().features;
     if (first_.key_views.empty()) first_.key_views = std::move(views);

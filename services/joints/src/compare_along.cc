@@ -6,6 +6,7 @@
 
 #include "services/base/median.h"
 #include "services/joints/src/taught_path.h"
+#include "services/view/key_views.h"
 
 namespace trailcast::joints {
 namespace {
@@ -16,7 +17,8 @@ using route::Segment;
 bool HaveOnePath(std::span<const Segment> a, std::span<const Segment> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Segment& x, const Segment& y) {
     return x.length_m == y.length_m && x.duration_s == y.duration_s && x.heading == y.heading &&
-           x.heading_change_rad == y.heading_change_rad && x.key_views == y.key_views;
+           x.heading_change_rad == y.heading_change_rad &&
+           view::ScoutViewsOf(x) == view::ScoutViewsOf(y);
   });
 }
 

@@ -90,7 +90,7 @@ std::vector<NearRoute> NearRoutes(view::ViewIndex& index, const RouteId& self,
                                   const NearRouteOptions& options) {
   NearRouteSearch search(self, options);
   for (const route::Segment& segment : route) {
-    for (const route::KeyView& key : view::KeyViewsOf(segment)) search.Look(index, key.features);
+    for (const route::KeyView& key : view::ScoutViewsOf(segment)) search.Look(index, key.features);
   }
   return search.Found();
 }

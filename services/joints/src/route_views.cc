@@ -47,7 +47,7 @@ void RouteViews::Add(const route::Segment& segment) {
   if (change && std::abs(turn) > kLeastTurn_rad) {
     turns_.push_back({change->shift_u / turn, std::abs(turn)});
   }
-  for (const route::KeyView& key : view::KeyViewsOf(segment)) {
+  for (const route::KeyView& key : view::ScoutViewsOf(segment)) {
     views_.push_back({along_ + key.s * extent,
                       heading_ + route::HeadingAt(segment.heading, key.s * segment.length_m),
                       segment.reverse, growth, view::Tabulate(key.features, width_px_)});

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <optional>
 
+#include "services/refresh/src/added_views.h"
 #include "services/route/codec.h"
 
 namespace trailcast::refresh {
@@ -29,8 +30,8 @@ bool IsSound(const Feature& feature) {
   return feature.first().s == 0.0F && feature.milestone().s == 1.0F;
 }
 
-void Count(const Segment& segment, const std::vector<Sought>& sought, RefreshCounts& counts) {
-  if (sought.empty()) counts.unjudged += static_cast<int>(segment.features.size());
+void Count(std::size_t all, const std::vector<Sought>& sought, RefreshCounts& counts) {
+  if (sought.empty()) counts.unjudged += static_cast<int>(all);
   for (const Sought each : sought) {
     (each == Sought::kFound    ? counts.found
      : each == Sought::kMissed ? counts.missed
@@ -81,36 +82,53 @@ int Add(const std::vector<Feature>& offered, std::size_t most, std::size_t most_
   return added;
 }
 
+bool Speaks(const std::vector<Sought>& sought, std::size_t of) {
+  return sought.empty() || sought.size() == of;
+}
+
 Result<void> CheckFits(const std::vector<Segment>& route, const Visit& visit) {
   std::size_t next = 0;
   for (const SegmentVisit& each : visit.segments) {
     const std::size_t index = each.index.value();
     if (index < next || index >= route.size() ||
-        each.features.size() != route[index].features.size()) {
+        !Speaks(each.features, route[index].features.size()) ||
+        !Speaks(each.views, route[index].key_views.size())) {
       return Fail(ErrorCode::kInvalidArgument,
-                  "the visit speaks of {} features of segment {}: it is not one of this route",
-                  each.features.size(), index);
+                  "the visit speaks of {} features and {} key views of segment {}: it is not one "
+                  "of this route",
+                  each.features.size(), each.views.size(), index);
     }
     next = index + 1;
   }
   return {};
 }
 
-Result<void> CheckBelievable(const RefreshCounts& counts, const RefreshOptions& options) {
+// `what`: of a route, as people call it.
+Result<void> CheckBelievable(const RefreshCounts& counts, const char* what,
+                             const RefreshOptions& options) {
   if (counts.found_share() < options.least_found_share) {
     return Fail(ErrorCode::kUnavailable,
-                "of the features that should have been seen {:.0f} % were found, less than {:.0f} "
-                "%: nothing is learnt from such a visit",
-                100.0 * counts.found_share(), 100.0 * options.least_found_share);
+                "of the {} that should have been seen {:.0f} % were found, less than {:.0f} %: "
+                "nothing is learnt from such a visit",
+                what, 100.0 * counts.found_share(), 100.0 * options.least_found_share);
   }
   const int judged = counts.found + counts.missed;
   if (judged < options.least_judged_share * (judged + counts.unjudged)) {
     return Fail(ErrorCode::kUnavailable,
-                "{} of {} features could be judged, less than {:.0f} %: nothing is learnt from "
-                "such a visit",
-                judged, judged + counts.unjudged, 100.0 * options.least_judged_share);
+                "{} of {} {} could be judged, less than {:.0f} %: nothing is learnt from such a "
+                "visit",
+                judged, judged + counts.unjudged, what, 100.0 * options.least_judged_share);
   }
   return {};
+}
+
+void RefreshFeatures(const SegmentVisit& visit, std::size_t most_bytes,
+                     const RefreshOptions& options, Segment& segment, RefreshCounts& counts) {
+  const auto most = static_cast<std::size_t>(
+      std::ceil(options.most_share * static_cast<double>(segment.features.size())));
+  NoteMissed(visit.features, segment);
+  counts.dropped += Drop(most, options, segment);
+  counts.added += Add(visit.offered, most, most_bytes, segment);
 }
 
 }  // namespace
@@ -118,34 +136,37 @@ Result<void> CheckBelievable(const RefreshCounts& counts, const RefreshOptions& 
 Result<Refreshed> Refresh(const std::vector<Segment>& route, const Visit& visit,
                           const RefreshOptions& options) {
   if (auto fits = CheckFits(route, visit); !fits) return tl::unexpected(fits.error());
-  std::vector<const SegmentVisit*> visits(route.size(), nullptr);
+  static const SegmentVisit kNothing{};
+  std::vector<const SegmentVisit*> visits(route.size(), &kNothing);
   for (const SegmentVisit& each : visit.segments) visits[each.index.value()] = &each;
-  Refreshed refreshed{route, {}};
+  Refreshed refreshed{route, {}, {}};
   double bytes = 0.0;
   double length_m = 0.0;
   for (std::size_t i = 0; i < route.size(); ++i) {
-    Count(route[i], visits[i] != nullptr ? visits[i]->features : std::vector<Sought>{},
-          refreshed.counts);
+    Count(route[i].features.size(), visits[i]->features, refreshed.counts);
+    Count(route[i].key_views.size(), visits[i]->views, refreshed.views);
     bytes += static_cast<double>(route::Encode(route[i]).size());
     length_m += route[i].length_m;
   }
-  if (auto good = CheckBelievable(refreshed.counts, options); !good) {
-    return tl::unexpected(good.error());
+  const auto features = CheckBelievable(refreshed.counts, "features", options);
+  const auto views = CheckBelievable(refreshed.views, "key views", options);
+  if (!features && !views) {
+    const bool by_features = refreshed.counts.found + refreshed.counts.missed > 0;
+    return tl::unexpected(by_features ? features.error() : views.error());
   }
   // What the whole route has left goes to its segments by their lengths: one of a sharp turn has
   // more bytes a metre than others, and keeps them.
   const double spare_per_m =
       length_m > 0.0 ? std::max(0.0, options.most_bytes_per_m - bytes / length_m) : 0.0;
   for (std::size_t i = 0; i < route.size(); ++i) {
-    if (visits[i] == nullptr) continue;
     Segment& segment = refreshed.segments[i];
     const auto most_bytes = static_cast<std::size_t>(
         static_cast<double>(route::Encode(segment).size()) + spare_per_m * segment.length_m);
-    const auto most = static_cast<std::size_t>(
-        std::ceil(options.most_share * static_cast<double>(segment.features.size())));
-    NoteMissed(visits[i]->features, segment);
-    refreshed.counts.dropped += Drop(most, options, segment);
-    refreshed.counts.added += Add(visits[i]->offered, most, most_bytes, segment);
+    if (features) RefreshFeatures(*visits[i], most_bytes, options, segment, refreshed.counts);
+    if (!views) continue;
+    const bool weighs = segment.has_odometry;
+    RefreshViews(*visits[i], weighs ? std::optional(most_bytes) : std::nullopt, options, segment,
+                 refreshed.views);
   }
   return refreshed;
 }

@@ -13,22 +13,47 @@ namespace {
 constexpr std::string_view kRevision = "revision ";
 constexpr std::string_view kBy = " refreshed by ";
 
+std::string WhatChanged(const RefreshCounts& counts, const char* what) {
+  return fmt::format("{} {} new, {} gone; {} of {} were found", counts.added, what, counts.dropped,
+                     counts.found, counts.found + counts.missed);
+}
+
 bool AreSame(const route::Feature& a, const route::Feature& b) {
   return a.patch == b.patch && a.descriptor == b.descriptor && a.track == b.track;
 }
 
-route::Segment WithoutFeatures(route::Segment segment) {
+// The scout's key views remain.
+route::Segment WithoutWhatChanges(route::Segment segment) {
   segment.features.clear();
+  std::erase_if(segment.key_views, [](const route::KeyView& view) { return view.missed; });
   return segment;
+}
+
+// No more key views have been added beside each of the scout's than may be.
+bool AddsFew(const route::Segment& segment, const RefreshOptions& options) {
+  int added = 0;
+  for (const route::KeyView& view : segment.key_views) {
+    added = view.missed ? added + 1 : 0;
+    if (added > options.most_added_views) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
+std::string Describe(const Refreshed& refreshed) {
+  const auto& [segments, features, views] = refreshed;
+  const bool by_views = features.found + features.missed == 0;
+  if (by_views) return WhatChanged(views, "views");
+  std::string text = WhatChanged(features, "features");
+  if (views.added + views.dropped > 0) text += "; " + WhatChanged(views, "views");
+  return text;
+}
+
 std::string DescribeRefreshed(RevisionNumber visited, const AgentId& by,
-                              const RefreshCounts& counts) {
-  return fmt::format("{}{}{}{}: {} features new, {} gone; {} of {} were found", kRevision,
-                     visited.value(), kBy, by.value(), counts.added, counts.dropped, counts.found,
-                     counts.found + counts.missed);
+                              const Refreshed& refreshed) {
+  return fmt::format("{}{}{}{}: {}", kRevision, visited.value(), kBy, by.value(),
+                     Describe(refreshed));
 }
 
 std::optional<RevisionNumber> RevisionRefreshed(const route::RouteInfo& info) {
@@ -43,7 +68,8 @@ std::optional<RevisionNumber> RevisionRefreshed(const route::RouteInfo& info) {
 
 bool IsRefreshed(const route::Segment& segment, const route::Segment& before,
                  const RefreshOptions& options) {
-  if (WithoutFeatures(segment) != WithoutFeatures(before)) return false;
+  if (WithoutWhatChanges(segment) != WithoutWhatChanges(before)) return false;
+  if (!AddsFew(segment, options)) return false;
   // Those that stay keep their order.
   std::size_t stayed = 0;
   auto from = before.features.begin();

@@ -23,10 +23,16 @@ ViewTurn TurnTowards(double aim, std::span<const SeenKeyView> seen, int scout_wi
                      const ViewTurnOptions& options) {
   const SeenKeyView* before = nullptr;
   const SeenKeyView* after = nullptr;
+  // Of those of one place, the one that is recognised best.
+  const auto is_better = [](const SeenKeyView& view, const SeenKeyView* than) {
+    return than == nullptr || (view.along == than->along && view.pairs.size() > than->pairs.size());
+  };
   for (const SeenKeyView& view : seen) {
     if (static_cast<int>(view.pairs.size()) < options.fewest_pairs) continue;
-    if (view.along <= aim && (before == nullptr || view.along >= before->along)) before = &view;
-    if (view.along > aim && (after == nullptr || view.along < after->along)) after = &view;
+    const SeenKeyView*& nearest = view.along <= aim ? before : after;
+    const bool nearer =
+        nearest != nullptr && std::abs(view.along - aim) < std::abs(nearest->along - aim);
+    if (nearer || is_better(view, nearest)) nearest = &view;
   }
   if (before == nullptr) std::swap(before, after);
   if (before == nullptr) return {};

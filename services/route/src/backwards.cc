@@ -126,6 +126,10 @@ Segment FromOtherEnd(const Segment& segment) {
   }
   std::reverse(other.key_views.begin(), other.key_views.end());
   for (KeyView& view : other.key_views) view.s = 1.0 - view.s;
+  std::stable_sort(
+      other.key_views.begin(), other.key_views.end(), [](const KeyView& a, const KeyView& b) {
+        return std::pair(a.s, a.missed.has_value()) < std::pair(b.s, b.missed.has_value());
+      });
   if (other.terrain.slope_rad) other.terrain.slope_rad = -*other.terrain.slope_rad;
   return other;
 }

@@ -118,6 +118,7 @@ void AppendKeyView(const KeyView& view, format::v1::KeyView& out) {
     out.add_places(QuantisePlace(feature.u_px));
     out.add_places(QuantisePlace(feature.v_px));
   }
+  if (view.missed) out.set_missed(*view.missed);
 }
 
 void SetOdometry(const Segment& segment, format::v1::Odometry& out) {
@@ -306,6 +307,8 @@ Result<KeyView> ReadKeyView(const format::v1::KeyView& in) {
                 in.at(), kLastKnotTime, features, in.descriptors().size(), in.places_size());
   }
   KeyView view{in.at() / static_cast<double>(kLastKnotTime), View(features)};
+  constexpr std::uint32_t kMostMissed = std::numeric_limits<std::uint8_t>::max();
+  if (in.has_missed()) view.missed = static_cast<std::uint8_t>(std::min(in.missed(), kMostMissed));
   for (std::size_t i = 0; i < features; ++i) {
     const double u = in.places(static_cast<int>(2 * i));
     const double v = in.places(static_cast<int>(2 * i + 1));

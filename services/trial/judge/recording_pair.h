@@ -26,14 +26,18 @@ struct RecordingPair {
   std::string replay_name;
   agent::RecordedRun teach;
   agent::RecordedRun replay;
+  // Followers in between, one after the other, each of which refreshes the route if it arrives.
+  std::vector<agent::RecordedRun> visits;
+  std::string visits_disturbance;   // of all of these, as ParseDisturbance takes it
   std::filesystem::path reference;  // of the replay on the teaching; empty: none
   std::filesystem::path steering;   // of the replay's driver; empty: none
   std::string disturbance;          // of the replay, as ParseDisturbance takes it
 };
 
 // CSV with a header; `teach` and `replay` are needed, `kind`, `set`, `truth`, `steering`,
-// `disturb`, `teach_odometry`, `replay_odometry` and `rate` may be given, in any order. Files are
-// below `root` unless they say otherwise. Errors name file, line and what was expected there.
+// `disturb`, `teach_odometry`, `replay_odometry`, `rate`, `visits` (with + between) and
+// `disturb_visits` may be given, in any order. Files are below `root` unless they say otherwise.
+// Errors name file, line and what was expected there.
 [[nodiscard]] Result<std::vector<RecordingPair>> ReadPairs(const std::filesystem::path& file,
                                                            const std::filesystem::path& root);
 

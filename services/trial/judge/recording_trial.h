@@ -27,6 +27,7 @@ struct RecordingRow {
   // What ended it before the recording did: the session refused a frame, or threw. Also why no
   // route could be taught.
   std::string error;
+  std::vector<std::string> visits;  // what has come of those who refreshed the route
   int segments = 0;
   double ms_per_frame = 0.0;  // CPU time of the replay session; the one figure that varies by run
 };

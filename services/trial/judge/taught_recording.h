@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "agent/device/recorded_device.h"
@@ -14,6 +15,7 @@ struct TaughtRecording {
   Result<TaughtRoute> route;
   std::vector<FrameSpan> spans;  // of its segments
   int frames = 0;
+  std::vector<std::string> visits;  // what has come of each follower that refreshed it; for people
 };
 
 // Teaches a route with a recording, as an agent would. `on_progress` gets the share done, 0..1. The

@@ -3,38 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/refresh/refresh.h"
-#include "services/route/digest.h"
+#include "services/trial/refresh_taught.h"
 
 namespace trailcast::trial {
-namespace {
-
-// What is made of the route for the next visit; a visit that is not believed leaves it as it is,
-// and the row says why.
-Result<void> RefreshRoute(const refresh::Visit& met, TaughtRoute& route, TrialRow& row) {
-  std::vector<route::Segment> segments;
-  segments.reserve(route.pieces.size());
-  for (const route::SegmentPiece& piece : route.pieces) {
-    auto segment = route::Open(piece);
-    if (!segment) return tl::unexpected(segment.error());
-    segments.push_back(std::move(*segment));
-  }
-  const auto refreshed = refresh::Refresh(segments, met);
-  if (!refreshed) {
-    row.reason = refreshed.error().message;
-    return {};
-  }
-  row.refreshed = refreshed->counts;
-  route.info.bytes = 0;
-  for (std::size_t i = 0; i < route.pieces.size(); ++i) {
-    route.pieces[i] = route::MakePiece(route.info.key, refreshed->segments[i]);
-    route.info.bytes += route.pieces[i].bytes.size();
-  }
-  return {};
-}
-
-}  // namespace
-
 Result<std::shared_ptr<const sim::World>> WorldAfter(const TrialSetup& setup, double share) {
   return setup.world_after ? setup.world_after(share) : setup.world;
 }
@@ -58,8 +29,14 @@ Result<std::vector<TrialOutcome>> RunVisits(const TrialSetup& setup, const Trial
     if (!followed) return tl::unexpected(followed.error());
     outcomes.push_back(std::move(followed->outcome));
     if (!followed->met) continue;
-    if (auto done = RefreshRoute(*followed->met, current, outcomes.back().row); !done) {
-      return tl::unexpected(done.error());
+    TrialRow& row = outcomes.back().row;
+    const auto refreshed = RefreshTaught(*followed->met, current);
+    if (refreshed) {
+      row.refreshed = refreshed->counts;
+    } else if (refreshed.error().code == ErrorCode::kUnavailable) {
+      row.reason = refreshed.error().message;
+    } else {
+      return tl::unexpected(refreshed.error());
     }
   }
   return outcomes;

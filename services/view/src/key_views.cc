@@ -22,4 +22,10 @@ std::vector<route::KeyView> KeyViewsOf(const route::Segment& segment) {
   return views;
 }
 
+std::vector<route::KeyView> ScoutViewsOf(const route::Segment& segment) {
+  std::vector<route::KeyView> views = KeyViewsOf(segment);
+  std::erase_if(views, [](const route::KeyView& view) { return view.missed.has_value(); });
+  return views;
+}
+
 }  // namespace trailcast::view

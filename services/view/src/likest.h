@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,12 +8,6 @@
 #include "services/view/view_table.h"
 
 namespace trailcast::view {
-
-// Bits in which two descriptors differ.
-[[nodiscard]] inline int Hamming(const ViewTable::Bits& a, const ViewTable::Bits& b) {
-  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
-         std::popcount(a[3] ^ b[3]);
-}
 
 // Of the features of a view that are offered one after the other the one most like another, if it
 // is like enough and no other place is nearly so: the same corner on the pyramid's next level is no

@@ -68,6 +68,20 @@ TEST(RouteBelief, FollowsARobotByOdometry) {
   }
 }
 
+TEST(RouteBelief, HowPlacesLookedLaterTakesTheTurnOfNoneOfTheRoutesOwnViews) {
+  RouteBelief belief;
+  for (int i = 0; i < 20; ++i) {
+    belief.Extend(1.0, std::vector<ViewPlace>{{0.0, 0.1}, {0.0, std::nullopt, false}});
+  }
+  const std::vector<std::size_t> around = belief.Around(9.5, 6);
+  ASSERT_EQ(around.size(), 12U);
+  EXPECT_EQ(belief.view_at(around.front()), 7.0);
+  EXPECT_EQ(belief.view_at(around.back()), 12.0);
+  EXPECT_EQ(belief.Around(0.0, 6).front(), 0U);
+  EXPECT_EQ(belief.Around(0.0, 6).back(), 11U);
+  EXPECT_EQ(belief.Around(19.5, 6).back(), 39U);
+}
+
 TEST(RouteBelief, FollowsARobotWhoseWayNobodyMeasuresAtAnyPace) {
   for (const double pace : {0.35, 1.0, 2.5}) {
     Route route(60);

@@ -98,6 +98,7 @@ TEST(CompareAlongTest, OfARefreshedRouteEachFeatureIsComparedWithItself) {
     b[changed].features.erase(b[changed].features.begin(), b[changed].features.begin() + 7);
     b[changed].features.push_back(FeatureNumber(++number));
   }
+  b[5].key_views.push_back({1.0, b[7].key_views[0].features, std::uint8_t{1}});
   const Comparison found = Compare(a, b);
   EXPECT_TRUE(found.refreshed);
   ASSERT_THAT(found.parts, SizeIs(kSegments));

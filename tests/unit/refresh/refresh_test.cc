@@ -195,6 +195,117 @@ TEST(Refresh, WhatNoScoutCouldHaveTaughtIsNotTaken) {
   EXPECT_EQ(refreshed->segments[0].features.back(), NewFeature(3));
 }
 
+// Of a route of one segment: all key views are recognised, and its first and third looked so.
+Visit VisitByViews(const std::vector<Segment>& route) {
+  Visit visit;
+  SegmentVisit& each = visit.segments.emplace_back();
+  each.index = route[0].index;
+  each.views.assign(route[0].key_views.size(), Sought::kFound);
+  each.offered_views = {{0, route[0].key_views[3].features}, {2, route[0].key_views[2].features}};
+  return visit;
+}
+
+std::vector<route::KeyView> Own(const Segment& segment) {
+  std::vector<route::KeyView> own = segment.key_views;
+  std::erase_if(own, [](const route::KeyView& view) { return view.missed.has_value(); });
+  return own;
+}
+
+TEST(RefreshViews, HowAPlaceLooksNowComesBesideTheScoutsViewAndAllElseStays) {
+  const std::vector<Segment> route = SampleRoute(1);
+  const auto refreshed = Refresh(route, VisitByViews(route), WithRoom());
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  EXPECT_EQ(refreshed->views, (RefreshCounts{4, 0, 0, 0, 2}));
+  const std::vector<route::KeyView>& views = refreshed->segments[0].key_views;
+  ASSERT_EQ(views.size(), 6U);
+  EXPECT_EQ(views[1], (route::KeyView{0.0, route[0].key_views[3].features, std::uint8_t{0}}));
+  EXPECT_EQ(views[4], (route::KeyView{route[0].key_views[2].s, route[0].key_views[2].features,
+                                      std::uint8_t{0}}));
+  EXPECT_EQ(Own(refreshed->segments[0]), route[0].key_views);
+  EXPECT_EQ(refreshed->segments[0].features, route[0].features);
+  EXPECT_TRUE(IsRefreshed(refreshed->segments[0], route[0]));
+  EXPECT_TRUE(IsRefreshed(route[0], refreshed->segments[0]));
+  const auto decoded = route::Decode(route::Encode(refreshed->segments[0]));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, refreshed->segments[0]);
+}
+
+TEST(RefreshViews, OneMoreIsAllThatAPlaceGets) {
+  std::vector<Segment> route = SampleRoute(1);
+  route = Refresh(route, VisitByViews(route), WithRoom())->segments;
+  Visit visit = VisitByViews(route);
+  visit.segments[0].offered_views = {{0, route[0].key_views[2].features},
+                                     {5, route[0].key_views[2].features}};
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->views.added, 1) << "beside the last";
+  Segment two_beside = route[0];
+  two_beside.key_views.insert(two_beside.key_views.begin() + 1, two_beside.key_views[1]);
+  EXPECT_FALSE(IsRefreshed(two_beside, route[0]));
+  Segment others = route[0];
+  others.key_views[0].features.pop_back();
+  EXPECT_FALSE(IsRefreshed(others, route[0])) << "the scout's own is another";
+}
+
+TEST(RefreshViews, OneThatAFollowerAddedGoesAfterThreeVisitsInARowAndTheScoutsNever) {
+  std::vector<Segment> route = SampleRoute(1);
+  const std::vector<route::KeyView> own = route[0].key_views;
+  route = Refresh(route, VisitByViews(route), WithRoom())->segments;
+  Visit visit = VisitByViews(route);
+  visit.segments[0].offered_views.clear();
+  visit.segments[0].views[0] = visit.segments[0].views[1] = Sought::kMissed;
+  for (int missed = 1; missed <= 2; ++missed) {
+    route = Refresh(route, visit, WithRoom())->segments;
+    ASSERT_EQ(route[0].key_views.size(), 6U);
+    EXPECT_EQ(route[0].key_views[1].missed, missed);
+  }
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->views.dropped, 1);
+  EXPECT_EQ(refreshed->segments[0].key_views.size(), 5U);
+  EXPECT_EQ(Own(refreshed->segments[0]), own);
+}
+
+TEST(RefreshViews, ARouteWithOdometryKeepsItsBudget) {
+  const std::vector<Segment> route = SampleRoute(1);
+  const double is = static_cast<double>(BytesOf(route));
+  RefreshOptions options;
+  options.most_bytes_per_m = (is + 900.0) / route[0].length_m;  // a view has about 800
+  const auto refreshed = Refresh(route, VisitByViews(route), options);
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->views.added, 1);
+  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), is + 900.0);
+}
+
+TEST(RefreshViews, AVisitThatRecognisedLittleIsNotBelievedAndWhatItSaysOfFeaturesIs) {
+  const std::vector<Segment> route = SampleRoute(1);
+  Visit visit = VisitByViews(route);
+  visit.segments[0].views.assign(4, Sought::kMissed);
+  visit.segments[0].views[0] = Sought::kFound;
+  const auto alone = Refresh(route, visit, WithRoom());
+  ASSERT_FALSE(alone);
+  EXPECT_EQ(alone.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(alone.error().message, HasSubstr("of the key views that should have been seen 25 %"));
+  visit.segments[0].features.assign(kFeatures, Sought::kFound);
+  visit.segments[0].offered = {NewFeature(0)};
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  EXPECT_EQ(refreshed->counts.added, 1);
+  EXPECT_EQ(refreshed->segments[0].key_views, route[0].key_views);
+  visit.segments[0].views.pop_back();
+  EXPECT_EQ(Refresh(route, visit).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(RefreshViews, WhatIsNoViewIsNotTaken) {
+  const std::vector<Segment> route = SampleRoute(1);
+  Visit visit = VisitByViews(route);
+  visit.segments[0].offered_views[0].features[3].v_px = std::nanf("");
+  visit.segments[0].offered_views[1].features.clear();
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed);
+  EXPECT_EQ(refreshed->segments, route);
+}
+
 TEST(Successor, IsTheSameRouteWithAFewFeaturesGoneAndAFewNew) {
   const std::vector<Segment> route = SampleRoute();
   const auto refreshed = Refresh(route, VisitOf(route, 30), WithRoom());
@@ -229,9 +340,13 @@ TEST(Successor, IsNotOneWhosePathIsAnotherOrWhoseFeaturesWereMoved) {
 
 TEST(Successor, SaysWhichRevisionItRefreshes) {
   route::RouteInfo info;
-  info.description = DescribeRefreshed(RevisionNumber(12), AgentId("robot2"), {8, 2, 0, 1, 3});
+  info.description =
+      DescribeRefreshed(RevisionNumber(12), AgentId("robot2"), Refreshed{{}, {8, 2, 0, 1, 3}, {}});
   EXPECT_EQ(info.description,
             "revision 12 refreshed by robot2: 3 features new, 1 gone; 8 of 10 were found");
+  EXPECT_EQ(Describe(Refreshed{{}, {8, 2, 0, 1, 3}, {7, 1, 0, 0, 2}}),
+            "3 features new, 1 gone; 8 of 10 were found; 2 views new, 0 gone; 7 of 8 were found");
+  EXPECT_EQ(Describe(Refreshed{{}, {}, {7, 1, 0, 0, 2}}), "2 views new, 0 gone; 7 of 8 were found");
   EXPECT_FALSE(RevisionRefreshed(info)) << "it is not tagged so";
   info.tags = {std::string(kTag)};
   EXPECT_EQ(RevisionRefreshed(info), RevisionNumber(12));

@@ -61,6 +61,18 @@ TEST(Backwards, FromTheOtherEndAndBackItIsTheSameSegment) {
   }
 }
 
+TEST(Backwards, AKeyViewThatWasAddedStaysBehindTheScoutsOwn) {
+  Segment segment = SampleSegmentWithKeyViews(0, 5);
+  KeyView added = segment.key_views[2];
+  added.missed = 1;
+  segment.key_views.insert(segment.key_views.begin() + 3, added);
+  const Segment back = FromOtherEnd(segment);
+  ASSERT_EQ(back.key_views.size(), 5U);
+  EXPECT_FALSE(back.key_views[1].missed);
+  EXPECT_EQ(back.key_views[2].missed, 1);
+  EXPECT_EQ(back.key_views[1].s, back.key_views[2].s);
+}
+
 TEST(Backwards, PlacesAndHeadingsAreThoseOfTheSamePlacesOfTheRoute) {
   Segment segment = SampleSegmentWithKeyViews(0, 5);
   segment.terrain.slope_rad = 0.05;

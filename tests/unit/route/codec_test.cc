@@ -55,6 +55,19 @@ TEST(Codec, HowOftenFeaturesWereMissedComesBackAndTakesNoByteWhereNoneWas) {
   EXPECT_EQ(bytes[1], 2) << "version 2, whose readers skip it";
 }
 
+TEST(Codec, AKeyViewThatAFollowerAddedComesBackAsOne) {
+  Segment segment = SampleSegmentWithKeyViews(7, 5);
+  const std::size_t without = Encode(segment).size();
+  segment.key_views[1].missed = 0;
+  segment.key_views[3].missed = 255;
+  const Bytes bytes = Encode(segment);
+  const Result<Segment> decoded = Decode(bytes);
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(*decoded, segment);
+  EXPECT_LE(bytes.size(), without + 2 + 3 + 2) << "and their lengths' own second bytes";
+  EXPECT_EQ(bytes[1], 2) << "version 2, whose readers take it for one of the scout's";
+}
+
 TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
   Segment segment = SampleSegment(7, 3);
   segment.terrain = {-1.0, 1e9, -1e9};

@@ -37,6 +37,21 @@ TEST(Recogniser, TellsWhichViewsAreSeenAndHowTheyMapOntoThePicture) {
   EXPECT_NEAR(fit.du_px, 10.0, 3.0);
 }
 
+TEST(Recogniser, HowAPlaceLookedLaterSaysNothingOfHowThingsGrowOnTheWay) {
+  const auto nearer = [](unsigned wall, double scale) {
+    vision::ViewDescriber describer;
+    return view::Spread(
+        describer.Describe(test::PaintedWall(wall).Photograph({.scale = scale, .du_px = 3.0})), 40);
+  };
+  Recogniser recogniser(320);
+  const auto growths = recogniser.Learn(std::vector<route::KeyView>{
+      {0.0, nearer(5, 1.0)}, {0.0, nearer(6, 1.0), std::uint8_t{0}}, {0.5, nearer(5, 1.1)}});
+  ASSERT_EQ(growths.size(), 3U);
+  EXPECT_FALSE(growths[1]);
+  ASSERT_TRUE(growths[2]);
+  EXPECT_NEAR(*growths[2], std::log(1.1), 0.02);
+}
+
 TEST(Recogniser, NothingToCompareIsNothingSeen) {
   Recogniser recogniser(320);
   const Look look = recogniser.LookAt(test::PaintedWall(7).Photograph({}), {});

@@ -5,15 +5,19 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 
+#include "services/trial/judge/src/recording_visits.h"
 #include "services/trial/trial_setup.h"
 
 namespace trailcast::trial {
 namespace {
 
 // Of a pair's work, done when it is taught, and when it is known what the route itself asks for.
+constexpr double kTaughtShare = 0.1;  // and not yet visited
 constexpr double kTeachShare = 0.2;
 constexpr double kOwnShare = 0.5;
 
@@ -66,7 +70,11 @@ class Batch {
     Teaching& teaching = TeachingOf(pair);
     std::call_once(teaching.taught_once, [&] {
       teaching.taught = TeachRecording(pair.teach, TeachingFor(options_.method),
-                                       Telling(index, 0.0, kTeachShare));
+                                       Telling(index, 0.0, kTaughtShare));
+      if (!teaching.taught || pair.visits.empty()) return;
+      const auto visited =
+          VisitRoute(pair, options_, Telling(index, kTaughtShare, kTeachShare), *teaching.taught);
+      if (!visited) teaching.taught = tl::unexpected(visited.error());
     });
     if (!teaching.taught) {
       return Wrap(teaching.taught.error(), "teaching " + pair.teach.frames.string());
@@ -84,7 +92,10 @@ class Batch {
 
   Teaching& TeachingOf(const RecordingPair& pair) {
     const std::scoped_lock lock(mutex_);
-    return teachings_[{pair.teach.frames, pair.teach.odometry}];
+    std::string visits = pair.visits_disturbance;
+    for (const agent::RecordedRun& visit : pair.visits)
+      visits.append("+").append(visit.frames.string());
+    return teachings_[{pair.teach.frames, pair.teach.odometry, std::move(visits)}];
   }
 
   void FindOwnTurns(std::size_t index, Teaching& teaching) {
@@ -121,7 +132,9 @@ class Batch {
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> broken_{false};
   std::mutex mutex_;  // guards what follows
-  std::map<std::pair<std::filesystem::path, std::filesystem::path>, Teaching> teachings_;
+  // By the recording, its odometry, and who visits.
+  std::map<std::tuple<std::filesystem::path, std::filesystem::path, std::string>, Teaching>
+      teachings_;
   std::vector<std::optional<Result<RecordingOutcome>>> outcomes_;
   std::vector<double> shares_;
   int ended_ = 0;

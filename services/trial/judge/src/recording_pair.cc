@@ -17,14 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 using Cells = std::map<std::string, std::string>;
 
-constexpr std::array kColumns{"kind",     "set",     "teach",          "replay",          "truth",
-                              "steering", "disturb", "teach_odometry", "replay_odometry", "rate"};
+constexpr std::array kColumns{
+    "kind",     "set",           "teach",          "replay",          "truth",
+    "steering", "disturb",       "teach_odometry", "replay_odometry", "rate",
+    "visits",   "disturb_visits"};
 
-std::vector<std::string> Split(std::string line) {
+std::vector<std::string> Split(std::string line, char separator = ',') {
   if (!line.empty() && line.back() == '\r') line.pop_back();
   std::vector<std::string> cells;
-  std::istringstream words(line + ',');
-  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+  std::istringstream words(line + separator);
+  for (std::string cell; std::getline(words, cell, separator);) cells.push_back(cell);
   return cells;
 }
 
@@ -58,8 +60,9 @@ Result<RecordingPair> PairOf(Cells& cells, const fs::path& root) {
                 kind);
   }
   pair.kind = *found;
-  if (auto parsed = ParseDisturbance(pair.disturbance); !parsed) {
-    return tl::unexpected(parsed.error());
+  pair.visits_disturbance = cells["disturb_visits"];
+  for (const std::string& each : {pair.disturbance, pair.visits_disturbance}) {
+    if (auto parsed = ParseDisturbance(each); !parsed) return tl::unexpected(parsed.error());
   }
   if (const std::string& rate = cells["rate"]; !rate.empty()) {
     const auto rate_hz = ParseNumber<double>(rate);
@@ -67,6 +70,11 @@ Result<RecordingPair> PairOf(Cells& cells, const fs::path& root) {
       return Fail(ErrorCode::kInvalidArgument, "the rate is frames a second, not '{}'", rate);
     }
     pair.teach.rate_hz = pair.replay.rate_hz = *rate_hz;
+  }
+  if (!cells["visits"].empty()) {
+    for (const std::string& visit : Split(cells["visits"], '+')) {
+      pair.visits.push_back({root / visit, {}, pair.replay.rate_hz});
+    }
   }
   return pair;
 }

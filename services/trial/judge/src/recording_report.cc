@@ -47,6 +47,13 @@ std::string RecordingTable(const std::vector<RecordingRow>& rows) {
                     FoundCell(row.verdict), Cell(shares.side), Cell(shares.correction),
                     Cell(shares.steering), row.error.empty() ? row.state : row.error);
   }
+  std::string told;
+  for (const RecordingRow& row : rows) {
+    std::string visits;
+    for (const std::string& visit : row.visits) visits += visit + '\n';
+    if (visits != told) text += visits;
+    told = std::move(visits);
+  }
   return text;
 }
 

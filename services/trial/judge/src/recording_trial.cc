@@ -28,6 +28,9 @@ RecordingRow BeginRow(const RecordingPair& pair, const RecordingOptions& options
   row.set = pair.set;
   row.kind = pair.kind;
   row.teach = pair.teach_name;
+  for (const agent::RecordedRun& visit : pair.visits) {
+    row.teach.append("+").append(visit.frames.filename().string());
+  }
   row.replay = pair.replay_name;
   row.disturbance = pair.disturbance.empty() ? "none" : pair.disturbance;
   row.method = agent::ToString(options.method);
@@ -129,6 +132,7 @@ Result<void> Follow(const TaughtRecording& taught, const RecordingOptions& optio
     return {};
   }
   outcome.row.segments = static_cast<int>(taught.route->pieces.size());
+  outcome.row.visits = taught.visits;
   auto session =
       OpenSession(*taught.route, {.method = options.method, .anywhere = options.anywhere});
   if (!session) return tl::unexpected(session.error());

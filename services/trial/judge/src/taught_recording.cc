@@ -10,7 +10,7 @@ Result<TaughtRecording> TeachRecording(const agent::RecordedRun& run,
   auto device = agent::RecordedDevice::Open(run);
   if (!device) return tl::unexpected(device.error());
   RouteRecorder recorder(run.frames.string(), (*device)->camera(), options);
-  TaughtRecording taught{Fail(ErrorCode::kUnavailable, "no frames"), {}, 0};
+  TaughtRecording taught{Fail(ErrorCode::kUnavailable, "no frames"), {}, 0, {}};
   for (;; ++taught.frames) {
     const auto seen = (*device)->Next();
     if (!seen) return tl::unexpected(seen.error());
