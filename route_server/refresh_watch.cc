@@ -21,6 +21,24 @@ void RefreshWatch::Note(const route::RouteInfo& info) {
   if (std::none_of(waiting_.begin(), waiting_.end(), is_it)) waiting_.push_back(info);
 }
 
+Result<void> RefreshWatch::NoteStored() {
+  route::RouteQuery query;
+  query.tags = {std::string(refresh::kTag)};
+  query.state = route::RouteState::kComplete;
+  query.standing = route::Standing::kStaged;
+  do {
+    const auto page = store_.QueryRoutes(query);
+    if (!page) return tl::unexpected(page.error());
+    for (const route::RouteInfo& info : page->routes) {
+      const auto followed = FollowedOf(info.key);
+      if (!followed) return tl::unexpected(followed.error());
+      if (*followed && refresh::RevisionRefreshed(info) == (*followed)->revision) Note(info);
+    }
+    query.cursor = page->next;
+  } while (!query.cursor.empty());
+  return {};
+}
+
 Result<bool> RefreshWatch::Step() {
   auto stepped = TryStep();
   if (!stepped) comparison_.reset();
@@ -46,21 +64,29 @@ Result<bool> RefreshWatch::TryStep() {
   const auto before = ReadSegment(store_, followed.key, index);
   if (!before) return tl::unexpected(before.error());
   if (!refresh::IsRefreshed(*segment, *before)) {
-    Judge(std::move(refreshed),
-          fmt::format("in segment {} it is not revision {} with a few features gone and a few new",
-                      index.value(), followed.revision.value()));
+    Judge(std::move(refreshed), fmt::format("in segment {} it is not revision {} with a few "
+                                            "features or added views gone and a few new",
+                                            index.value(), followed.revision.value()));
   }
   return true;
 }
 
-Result<void> RefreshWatch::Begin(route::RouteInfo refreshed) {
-  auto revisions = store_.FindRevisions(refreshed.key.route);
+Result<std::optional<route::RouteInfo>> RefreshWatch::FollowedOf(const route::RouteKey& key) const {
+  auto revisions = store_.FindRevisions(key.route);
   if (!revisions) return tl::unexpected(revisions.error());
   const auto followed = std::find_if(
       revisions->begin(), revisions->end(),
       [](const route::RouteInfo& info) { return info.standing == route::Standing::kActive; });
+  if (followed == revisions->end()) return std::nullopt;
+  return std::move(*followed);
+}
+
+Result<void> RefreshWatch::Begin(route::RouteInfo refreshed) {
+  auto found = FollowedOf(refreshed.key);
+  if (!found) return tl::unexpected(found.error());
+  std::optional<route::RouteInfo>& followed = *found;
   const RevisionNumber visited = *refresh::RevisionRefreshed(refreshed);
-  if (followed == revisions->end() || followed->revision != visited) {
+  if (!followed || followed->revision != visited) {
     Judge(std::move(refreshed),
           fmt::format("it refreshes revision {}, which robots do not follow", visited.value()));
   } else if (followed->segment_count != refreshed.segment_count) {

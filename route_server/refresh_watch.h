@@ -20,6 +20,9 @@ class RefreshWatch {
 
   // What is known of a revision has changed.
   void Note(const route::RouteInfo& info);
+  // At the start: those that came before the server was stopped, and refresh what is followed now.
+  // Errors are the store's.
+  [[nodiscard]] Result<void> NoteStored();
   // Compares a segment. False: there is nothing to do. An error is the store's: what was compared
   // stays as it is.
   [[nodiscard]] Result<bool> Step();
@@ -39,6 +42,8 @@ class RefreshWatch {
     route::RouteInfo followed;
     std::uint32_t next = 0;
   };
+  [[nodiscard]] Result<std::optional<route::RouteInfo>> FollowedOf(
+      const route::RouteKey& key) const;
   [[nodiscard]] Result<void> Begin(route::RouteInfo refreshed);
   [[nodiscard]] Result<bool> TryStep();
   void Judge(route::RouteInfo info, std::string why_not);

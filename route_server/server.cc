@@ -85,6 +85,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   if (auto claimed = presence_.Claim(receive, stop); !claimed) return claimed;
   const auto routes = store_->QueryRoutes({.page_size = 1});
   if (!routes) return tl::unexpected(routes.error());
+  if (auto noted = refreshes_.NoteStored(); !noted) return noted;
   spdlog::info("ready: {} routes in the store", routes->total);
   while (!stop()) Serve();
   KeepWhatIsLearnt();

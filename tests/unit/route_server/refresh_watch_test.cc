@@ -32,7 +32,8 @@ class RefreshWatchTest : public testing::Test {
   }
   // Of one route.
   route::RouteInfo Keep(unsigned revision, route::Standing standing,
-                        const std::vector<route::Segment>& segments) {
+                        const std::vector<route::Segment>& segments,
+                        const std::string& refreshed = "") {
     route::RouteKey key = test::KeyNumber(1);
     key.teaching = TeachingId(revision);
     for (const route::Segment& segment : segments) {
@@ -45,18 +46,22 @@ class RefreshWatchTest : public testing::Test {
     info.revision = RevisionNumber(revision);
     info.standing = standing;
     info.segment_count = static_cast<std::uint32_t>(segments.size());
+    info.description = refreshed;
+    if (!refreshed.empty()) info.tags = {std::string(refresh::kTag)};
     EXPECT_TRUE(store_.PutRoute(info));
     return info;
   }
   // Which says that it refreshes that revision.
-  route::RouteInfo Deliver(const std::vector<route::Segment>& segments, unsigned of = 1) {
-    route::RouteInfo info = Keep(7, route::Standing::kStaged, segments);
-    info.description = refresh::DescribeRefreshed(RevisionNumber(of), AgentId("robot2"), {});
-    info.tags = {std::string(refresh::kTag)};
-    return info;
+  route::RouteInfo Deliver(const std::vector<route::Segment>& segments, unsigned of = 1,
+                           unsigned revision = 7) {
+    return Keep(revision, route::Standing::kStaged, segments,
+                refresh::DescribeRefreshed(RevisionNumber(of), AgentId("robot2"), {}));
   }
   std::vector<RefreshWatch::Judged> Judge(const route::RouteInfo& info) {
     watch_.Note(info);
+    return Judge();
+  }
+  std::vector<RefreshWatch::Judged> Judge() {
     for (int i = 0; i < 20; ++i) {
       const auto more = watch_.Step();
       EXPECT_TRUE(more) << more.error().message;
@@ -77,6 +82,18 @@ TEST_F(RefreshWatchTest, WhatIsTheFollowedOneWithAFewOtherFeaturesMayTakeItsPlac
   ASSERT_THAT(judged, SizeIs(1));
   EXPECT_EQ(judged.front().why_not, "");
   EXPECT_EQ(judged.front().info.revision.value(), 7U);
+}
+
+TEST_F(RefreshWatchTest, WhatCameBeforeTheServerWasStoppedIsLookedAtWhenItStartsAgain) {
+  auto segments = Taught();
+  segments[1].features.erase(segments[1].features.begin());
+  Deliver(segments);
+  Deliver(segments, 4, 8);  // of one that is not followed, which was told when it came
+  ASSERT_TRUE(watch_.NoteStored());
+  const auto judged = Judge();
+  ASSERT_THAT(judged, SizeIs(1));
+  EXPECT_EQ(judged.front().info.revision.value(), 7U);
+  EXPECT_EQ(judged.front().why_not, "");
 }
 
 TEST_F(RefreshWatchTest, WhatLeadsElsewhereMayNot) {
