@@ -94,6 +94,11 @@ class Follower {
   // The same, by one that knows it roughly.
   virtual void BeginAbout(const route::Segment& segment, double fraction,
                           const RoughPlace& rough) = 0;
+  // An earlier segment than the one begun, by a robot that is where it is known to be by that one:
+  // about `along_m` of the earlier one. `there`: that place of the path, and its heading, as seen
+  // from the beginning of the one begun, ahead and to the left. Both are driven forwards.
+  virtual void CountAlong(const route::Segment& earlier, double along_m,
+                          const motion::Pose2& there) = 0;
   // Where the segment's features should be in the picture now (FollowInput's coordinates).
   [[nodiscard]] virtual std::vector<route::TrackedFeature> Expect() const = 0;
   // Where they will be at the segment's end for a robot that gets there as it was taught.

@@ -63,6 +63,10 @@ class FunnelFollower final : public Follower {
                   const RoughPlace& /*rough*/) override {
     BeginAt(segment, fraction);
   }
+  void CountAlong(const route::Segment& earlier, double along_m,
+                  const motion::Pose2& /*there*/) override {
+    BeginAt(earlier, earlier.length_m > 0.0 ? along_m / earlier.length_m : 0.0);
+  }
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return ExpectAt(fraction_);
   }

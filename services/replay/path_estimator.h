@@ -104,6 +104,11 @@ class PathEstimator {
   // not yet: where it stands is from now on counted along, and beside, what comes after the turn.
   void TurnPath(double turn_rad);
 
+  // Counts from now on along another segment, where the same robot is about `along_m` of it.
+  // `there`: that place of the path, and its heading, as seen from the beginning of the present
+  // segment, ahead and to the left. Both are driven forwards.
+  void CountAlong(const route::Segment& segment, double along_m, const motion::Pose2& there);
+
   // The robot moved.
   void Predict(const motion::OdometryIncrement& moved);
 
@@ -207,6 +212,8 @@ class PathEstimator {
     int looks = 0;          // that say so
   };
   void BeUnsure();
+  // Where it is is counted in axes turned by so much, counter-clockwise positive.
+  void TurnAxes(double turn_rad);
   // What is believed before a look: by one that began so without what its last looks have said of
   // the magnification; of all else it is what is believed for each magnification.
   [[nodiscard]] Prior BeforeLook();

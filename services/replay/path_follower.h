@@ -43,6 +43,8 @@ class PathFollower final : public Follower {
   void Begin(const route::Segment& segment) override;
   void BeginAt(const route::Segment& segment, double fraction) override;
   void BeginAbout(const route::Segment& segment, double fraction, const RoughPlace& rough) override;
+  void CountAlong(const route::Segment& earlier, double along_m,
+                  const motion::Pose2& there) override;
   [[nodiscard]] std::vector<route::TrackedFeature> Expect() const override {
     return estimator_.Expect();
   }

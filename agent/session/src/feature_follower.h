@@ -77,7 +77,7 @@ class FeatureFollower {
   [[nodiscard]] bool LooksAgainIfLost() const;
   [[nodiscard]] bool BeginAbout(const RoutePoint& point);
   [[nodiscard]] bool BeginBy(const RoutePoint& point);
-  void BeginUnseen(const RoutePoint& point, double magnification);
+  [[nodiscard]] std::optional<double> BeginBehind(const RoutePoint& by);
   [[nodiscard]] bool MayBeRecognised() const;
   void ForgetCompared();
   void ComparePlaces();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "agent/session/src/feature_follower.h"
+#include "agent/session/src/path_ahead.h"
 #include "services/base/angles.h"
 #include "services/base/square.h"
 
@@ -273,6 +274,7 @@ void FeatureFollower::CompareSome() {
       const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
       const RoutePoint there{follower_->segment().index, step.fraction};
       PlaceByFeatures place{.along = place_.AlongOf(there)};
+      place.by = there.segment == point.segment ? point : RoutePoint{there.segment, 0.0};
       if (step.offset && place_.metric()) {
         place.along = place_.AlongOf({there.segment, 0.0}) + step.offset->along_m;
         place.along_sigma = step.offset->along_sigma_m;
@@ -314,8 +316,8 @@ void FeatureFollower::BeginAtLikeliest() {
   }
   const RoutePoint point = place_.PointAt(along);
   if (focal_) search_.hand_over().KnowMagnification(best.magnification);
-  if (!BeginAbout(point)) BeginUnseen(point, best.magnification);
-  place_.StartAt(along, std::max(kFound_m, last - first));
+  const auto begun = BeginAbout(point) ? std::optional(along) : BeginBehind(best.by);
+  if (begun) place_.StartAt(*begun, std::max(kFound_m, last - first));
 }
 
 // That its camera is of such a focal length, by what turning has told of it: in features.
@@ -324,13 +326,21 @@ double FeatureFollower::Unlikely(const std::optional<replay::FocalLength>& focal
   return 0.25 * Square(std::log(focal->px / focal_->px) / std::hypot(focal->sigma, focal_->sigma));
 }
 
-// What tells the place need not be of the segment there: a narrow camera sees what is further on.
-void FeatureFollower::BeginUnseen(const RoutePoint& point, double magnification) {
-  const route::Segment& segment = route_.segment(point.segment);
-  Make(segment);
-  follower_->BeginAt(segment, point.fraction);
-  follower_->SetMagnification(magnification);
+// What tells the place need not be of the segment there: a narrow camera, and one that has turned
+// to look around, see what is further on. By that it begins, and is then counted along the path
+// that leads there. Returns where that is along the route.
+std::optional<double> FeatureFollower::BeginBehind(const RoutePoint& by) {
+  if (!BeginBy(by)) return std::nullopt;
+  const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
   confidence_.SetFound();
+  if (!step.offset) return place_.AlongOf({by.segment, step.fraction});
+  const Eigen::Vector2d at(step.offset->along_m, step.offset->left_m);
+  const auto behind =
+      at.x() < 0.0 ? NearestBehind(route_, by.segment, at, at.norm() + kOnePlace) : std::nullopt;
+  if (!behind) return place_.AlongOf({by.segment, 0.0}) + at.x();
+  follower_->CountAlong(route_.segment(behind->segment), behind->along_m, behind->pose);
+  search_.HandOverTo(*follower_);
+  return place_.AlongOf({behind->segment, 0.0}) + behind->along_m;
 }
 
 // Late in a segment its features are leaving the picture, and the next one's are all there.

@@ -3,6 +3,8 @@
 #include <optional>
 #include <span>
 
+#include "agent/session/src/route_place.h"
+
 namespace trailcast::agent {
 
 // Where a robot that stands sees a segment's features from, by those that lie as they would be seen
@@ -14,6 +16,7 @@ struct PlaceByFeatures {
   double share = 0.0;  // of those that should be in the picture
   double magnification = 1.0;
   double speaks = 0.0;  // for it: features, less for a camera that it can hardly have
+  RoutePoint by{};      // whose features these are, and from where they were looked for
 };
 
 struct LikeliestPlace {

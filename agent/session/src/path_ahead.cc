@@ -31,4 +31,38 @@ replay::PathAhead PathAheadOf(const KnownRoute& route, SegmentIndex index, doubl
   return path;
 }
 
+std::optional<PlaceBehind> NearestBehind(const KnownRoute& route, SegmentIndex index,
+                                         const Eigen::Vector2d& position, double furthest_m) {
+  constexpr double kStep_m = 0.02;
+  std::optional<PlaceBehind> nearest;
+  double nearest_m = 0.0;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double end_rad = 0.0;  // heading of the path where it comes to `at`
+  double back_m = 0.0;
+  for (std::size_t i = index.value(); i > 0 && back_m < furthest_m; --i) {
+    const route::Segment& segment = route.segments()[i - 1];
+    if (segment.reverse || route.segments()[i].reverse) break;
+    end_rad -= route.segments()[i].turn_before_rad;
+    const auto heading_at = [&](double along_m) {
+      return end_rad + route::HeadingAt(segment.heading, along_m) -
+             route::HeadingAt(segment.heading, segment.length_m);
+    };
+    for (double along_m = segment.length_m; back_m < furthest_m;) {
+      const double off_m = (at - position).norm();
+      if (!nearest || off_m < nearest_m) {
+        nearest = {segment.index, along_m, {at.x(), at.y(), heading_at(along_m)}};
+        nearest_m = off_m;
+      }
+      if (along_m <= 0.0) break;
+      const double step_m = std::min(kStep_m, along_m);
+      const double heading_rad = heading_at(along_m - 0.5 * step_m);
+      at -= step_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad));
+      along_m -= step_m;
+      back_m += step_m;
+    }
+    end_rad = heading_at(0.0);
+  }
+  return nearest;
+}
+
 }  // namespace trailcast::agent

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 #include "agent/session/src/known_route.h"
+#include "services/motion/motion.h"
 #include "services/replay/passing.h"
 
 namespace trailcast::agent {
@@ -9,5 +13,18 @@ namespace trailcast::agent {
 // driven without a stop.
 [[nodiscard]] replay::PathAhead PathAheadOf(const KnownRoute& route, SegmentIndex index,
                                             double along_m, double length_m);
+
+// A place of the path that leads to a segment's beginning.
+struct PlaceBehind {
+  SegmentIndex segment;
+  double along_m = 0.0;  // of it
+  motion::Pose2 pose;    // seen from that beginning: ahead, to the left
+};
+
+// The one nearest to a position, no more than `furthest_m` back, nor before where the scout last
+// drove backwards; nothing: no path leads there.
+[[nodiscard]] std::optional<PlaceBehind> NearestBehind(const KnownRoute& route, SegmentIndex index,
+                                                       const Eigen::Vector2d& position,
+                                                       double furthest_m);
 
 }  // namespace trailcast::agent

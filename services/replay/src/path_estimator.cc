@@ -90,16 +90,34 @@ void PathEstimator::StartAt(const route::Segment& segment) {
   covariance_(kAlong, kAlong) += covariance_(kAhead, kAhead);
 }
 
-void PathEstimator::TurnPath(double turn_rad) {
+void PathEstimator::TurnAxes(double turn_rad) {
   Covariance rotated = Covariance::Identity();
   rotated(kAlong, kAlong) = rotated(kLeft, kLeft) = std::cos(turn_rad);
   rotated(kAlong, kLeft) = std::sin(turn_rad);
   rotated(kLeft, kAlong) = -std::sin(turn_rad);
-  state_[kAlong] -= EntryOf(segment_);
   state_ = rotated * state_;
-  state_[kAlong] += EntryOf(segment_);
   covariance_ = rotated * covariance_ * rotated.transpose();
   state_[kHeading] -= turn_rad;
+}
+
+void PathEstimator::CountAlong(const route::Segment& segment, double along_m,
+                               const motion::Pose2& there) {
+  state_[kAlong] -= there.x_m;
+  state_[kLeft] -= there.y_m;
+  TurnAxes(there.heading_rad);
+  state_[kAlong] += along_m;
+  segment_ = segment;
+  depths_ = flow_.Depths(segment_);
+  last_heading_ = {};
+  last_look_.reset();
+  carried_.reset();
+  known_.reset();
+}
+
+void PathEstimator::TurnPath(double turn_rad) {
+  state_[kAlong] -= EntryOf(segment_);
+  TurnAxes(turn_rad);
+  state_[kAlong] += EntryOf(segment_);
   covariance_(kHeading, kHeading) += Square(options_.turn_noise_share * turn_rad);
   last_heading_ = {};
   last_look_.reset();

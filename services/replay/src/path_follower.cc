@@ -56,6 +56,13 @@ void PathFollower::BeginAbout(const route::Segment& segment, double fraction,
   estimator_.BeUnsureWhereAlong(rough);
 }
 
+void PathFollower::CountAlong(const route::Segment& earlier, double along_m,
+                              const motion::Pose2& there) {
+  segment_ = earlier;
+  estimator_.CountAlong(AsForward(earlier), along_m, there);
+  turning_ = false;
+}
+
 void PathFollower::SetMagnification(double magnification) {
   if (!settled_) estimator_.SetMagnification(magnification);
 }

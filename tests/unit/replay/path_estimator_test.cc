@@ -53,6 +53,35 @@ TEST(PathEstimator, TellsSidewaysFromRotation) {
   EXPECT_NEAR(turned.left_m, 0.0, 0.04);
 }
 
+// Counted along another segment, round a corner, it is where it was, and knows that as well.
+TEST(PathEstimator, IsWhereItIsWhicheverSegmentItIsCountedAlong) {
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
+  PathEstimatorOptions options;
+  options.camera_ahead_m = 0.0;  // its camera is where its axle is
+  options.told_ahead_m = 1e-4;
+  PathEstimator estimator(320, 1.0, options);
+  estimator.Restart(run.segment, 1.0);
+  for (int i = 0; i < 5; ++i) {
+    (void)estimator.Update(
+        test::Matched(kCorridor, run, {1.0, 0.15, 0.05}, {}, test::LandmarkScene::kFocal_px));
+  }
+  const PathOffset before = estimator.offset();
+  const motion::Pose2 there{1.2, -0.1, 0.5};
+  estimator.CountAlong(run.segment, 0.7, there);
+  const PathOffset after = estimator.offset();
+  const double ahead_m = before.along_m - there.x_m;
+  const double left_m = before.left_m - there.y_m;
+  EXPECT_NEAR(after.along_m, 0.7 + std::cos(0.5) * ahead_m + std::sin(0.5) * left_m, 1e-9);
+  EXPECT_NEAR(after.left_m, -std::sin(0.5) * ahead_m + std::cos(0.5) * left_m, 1e-9);
+  EXPECT_NEAR(after.heading_rad, before.heading_rad - 0.5, 1e-9);
+  EXPECT_NEAR(std::hypot(after.left_sigma_m, after.along_sigma_m),
+              std::hypot(before.left_sigma_m, before.along_sigma_m), 1e-3);
+  estimator.CountAlong(run.segment, before.along_m, {after.along_m, after.left_m, -0.5});
+  EXPECT_NEAR(estimator.offset().along_m, before.along_m, 1e-9);
+  EXPECT_NEAR(estimator.offset().left_m, 0.0, 1e-9);
+  EXPECT_NEAR(estimator.offset().heading_rad, before.heading_rad, 1e-9);
+}
+
 // A robot whose camera is 0.3 m ahead of its axle, on the path in a bend to the left: the camera
 // is outside of it.
 TEST(PathEstimator, KnowsTheAxleOfACameraAhead) {

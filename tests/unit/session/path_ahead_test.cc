@@ -53,5 +53,35 @@ TEST(PathAhead, ASegmentsStartMayStillBeAhead) {
   EXPECT_GT(path[4].y(), 0.0);
 }
 
+TEST(PathBehind, IsThePlaceNextToTheRobotOnTheWayThatLeadsToTheSegment) {
+  // Half-way round the bend, 0.3 m to its left, as seen from where it ends: back along x.
+  const double half = 0.25;
+  const Eigen::Vector2d there(-2.0 * std::sin(half), 2.0 - 2.0 * std::cos(half));
+  const Eigen::Vector2d left(std::sin(half), std::cos(half));
+  const auto behind = NearestBehind(Bend(), SegmentIndex(2), there + 0.3 * left, 4.0);
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(behind->segment, SegmentIndex(1));
+  EXPECT_NEAR(behind->along_m, 0.5, 0.011);
+  EXPECT_NEAR(behind->pose.heading_rad, -half, 0.006);
+  EXPECT_NEAR(behind->pose.x_m, there.x(), 0.011);
+  EXPECT_NEAR(behind->pose.y_m, there.y(), 0.011);
+}
+
+TEST(PathBehind, GoesBackThroughTurnsOnTheSpot) {
+  const auto behind = NearestBehind(Bend(1.0), SegmentIndex(2), {-0.1, 0.1}, 4.0);
+  ASSERT_TRUE(behind);
+  EXPECT_NEAR(behind->pose.heading_rad, -1.0, 0.1);
+  EXPECT_GT(behind->pose.y_m, 0.03) << "the bend comes from the left";
+}
+
+TEST(PathBehind, EndsWhereTheRouteBeginsAndWhereTheWayIsTooLong) {
+  EXPECT_FALSE(NearestBehind(Bend(), SegmentIndex(0), {-0.5, 0.0}, 4.0));
+  const auto first = NearestBehind(Bend(), SegmentIndex(1), {-3.0, 0.0}, 4.0);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->segment, SegmentIndex(0));
+  EXPECT_NEAR(first->along_m, 0.0, 1e-9);
+  EXPECT_NEAR(NearestBehind(Bend(), SegmentIndex(1), {-3.0, 0.0}, 0.5)->along_m, 0.5, 0.03);
+}
+
 }  // namespace
 }  // namespace trailcast::agent
