@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "services/refresh/src/missed.h"
 #include "services/route/codec.h"
 
 namespace trailcast::refresh {
@@ -13,20 +13,12 @@ namespace {
 
 using route::KeyView;
 
-constexpr std::uint8_t kMissedAtMost = std::numeric_limits<std::uint8_t>::max();
-
 bool IsSound(const route::View& view) {
   return !view.empty() && view.size() <= route::kMaxKeyViewFeatures &&
          std::all_of(view.begin(), view.end(), [](const route::ViewFeature& feature) {
            return std::isfinite(feature.u_px) && std::isfinite(feature.v_px) &&
                   std::isfinite(feature.size_px);
          });
-}
-
-void NoteMissed(Sought sought, KeyView& view) {
-  if (!view.missed) return;
-  if (sought == Sought::kFound) view.missed = 0;
-  if (sought == Sought::kMissed && *view.missed < kMissedAtMost) ++*view.missed;
 }
 
 const OfferedView* OfferedBeside(const std::vector<OfferedView>& offered, std::size_t position) {
@@ -47,7 +39,7 @@ void RefreshViews(const SegmentVisit& visit, std::optional<std::size_t> most_byt
     int added = 0;
     do {
       KeyView view = before[i];
-      NoteMissed(visit.views[i], view);
+      if (view.missed) NoteVisit(visit.views[i], *view.missed);
       ++i;
       if (view.missed && *view.missed >= options.missed_to_drop) {
         ++counts.dropped;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "services/refresh/src/added_views.h"
+#include "services/refresh/src/missed.h"
 #include "services/route/codec.h"
 
 namespace trailcast::refresh {
@@ -13,8 +13,6 @@ namespace {
 
 using route::Feature;
 using route::Segment;
-
-constexpr std::uint8_t kMostMissed = std::numeric_limits<std::uint8_t>::max();
 
 // Whoever offers what no scout could have taught is not of this route's kind.
 bool IsSound(const Feature& feature) {
@@ -36,14 +34,6 @@ void Count(std::size_t all, const std::vector<Sought>& sought, RefreshCounts& co
     (each == Sought::kFound    ? counts.found
      : each == Sought::kMissed ? counts.missed
                                : counts.unjudged) += 1;
-  }
-}
-
-void NoteMissed(const std::vector<Sought>& sought, Segment& segment) {
-  for (std::size_t i = 0; i < sought.size(); ++i) {
-    std::uint8_t& missed = segment.features[i].missed;
-    if (sought[i] == Sought::kFound) missed = 0;
-    if (sought[i] == Sought::kMissed && missed < kMostMissed) ++missed;
   }
 }
 
@@ -124,9 +114,12 @@ Result<void> CheckBelievable(const RefreshCounts& counts, const char* what,
 
 void RefreshFeatures(const SegmentVisit& visit, std::size_t most_bytes,
                      const RefreshOptions& options, Segment& segment, RefreshCounts& counts) {
+  if (visit.features.empty()) return;
   const auto most = static_cast<std::size_t>(
       std::ceil(options.most_share * static_cast<double>(segment.features.size())));
-  NoteMissed(visit.features, segment);
+  for (std::size_t i = 0; i < visit.features.size(); ++i) {
+    NoteVisit(visit.features[i], segment.features[i].missed);
+  }
   counts.dropped += Drop(most, options, segment);
   counts.added += Add(visit.offered, most, most_bytes, segment);
 }

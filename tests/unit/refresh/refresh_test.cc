@@ -109,6 +109,19 @@ TEST(Refresh, OneThatIsFoundAgainBeginsAnewAndOneUnjudgedStaysAsItWas) {
   EXPECT_EQ(refreshed->segments[0].features[4].missed, 2);
 }
 
+TEST(Refresh, ASegmentWhoseFeaturesNobodyJudgedStaysAsItWas) {
+  std::vector<Segment> route = SampleRoute(3);
+  for (Segment& segment : route) segment.features[3].missed = 9;
+  Visit visit = VisitOf(route);
+  visit.segments[1].features.clear();  // only its key views were looked at
+  visit.segments[1].views.assign(route[1].key_views.size(), Sought::kFound);
+  visit.segments.pop_back();  // nor was it sure of its place there
+  const auto refreshed = Refresh(route, visit, WithRoom());
+  ASSERT_TRUE(refreshed) << refreshed.error().message;
+  EXPECT_EQ(refreshed->segments[1], route[1]);
+  EXPECT_EQ(refreshed->segments[2], route[2]);
+}
+
 TEST(Refresh, OneVisitTakesAwayNoMoreThanAShareAndAFewAreAlwaysLeft) {
   std::vector<Segment> route = SampleRoute(2);
   for (Feature& feature : route[0].features) feature.missed = 200;
