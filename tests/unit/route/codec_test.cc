@@ -10,6 +10,18 @@
 namespace trailcast::route {
 namespace {
 
+// Its bytes, which say what it is.
+Bytes ThereAndBack(const Segment& segment) {
+  Bytes bytes = Encode(segment);
+  const Result<Segment> decoded = Decode(bytes);
+  if (decoded) {
+    EXPECT_EQ(*decoded, segment);
+  } else {
+    ADD_FAILURE() << decoded.error().message;
+  }
+  return bytes;
+}
+
 TEST(Codec, SegmentOnTheGridComesBackUnchanged) {
   for (const int knots : {2, 3, 4, 17, static_cast<int>(kMaxKnots)}) {
     const Segment segment = SampleSegment(7, 40, knots);
@@ -33,10 +45,7 @@ TEST(Codec, TerrainComesBackUnchangedEachPartOnItsOwnAndTakesAFewBytes) {
     Segment segment = SampleSegment(7, 3);
     const std::size_t without = Encode(segment).size();
     segment.terrain = terrain;
-    const Bytes bytes = Encode(segment);
-    const Result<Segment> decoded = Decode(bytes);
-    ASSERT_TRUE(decoded) << decoded.error().message;
-    EXPECT_EQ(*decoded, segment);
+    const Bytes bytes = ThereAndBack(segment);
     EXPECT_LE(bytes.size() - without, terrain.known() ? 11U : 0U);
     EXPECT_EQ(bytes[1], 1) << "version 1, whose readers skip it";
   }
@@ -47,10 +56,7 @@ TEST(Codec, HowOftenFeaturesWereMissedComesBackAndTakesNoByteWhereNoneWas) {
   const std::size_t without = Encode(segment).size();
   segment.features[3].missed = 2;
   segment.features[39].missed = 255;
-  const Bytes bytes = Encode(segment);
-  const Result<Segment> decoded = Decode(bytes);
-  ASSERT_TRUE(decoded) << decoded.error().message;
-  EXPECT_EQ(*decoded, segment);
+  const Bytes bytes = ThereAndBack(segment);
   EXPECT_EQ(bytes.size(), without + 40 + 2);
   EXPECT_EQ(bytes[1], 2) << "version 2, whose readers skip it";
 }
@@ -60,10 +66,7 @@ TEST(Codec, AKeyViewThatAFollowerAddedComesBackAsOne) {
   const std::size_t without = Encode(segment).size();
   segment.key_views[1].missed = 0;
   segment.key_views[3].missed = 255;
-  const Bytes bytes = Encode(segment);
-  const Result<Segment> decoded = Decode(bytes);
-  ASSERT_TRUE(decoded) << decoded.error().message;
-  EXPECT_EQ(*decoded, segment);
+  const Bytes bytes = ThereAndBack(segment);
   EXPECT_LE(bytes.size(), without + 2 + 3 + 2) << "and their lengths' own second bytes";
   EXPECT_EQ(bytes[1], 2) << "version 2, whose readers take it for one of the scout's";
 }
