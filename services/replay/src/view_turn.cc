@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace trailcast::replay {
 namespace {
@@ -23,16 +25,14 @@ ViewTurn TurnTowards(double aim, std::span<const SeenKeyView> seen, int scout_wi
                      const ViewTurnOptions& options) {
   const SeenKeyView* before = nullptr;
   const SeenKeyView* after = nullptr;
-  // Of those of one place, the one that is recognised best.
-  const auto is_better = [](const SeenKeyView& view, const SeenKeyView* than) {
-    return than == nullptr || (view.along == than->along && view.pairs.size() > than->pairs.size());
+  // The nearest; of those of one place, the one that is recognised best.
+  const auto rank = [&](const SeenKeyView& view) {
+    return std::pair(std::abs(view.along - aim), -std::ssize(view.pairs));
   };
   for (const SeenKeyView& view : seen) {
     if (static_cast<int>(view.pairs.size()) < options.fewest_pairs) continue;
     const SeenKeyView*& nearest = view.along <= aim ? before : after;
-    const bool nearer =
-        nearest != nullptr && std::abs(view.along - aim) < std::abs(nearest->along - aim);
-    if (nearer || is_better(view, nearest)) nearest = &view;
+    if (nearest == nullptr || rank(view) < rank(*nearest)) nearest = &view;
   }
   if (before == nullptr) std::swap(before, after);
   if (before == nullptr) return {};
