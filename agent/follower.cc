@@ -336,10 +336,11 @@ double Loop::PastEnd_m(const ReplayStep& step, double end_m) const {
   return options_.how.backwards ? -past_m : past_m;
 }
 
-// Also who is at the route's own end.
+// Also who is at the route's own end, and who drives on by odometry alone.
 bool Loop::PassedEnd(const ReplayStep& step, double end_m) const {
-  const bool knows_where =
-      step.state == ReplayState::kFollowing || step.state == ReplayState::kArrived;
+  const bool knows_where = step.state == ReplayState::kFollowing ||
+                           step.state == ReplayState::kArrived ||
+                           (step.state == ReplayState::kBlind && step.trust == Trust::kBlind);
   return end_m > 0.0 && knows_where && step.along_m && PastEnd_m(step, end_m) >= 0.0;
 }
 

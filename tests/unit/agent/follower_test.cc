@@ -337,6 +337,39 @@ TEST_F(FollowerTest, ArrivesWhereItsStretchEndsAndIsLostWhereItIsFoundFarBeyond)
   EXPECT_EQ(carried.told.back(), motion::VelocityCommand{});
 }
 
+// Of whose pictures nothing is to be seen above so many of their rows.
+class FoggyDevice : public WalkDevice {
+ public:
+  FoggyDevice(int frames, std::function<std::size_t(int)> rows)
+      : WalkDevice(frames), rows_(std::move(rows)) {}
+  Result<std::optional<Observation>> Next() override {
+    auto observation = WalkDevice::Next();
+    if (observation && *observation) {
+      image::GrayImage& image = (*observation)->image;
+      std::fill_n(image.pixels.begin(), rows_(next) * static_cast<std::size_t>(image.width), 128);
+    }
+    return observation;
+  }
+
+ private:
+  std::function<std::size_t(int)> rows_;
+};
+
+TEST_F(FollowerTest, StopsWhereItsStretchEndsThoughItSeesNothingOfIt) {
+  constexpr std::size_t kFew = 104;  // too few features to take the lens for covered without them
+  constexpr std::size_t kNone = 120;
+  FoggyDevice scout(kFrames, [](int) { return kFew; });
+  ASSERT_TRUE(swarm_.Teach(scout, swarm_.ScoutNamed("robot"), false));
+  FoggyDevice device(kFollowerFrames, [](int frame) { return frame < 70 ? kFew : kNone; });
+  auto options = swarm_.FollowerNamed("robot");
+  options.end_m = [] { return 1.6; };
+  const auto there = swarm_.Replay(device, options, false);
+  ASSERT_TRUE(there) << there.error().message;
+  EXPECT_EQ(there->state, "ARRIVED") << there->reason;
+  EXPECT_THAT(there->reason, HasSubstr("1.6 m along the route, where it was to end"));
+  EXPECT_EQ(device.told.back(), motion::VelocityCommand{});
+}
+
 TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
   swarm_.StartServer();
   WalkDevice scout(kFrames);
