@@ -59,18 +59,18 @@ struct PathEstimatorOptions {
   double knock_spread = 0.25;
   double knock_seen = 0.7;
   double knock_apart_m = 0.5;  // what turns again within so much is the robot
-  // Carried off: how far that may be, and how much better (in nats; 3: twenty times as likely) a
-  // place at least so far from the believed one has to explain what is seen. Asked every so many
-  // looks: it costs as much as a few of them. Being carried is the rarest of explanations: so many
-  // of these have to say the same place in a row, over so much of a way; one view on rough ground
-  // may say anything.
+  // Carried off: how far that may be. Being carried is the rarest of explanations, and one view on
+  // rough ground may say anything: places to one side, at least so far from the believed one, have
+  // to explain so much better what is seen (in nats; 9: eight thousand times as likely), look by
+  // look and none of them by more than so much, over so much of a way. Asked every so many looks:
+  // it costs as much as a few of them.
   double carried_left_m = 2.0;
   double carried_heading_rad = 0.15;
   double carried_along_m = 0.5;
   double carried_least_m = 0.4;
-  double carried_gain = 3.0;
+  double carried_gain = 9.0;
+  double carried_gain_a_look = 3.0;
   int carried_every_looks = 5;
-  int carried_looks = 3;
   double carried_after_m = 0.2;
 };
 
@@ -205,11 +205,11 @@ class PathEstimator {
     State gradient;
     Agreement agreement;
   };
-  // Where what is seen says that it was carried to.
+  // Which way what is seen says that it was carried.
   struct CarriedTo {
-    double left_m = 0.0;
+    bool to_the_right = false;
     double driven_m = 0.0;  // when it first did
-    int looks = 0;          // that say so
+    double gain = 0.0;      // by how much better that explains it, in nats
   };
   void BeUnsure();
   // Where it is is counted in axes turned by so much, counter-clockwise positive.

@@ -22,7 +22,6 @@ constexpr int kPlaceIterations = 6;
 constexpr double kLikely = 2.0;
 // and the magnification be off that of a camera like the scout's.
 constexpr double kAlike = 2.0;
-constexpr double kSamePlace_m = 0.4;  // from one look to the next
 
 }  // namespace
 
@@ -114,18 +113,16 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
   const Covariance covariance = there.information.inverse();
   const double moved_m = best[kLeft] - state_[kLeft];
   const double told_m = std::max(options_.carried_least_m, std::sqrt(covariance(kLeft, kLeft)));
-  const bool far_better = std::abs(moved_m) >= told_m && std::abs(moved_m) <= kFurthest_m &&
-                          here - least >= options_.carried_gain &&
-                          there.agreement.agreeing > agreeing_here;
-  if (!far_better) {
-    carried_.reset();
-    return std::nullopt;
-  }
-  const bool again = carried_ && std::abs(best[kLeft] - carried_->left_m) < kSamePlace_m;
-  if (!again) carried_ = CarriedTo{.driven_m = driven_m_};
-  carried_->left_m = best[kLeft];
-  ++carried_->looks;
-  if (carried_->looks < options_.carried_looks ||
+  const bool elsewhere = std::abs(moved_m) >= told_m && std::abs(moved_m) <= kFurthest_m &&
+                         there.agreement.agreeing > agreeing_here;
+  const double most = options_.carried_gain_a_look;
+  const double gain = elsewhere ? std::clamp(here - least, -most, most) : -most;
+  const bool other_side = carried_ && elsewhere && (moved_m < 0.0) != carried_->to_the_right;
+  if (other_side) carried_.reset();
+  if (!carried_) carried_ = CarriedTo{moved_m < 0.0, driven_m_, 0.0};
+  carried_->gain += gain;
+  if (carried_->gain <= 0.0) carried_.reset();
+  if (!carried_ || !elsewhere || carried_->gain < options_.carried_gain ||
       driven_m_ - carried_->driven_m < options_.carried_after_m) {
     return std::nullopt;
   }

@@ -285,6 +285,25 @@ TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
   }
 }
 
+// All looks together tell it, though every third of those that are asked contradicts.
+TEST(PathEstimator, FindsItselfAgainThoughALookNowAndThenContradicts) {
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
+  PathEstimator estimator = AMetreAlong(run);
+  for (int i = 0; i < 20; ++i) {
+    static_cast<void>(estimator.Update(test::Matched(kCorridor, run, {1.0, 0.0, 0.0})));
+  }
+  std::optional<double> found_m;
+  for (int i = 0; i < 30 && !found_m; ++i) {
+    const bool contradicts = i / 5 % 3 == 2;
+    const double along_m = 1.0 + 0.02 * i;
+    const auto seen = test::Matched(kCorridor, run, {along_m, contradicts ? 0.0 : 1.2, 0.0});
+    found_m = estimator.Update(seen).carried_left_m;
+    estimator.Predict({0.02, 0.0});
+  }
+  ASSERT_TRUE(found_m);
+  EXPECT_NEAR(estimator.offset().left_m, 1.2, 0.15);
+}
+
 TEST(PathEstimator, TakesAFewMismatchesForNothingMore) {
   const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);
