@@ -365,6 +365,8 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
   const bool stands =
       last_look_ && last_look_->moved_m < kStands_m && last_look_->turned_rad < kStands_rad;
   if (!stands) last_look_ = LastLook{covariance_};
+  const State predicted = state_;
+  const auto rough = rough_;
   Prior prior = BeforeLook();
   if (rough_ && seen.size() >= (rough_->focal ? kFewestByKnownCamera : kFewestToFind)) {
     prior = FindWhereAlong(prior, seen);
@@ -375,7 +377,12 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
     equations = Linearise(state_, prior, seen, options_.cauchy_px);
     state_ += equations.information.ldlt().solve(equations.gradient);
   }
-  covariance_ = equations.information.inverse();
+  if (equations.agreement.agreeing >= options_.fewest_agreeing) {
+    covariance_ = equations.information.inverse();
+  } else {
+    state_ = predicted;
+    rough_ = rough;
+  }
   if (++looks_ % options_.carried_every_looks == 0) {
     equations.agreement.carried_left_m = FindIfCarriedOff(prior, seen);
   }

@@ -241,6 +241,22 @@ TEST(PathEstimator, PassesOverMismatches) {
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
 }
 
+// What goes along with the camera is none of the route's features.
+TEST(PathEstimator, IsNotHeldBackByAHandfulOfMismatches) {
+  const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
+  PathEstimator estimator = AMetreAlong(run);
+  auto seen = test::Matched(kCorridor, run, {1.0, 0.0, 0.0});
+  for (int i = 0; i < 20; ++i) static_cast<void>(estimator.Update(seen));
+  seen.resize(3);
+  constexpr double kTurn_rad = 0.01;
+  constexpr int kFrames = 30;
+  for (int i = 0; i < kFrames; ++i) {
+    estimator.Predict({0.01, kTurn_rad});
+    static_cast<void>(estimator.Update(seen));
+  }
+  EXPECT_NEAR(estimator.offset().heading_rad, kFrames * kTurn_rad, 0.03);
+}
+
 // Sure of its place on the path, then at another without having driven there.
 // Being carried is the rarest of explanations.
 TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
