@@ -285,10 +285,14 @@ Result<bool> Loop::Step(const Observation& observation) {
 
 void Loop::PrepareNext() {
   if (!options_.next) return;
-  if (auto next = options_.next(path_.session()->lens())) {
-    next_ = *std::move(next);
-    wishes_ += 1;
-    wished_ = false;
+  // Who is sure of its path knows its camera, if it ever does, and finds the next one by that.
+  const auto lens = path_.session()->lens();
+  if (lens || last_->trust == Trust::kSure) {
+    if (auto next = options_.next(lens)) {
+      next_ = *std::move(next);
+      wishes_ += 1;
+      wished_ = false;
+    }
   }
   if (!next_) return;
   if (!wished_) {

@@ -370,6 +370,23 @@ TEST_F(FollowerTest, StopsWhereItsStretchEndsThoughItSeesNothingOfIt) {
   EXPECT_EQ(device.told.back(), motion::VelocityCommand{});
 }
 
+TEST_F(FollowerTest, LooksForItsNextRouteByTheCameraThatItKnows) {
+  TeachInto("robot");
+  auto options = swarm_.FollowerNamed("robot");
+  device_.before_frame = [&](int frame) {
+    device_.blind = frame < 10;  // it has not found its path yet
+    return Result<void>{};
+  };
+  std::vector<std::optional<OwnLens>> told;
+  options.next = [&told](const std::optional<OwnLens>& lens) {
+    told.push_back(lens);
+    return std::nullopt;
+  };
+  ASSERT_TRUE(swarm_.Replay(device_, options, false)->success);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(told.front());
+}
+
 TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
   swarm_.StartServer();
   WalkDevice scout(kFrames);
