@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/motion/motion.h"
+#include "services/replay/follower.h"
 
 namespace trailcast::agent {
 
@@ -58,8 +59,8 @@ struct Verdict {
 
 struct ConfidenceOptions {
   std::string not_found = "the route's start is not found";  // why a robot stands at first
-  // With fewer features than this there is nothing to steer by.
-  int min_features = 4;
+  // With fewer features than this there is nothing to steer by but odometry.
+  int min_features = replay::kFewestAgreeing;
   // So many of the features that should be in the picture have to agree with what was taught for
   // the robot to be sure that it is on the path. A handful can be found in any picture: a robot
   // that follows those alone would drive through the wrong building with confidence.

@@ -44,6 +44,9 @@ struct RoughPlace {
   std::optional<FocalLength> focal{};
 };
 
+// Fewer features that agree may all be mismatches, and tell nothing.
+inline constexpr int kFewestAgreeing = 4;
+
 // How the features in view fit what the route says.
 struct Agreement {
   int agreeing = 0;

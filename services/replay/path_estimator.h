@@ -27,8 +27,6 @@ struct PathEstimatorOptions {
   double feature_noise_px = 3.0;
   double cauchy_px = 3.0;  // beyond this a residual counts less and less
   double outlier_px = 12.0;
-  // Fewer features that agree may all be mismatches, and tell nothing.
-  int fewest_agreeing = 4;
   // And where all features are about as far away, that looks much as a camera that magnifies more
   // further back does: the looks of so much of a way tell of the magnification what one of them
   // does.
@@ -118,8 +116,8 @@ class PathEstimator {
   void Widen(const motion::OdometryIncrement& unknown);
 
   // What it sees; returns how it agrees with the taught path. However long a robot stands and
-  // looks, it becomes no surer than by one look; where too few features agree it stays where
-  // odometry says that it is.
+  // looks, it becomes no surer than by one look; where fewer than kFewestAgreeing features
+  // agree it stays where odometry says that it is.
   Agreement Update(const std::vector<route::TrackedFeature>& seen);
 
   [[nodiscard]] PathOffset offset() const;  // of the axle

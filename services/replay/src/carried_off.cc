@@ -118,8 +118,7 @@ std::optional<double> PathEstimator::FindIfCarriedOff(
   const double most = options_.carried_gain_a_look;
   const double gain = elsewhere ? std::clamp(here - least, -most, most) : -most;
   const bool other_side = carried_ && elsewhere && (moved_m < 0.0) != carried_->to_the_right;
-  if (other_side) carried_.reset();
-  if (!carried_) carried_ = CarriedTo{moved_m < 0.0, driven_m_, 0.0};
+  if (!carried_ || other_side) carried_ = CarriedTo{moved_m < 0.0, driven_m_, 0.0};
   carried_->gain += gain;
   if (carried_->gain <= 0.0) carried_.reset();
   if (!carried_ || !elsewhere || carried_->gain < options_.carried_gain ||

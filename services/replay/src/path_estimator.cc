@@ -377,7 +377,7 @@ Agreement PathEstimator::Update(const std::vector<route::TrackedFeature>& seen) 
     equations = Linearise(state_, prior, seen, options_.cauchy_px);
     state_ += equations.information.ldlt().solve(equations.gradient);
   }
-  if (equations.agreement.agreeing >= options_.fewest_agreeing) {
+  if (equations.agreement.agreeing >= kFewestAgreeing) {
     covariance_ = equations.information.inverse();
   } else {
     state_ = predicted;

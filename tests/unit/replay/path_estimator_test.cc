@@ -257,7 +257,6 @@ TEST(PathEstimator, IsNotHeldBackByAHandfulOfMismatches) {
   EXPECT_NEAR(estimator.offset().heading_rad, kFrames * kTurn_rad, 0.03);
 }
 
-// Sure of its place on the path, then at another without having driven there.
 // Being carried is the rarest of explanations.
 TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
   const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
@@ -275,6 +274,7 @@ TEST(PathEstimator, AViewFromElsewhereThatDoesNotLastIsNoProofOfBeingCarried) {
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.15);
 }
 
+// Sure of its place on the path, then at another without having driven there.
 TEST(PathEstimator, FindsItselfAgainWhereItWasCarried) {
   const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   for (const double carried_m : {-1.2, 0.7, 1.2}) {
