@@ -17,6 +17,15 @@ using testing::HasSubstr;
 
 class ConsoleMapTest : public ConsoleFleetTest {
  protected:
+  void SetUp() override {
+    if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+    Teach();
+    server_ = Server();
+    ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+    robot_ = Robot("robot1", {});
+    agent_ = Serve("robot1");
+    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  }
   // A floor of 8 by 4 m, its walls drawn.
   void DrawPlan() {
     std::filesystem::create_directory(folder_ / "site");
@@ -48,14 +57,7 @@ class ConsoleMapTest : public ConsoleFleetTest {
 };
 
 TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
-  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
-  Teach();
   DrawPlan();
-  server_ = Server();
-  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
-  robot_ = Robot("robot1", {});
-  agent_ = Serve("robot1");
-  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
   StartConsole({"--site", Path("site")});
   ASSERT_TRUE(WaitForState("free"));
   Browser browser(folder_ / "");
@@ -118,6 +120,26 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   browser.Screenshot(Shot("site"));
   browser.Look(390, 844, true);
   browser.Screenshot(Shot("phone-site"));
+}
+
+TEST_F(ConsoleMapTest, OfARouteThatIsNotKnownYetHowFarARobotIsIsSeen) {
+  const Ended sent = End(*Start("trailcast", {"send", "robot1", "follow hall speed 0.1"}, "send"));
+  ASSERT_EQ(sent.status, 0) << sent.output;
+  ASSERT_TRUE(agent_->WaitForOutput("FOLLOWING")) << agent_->output();
+  server_->Signal(SIGSTOP);
+  StartConsole();
+  ASSERT_TRUE(WaitUntil([&] {
+    const json along = Robot1().value("along_m", json());
+    return along.is_number() && along > json(0.1);
+  })) << State().dump(2);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 800);
+  browser.Open(Page());
+  ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".lines") > 0.0; })) << browser.Text();
+  const json line = browser.Run("return document.querySelector('.lines .line').clientWidth");
+  EXPECT_LT(DrawnAt(browser, ".lines"), 0.6 * line.get<double>()) << State().dump(2);
+  EXPECT_EQ(Robot1()["length_m"], json()) << "it became known meanwhile";
 }
 
 }  // namespace

@@ -44,12 +44,16 @@ const Cells = memo(function Cells({ shape, width }: { shape: Shape; width: numbe
   );
 });
 
+// How long its route is as far as that is known: of who teaches it, so far.
+const taught = (robot: Robot) => robot.length_m ?? (robot.teaches ? robot.along_m : null);
+
 type Mark = { robot: Robot; at: number; x: number; row: number };
 
 // Names that would lie over others are left out: the list below has them.
 function place(robots: Robot[], shape: Shape | null, length: number, x: (at: number) => number, width: number): Mark[] {
   const marks = robots.map((robot) => {
-    const at = along(robot, shape) ?? robot.progress * length;
+    const ends = shape || taught(robot) !== null;
+    const at = (ends ? along(robot, shape) : null) ?? robot.progress * length;
     return { robot, at, x: x(Math.min(length, Math.max(0, at))), row: -1 };
   });
   marks.sort((one, other) => Number(stands(one.robot)) - Number(stands(other.robot)));
@@ -98,7 +102,7 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
   const { seen, width } = useOnScreen(ref);
   const on = robots.find((robot) => robot.route_id) ?? robots[0];
   const { shape, fetched, error } = useShape(on.route_id, on.teaching, seen);
-  const known = Math.max(...robots.map((robot) => robot.length_m ?? robot.along_m ?? 0));
+  const known = Math.max(...robots.map((robot) => taught(robot) ?? 0));
   const length = shape?.length || known || 1;
   const unit = shape?.unit ?? 'm';
   const x = scaleOf(length, width);
