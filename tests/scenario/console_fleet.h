@@ -43,6 +43,15 @@ class ConsoleFleetTest : public RobotsTest {
     port_ = ConsolesPort(*console_);
     ASSERT_NE(port_, 0);
   }
+  // The server has what was taught.
+  bool Publish() {
+    return RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status == 0;
+  }
+  void PutOnDuty(const Words& robot = {}) {
+    robot_ = Robot("robot1", robot);
+    agent_ = Serve("robot1");
+    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  }
   [[nodiscard]] std::string Page() const {
     return "http://localhost:" + std::to_string(port_) + "/";
   }

@@ -21,10 +21,8 @@ class ConsoleMapTest : public ConsoleFleetTest {
     if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
     Teach();
     server_ = Server();
-    ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
-    robot_ = Robot("robot1", {});
-    agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_TRUE(Publish());
+    ASSERT_NO_FATAL_FAILURE(PutOnDuty());
   }
   // A floor of 8 by 4 m, its walls drawn.
   void DrawPlan() {

@@ -37,10 +37,8 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   Teach();
   Teach("routes.db", kPath, "office");
   server_ = Server();
-  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
-  robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
-  agent_ = Serve("robot1");
-  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  ASSERT_TRUE(Publish());
+  ASSERT_NO_FATAL_FAILURE(PutOnDuty({"--sim-truth", Path("truth.csv")}));
   StartConsole();
   ASSERT_TRUE(WaitForState("free"));
   Browser browser(folder_ / "");

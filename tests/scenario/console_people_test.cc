@@ -29,7 +29,7 @@ class ConsolePeopleTest : public ConsoleUsersTest {
     if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
     for (std::size_t i = 0; i < kRobots.size(); ++i) Teach("routes.db", kPaths[i], kRoutes[i]);
     server_ = Server();
-    ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+    ASSERT_TRUE(Publish());
     for (std::size_t i = 0; i < kRobots.size(); ++i) StartRobot(kRobots[i], kPaths[i]);
     for (const auto& agent : agents_) {
       ASSERT_TRUE(agent->WaitForOutput("on duty as")) << agent->output();

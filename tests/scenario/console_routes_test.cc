@@ -66,7 +66,7 @@ TEST_F(ConsoleRoutesTest, WhatIsNotKnownYetIsNotSaidToBeAbsent) {
 TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   for (int revision = 1; revision <= 2; ++revision) {  // the first one is followed, until ..
     Teach();
-    ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+    ASSERT_TRUE(Publish());
   }
   Open("routes");
   ASSERT_TRUE(browser_->WaitForText("2 of 2")) << browser_->Text();
@@ -112,7 +112,7 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
 
 TEST_F(ConsoleRoutesTest, APersonSeesWhatWasChangedSinceWhenAndByWhom) {
   Teach();
-  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+  ASSERT_TRUE(Publish());
   for (const Words& words :
        {Words{"routes", "rename", "hall", "aisle"}, Words{"network", "close", "aisle", "1..2"}}) {
     const Ended done = End(*Start("trailcast", With({"--name", "night-shift"}, words), "tool"));

@@ -28,7 +28,7 @@ TEST_F(ConsoleRunsTest, ARunIsOpenedAgainFrameByFrame) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
   Teach();
   server_ = Server();
-  ASSERT_EQ(RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status, 0);
+  ASSERT_TRUE(Publish());
   robot_ = Robot("robot1", {});
   std::filesystem::create_directories(folder_ / "logs");
   agent_ = Agent(With({"serve", "--store", Path("routes.db"), "--name", "robot1", "--logs",

@@ -21,14 +21,8 @@ class ConsoleTest : public ConsoleFleetTest {
     Teach();
     server_ = Server();
     ASSERT_TRUE(Publish());
-    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-battery", "1000"});
-    agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_NO_FATAL_FAILURE(PutOnDuty({"--sim-truth", Path("truth.csv"), "--sim-battery", "1000"}));
     StartConsole();
-  }
-  // The server has the route.
-  bool Publish() {
-    return RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"}).status == 0;
   }
 };
 

@@ -23,9 +23,7 @@ class GlanceTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     Teach();
-    robot_ = Robot("robot1", {});
-    agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_NO_FATAL_FAILURE(PutOnDuty());
     StartConsole();
   }
   void Send(const std::string& orders) {

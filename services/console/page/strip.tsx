@@ -44,18 +44,11 @@ const Cells = memo(function Cells({ shape, width }: { shape: Shape; width: numbe
   );
 });
 
-// How long its route is as far as that is known: of who teaches it, so far.
-const taught = (robot: Robot) => robot.length_m ?? (robot.teaches ? robot.along_m : null);
-
-type Mark = { robot: Robot; at: number; x: number; row: number };
+type Mark = { robot: Robot; x: number; row: number };
 
 // Names that would lie over others are left out: the list below has them.
-function place(robots: Robot[], shape: Shape | null, length: number, x: (at: number) => number, width: number): Mark[] {
-  const marks = robots.map((robot) => {
-    const ends = shape || taught(robot) !== null;
-    const at = (ends ? along(robot, shape) : null) ?? robot.progress * length;
-    return { robot, at, x: x(Math.min(length, Math.max(0, at))), row: -1 };
-  });
+function place(robots: Robot[], x: (robot: Robot) => number, width: number): Mark[] {
+  const marks = robots.map((robot) => ({ robot, x: x(robot), row: -1 }));
   marks.sort((one, other) => Number(stands(one.robot)) - Number(stands(other.robot)));
   const taken: { left: number; right: number }[][] = Array.from({ length: kRows }, () => []);
   for (const mark of [...marks].reverse()) {
@@ -102,11 +95,14 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
   const { seen, width } = useOnScreen(ref);
   const on = robots.find((robot) => robot.route_id) ?? robots[0];
   const { shape, fetched, error } = useShape(on.route_id, on.teaching, seen);
-  const known = Math.max(...robots.map((robot) => taught(robot) ?? 0));
-  const length = shape?.length || known || 1;
+  // 0: not yet. Of who teaches it, so far.
+  const known = shape?.length ||
+    Math.max(...robots.map((robot) => robot.length_m ?? (robot.teaches ? robot.along_m : null) ?? 0));
+  const length = known || 1;
   const unit = shape?.unit ?? 'm';
   const x = scaleOf(length, width);
-  const marks = place(robots, shape, length, x, width);
+  const at = (robot: Robot) => (known ? along(robot, shape) : null) ?? robot.progress * length;
+  const marks = place(robots, (robot) => x(Math.min(length, Math.max(0, at(robot)))), width);
   const unsure = doubts(on.route_id, on.teaching, length).map(({ begin, end }) =>
     `M${x(begin).toFixed(1)} ${kMiddle + 16}H${x(end).toFixed(1)}`);
   const text = robots.slice(0, 20)
@@ -120,7 +116,7 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
         <path className="ends" d={`M${x(0)} ${kMiddle - 11}v22M${x(length)} ${kMiddle - 11}v22`} />
         <text className="scale" x={x(0)} y={kMiddle + 27}>0</text>
         <text className="scale" x={x(length)} y={kMiddle + 27} textAnchor="end">
-          {shape || known ? metres(length, unit) : 'its end'}
+          {known ? metres(length, unit) : 'its end'}
         </text>
         {marks.map((mark) => <Marker key={mark.robot.name} mark={mark} width={width} />)}
       </svg>
