@@ -10,10 +10,25 @@
 #include "agent/device/device.h"
 #include "services/base/result.h"
 #include "services/motion/motion.h"
-#include "services/sim/core/bumps.h"
-#include "services/sim/places/place_options.h"
 
 namespace trailcast::agent {
+
+// What a simulated robot drives through, by the words of a command line.
+struct SimulatedPlace {
+  std::string world;            // a built-in place's name, or a world file (.obj, .glb, ...)
+  std::filesystem::path path;   // x_m,y_m way-points; empty: the built-in place's own
+  std::string up = "z";         // of a world file: y or z
+  double scale = 1.0;           // metres per unit of a world file
+  std::string ground = "mesh";  // what robots stand on: mesh or flat
+};
+
+// Bumps of the ground within a circle of the world's plane, which only wheels feel.
+struct RoughGround {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 1.0;
+  double height_m = 0.01;  // RMS
+};
 
 // Somebody takes a robot up once it has driven so far, and sets it down there, in the world's
 // frame: no wheel turns by that.
@@ -23,7 +38,7 @@ struct CarriedOff {
 };
 
 struct SimulatedRun {
-  sim::PlaceOptions place;
+  SimulatedPlace place;
   std::string camera = "webcam";  // a built-in camera's name, or a .toml file
   std::uint64_t seed = 1;         // draws the robot's errors and all noise
   double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
@@ -36,8 +51,8 @@ struct SimulatedRun {
   // For whoever judges: the true poses of the frames, as they are made, CSV
   // `t_s,x_m,y_m,heading_rad` in the world's frame. Empty: nowhere.
   std::filesystem::path truth{};
-  double battery_minutes = 0.0;          // that a full one lasts; 0: it tells of none
-  std::vector<sim::RoughPatch> rough{};  // what its wheels feel besides the place's ground
+  double battery_minutes = 0.0;      // that a full one lasts; 0: it tells of none
+  std::vector<RoughGround> rough{};  // what its wheels feel besides the place's ground
   std::optional<CarriedOff> carried{};
 };
 

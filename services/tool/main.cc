@@ -1,7 +1,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/tool/command.h"
+#include "services/tool/commands/command.h"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include "services/route/route.h"
 #include "tests/bench/console_bench.h"
 #include "tests/bench/console_script.h"
-#include "tests/scenario/webdriver.h"
+#include "tests/scenario/console/webdriver.h"
 
 namespace trailcast::bench {
 namespace {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "route_server/joint_desk.h"
+#include "route_server/joints/joint_desk.h"
 #include "services/base/cpu_time.h"
 #include "services/program/command_line.h"
 #include "services/route/digest.h"

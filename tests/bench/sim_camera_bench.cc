@@ -4,8 +4,8 @@
 #include <iostream>
 #include <map>
 
-#include "services/sim/core/simulated_robot.h"
-#include "services/sim/places/place.h"
+#include "services/lab/sim/core/simulated_robot.h"
+#include "services/lab/sim/places/place.h"
 
 // Pictures a second of the simulator's cameras on one core: a robot's whole step (ground, perfect
 // view, blur, noise) in every built-in place, other cameras in two of them, and the perfect view

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/sim/core/random.h"
+#include "services/lab/sim/core/random.h"
 #include "tests/bench/view_corpus.h"
 
 namespace trailcast::bench {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "services/base/number.h"
-#include "services/demo/journey_report.h"
+#include "services/lab/demo/journey_report.h"
 
 namespace trailcast::demo {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "services/dds/src/domain_config.h"
+#include "services/dds/src/domain/domain_config.h"
 #include "services/dds/src/entities.h"
 #include "services/dds/src/qos_table.h"
 #include "services/dds/src/wire.h"

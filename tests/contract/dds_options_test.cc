@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/dds/src/domain_config.h"
+#include "services/dds/src/domain/domain_config.h"
 #include "tests/contract/network.h"
 
 namespace trailcast::dds {

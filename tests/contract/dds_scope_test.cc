@@ -1,4 +1,4 @@
-#include "services/dds/src/scope.h"
+#include "services/dds/src/domain/scope.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

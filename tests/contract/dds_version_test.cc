@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "services/dds/src/domain_config.h"
+#include "services/dds/src/domain/domain_config.h"
+#include "services/dds/src/domain/user_data.h"
 #include "services/dds/src/entities.h"
-#include "services/dds/src/user_data.h"
 #include "tests/contract/network.h"
 
 namespace trailcast::dds {

@@ -1,5 +1,5 @@
 // Camera files, and with them the TOML of every configuration.
-#include "agent/simulated/camera_file.h"
+#include "services/lab/simulated/camera_file.h"
 
 #include "tests/fuzz/fuzz.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "services/store/src/found_rows.h"
-#include "services/store/src/page_scan.h"
+#include "services/store/src/salvage/found_rows.h"
+#include "services/store/src/salvage/page_scan.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace trailcast::fuzz {

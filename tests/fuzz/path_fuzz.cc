@@ -1,5 +1,5 @@
 // Way-points for the simulator, and the curve that is driven along them.
-#include "services/sim/core/path.h"
+#include "services/lab/sim/core/path.h"
 
 #include "tests/fuzz/fuzz.h"
 

@@ -1,5 +1,5 @@
 // Tables of trials, and the pages made of them.
-#include "services/trial/trial_csv.h"
+#include "services/lab/trial/trial_csv.h"
 
 #include "tests/fuzz/fuzz.h"
 

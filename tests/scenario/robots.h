@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/scenario/lab/taught_once.h"
 #include "tests/scenario/programs.h"
-#include "tests/scenario/taught_once.h"
 
 namespace trailcast::test {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "services/image/files.h"
-#include "services/trial/recording/src/other_camera.h"
+#include "services/lab/trial/recording/src/other_camera.h"
 
 namespace trailcast::test {
 

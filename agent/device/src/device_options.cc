@@ -180,7 +180,7 @@ std::optional<std::array<double, kCount>> ParseNumbers(const std::string& text) 
 }
 
 // "3,1.5,1,0.01": where, how wide, how high.
-Result<sim::RoughPatch> ParseRoughPatch(const std::string& text) {
+Result<RoughGround> ParseRoughPatch(const std::string& text) {
   const auto numbers = ParseNumbers<4>(text);
   if (!numbers || !((*numbers)[2] > 0.0) || (*numbers)[3] < 0.0 || (*numbers)[3] > 0.1) {
     return Fail(ErrorCode::kInvalidArgument,
@@ -189,7 +189,7 @@ Result<sim::RoughPatch> ParseRoughPatch(const std::string& text) {
                 text);
   }
   const auto [x_m, y_m, radius_m, height_m] = *numbers;
-  return sim::RoughPatch{{x_m, y_m}, radius_m, height_m};
+  return RoughGround{x_m, y_m, radius_m, height_m};
 }
 
 // "9,6.5,90@4": where to, looking which way, and after how many metres.
@@ -223,7 +223,7 @@ CLI::Option* AddCarriedOff(CLI::App& command, std::optional<CarriedOff>& carried
       ->check(CLI::Validator(wrong, "X,Y,DEGREES@METRES"));
 }
 
-CLI::Option* AddRoughPatches(CLI::App& command, std::vector<sim::RoughPatch>& patches) {
+CLI::Option* AddRoughPatches(CLI::App& command, std::vector<RoughGround>& patches) {
   const auto wrong = [](const std::string& text) {
     const auto patch = ParseRoughPatch(text);
     return patch ? std::string() : patch.error().message;

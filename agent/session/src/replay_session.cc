@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "agent/session/src/eyes.h"
-#include "agent/session/src/feature_follower.h"
+#include "agent/session/src/features/feature_follower.h"
 #include "agent/session/src/frame_pace.h"
-#include "agent/session/src/known_route.h"
-#include "agent/session/src/place_keeper.h"
+#include "agent/session/src/place/known_route.h"
+#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/view_follower.h"
+#include "agent/session/src/place/view_taker.h"
 #include "agent/session/src/standing.h"
 #include "agent/session/src/upright_watch.h"
-#include "agent/session/src/view_follower.h"
-#include "agent/session/src/view_taker.h"
 
 namespace trailcast::agent {
 namespace {

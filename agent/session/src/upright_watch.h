@@ -3,7 +3,7 @@
 #include <string>
 
 #include "agent/session/src/eyes.h"
-#include "agent/session/src/place_keeper.h"
+#include "agent/session/src/place/place_keeper.h"
 #include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {

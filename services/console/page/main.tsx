@@ -3,16 +3,17 @@ import { createRoot } from 'react-dom/client';
 import { stopAll, type Answer, type Fleet, type Robot } from './api';
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
-import { History } from './history';
+import { History } from './runs/history';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
-import { MapPage } from './map';
+import { MapPage } from './map/map';
 import { useMay } from './me';
 import { Missions } from './missions';
-import { NetworkPage } from './network';
+import { NetworkPage } from './network/network';
 import { Pages, usePage } from './pages';
-import { Badge, RobotCard } from './robot';
-import { Routes } from './routes';
-import { Lines } from './strip';
+import { RobotCard } from './robot/robot';
+import { Routes } from './routes/routes';
+import { Badge } from './robot/state';
+import { Lines } from './robot/strip';
 
 function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   const needing = robots.filter((robot) => robot.needs_person);

@@ -9,7 +9,7 @@
 #include "services/base/text.h"
 #include "services/console/json.h"
 #include "services/console/rights.h"
-#include "services/console/src/answers.h"
+#include "services/console/src/api/answers.h"
 #include "services/http/address.h"
 
 namespace trailcast::console {

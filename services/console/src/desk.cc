@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "services/base/unix_time.h"
-#include "services/console/src/errand.h"
-#include "services/console/src/look_errand.h"
+#include "services/console/src/api/errand.h"
+#include "services/console/src/api/look_errand.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/sending.h"

@@ -6,8 +6,8 @@
 #include <set>
 #include <variant>
 
+#include "services/console/src/api/values.h"
 #include "services/console/src/robot_state.h"
-#include "services/console/src/values.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/mission/mission.h"

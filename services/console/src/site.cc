@@ -7,7 +7,7 @@
 
 #include "services/base/angles.h"
 #include "services/base/durable_file.h"
-#include "services/console/src/values.h"
+#include "services/console/src/api/values.h"
 
 namespace trailcast::console {
 namespace {

@@ -9,10 +9,10 @@
 #include <thread>
 #include <utility>
 
-#include "services/dds/src/joined.h"
+#include "services/dds/src/domain/joined.h"
+#include "services/dds/src/domain/star_or_mesh.h"
 #include "services/dds/src/keys_watch.h"
 #include "services/dds/src/reminders.h"
-#include "services/dds/src/star_or_mesh.h"
 #include "services/dds/src/stranger_watch.h"
 #include "services/dds/src/version_watch.h"
 #include "services/dds/src/wire.h"

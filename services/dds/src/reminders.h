@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "services/dds/src/joined.h"
+#include "services/dds/src/domain/joined.h"
 
 namespace trailcast::dds {
 

@@ -7,7 +7,7 @@
 #include "services/base/ids.h"
 #include "services/base/process_name.h"
 #include "services/dds/protocol_version.h"
-#include "services/dds/src/user_data.h"
+#include "services/dds/src/domain/user_data.h"
 
 namespace trailcast::dds {
 namespace {

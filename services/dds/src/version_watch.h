@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/base/told_lately.h"
-#include "services/dds/src/peers.h"
+#include "services/dds/src/domain/peers.h"
 
 namespace trailcast::dds {
 

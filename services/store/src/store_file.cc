@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "services/store/src/replacement.h"
-#include "services/store/src/sqlite_header.h"
+#include "services/store/src/salvage/replacement.h"
+#include "services/store/src/salvage/sqlite_header.h"
 
 namespace trailcast::store {
 namespace {

@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <random>
 
+#include "agent/duty/src/other_way.h"
 #include "agent/link/mission_desk.h"
-#include "agent/other_way.h"
-#include "route_server/lane_keeper.h"
-#include "route_server/replanning.h"
+#include "route_server/network/lane_keeper.h"
+#include "route_server/network/replanning.h"
 #include "services/fleet/network_client.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "agent/follower.h"
-#include "agent/scout.h"
+#include "agent/follow/follower.h"
+#include "agent/teach/scout.h"
 #include "route_server/server.h"
 #include "services/exchange/in_process_exchange.h"
 #include "tests/support/temp_dir.h"

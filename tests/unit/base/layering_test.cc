@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using Rooms = std::set<std::string>;
 using testing::IsEmpty;
 
-// What each room may include besides itself. A room is a folder of services/ or agent/; what lies
-// in agent/ itself, as in route_server/, is a program.
+// What each room may include besides itself. A room is a folder of services/, services/lab/, agent/
+// or route_server/, which is one itself as well.
 const std::map<std::string, Rooms> kMayInclude{
     {"services/base", {}},
     {"services/motion", {"services/base"}},
@@ -37,7 +37,9 @@ const std::map<std::string, Rooms> kMayInclude{
     {"services/refresh", {"services/base", "services/route"}},
     {"services/mission", {"services/base", "services/route"}},
     {"services/network", {"services/base"}},
-    {"services/store", {"services/base", "services/route", "services/mission", "services/network"}},
+    {"services/store", {"services/base", "services/route"}},
+    {"services/records",
+     {"services/base", "services/route", "services/mission", "services/network", "services/store"}},
     {"services/exchange",
      {"services/base", "services/route", "services/mission", "services/store"}},
     {"services/archive", {"services/base", "services/route"}},
@@ -47,7 +49,6 @@ const std::map<std::string, Rooms> kMayInclude{
     {"services/dds",
      {"services/base", "services/motion", "services/image", "services/route", "services/exchange",
       "services/security"}},
-    {"services/sim", {"services/base", "services/motion", "services/image"}},
     {"services/program",
      {"services/base", "services/route", "services/exchange", "services/security", "services/dds"}},
     {"services/fleet",
@@ -71,37 +72,66 @@ const std::map<std::string, Rooms> kMayInclude{
       "services/vision", "services/replay", "agent/session"}},
     {"agent/device",
      {"services/base", "services/motion", "services/image", "services/vision", "services/bag",
-      "services/dds", "services/sim", "services/program", "agent/session"}},
+      "services/dds", "services/program", "agent/session"}},
     {"agent/link",
      {"services/base", "services/route", "services/mission", "services/store", "services/exchange",
       "services/program", "agent/session"}},
-    {"agent/simulated",
-     {"services/base", "services/motion", "services/image", "services/dds", "services/sim",
-      "services/program", "agent/device", "agent/diagnosis"}},
-    {"agent",
-     {"services/base", "services/motion", "services/image", "services/route", "services/vision",
-      "services/view", "services/refresh", "services/mission", "services/store",
-      "services/exchange", "services/program", "agent/session", "agent/diagnosis", "agent/device",
+    {"agent/camera_view",
+     {"services/base", "services/image", "services/exchange", "agent/diagnosis", "agent/device",
       "agent/link"}},
-    {"route_server",
+    {"agent/teach",
+     {"services/base", "services/motion", "services/route", "services/vision", "services/mission",
+      "services/store", "services/exchange", "agent/session", "agent/diagnosis", "agent/device",
+      "agent/link", "agent/camera_view"}},
+    {"agent/follow",
+     {"services/base", "services/motion", "services/route", "services/refresh", "agent/session",
+      "agent/diagnosis", "agent/device", "agent/link", "agent/camera_view"}},
+    {"agent/fetch", {"services/base", "agent/diagnosis", "agent/link"}},
+    {"agent/duty",
+     {"services/base", "services/motion", "services/route", "services/vision", "services/view",
+      "services/refresh", "services/mission", "services/store", "services/exchange",
+      "services/program", "agent/diagnosis", "agent/device", "agent/link", "agent/camera_view",
+      "agent/teach", "agent/follow"}},
+    {"agent/cli",
+     {"services/base", "services/program", "agent/session", "agent/device", "agent/camera_view",
+      "agent/teach", "agent/follow", "agent/fetch", "agent/duty"}},
+    {"route_server/routes",
+     {"services/base", "services/route", "services/network", "services/store", "services/records",
+      "services/exchange", "services/catalog", "services/joints", "services/refresh"}},
+    {"route_server/fleet",
+     {"services/base", "services/mission", "services/records", "services/exchange"}},
+    {"route_server/joints",
+     {"services/base", "services/route", "services/view", "services/joints", "services/store",
+      "services/catalog", "route_server/routes"}},
+    {"route_server/network",
      {"services/base", "services/route", "services/mission", "services/network", "services/store",
-      "services/exchange", "services/catalog", "services/http", "services/program",
-      "services/refresh", "services/view", "services/joints"}},
+      "services/records", "services/exchange", "route_server/routes", "route_server/fleet",
+      "route_server/joints"}},
+    {"route_server/status",
+     {"services/base", "services/route", "services/exchange", "services/http"}},
+    {"route_server",
+     {"services/base", "services/route", "services/store", "services/exchange", "services/catalog",
+      "services/program", "route_server/routes", "route_server/fleet", "route_server/network",
+      "route_server/joints", "route_server/status"}},
     {"services/explain", {"services/base", "services/image", "services/plot", "agent/diagnosis"}},
-    {"services/trial",
+    {"services/lab/sim", {"services/base", "services/motion", "services/image"}},
+    {"services/lab/simulated",
+     {"services/base", "services/motion", "services/image", "services/dds", "services/program",
+      "services/lab/sim", "agent/device", "agent/diagnosis"}},
+    {"services/lab/trial",
      {"services/base", "services/motion", "services/image", "services/route", "services/store",
-      "services/exchange", "services/sim", "services/plot", "services/refresh", "agent/session",
-      "agent/diagnosis", "agent/device", "agent/simulated"}},
-    {"services/demo",
+      "services/exchange", "services/plot", "services/refresh", "services/lab/sim",
+      "services/lab/simulated", "agent/session", "agent/diagnosis", "agent/device"}},
+    {"services/lab/demo",
      {"services/base", "services/image", "services/exchange", "services/fleet", "services/mission",
-      "services/sim", "services/program", "services/plot", "services/trial"}},
+      "services/program", "services/plot", "services/lab/sim", "services/lab/trial"}},
     {"services/tool",
-     {"services/base",     "services/fleet",    "services/image",   "services/route",
-      "services/view",     "services/mission",  "services/network", "services/vision",
-      "services/store",    "services/exchange", "services/archive", "services/catalog",
-      "services/security", "services/sim",      "services/program", "services/plot",
-      "services/explain",  "services/trial",    "services/demo",    "services/joints",
-      "agent/session",     "agent/diagnosis",   "agent/device",     "agent/simulated"}},
+     {"services/base",          "services/fleet",    "services/image",     "services/route",
+      "services/view",          "services/mission",  "services/network",   "services/vision",
+      "services/store",         "services/exchange", "services/archive",   "services/catalog",
+      "services/security",      "services/program",  "services/plot",      "services/explain",
+      "services/joints",        "services/lab/sim",  "services/lab/trial", "services/lab/demo",
+      "services/lab/simulated", "agent/session",     "agent/diagnosis",    "agent/device"}},
 };
 
 // The rooms where each third-party library may be used, by the beginning of its headers' names; "*"
@@ -111,29 +141,29 @@ struct Library {
   Rooms homes;
 };
 const std::vector<Library> kLibraries{
-    {"opencv2/", {"services/image", "services/trial", "services/vision"}},
+    {"opencv2/", {"services/image", "services/lab/trial", "services/vision"}},
     {"jpeglib.h", {"services/image"}},
     {"google/protobuf/", {"services/route"}},
     {"idl/route.pb.h", {"services/route"}},
     {"idl/run_log_description.h", {"agent/diagnosis"}},
     {"dds/", {"services/dds"}},
-    {"SQLiteCpp/", {"services/bag", "services/store"}},
-    {"sqlite3.h", {"services/bag", "services/store"}},
+    {"SQLiteCpp/", {"services/bag", "services/records", "services/store"}},
+    {"sqlite3.h", {"services/bag", "services/records", "services/store"}},
     {"lz4frame.h", {"services/bag"}},
     {"zstd.h", {"services/bag"}},
     {"pqxx/", {"services/store"}},
-    {"embree3/", {"services/sim"}},
-    {"assimp/", {"services/sim"}},
+    {"embree3/", {"services/lab/sim"}},
+    {"assimp/", {"services/lab/sim"}},
     {"openssl/", {"services/http", "services/route", "services/security", "services/users"}},
     {"tl/", {"services/base"}},
     {"CLI/",
-     {"services/console", "services/program", "services/tool", "agent", "agent/device",
-      "agent/simulated", "route_server"}},
+     {"services/console", "services/program", "services/tool", "services/lab/simulated",
+      "agent/cli", "agent/device", "route_server"}},
     {"httplib.h", {"services/http"}},
     {"nlohmann/", {"services/console"}},
     {"spdlog/",
-     {"services/console", "services/program", "agent", "agent/device", "agent/link",
-      "agent/simulated", "route_server"}},
+     {"services/console", "services/program", "services/lab/simulated", "agent/cli", "agent/device",
+      "agent/duty", "agent/fetch", "agent/follow", "agent/link", "agent/teach", "route_server"}},
     {"Eigen/", {"*"}},
     {"fmt/", {"*"}},
     {"cairo/", {"services/plot"}},
@@ -155,8 +185,8 @@ bool IsPrivateElsewhere(const std::string& header, const std::string& where) {
   const std::size_t sources = header.find("/src/");
   if (sources == std::string::npos) return false;
   const std::string room = header.substr(0, sources);
-  const fs::path folder = fs::path(where).parent_path();
-  return folder != room && folder != room + "/src";
+  const std::string folder = fs::path(where).parent_path().string();
+  return folder != room && !(folder + "/").starts_with(room + "/src/");
 }
 
 // Empty if the include is allowed, else what is wrong with it.
@@ -201,27 +231,42 @@ TEST(Layering, EveryIncludeFollowsTheOrderOfRoomsAndKeepsLibrariesInTheirs) {
 
 TEST(Layering, EveryRoomHasARule) {
   const fs::path root(TRAILCAST_SOURCE_DIR);
-  for (const char* top : {"services", "agent"}) {
+  for (const char* top : {"services", "services/lab", "agent", "route_server"}) {
     for (const auto& entry : fs::directory_iterator(root / top)) {
-      if (!entry.is_directory()) continue;
       const std::string room = entry.path().lexically_relative(root).string();
+      if (!entry.is_directory() || room == "services/lab") continue;
       EXPECT_TRUE(kMayInclude.contains(room)) << room;
     }
   }
 }
 
-TEST(Layering, RulesLeadNoRoomBackToItself) {
-  // Each room may include only rooms that may not, by any way, include it.
-  for (const auto& [room, allowed] : kMayInclude) {
-    Rooms reached;
-    std::vector<std::string> open(allowed.begin(), allowed.end());
-    while (!open.empty()) {
-      const std::string next = open.back();
-      open.pop_back();
-      if (!reached.insert(next).second) continue;
-      open.insert(open.end(), kMayInclude.at(next).begin(), kMayInclude.at(next).end());
+// All rooms that a room may include by any way.
+Rooms ReachedFrom(const std::string& room) {
+  Rooms reached;
+  std::vector<std::string> open{room};
+  while (!open.empty()) {
+    const Rooms& allowed = kMayInclude.at(open.back());
+    open.pop_back();
+    for (const std::string& next : allowed) {
+      if (reached.insert(next).second) open.push_back(next);
     }
-    EXPECT_FALSE(reached.contains(room)) << room;
+  }
+  return reached;
+}
+
+TEST(Layering, RulesLeadNoRoomBackToItself) {
+  for (const auto& [room, allowed] : kMayInclude) {
+    EXPECT_FALSE(ReachedFrom(room).contains(room)) << room;
+  }
+}
+
+TEST(Layering, NothingOfTheLaboratoryRunsOnARobotOrAServer) {
+  const auto is_of_the_laboratory = [](const std::string& room) {
+    return room.starts_with("services/lab/");
+  };
+  for (const auto& [room, allowed] : kMayInclude) {
+    if (!room.starts_with("agent/") && !room.starts_with("route_server")) continue;
+    EXPECT_EQ(std::ranges::count_if(ReachedFrom(room), is_of_the_laboratory), 0) << room;
   }
 }
 
@@ -253,24 +298,25 @@ TEST(Layering, FaultsAreFound) {
   };
   EXPECT_EQ(fault("services/replay", "#include \"services/motion/motion.h\""), "");
   EXPECT_EQ(fault("services/vision", "#include <opencv2/core.hpp>"), "");
-  EXPECT_EQ(fault("services/trial", "#include \"services/sim/core/world.h\""), "");
+  EXPECT_EQ(fault("services/lab/trial", "#include \"services/lab/sim/core/world.h\""), "");
   EXPECT_EQ(fault("services/dds", "#include \"services/dds/src/wire.h\""), "");
   EXPECT_EQ(fault("services/dds", "#include \"trailcast.h\"  // generated"), "");
   EXPECT_EQ(fault("services/base", "#include <vector>"), "");
-  EXPECT_EQ(fault("agent", "#include <sys/wait.h>"), "");
-  EXPECT_NE(fault("services/replay", "#include \"services/sim/core/world.h\""), "");
-  EXPECT_NE(fault("agent", "#include \"services/sim/core/world.h\""), "");
-  EXPECT_NE(fault("services/session", "#include \"services/trial/trial.h\""), "");
+  EXPECT_EQ(fault("agent/cli", "#include <sys/wait.h>"), "");
+  EXPECT_NE(fault("services/replay", "#include \"services/lab/sim/core/world.h\""), "");
+  EXPECT_NE(fault("agent/device", "#include \"services/lab/sim/core/world.h\""), "");
+  EXPECT_NE(fault("services/session", "#include \"services/lab/trial/trial.h\""), "");
   EXPECT_NE(fault("services/program", "#include \"services/dds/src/wire.h\""), "");
-  EXPECT_NE(fault("services/trial/judge", "#include \"services/trial/src/trial_log.h\""), "");
+  EXPECT_NE(fault("services/lab/trial/judge", "#include \"services/lab/trial/src/trial_log.h\""),
+            "");
   EXPECT_NE(fault("services/base", "#include \"services/route/route.h\""), "");
   EXPECT_NE(fault("services/exchange", "#include \"services/dds/dds_exchange.h\""), "");
   EXPECT_NE(fault("services/teach", "  #  include <opencv2/core.hpp>"), "");
-  EXPECT_NE(fault("agent", "#include <dds/dds.h>"), "");
+  EXPECT_NE(fault("agent/duty", "#include <dds/dds.h>"), "");
   EXPECT_NE(fault("services/exchange", "#include \"idl/route.pb.h\""), "");
   EXPECT_NE(fault("services/store", "#include <boost/asio.hpp>"), "");
   EXPECT_NE(fault("services/vision", "#include \"frame.h\""), "");
-  EXPECT_NE(fault("agent", "#include \"route_server/keeper.h\""), "");
+  EXPECT_NE(fault("agent/duty", "#include \"route_server/keeper.h\""), "");
   EXPECT_NE(fault("services/vision", "#include \"tests/support/temp_dir.h\""), "");
   EXPECT_TRUE(ReadsAClock("const auto t = Clock::now();"));
   EXPECT_TRUE(ReadsAClock("std::chrono::steady_clock::time_point start;"));

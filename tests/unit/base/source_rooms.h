@@ -23,12 +23,13 @@ struct SourceLine {
   std::string text;
 };
 
-// Of a file or header, by its path from the root.
+// Of a file or header, by its path from the root: the folder below agent/, route_server/, services/
+// or services/lab/ that it lies in.
 inline std::string RoomOf(const std::string& path) {
-  const std::size_t top = path.find('/');
-  if (top == std::string::npos || path.starts_with("route_server/")) return path.substr(0, top);
-  const std::size_t second = path.find('/', top + 1);
-  return path.substr(0, second == std::string::npos ? top : second);
+  const std::string lab = "services/lab/";
+  const std::size_t below = path.starts_with(lab) ? lab.size() : path.find('/') + 1;
+  const std::size_t end = path.find('/', below);
+  return path.substr(0, end == std::string::npos ? below - 1 : end);
 }
 
 inline std::vector<SourceLine> ReadSources() {

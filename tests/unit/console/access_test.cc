@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "services/console/rights.h"
-#include "services/console/src/files.h"
+#include "services/console/src/api/files.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/users/secret.h"

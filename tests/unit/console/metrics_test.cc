@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "route_server/metrics.h"
+#include "route_server/status/metrics.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"

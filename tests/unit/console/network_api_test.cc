@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "route_server/history.h"
-#include "route_server/network_board.h"
+#include "route_server/network/network_board.h"
+#include "route_server/routes/history.h"
 #include "services/base/unix_time.h"
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"

@@ -1,4 +1,4 @@
-#include "services/dds/src/cyclone_uri.h"
+#include "services/dds/src/domain/cyclone_uri.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/dds/src/discovery_config.h"
+#include "services/dds/src/domain/discovery_config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

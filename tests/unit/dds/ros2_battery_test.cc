@@ -6,9 +6,9 @@
 #include "newer_ros2.h"
 #include "ros2.h"
 #include "services/dds/ros2_link.h"
-#include "services/dds/src/domain_config.h"
+#include "services/dds/src/domain/domain_config.h"
 #include "services/dds/src/entities.h"
-#include "services/dds/src/ros2_wire.h"
+#include "services/dds/src/ros2/ros2_wire.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {

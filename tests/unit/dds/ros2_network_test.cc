@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "services/dds/ros2_link.h"
-#include "services/dds/src/ros2_network.h"
+#include "services/dds/src/ros2/ros2_network.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {

@@ -7,7 +7,7 @@
 
 #include "ros2.h"
 #include "services/dds/ros2_link.h"
-#include "services/dds/src/ros2_wire.h"
+#include "services/dds/src/ros2/ros2_wire.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {

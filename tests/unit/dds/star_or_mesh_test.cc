@@ -1,4 +1,4 @@
-#include "services/dds/src/star_or_mesh.h"
+#include "services/dds/src/domain/star_or_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/dds/src/user_data.h"
+#include "services/dds/src/domain/user_data.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "agent/session/src/likeliest_place.h"
+#include "agent/session/src/place/likeliest_place.h"
 
 #include <gtest/gtest.h>
 

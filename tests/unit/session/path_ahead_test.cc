@@ -1,4 +1,4 @@
-#include "agent/session/src/path_ahead.h"
+#include "agent/session/src/place/path_ahead.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "agent/session/src/place_trust.h"
+#include "agent/session/src/place/place_trust.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "agent/session/src/recogniser.h"
+#include "agent/session/src/place/recogniser.h"
 
 #include <gtest/gtest.h>
 

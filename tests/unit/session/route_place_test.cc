@@ -1,4 +1,4 @@
-#include "agent/session/src/route_place.h"
+#include "agent/session/src/place/route_place.h"
 
 #include <gtest/gtest.h>
 

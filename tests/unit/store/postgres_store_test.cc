@@ -9,7 +9,7 @@
 
 #include "services/store/open_store.h"
 #include "services/store/postgres_url.h"
-#include "services/store/src/postgres_schema.h"
+#include "services/store/src/postgres/postgres_schema.h"
 #include "tests/support/postgres_server.h"
 #include "tests/unit/store/pieces.h"
 

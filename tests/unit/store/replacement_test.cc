@@ -1,4 +1,4 @@
-#include "services/store/src/replacement.h"
+#include "services/store/src/salvage/replacement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

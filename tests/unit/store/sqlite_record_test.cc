@@ -1,4 +1,4 @@
-#include "services/store/src/sqlite_record.h"
+#include "services/store/src/salvage/sqlite_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,125 @@
+#include "agent/camera_view/glances.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "services/base/give_way.h"
+#include "services/image/files.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::hours kGlanceWakeUp{1};  // unless something was handed over
+constexpr int kBestQuality = 70;
+constexpr int kWorstQuality = 10;
+constexpr int kQualityStep = 10;
+// What is left of the bytes is worth a better picture the next time.
+constexpr std::size_t kFewBytes = Glances::kMostBytes * 2 / 3;
+constexpr int kNiceness = 10;
+
+constexpr const char* kNoPicture = "no picture comes from its camera";
+
+}  // namespace
+
+class Glances::Visitor : public exchange::RouteExchange {
+ public:
+  Visitor(Glances& host, std::unique_ptr<exchange::RouteExchange> exchange)
+      : host_(host), exchange_(std::move(exchange)) {}
+
+  Result<void> Publish(const exchange::Message& message) override {
+    return exchange_->Publish(message);
+  }
+  void Gather() override { exchange_->Gather(); }
+  void Flush() override { exchange_->Flush(); }
+  std::vector<exchange::Message> Take(std::chrono::milliseconds max_wait) override {
+    auto messages = exchange_->Take(max_wait);
+    const auto now = steady_clock::now();
+    for (const exchange::Message& message : messages) host_.desk_.Handle(message, now);
+    host_.Serve(*exchange_, now);
+    return messages;
+  }
+  Result<void> Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) override {
+    return exchange_->Listen(topic, routes);
+  }
+  [[nodiscard]] std::uint64_t dropped() const override { return exchange_->dropped(); }
+
+ private:
+  Glances& host_;
+  std::unique_ptr<exchange::RouteExchange> exchange_;
+};
+
+Glances::Glances(AgentId self)
+    : desk_(std::move(self)), quality_(kBestQuality), thread_([this] { Paint(); }) {}
+
+Glances::~Glances() {
+  ending_ = true;
+  handed_over_.Ring();
+  thread_.join();
+}
+
+std::unique_ptr<exchange::RouteExchange> Glances::Through(
+    std::unique_ptr<exchange::RouteExchange> exchange) {
+  if (!exchange) return nullptr;
+  return std::make_unique<Visitor>(*this, std::move(exchange));
+}
+
+void Glances::ShowIfWanted(RobotDevice& device) {
+  if (!wanted()) return;
+  auto seen = device.Look();
+  if (seen) {
+    Show({.picture = *std::move(seen)});
+  } else {
+    HandOver(seen.error().message);
+  }
+}
+
+void Glances::HandOver(Item item) {
+  // Full: those before it do as well.
+  (void)frames_.TryPut(std::move(item));
+  handed_over_.Ring();
+}
+
+void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
+  std::optional<exchange::Glance> answer;
+  while (auto picture = pictures_.TryGet()) {
+    if (auto given = desk_.Give(*std::move(picture), now)) answer = std::move(given);
+  }
+  if (!answer && desk_.AskedInVain(now)) {
+    wanted_ = false;
+    answer = desk_.Give({.detail = kNoPicture}, now);
+  }
+  // What cannot be handed over is asked for again.
+  if (answer) (void)exchange.Publish(*answer);
+  if (desk_.Asks(now)) wanted_ = true;
+}
+
+void Glances::Paint() {
+  GiveWay(kNiceness);
+  while (!ending_) {
+    handed_over_.Wait(kGlanceWakeUp);
+    while (auto item = frames_.TryGet()) {
+      const auto* frame = std::get_if<GlanceFrame>(&*item);
+      CameraPicture picture =
+          frame != nullptr ? Encode(*frame) : CameraPicture{.detail = std::get<std::string>(*item)};
+      // Full: nobody takes them, so nobody waits for them.
+      (void)pictures_.TryPut(std::move(picture));
+    }
+  }
+}
+
+CameraPicture Glances::Encode(const GlanceFrame& frame) {
+  const image::RgbImage drawn = DrawGlance(frame);
+  auto jpeg = image::EncodeJpeg(drawn, quality_);
+  while (jpeg && jpeg->size() > kMostBytes && quality_ > kWorstQuality) {
+    quality_ = std::max(kWorstQuality, quality_ - kQualityStep);
+    jpeg = image::EncodeJpeg(drawn, quality_);
+  }
+  if (!jpeg) return {.detail = kNoPicture};
+  if (jpeg->size() < kFewBytes) quality_ = std::min(kBestQuality, quality_ + kQualityStep);
+  return {.jpeg = *std::move(jpeg), .detail = GlanceText(frame)};
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agent/camera_view/glances.h"
+#include "agent/duty/on_duty.h"
+#include "agent/duty/src/elsewhere.h"
+#include "agent/duty/src/turning.h"
+#include "agent/duty/src/view_question.h"
+#include "agent/follow/next_path.h"
+#include "agent/link/followed_note.h"
+#include "agent/link/lasting_exchange.h"
+#include "agent/link/mission_desk.h"
+#include "agent/link/now_desk.h"
+#include "agent/teach/hands.h"
+#include "services/base/mailbox.h"
+#include "services/program/presence.h"
+
+namespace trailcast::agent {
+
+// A robot on duty: `on_duty.cc` hears and tells, `duty_work.cc` does what it is sent to do.
+//
+// While a route is followed or taught, what comes in is heard in the thread of that link, and the
+// one that runs this waits for it, or takes from the hands: neither needs a lock.
+class Duty {
+ public:
+  Duty(RobotDevice& device, const OnDutyOptions& options,
+       std::unique_ptr<exchange::RouteExchange> exchange);
+
+  [[nodiscard]] Result<void> Run();
+
+ private:
+  using State = mission::State;
+  using Time = std::chrono::steady_clock::time_point;
+
+  void Hear(const exchange::Message& message);
+  void Say(exchange::RouteExchange& to);
+  void SawStatus(const exchange::AgentStatus& status);
+  void ShowFree();
+  void AddDuty(exchange::AgentStatus& status) const;
+  void NoteAilment(Time now);
+  void TellNews();
+  void TellState(State state, const std::string& why);
+  [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
+
+  void Work();
+  void WaitOn(const mission::Task& task);
+  void Turn(const mission::Task& task, std::unique_ptr<Turning> turning);
+  [[nodiscard]] bool WaitsForWay() const;
+  void WaitForWay();
+  void GoOtherWay();
+  void GoAlong();
+  void Follow(const mission::Task& task, std::unique_ptr<NextPath> begun);
+  [[nodiscard]] std::optional<mission::Task> TaskAfter() const;
+  [[nodiscard]] FollowerOptions::Next PrepareNext(const std::optional<OwnLens>& lens);
+  void LookElsewhere();
+  [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
+  // None: there is nothing to judge, since it has failed before, or goes another way.
+  [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(
+      const FollowerOptions& follower, std::unique_ptr<NextPath> begun = nullptr);
+  [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
+  [[nodiscard]] std::vector<std::string> RoutesInView();
+  [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);
+  void RefreshVisited();
+  void Teach(const mission::Task& task);
+  [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
+  void FindUndelivered();
+  void Deliver();
+  void Judge(const Result<ReplayOutcome>& outcome);
+  void Done(const std::string& what = {});
+  void End(State state, const std::string& why);
+
+  RobotDevice& device_;
+  const OnDutyOptions& options_;
+  Glances glances_;
+  LastingExchange exchange_;
+  NowDesk now_desk_;
+  FollowedNote followed_note_;
+  MissionDesk desk_;
+  std::unique_ptr<exchange::RouteExchange> own_visit_;
+  program::Presence presence_;
+  std::uint64_t instance_ = 0;  // of this process, once it is claimed
+  bool claimed_ = false;
+  bool following_ = false;
+  bool delivering_ = false;
+  bool was_under_way_ = false;  // in this following
+  bool undelivered_ = false;    // what it taught before
+  Time deliver_at_{};
+  Hands* hands_ = nullptr;     // while it teaches
+  std::optional<State> told_;  // of the mission under way
+  std::string told_why_;
+  mission::Task driven_;  // what is followed
+  // Of that: where it ends, and that it ends at once, since it goes another way.
+  std::atomic<double> end_m_ = 0.0;
+  std::atomic<bool> turned_off_ = false;
+  // What comes after it, told by the link's thread to the control loop, which makes it ready, and
+  // what it is then to be made ready for.
+  Mailbox<std::optional<mission::Task>> tasks_after_{4};
+  std::optional<mission::Task> task_after_;
+  std::string made_ready_;
+  std::unique_ptr<NextPath> next_;  // that the robot drives along
+  struct Visited {
+    route::RouteInfo route;
+    refresh::Visit visit;
+  };
+  std::vector<Visited> visited_;  // to refresh the routes by once the robot stands
+  std::string missed_;            // why it stands until it is told another way; empty: it need not
+  Elsewhere elsewhere_;
+  std::optional<ViewQuestion> question_;  // while it asks servers what it sees
+  std::optional<Time> told_until_;        // who has found itself there
+  std::optional<Time> wait_until_;
+  std::unique_ptr<Turning> turning_;  // while it turns on the spot
+  // How far it has turned to the left of an order that it has not done: who is to do something else
+  // turns back first.
+  double turned_rad_ = 0.0;
+  std::optional<OwnLens> lens_;  // as the last following knew it
+  std::string on_route_;         // where the last following ended
+  std::optional<exchange::PlaceOnRoute> place_;
+  Time stands_until_{};
+  std::string last_ = "free";
+  std::optional<Time> ails_since_;
+  std::string ailment_;  // of the robot, while nothing drives it
+};
+
+}  // namespace trailcast::agent

@@ -1,0 +1,209 @@
+#include "agent/duty/on_duty.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "agent/device/standstill.h"
+#include "agent/duty/src/duty.h"
+#include "services/base/unix_time.h"
+#include "services/exchange/publish.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait{50};
+// Of what fails while a robot is free nobody needs to hear that is soon over, as when it starts.
+constexpr std::chrono::seconds kAilsFor{2};
+
+exchange::AgentStatus FreeStatus(const AgentId& agent) {
+  exchange::AgentStatus status;
+  status.agent = agent;
+  status.role = exchange::AgentRole::kFollower;
+  return status;
+}
+
+}  // namespace
+
+Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
+           std::unique_ptr<exchange::RouteExchange> exchange)
+    : device_(device),
+      options_(options),
+      glances_(options.agent),
+      exchange_(glances_.Through(std::move(exchange))),
+      now_desk_(options.agent, options.stop_file),
+      followed_note_(options.agent),
+      desk_(options.agent, options.missions_file),
+      own_visit_(exchange_.Visit()),
+      presence_(*own_visit_, FreeStatus(options.agent)) {
+  presence_.FeelBy(options.vitals);
+  exchange_.Tend({[this](const exchange::Message& message) { Hear(message); },
+                  [this](exchange::RouteExchange& to) { Say(to); },
+                  [this](const exchange::AgentStatus& status) { SawStatus(status); }});
+}
+
+void Duty::Hear(const exchange::Message& message) {
+  desk_.Handle(message);
+  if (desk_.TakeAmended()) GoOtherWay();
+  if (claimed_) presence_.Handle(message);
+  if (question_) question_->Hear(message);
+  if (following_) return;
+  const bool teaches = hands_ != nullptr;
+  now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
+  if (!teaches) return;
+  hands_->Tell(now_desk_.hold());
+  const auto* drive = std::get_if<exchange::DriveCommand>(&message);
+  if (drive != nullptr && drive->agent == options_.agent) {
+    hands_->Hear(*drive, steady_clock::now());
+  }
+}
+
+void Duty::Say(exchange::RouteExchange& to) {
+  if (!claimed_) return;
+  const auto now = steady_clock::now();
+  // What cannot be handed over is said, or asked for, again.
+  (void)exchange::PublishAll(to, desk_.Due(now, presence_.server().has_value()));
+  TellNews();
+  if (following_) return;
+  (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
+  // Where no server was heard while it followed.
+  if (presence_.server()) followed_note_.TellIfDue(to, now);
+  if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
+  if (delivering_) return;
+  ShowFree();
+  presence_.Tick(now);
+}
+
+void Duty::TellNews() {
+  for (const std::string& line : desk_.TakeNews()) spdlog::info("{}", line);
+  if (following_) return;
+  for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
+}
+
+void Duty::ShowFree() {
+  exchange::AgentStatus status;
+  status.mode = exchange::AgentMode::kWaiting;
+  const bool waits_for_way = WaitsForWay();
+  status.detail = waits_for_way ? told_why_ : last_;
+  AddDuty(status);
+  if (!ailment_.empty() && Held()) {
+    status.detail += "; " + ailment_;
+  } else if (!ailment_.empty()) {
+    status.mode = exchange::AgentMode::kFault;
+    status.detail = ailment_;
+  }
+  if (waits_for_way || steady_clock::now() < stands_until_) {
+    status.route = on_route_;
+    status.place = place_;
+  }
+  presence_.Set(std::move(status));
+}
+
+// Whatever the robot does is told with how operators hold it.
+void Duty::AddDuty(exchange::AgentStatus& status) const {
+  status.hold = now_desk_.shown_hold();
+  status.on_duty = true;
+  if (Held()) status.detail = now_desk_.hold().text;
+}
+
+// Nobody asks for frames, so nobody else notices.
+void Duty::NoteAilment(steady_clock::time_point now) {
+  std::string ailment = device_.Ailment();
+  if (ailment.empty()) {
+    ails_since_.reset();
+  } else if (!ails_since_) {
+    ails_since_ = now;
+  }
+  if (!ails_since_ || now - *ails_since_ < kAilsFor) ailment.clear();
+  if (ailment_.empty() && !ailment.empty()) spdlog::warn("the robot has failed: {}", ailment);
+  if (!ailment_.empty() && ailment.empty()) spdlog::info("over: {}", ailment_);
+  ailment_ = std::move(ailment);
+}
+
+void Duty::TellState(State state, const std::string& why) {
+  // Why it stands may change, as from paused to stopped; how far a route is fetched is no news.
+  const bool same_reason = state != State::kPaused || why == told_why_;
+  if (told_ == state && same_reason) return;
+  told_ = state;
+  told_why_ = why;
+  desk_.Tell(state, why);
+}
+
+// What follower or scout tells of itself is what becomes of the mission.
+void Duty::SawStatus(const exchange::AgentStatus& status) {
+  const bool at_work = following_ || hands_ != nullptr;
+  if (!at_work || !desk_.current()) return;
+  on_route_ = status.route;
+  place_ = status.place;
+  if (Held()) {
+    TellState(State::kPaused, now_desk_.hold().text);
+  } else if (elsewhere_.looks()) {
+    TellState(State::kFetching,
+              fmt::format("{}; looks whether it is on {}", elsewhere_.Lost(), on_route_));
+  } else if (status.mode == exchange::AgentMode::kReplaying ||
+             status.mode == exchange::AgentMode::kTeaching) {
+    was_under_way_ = true;
+    TellState(State::kUnderWay, "");
+  } else if (!was_under_way_ && status.mode == exchange::AgentMode::kWaiting) {
+    TellState(State::kFetching, status.detail);
+  } else if (told_ == State::kPaused && status.mode == exchange::AgentMode::kWaiting) {
+    TellState(State::kUnderWay, status.detail);
+  }
+}
+
+Result<void> Duty::Run() {
+  now_desk_.Load();
+  if (auto loaded = desk_.Load(); !loaded) return loaded;
+  // What comes meanwhile is heard by way of the exchange.
+  if (auto claimed = presence_.Claim([](const exchange::Message&) {}, options_.stop); !claimed) {
+    return claimed;
+  }
+  claimed_ = true;
+  instance_ = presence_.status().instance;
+  FindUndelivered();
+  if (const auto& current = desk_.current();
+      current && current->begun && current->kind() == mission::Task::Kind::kTeach) {
+    End(State::kFailed,
+        "its agent has started again in the middle of it: what was taught is kept, cut off, and "
+        "no robot follows it unless an operator activates it");
+  } else if (current && current->begun && !current->mission.goes_on) {
+    now_desk_.Pause(fmt::format("its agent has started again in the middle of mission {}",
+                                current->mission.id));
+  }
+  spdlog::info("on duty as '{}'", options_.agent.value());
+  while (!options_.stop()) {
+    const bool drives = next_ || turning_;
+    (void)exchange_.Take(drives ? milliseconds(0) : kWait);
+    if (!drives) RefreshVisited();
+    glances_.ShowIfWanted(device_);
+    NoteAilment(steady_clock::now());
+    if (desk_.current()) {
+      Work();
+    } else {
+      next_.reset();
+      now_desk_.ForgetCancelled();  // there was nothing to cancel
+      if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
+    }
+  }
+  (void)exchange_.Take(kWait);  // with which the last news is told
+  exchange::AgentStatus last;
+  last.mode = exchange::AgentMode::kStopped;
+  last.detail = "stopped by a signal";
+  presence_.Set(std::move(last));
+  presence_.Publish();
+  return {};
+}
+
+Result<void> ServeOnDuty(RobotDevice& device, const OnDutyOptions& options,
+                         std::unique_ptr<exchange::RouteExchange> exchange) {
+  const Standstill standstill(device);
+  Duty duty(device, options, std::move(exchange));
+  return duty.Run();
+}
+
+}  // namespace trailcast::agent

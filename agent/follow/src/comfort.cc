@@ -1,0 +1,66 @@
+#include "agent/follow/comfort.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trailcast::agent {
+namespace {
+
+// So that it need not brake hard before a rough stretch.
+constexpr double kDeceleration_mps2 = 0.25;
+// Further ahead nothing has to be done yet, at any speed of a robot that is comfortable.
+constexpr double kAhead_m = 4.0;
+
+}  // namespace
+
+double ComfortableShare(const route::Terrain& terrain) {
+  switch (route::RoughnessOf(terrain).value_or(route::Roughness::kSmooth)) {
+    case route::Roughness::kSmooth:
+      return 1.0;
+    case route::Roughness::kUneven:
+      return 0.7;
+    case route::Roughness::kRough:
+      return 0.5;
+    case route::Roughness::kVeryRough:
+      break;
+  }
+  return 0.35;
+}
+
+void Comfort::Add(const route::Segment& segment) {
+  const double begin_m =
+      stretches_.empty() ? 0.0 : stretches_.back().begin_m + stretches_.back().length_m;
+  const double share = ComfortableShare(segment.terrain);
+  const double speed_mps = segment.has_odometry ? share * segment.speed_mps() : 0.0;
+  stretches_.push_back({begin_m, segment.length_m, speed_mps, share});
+}
+
+// What is rough ahead is come to at its speed, braking gently.
+double Comfort::MostMps(double along_m, double speed_mps, std::size_t segment) const {
+  double most_mps = speed_mps;
+  const bool metric = stretches_[segment].speed_mps > 0.0;
+  for (std::size_t i = segment; i < stretches_.size(); ++i) {
+    const Stretch& stretch = stretches_[i];
+    const double left_m = std::max(0.0, stretch.begin_m - along_m);
+    if (metric ? left_m > kAhead_m : i > segment + 1) break;
+    if (stretch.share >= 1.0) continue;
+    const double there_mps = metric ? stretch.speed_mps : stretch.share * speed_mps;
+    most_mps = std::min(most_mps, std::sqrt(there_mps * there_mps +
+                                            (metric ? 2.0 * kDeceleration_mps2 * left_m : 0.0)));
+  }
+  return most_mps;
+}
+
+ReplayStep Comfort::Apply(ReplayStep step) const {
+  const std::size_t segment = step.segment.value();
+  const double speed_mps = std::abs(step.command.linear_mps);
+  if (!wanted_ || speed_mps <= 0.0 || segment >= stretches_.size()) return step;
+  const Stretch& here = stretches_[segment];
+  const double along_m = step.along_m.value_or(here.begin_m + step.fraction * here.length_m);
+  const double share = MostMps(along_m, speed_mps, segment) / speed_mps;
+  step.command.linear_mps *= share;
+  step.command.angular_radps *= share;
+  return step;
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agent/session/confidence.h"
+#include "agent/session/look_around.h"
+#include "agent/session/place_finder.h"
+#include "agent/session/replay_method.h"
+#include "agent/session/replay_step.h"
+#include "agent/session/src/eyes.h"
+#include "agent/session/src/features/feature_search.h"
+#include "agent/session/src/place/experience_taker.h"
+#include "agent/session/src/place/known_route.h"
+#include "agent/session/src/place/likeliest_place.h"
+#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/place_trust.h"
+#include "agent/session/src/standing.h"
+#include "services/motion/motion.h"
+#include "services/replay/follower.h"
+#include "services/replay/passing.h"
+#include "services/replay/turn_flow.h"
+#include "services/route/route.h"
+
+namespace trailcast::agent {
+
+// Follows by the features of one segment after the other: has a method of services/replay steer by
+// those that are tracked, judges how far it may be trusted, and seeks features where there are too
+// few, the segment ends, or the robot is elsewhere.
+class FeatureFollower {
+ public:
+  // `route`, `eyes` and `place` outlive it.
+  FeatureFollower(const ReplayMethodOptions& options, const vision::PictureSize& scout,
+                  const KnownRoute& route, Eyes& eyes, PlaceKeeper& place);
+
+  // A segment that has just been added to the route.
+  void Learn(const route::Segment& segment);
+  // Before the first frame: where an earlier run has left the robot is looked for first.
+  void GoOnFrom(const LeftAt& left);
+
+  // How to steer by what is seen, where `place` holds the robot to be. `standing` is as the last
+  // frame left it, and becomes what this one says of the run.
+  [[nodiscard]] replay::FollowStep Step(const Seen& seen, Standing& standing);
+
+  // What is told of such a step; {}: that nothing is followed yet.
+  [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
+
+  // What it met with on the way, if it was to note that, from its beginning or the last call on.
+  [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
+
+  // Of a robot that has been sure of its path; otherwise what it was told.
+  [[nodiscard]] std::optional<OwnLens> lens() const;
+
+  // Driven backwards, it comes along the route.
+  [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
+  // Of the segment being followed; nullptr before the first.
+  [[nodiscard]] const replay::Follower* follower() const { return follower_.get(); }
+
+ private:
+  // So far from where its features are, the belief holds the robot to be somewhere else.
+  static constexpr double kElsewhere = 2.0;
+  // A handful agree in any picture.
+  static constexpr int kEnoughAgreed = 10;
+
+  [[nodiscard]] bool by_odometry() const {
+    return eyes_.has_odometry() && UsesOdometry(options_.method);
+  }
+  // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
+  [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool BeginWhereLeft(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool MeasuresLens(const Seen& seen, Standing& standing);
+  [[nodiscard]] double MagnificationBy(const replay::FocalLength& focal);
+  [[nodiscard]] bool BeginAnywhere(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool LooksElsewhere(Standing& standing);
+  [[nodiscard]] bool LooksAgainIfLost() const;
+  [[nodiscard]] bool BeginAbout(const RoutePoint& point);
+  [[nodiscard]] bool BeginBy(const RoutePoint& point);
+  [[nodiscard]] std::optional<double> BeginBehind(const RoutePoint& by);
+  [[nodiscard]] bool MayBeRecognised() const;
+  void ForgetCompared();
+  void ComparePlaces();
+  void CompareSome();
+  void BeginAtLikeliest();
+  [[nodiscard]] double Unlikely(const std::optional<replay::FocalLength>& focal) const;
+  [[nodiscard]] const replay::Follower& Fresh(const route::Segment& first);
+  void Make(const route::Segment& first);
+  void Begin(const route::Segment& segment);
+  void EndSegment(Standing& standing);
+  [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
+
+  [[nodiscard]] replay::FollowStep Steer(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool EndsAtTheAxle() const;
+  void RefuseReverse(Standing& standing) const;
+  [[nodiscard]] int InPicture() const;
+  [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
+  void Compare(const RoutePoint& point, Sighting& sighting) const;
+  void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
+  void LookAroundFirst(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep LookAroundForAny(const Seen& seen, Standing& standing);
+  void TurnToLook(const Seen& seen, Standing& standing);
+  void LookAgain(double fraction, bool elsewhere);
+  void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
+  void SteerByWholeView(replay::FollowStep& step) const;
+  // Share of the method's speed that is driven.
+  [[nodiscard]] double SpeedShare(const replay::FollowStep& step, Trust trust) const;
+
+  ReplayMethodOptions options_;
+  int scout_width_px_;
+  int frame_width_px_ = 0;  // 0: none was seen
+  const KnownRoute& route_;
+  Eyes& eyes_;
+  PlaceKeeper& place_;
+  FeatureSearch search_;
+  Confidence confidence_;
+  replay::Passing passing_;
+  LookingAround look_around_;
+  // A turn to either side that tells its lens, and how far what it sees moves meanwhile.
+  LookingAround lens_turn_;
+  std::optional<replay::TurnFlow> turn_flow_;
+  std::optional<replay::FocalLength> focal_;  // in this run's pixels
+  PlaceTrust place_trust_;                    // of the printed methods
+  double look_again_at_s_ = 0.0;              // of being unsure
+  std::optional<PlaceFinder> place_finder_;   // until it has found the place
+  bool anywhere_;                             // on the route it may be, until it is found
+  std::string not_there_;                     // where it looks along the whole route: why
+  std::vector<RoutePoint> to_compare_;        // places that it may be at,
+  std::vector<PlaceByFeatures> compared_;     // and what their features say
+  std::string nowhere_;                       // why it begins at none of them
+  double moved_m_ = 0.0;                      // since it began to compare
+  std::optional<ExperienceTaker> experience_;
+  // One that knows the route, and is nowhere yet, as long as it is worth keeping: to be copied.
+  std::unique_ptr<replay::Follower> fresh_;
+  bool fresh_by_odometry_ = false;
+  std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
+};
+
+}  // namespace trailcast::agent

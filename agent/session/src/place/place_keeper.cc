@@ -1,0 +1,110 @@
+#include "agent/session/src/place/place_keeper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "services/view/key_views.h"
+
+namespace trailcast::agent {
+namespace {
+
+// How many key views about the place, and of the rest, are compared.
+constexpr std::size_t kNearViews = 10;
+constexpr std::size_t kOtherViews = 4;
+constexpr std::size_t kOtherViewsWhenLost = 32;
+constexpr double kLookIsDue = 1.5;  // new looks; features are followed in the meantime
+// A look is a new one once the picture has moved by this share of its width, or the robot so far.
+constexpr double kNewLook_flow = 0.025;
+constexpr double kNewLook_m = 0.15;
+constexpr double kNewLook_rad = 0.2;
+constexpr double kLeastNew = 0.08;
+constexpr double kStill_flow = 0.0006;
+constexpr double kHere = 1.0;            // about the place; the route's units
+constexpr double kOdometrySigma = 0.05;  // a share of the way
+// Which features' agreement tells how the pictures map onto each other.
+constexpr std::size_t kViewsToRecognise = 4;
+constexpr int kEnoughToRecognise = 7;
+
+}  // namespace
+
+void PlaceKeeper::Learn(const route::Segment& segment) {
+  const std::vector<route::KeyView> views = view::KeyViewsOf(segment);
+  place_.Learn(segment, views, recogniser_.Learn(views));
+  speeds_mps_.push_back(segment.speed_mps());
+}
+
+void PlaceKeeper::StartAt(double along, double sigma) { place_.belief().StartAt(along, sigma); }
+
+void PlaceKeeper::StartAnywhere() { place_.belief().StartAnywhere(); }
+
+void PlaceKeeper::KnowMagnification(double magnification, int width_px) {
+  place_.belief().KnowMagnification(
+      std::log(magnification * recogniser_.scout_width_px() / width_px));
+}
+
+void PlaceKeeper::Move(const FrameMotion& moved) {
+  if (moved.odometry) {
+    new_since_look_ += std::abs(moved.odometry->distance_m) / kNewLook_m +
+                       std::abs(moved.odometry->heading_change_rad) / kNewLook_rad;
+  } else {
+    new_since_look_ += moved.flow / kNewLook_flow;
+  }
+  if (moved.odometry && metric()) {
+    const double along_m = moved.odometry->distance_m;
+    place_.belief().Move({along_m, std::hypot(kOdometrySigma * along_m, moved.unknown_m), false});
+  } else if (moved.flow > kStill_flow && moved.dt_s > 0.0) {
+    const double speed = metric() ? speeds_mps_[point().segment.value()] : 1.0;
+    place_.belief().Move({moved.dt_s * speed, 0.0, true});
+  }
+}
+
+void PlaceKeeper::SetTracked(const std::optional<RoutePoint>& point, int agreed) {
+  tracked_.reset();
+  if (point) tracked_ = {place_.AlongOf(*point), agreed};
+}
+
+bool PlaceKeeper::LookIsDue() const { return !where().held || new_since_look_ >= kLookIsDue; }
+
+void PlaceKeeper::LookAt(const image::GrayImage& frame) {
+  belief::RouteBelief& belief = place_.belief();
+  look_ = recogniser_.LookAt(
+      frame, belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
+  belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
+  new_since_look_ = 0.0;
+}
+
+int PlaceKeeper::agreed_now() const {
+  int most = 0;
+  for (const Look::Recognised& each : look_.views) {
+    const bool here = std::abs(belief().view_at(each.view) - where().along) <= kHere;
+    if (here) most = std::max(most, each.comparison.agreed());
+  }
+  return most;
+}
+
+int PlaceKeeper::AgreedIn(const image::GrayImage& picture) const {
+  const Look look = recogniser_.Glance(picture, belief().Around(where().along, kNearViews));
+  int most = 0;
+  for (const Look::Recognised& each : look.views) {
+    most = std::max(most, each.comparison.agreed());
+  }
+  return most;
+}
+
+std::optional<vision::ViewFit> PlaceKeeper::Recognise(const image::GrayImage& frame,
+                                                      const RoutePoint& point) {
+  const Look look =
+      recogniser_.LookAt(frame, belief().Around(place_.AlongOf(point), kViewsToRecognise));
+  const Look::Recognised* best = look.Best();
+  if (best == nullptr || best->comparison.agreed() < kEnoughToRecognise) return std::nullopt;
+  return recogniser_.FitOf(look, best->comparison);
+}
+
+std::optional<double> PlaceKeeper::Magnification(int width_px) const {
+  const auto known = belief().log_magnification();
+  if (!known) return std::nullopt;
+  return std::exp(*known) * width_px / recogniser_.scout_width_px();
+}
+
+}  // namespace trailcast::agent

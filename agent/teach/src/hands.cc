@@ -1,0 +1,35 @@
+#include "agent/teach/hands.h"
+
+#include <utility>
+
+namespace trailcast::agent {
+
+void Hands::Hear(const exchange::DriveCommand& command, Time now) {
+  (void)words_.TryPut({command, now});
+}
+
+void Hands::Tell(const Hold& hold) {
+  if (hold == told_) return;
+  // Full: told the next time.
+  if (holds_.TryPut(Hold(hold))) told_ = hold;
+}
+
+void Hands::Take() {
+  while (auto hold = holds_.TryGet()) hold_ = *std::move(hold);
+  while (const auto word = words_.TryGet()) {
+    const exchange::DriveCommand& said = word->command;
+    if (seat_.Hear(said.client.value(), said.sent_ms, word->at) !=
+        mission::DriverSeat::Verdict::kGood) {
+      continue;
+    }
+    command_ = {said.linear_mps, said.turn_radps};
+  }
+}
+
+std::optional<motion::VelocityCommand> Hands::Wanted(Time now) const {
+  const bool held = hold_.kind != Hold::Kind::kNone;
+  if (!held && !seat_.IsTaken(now)) return std::nullopt;
+  return !held && seat_.Holds(now) ? command_ : motion::VelocityCommand{};
+}
+
+}  // namespace trailcast::agent

@@ -1,0 +1,344 @@
+#include "route_server/fleet/mission_board.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+#include "services/base/process_name.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+
+namespace trailcast::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+// How soon a robot is told again that has not answered, at first and later.
+constexpr milliseconds kSoon{1000};
+constexpr milliseconds kLate{30'000};
+constexpr milliseconds kExpireEvery{1000};
+// How soon a robot is told again of another way, which it does not answer.
+constexpr milliseconds kAmendedEvery{2000};
+
+std::string Describe(const mission::Mission& mission) {
+  return fmt::format("mission {} of '{}': {}", mission.id, mission.agent.value(),
+                     PlainText(mission.orders, 200));
+}
+
+std::uint32_t WayOf(const mission::Mission& mission) {
+  const auto going = mission::GoingIn(mission.orders);
+  return going ? going->way : 0;
+}
+
+// Another way to the same place is the same mission.
+bool AreSame(const std::string& orders, const std::string& others) {
+  if (orders == others) return true;
+  const auto going = mission::GoingIn(orders);
+  const auto other = mission::GoingIn(others);
+  return going && other && going->to == other->to && (going->way > 1 || other->way > 1);
+}
+
+bool IsMeant(const exchange::NowCommand& command, const mission::Mission& mission) {
+  switch (command.whom) {
+    case exchange::NowWhom::kRobot:
+      return command.name == mission.agent.value();
+    case exchange::NowWhom::kOnRoute:
+      return mission::RoutesIn(mission.orders).contains(command.name);
+    case exchange::NowWhom::kAll:
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MissionBoard>> MissionBoard::Open(
+    AgentId server, std::unique_ptr<store::MissionStore> store) {
+  std::unique_ptr<MissionBoard> board(new MissionBoard(std::move(server), std::move(store)));
+  auto unanswered = board->store_->Unanswered();
+  if (!unanswered) return tl::unexpected(unanswered.error());
+  for (mission::Record& record : *unanswered) {
+    board->unanswered_[record.mission.agent].push_back(std::move(record));
+  }
+  if (auto loaded = board->LoadCurrent(); !loaded) return tl::unexpected(loaded.error());
+  return board;
+}
+
+Result<void> MissionBoard::LoadCurrent() {
+  mission::Query query;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const auto state = static_cast<mission::State>(i);
+    if (state != mission::State::kSent && !mission::HasEnded(state)) query.states |= 1U << i;
+  }
+  while (current_.size() < kMostAgents) {
+    auto page = store_->Find(query);
+    if (!page) return tl::unexpected(page.error());
+    for (mission::Record& record : page->missions) {
+      if (current_.Find(record.mission.agent) != nullptr) continue;
+      current_.Touch(record.mission.agent).record = std::move(record);
+    }
+    if (page->next == 0) break;
+    query.before = page->next;
+  }
+  return {};
+}
+
+std::size_t MissionBoard::unanswered() const {
+  std::size_t count = 0;
+  for (const auto& [agent, missions] : unanswered_) count += missions.size();
+  return count;
+}
+
+void MissionBoard::Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms) {
+  if (const auto* mission = std::get_if<mission::Mission>(&message)) {
+    if (!mission->relayed) On(*mission, now_unix_ms);
+  } else if (const auto* report = std::get_if<mission::Report>(&message)) {
+    if (!report->relayed) On(*report, now_unix_ms);
+  } else if (const auto* request = std::get_if<exchange::MissionRequest>(&message)) {
+    On(*request);
+  } else if (const auto* command = std::get_if<exchange::NowCommand>(&message)) {
+    if (!command->relayed) On(*command, now_unix_ms);
+  } else if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
+    if (!answer->relayed) On(*answer);
+  } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    On(*status, now);
+  } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
+    On(*gone);
+  }
+}
+
+void MissionBoard::Say(mission::Report report) {
+  report.relayed = true;
+  outgoing_.emplace_back(std::move(report));
+}
+
+void MissionBoard::Refuse(const mission::Mission& mission, const std::string& why) {
+  Say({.agent = mission.agent,
+       .mission = mission.id,
+       .state = mission::State::kRefused,
+       .detail = PlainText(why, exchange::kMaxLineBytes)});
+}
+
+void MissionBoard::On(const mission::Mission& mission, std::int64_t now_unix_ms) {
+  if (const auto tasks = mission::ParseOrders(mission.orders); !tasks) {
+    Refuse(mission, tasks.error().message);
+    return;
+  }
+  auto stored = store_->Add(mission, now_unix_ms);
+  if (!stored) {
+    Warn(stored.error());
+    Refuse(mission, stored.error().message);
+    return;
+  }
+  if (!AreSame(stored->mission.orders, mission.orders)) {
+    Refuse(mission, fmt::format("the robot's mission {} is another one: {}", mission.id,
+                                stored->mission.orders));
+    return;
+  }
+  Say(stored->last);
+  std::deque<mission::Record>& pending = unanswered_[mission.agent];
+  const bool is_known = std::any_of(pending.begin(), pending.end(), [&](const auto& record) {
+    return record.mission.id == mission.id;
+  });
+  if (!is_known && stored->last.state == mission::State::kSent) {
+    notes_.push_back({fmt::format("'{}' sends {}", mission.client.value(), Describe(mission))});
+    pending.push_back(*std::move(stored));
+    if (Heard* heard = heard_.Find(mission.agent)) heard->tell_at = {};
+  }
+  if (pending.empty()) unanswered_.erase(mission.agent);
+}
+
+// The robot's own word, which is durable when it is said again.
+void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
+  const auto is_news = store_->Change(report, now_unix_ms);
+  if (!is_news) {
+    Warn(is_news.error());
+    return;
+  }
+  Say(report);
+  const auto pending = unanswered_.find(report.agent);
+  if (pending != unanswered_.end()) {
+    std::erase_if(pending->second, [&](const mission::Record& record) {
+      return record.mission.id == report.mission;
+    });
+    if (pending->second.empty()) unanswered_.erase(pending);
+  }
+  if (!*is_news) return;
+  NoteCurrent(report);
+  notes_.push_back({fmt::format("mission {} of '{}': {}{}{}", report.mission, report.agent.value(),
+                                mission::ToString(report.state), report.detail.empty() ? "" : ": ",
+                                PlainText(report.detail, 200))});
+}
+
+void MissionBoard::NoteCurrent(const mission::Report& report) {
+  Current* known = current_.Find(report.agent);
+  const bool is_known = known != nullptr && known->record.mission.id == report.mission;
+  if (mission::HasEnded(report.state)) {
+    if (is_known) current_.Erase(report.agent);
+    return;
+  }
+  if (is_known) {
+    known->record.last = report;
+    return;
+  }
+  auto found = store_->Find({.agent = report.agent.value(), .id = report.mission});
+  if (!found) return Warn(found.error());
+  if (found->missions.empty()) return;
+  current_.Touch(report.agent) = {.record = std::move(found->missions.front())};
+}
+
+const mission::Record* MissionBoard::CurrentOf(const AgentId& agent) const {
+  const Current* current = current_.Find(agent);
+  return current == nullptr ? nullptr : &current->record;
+}
+
+std::vector<AgentId> MissionBoard::AtWork() const {
+  std::vector<AgentId> agents;
+  for (const auto& [agent, current] : current_) agents.push_back(agent);
+  return agents;
+}
+
+Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders) {
+  Current* current = current_.Find(agent);
+  if (current == nullptr) return Fail(ErrorCode::kNotFound, "'{}' has no mission", agent.value());
+  mission::Mission& mission = current->record.mission;
+  if (auto stored = store_->Amend(agent, mission.id, orders); !stored) {
+    return tl::unexpected(stored.error());
+  }
+  mission.orders = orders;
+  current->record.last.task = 0;  // of these
+  current->tell_at = {};
+  notes_.push_back({Describe(mission)});
+  return {};
+}
+
+Result<void> MissionBoard::LookUp(const exchange::MissionRequest& request,
+                                  exchange::MissionReply& reply) {
+  if (request.commands) {
+    auto page = store_->FindCommands(request.query);
+    if (!page) return tl::unexpected(page.error());
+    reply.commands = std::move(page->commands);
+    reply.next = page->next;
+    return {};
+  }
+  auto page = store_->Find(request.query);
+  if (!page) return tl::unexpected(page.error());
+  reply.missions = std::move(page->missions);
+  reply.next = page->next;
+  return {};
+}
+
+void MissionBoard::On(const exchange::MissionRequest& request) {
+  exchange::MissionReply reply{
+      .server = server_, .client = request.client, .request = request.request};
+  if (const auto looked_up = LookUp(request, reply); !looked_up) {
+    reply.error = PlainText(looked_up.error().message, exchange::kMaxLineBytes);
+  }
+  outgoing_.emplace_back(std::move(reply));
+}
+
+// What was sent before is void, also where the robot has not heard of it yet.
+void MissionBoard::On(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
+  if (std::exchange(commands_.Touch({command.client, command.number}), true)) return;
+  if (const auto added = store_->Add(command, now_unix_ms); !added) Warn(added.error());
+  const bool voids =
+      command.order == exchange::NowOrder::kCancel || command.order == exchange::NowOrder::kStop;
+  if (!voids) return;
+  std::vector<mission::Mission> meant;
+  for (const auto& [agent, missions] : unanswered_) {
+    for (const mission::Record& record : missions) {
+      if (IsMeant(command, record.mission)) meant.push_back(record.mission);
+    }
+  }
+  for (const mission::Mission& mission : meant) {
+    Drop(mission, mission::State::kCancelled,
+         fmt::format("{} told it to {} before it had this mission",
+                     WithoutProcess(command.client.value()), exchange::ToString(command.order)),
+         now_unix_ms);
+  }
+}
+
+void MissionBoard::On(const exchange::NowAnswer& answer) {
+  const NowKey command{answer.client, answer.number};
+  if (std::exchange(answers_.Touch({answer.agent, command}), true)) return;
+  if (const auto added = store_->Add(answer); !added) Warn(added.error());
+}
+
+void MissionBoard::Drop(const mission::Mission& mission, mission::State state,
+                        const std::string& why, std::int64_t now_unix_ms) {
+  mission::Report report{.agent = mission.agent,
+                         .mission = mission.id,
+                         .state = state,
+                         .detail = PlainText(why, exchange::kMaxLineBytes)};
+  if (const auto stored = store_->Change(report, now_unix_ms); !stored) {
+    Warn(stored.error());
+    return;
+  }
+  notes_.push_back({fmt::format("{}: {}: {}", Describe(mission), mission::ToString(state), why)});
+  std::deque<mission::Record>& pending = unanswered_[mission.agent];
+  std::erase_if(pending, [&](const auto& record) { return record.mission.id == mission.id; });
+  if (pending.empty()) unanswered_.erase(mission.agent);
+  Say(std::move(report));
+}
+
+void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
+  const bool is_there =
+      status.role == exchange::AgentRole::kFollower && status.mode != exchange::AgentMode::kStopped;
+  if (!is_there) {
+    heard_.Erase(status.agent);
+    return;
+  }
+  Heard& heard = heard_.Touch(status.agent);
+  if (heard.instance == status.instance) return;
+  heard = {.instance = status.instance, .tell_at = now, .pause = kSoon};
+}
+
+void MissionBoard::On(const exchange::AgentGone& gone) {
+  const Heard* heard = heard_.Find(gone.agent);
+  if (heard != nullptr && heard->instance == gone.instance) heard_.Erase(gone.agent);
+}
+
+void MissionBoard::Expire(std::int64_t now_unix_ms) {
+  std::vector<mission::Mission> over;
+  for (const auto& [agent, missions] : unanswered_) {
+    for (const mission::Record& record : missions) {
+      const std::int64_t valid_ms = std::int64_t{record.mission.valid_for_s} * 1000;
+      if (valid_ms > 0 && now_unix_ms - record.sent_unix_ms >= valid_ms) {
+        over.push_back(record.mission);
+      }
+    }
+  }
+  for (const mission::Mission& mission : over) {
+    Drop(mission, mission::State::kExpired,
+         fmt::format("the robot did not answer within {} s", mission.valid_for_s), now_unix_ms);
+  }
+}
+
+std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_unix_ms) {
+  if (now >= expire_at_) {
+    expire_at_ = now + kExpireEvery;
+    Expire(now_unix_ms);
+  }
+  for (const auto& [agent, missions] : unanswered_) {
+    Heard* heard = heard_.Find(agent);
+    if (heard == nullptr || now < heard->tell_at) continue;
+    heard->tell_at = now + heard->pause;
+    heard->pause = std::min(2 * heard->pause, kLate);
+    mission::Mission copy = missions.front().mission;
+    copy.relayed = true;
+    outgoing_.emplace_back(std::move(copy));
+  }
+  for (auto& [agent, current] : current_) {
+    if (now < current.tell_at || heard_.Find(agent) == nullptr) continue;
+    current.tell_at = now + kAmendedEvery;
+    if (WayOf(current.record.mission) < 2) continue;
+    mission::Mission copy = current.record.mission;
+    copy.relayed = true;
+    outgoing_.emplace_back(std::move(copy));
+  }
+  return std::exchange(outgoing_, {});
+}
+
+}  // namespace trailcast::server

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/base/newest_map.h"
+#include "services/exchange/messages.h"
+#include "services/records/mission_store.h"
+
+namespace trailcast::server {
+
+// Keeps what operators send robots to do: stores it before it says so, hands it over once the robot
+// is heard, and remembers what became of it; also what they tell robots to do now, and what these
+// answer. No clock of its own.
+class MissionBoard {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  static constexpr std::size_t kMostAgents = 4096;
+
+  // Loads those that no robot has answered.
+  [[nodiscard]] static Result<std::unique_ptr<MissionBoard>> Open(
+      AgentId server, std::unique_ptr<store::MissionStore> store);
+
+  void Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms);
+  // What is to be published.
+  [[nodiscard]] std::vector<exchange::Message> Tick(Time now, std::int64_t now_unix_ms);
+  // What is new since the last call, a line each for the log; a trouble is a warning.
+  struct Note {
+    std::string text;
+    bool warning = false;
+  };
+  [[nodiscard]] std::vector<Note> TakeNotes() { return std::exchange(notes_, {}); }
+  [[nodiscard]] std::size_t unanswered() const;
+
+  // What a robot is at, by its own word; null: nothing, or nothing that is known here.
+  [[nodiscard]] const mission::Record* CurrentOf(const AgentId& agent) const;
+  [[nodiscard]] std::vector<AgentId> AtWork() const;
+  // It goes another way (mission::Going): on the disk when it returns, and told to the robot, again
+  // and again, as long as the mission lasts.
+  [[nodiscard]] Result<void> Amend(const AgentId& agent, const std::string& orders);
+
+ private:
+  MissionBoard(AgentId server, std::unique_ptr<store::MissionStore> store)
+      : server_(std::move(server)), store_(std::move(store)) {}
+
+  void On(const mission::Mission& mission, std::int64_t now_unix_ms);
+  void On(const mission::Report& report, std::int64_t now_unix_ms);
+  void On(const exchange::MissionRequest& request);
+  [[nodiscard]] Result<void> LookUp(const exchange::MissionRequest& request,
+                                    exchange::MissionReply& reply);
+  void On(const exchange::NowCommand& command, std::int64_t now_unix_ms);
+  void On(const exchange::NowAnswer& answer);
+  void On(const exchange::AgentStatus& status, Time now);
+  void On(const exchange::AgentGone& gone);
+  [[nodiscard]] Result<void> LoadCurrent();
+  void NoteCurrent(const mission::Report& report);
+  void Refuse(const mission::Mission& mission, const std::string& why);
+  void Drop(const mission::Mission& mission, mission::State state, const std::string& why,
+            std::int64_t now_unix_ms);
+  void Expire(std::int64_t now_unix_ms);
+  void Say(mission::Report report);
+  void Warn(const Error& error) { notes_.push_back({error.message, true}); }
+
+  AgentId server_;
+  std::unique_ptr<store::MissionStore> store_;
+  // Of each robot the oldest first: it is told of that one.
+  std::map<AgentId, std::deque<mission::Record>> unanswered_;
+  struct Current {
+    mission::Record record{};
+    Time tell_at{};  // if it goes another way than at first
+  };
+  NewestMap<AgentId, Current> current_{kMostAgents};
+  struct Heard {
+    std::uint64_t instance = 0;
+    Time tell_at{};
+    std::chrono::milliseconds pause{};  // then, before it is told again
+  };
+  NewestMap<AgentId, Heard> heard_{kMostAgents};
+  Time expire_at_{};
+  // Commands and answers that are stored, since they are said again and again.
+  using NowKey = std::pair<AgentId, std::uint64_t>;
+  NewestMap<NowKey, bool> commands_{kMostAgents};
+  NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
+  std::vector<exchange::Message> outgoing_;
+  std::vector<Note> notes_;
+};
+
+}  // namespace trailcast::server

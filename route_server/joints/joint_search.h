@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "route_server/joints/joint_comparer.h"
+#include "route_server/joints/meeting.h"
+#include "services/store/route_store.h"
+#include "services/view/view_index.h"
+
+namespace trailcast::server {
+
+// Looks for places where a revision that robots follow meets others, or itself: each of them once,
+// those of the store at the start, too. The index of views says what is worth comparing. A small
+// part at a time.
+class JointSearch {
+ public:
+  static constexpr std::size_t kMostNearRoutes = 20;
+
+  // All outlive it. `was_searched`: by earlier runs.
+  JointSearch(store::RouteStore& store, view::ViewIndex& index, JointComparer& comparer,
+              std::function<bool(const route::RouteKey&)> was_searched);
+  ~JointSearch();
+
+  // What is known of a revision may have changed.
+  void Note(const route::RouteInfo& info);
+  // Reads a segment, or asks the index about a view. False: there is nothing to do, or what is
+  // being compared is waited for. An error is the store's: that search is left out, or, where it is
+  // kUnavailable, begins anew later.
+  [[nodiscard]] Result<bool> Step();
+  void Handle(const JointComparer::Done& done);
+
+  // Since the last call.
+  [[nodiscard]] std::vector<Meeting> TakeMeetings() { return std::exchange(meetings_, {}); }
+  // Revisions with whose meetings it is through; to be taken after those.
+  [[nodiscard]] std::vector<route::RouteKey> TakeSearched() { return std::exchange(searched_, {}); }
+
+ private:
+  struct Search;
+
+  [[nodiscard]] Result<bool> TryStep();
+  [[nodiscard]] Result<void> ReadPage();
+  [[nodiscard]] Result<void> Begin(const route::RouteKey& key);
+  [[nodiscard]] Result<void> Read(Search& search);
+  [[nodiscard]] Result<void> StepToNear(Search& search);
+  void Compare(Search& search, JointComparer::Views other, const route::RouteInfo& of);
+
+  store::RouteStore& store_;
+  view::ViewIndex& index_;
+  JointComparer& comparer_;
+  std::function<bool(const route::RouteKey&)> was_searched_;
+
+  std::string cursor_;  // of the walk through the store
+  bool walked_ = false;
+  std::deque<route::RouteKey> waiting_;
+  std::unique_ptr<Search> search_;
+
+  std::vector<Meeting> meetings_;
+  std::vector<route::RouteKey> searched_;
+};
+
+}  // namespace trailcast::server

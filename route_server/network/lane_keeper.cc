@@ -1,0 +1,357 @@
+#include "route_server/network/lane_keeper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "route_server/network/robot_way.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+
+namespace trailcast::server {
+namespace {
+
+using mission::State;
+using mission::Task;
+using network::Leg;
+using network::Stretch;
+using LaneSet = NetworkBoard::LaneSet;
+
+LaneSet Without(const LaneSet& all, const LaneSet& those) {
+  LaneSet left;
+  std::set_difference(all.begin(), all.end(), those.begin(), those.end(),
+                      std::inserter(left, left.end()));
+  return left;
+}
+
+LaneSet Common(const LaneSet& a, const LaneSet& b) {
+  LaneSet both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::inserter(both, both.end()));
+  return both;
+}
+
+LaneSet With(LaneSet some, const LaneSet& others) {
+  some.insert(others.begin(), others.end());
+  return some;
+}
+
+// Metres along the way, of what is on it within so many.
+std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
+                             const network::Place& place) {
+  double before_m = 0.0;
+  for (const Stretch& stretch : way) {
+    const double driven_m = stretch.DrivenAt(place.along_m);
+    const bool is_on =
+        place.route == stretch.route && driven_m >= 0.0 && driven_m <= stretch.length_m();
+    if (is_on && before_m + driven_m <= within_m) return before_m + driven_m;
+    before_m += stretch.length_m();
+  }
+  return std::nullopt;
+}
+
+std::string Who(const mission::Record& record) {
+  return fmt::format("{}: mission {} ", record.mission.agent.value(), record.mission.id);
+}
+
+}  // namespace
+
+// What is left of a robot's way.
+struct LaneKeeper::Rest {
+  mission::Going going{};        // to nowhere: it is sent along routes by hand
+  std::vector<Stretch> now{};    // what it may drive,
+  std::vector<Stretch> later{};  // and what comes once it is let in
+  bool may_ask = false;          // it has heard of this, and is where that ends,
+  bool stands = false;           // or says that it stands there
+  bool heard = false;
+  bool placed = false;  // where it is is known
+  double speed_mps = 0.0;
+
+  [[nodiscard]] bool backwards() const {
+    const std::vector<Stretch>& next = now.empty() ? later : now;
+    return !next.empty() && next.front().backwards();
+  }
+};
+
+LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
+  Lines lines;
+  if (!since_) since_ = now;
+  if (!network_.HasLanes()) return lines;
+  // They may still be told to drive on in it: they are told to wait, if they ever hear of it.
+  for (const AgentId& agent : network_.TakeVacated()) {
+    const mission::Record* record = missions_.CurrentOf(agent);
+    if (record == nullptr) continue;
+    const auto barred = RestOf(*record, robots_.Touch(agent)).and_then([&](const Rest& rest) {
+      return rest.going.to.empty() ? Result<void>() : Bar(*record, rest, lines);
+    });
+    if (!barred) lines.push_back(Who(*record) + barred.error().message);
+  }
+  for (const AgentId& agent : missions_.AtWork()) {
+    const auto settled = Settle(agent, robots_.Touch(agent), now, lines);
+    if (!settled) lines.push_back(fmt::format("{}: {}", agent.value(), settled.error().message));
+  }
+  return lines;
+}
+
+LaneKeeper::Lines LaneKeeper::Look(const AgentId& agent, Time now) {
+  Lines lines;
+  const mission::Record* record = missions_.CurrentOf(agent);
+  const bool may_wait =
+      record != nullptr && record->mission.orders.find("wait lane") != std::string::npos;
+  if (!network_.HasLanes() && !may_wait) return lines;
+  robots_.Touch(agent).heard_at = now;
+  auto left = Settle(agent, robots_.Touch(agent), now, lines);
+  std::vector<std::pair<Time, AgentId>> asking;
+  for (const auto& [other, robot] : robots_) {
+    const bool asks = left && *left && robot.waits_since;
+    if (asks && other != agent) asking.emplace_back(*robot.waits_since, other);
+  }
+  asking.emplace_back(robots_.Touch(agent).waits_since.value_or(now), agent);
+  std::sort(asking.begin(), asking.end());
+  for (const auto& [since, other] : asking) {
+    if (!left) break;
+    if (auto let = LetIn(other, robots_.Touch(other), now, lines); !let) {
+      left = tl::unexpected(let.error());
+    }
+  }
+  if (!left) lines.push_back(fmt::format("{}: {}", agent.value(), left.error().message));
+  for (std::string& line : lines) line = PlainText(line, exchange::kMaxLineBytes);
+  return lines;
+}
+
+Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot& robot) {
+  const auto& [sent, last, sent_ms, changed_ms] = record;
+  if (robot.mission != sent.id || robot.orders != sent.orders) {
+    robot.mission = sent.id;
+    robot.orders = sent.orders;
+    robot.at = 0;
+    robot.driven_m = 0.0;
+  }
+  const auto tasks = mission::ParseOrders(sent.orders);
+  if (!tasks) return tl::unexpected(tasks.error());
+  Rest rest;
+  rest.going = mission::GoingIn(sent.orders).value_or(mission::Going{});
+  bool waits = false;
+  bool laps = false;
+  for (std::size_t i = 0; i < tasks->size(); ++i) {
+    const Task& task = (*tasks)[i];
+    waits |= task.kind == Task::Kind::kWaitLane;
+    laps |= task.laps > 1;
+    if (task.kind != Task::Kind::kFollow) continue;
+    auto stretch = network_.StretchOf(*tasks, i);
+    if (!stretch) return tl::unexpected(stretch.error());
+    (waits ? rest.later : rest.now).push_back(*std::move(stretch));
+  }
+  rest.heard = mission::WayIn(last.detail) >= rest.going.way;
+  // Before it drives it may have said where it was before.
+  const bool drives = last.state == State::kUnderWay || last.state == State::kPaused ||
+                      (rest.heard && rest.going.way > 1);
+  const auto* stand = network_.StandOf(sent.agent);
+  const bool is_placed = drives && stand != nullptr && stand->now;
+  bool is_on = rest.now.empty();
+  if (is_placed && !laps) {
+    rest.speed_mps = stand->speed_mps;
+    const auto begin = rest.now.begin() + static_cast<std::ptrdiff_t>(robot.at);
+    const auto found = std::find_if(begin, rest.now.end(),
+                                    [&](const Stretch& each) { return Holds(each, stand->place); });
+    is_on |= found != rest.now.end();
+    if (found != rest.now.end()) {
+      robot.at = static_cast<std::size_t>(found - rest.now.begin());
+      robot.driven_m = found->DrivenAt(stand->place.along_m);
+      rest.placed = true;
+    }
+  }
+  if (robot.at < rest.now.size()) {
+    Stretch& first = rest.now[robot.at];
+    first.BeginAt(first.AlongAfter(robot.driven_m));
+  }
+  rest.now.erase(rest.now.begin(), rest.now.begin() + static_cast<std::ptrdiff_t>(robot.at));
+  rest.stands = rest.heard && last.state == State::kFetching && last.task < tasks->size() &&
+                (*tasks)[last.task].kind == Task::Kind::kWaitLane;
+  if (rest.stands) {
+    rest.now.clear();
+    is_on = true;
+  }
+  rest.may_ask = waits && is_on && rest.heard && last.state != State::kPaused &&
+                 !rest.going.to.empty() && LengthOf(rest.now) <= kThere_m;
+  return rest;
+}
+
+Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
+  const auto lanes = network_.Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  const mission::Record* record = missions_.CurrentOf(agent);
+  const auto* stand = network_.StandOf(agent);
+  const LaneSet held = network_.HeldBy(agent);
+  std::optional<Rest> rest;
+  if (record != nullptr) {
+    auto left = RestOf(*record, robot);
+    if (!left) return tl::unexpected(left.error());
+    rest = *std::move(left);
+  }
+  LaneSet in;
+  if (stand != nullptr) {
+    const bool backwards = rest && rest->backwards();
+    in = network::LanesAt(stand->place, *lanes, backwards);
+    // Who has it, and stopped at its very beginning, still has it.
+    in.merge(Common(held, network::LanesAt(stand->place, *lanes, backwards, 0.0)));
+  }
+  LaneSet has = in;
+  bool heard = true;
+  bool by_hand = false;
+  if (rest) {
+    has.merge(network::LanesOn(rest->now, *lanes));
+    heard = rest->heard;
+    by_hand = rest->going.to.empty();
+    // Where it is not known yet, what is behind it may count as before it.
+    if (!by_hand && !rest->placed) has = With(Common(has, held), in);
+    // Narrow since it was sent: it has this until it has heard that it is to wait.
+    if (!by_hand && !Without(has, With(held, in)).empty()) {
+      if (auto barred = Bar(*record, *rest, lines); !barred) return tl::unexpected(barred.error());
+    }
+  } else {
+    robot.waits_since.reset();
+  }
+  if (const LaneSet more = Without(has, held); !more.empty()) {
+    if (auto holds = network_.Hold(more, agent); !holds) return tl::unexpected(holds.error());
+    for (const std::size_t lane : more) {
+      for (const AgentId& other : network_.HoldersOf(lane)) {
+        if (other == agent) continue;
+        lines.push_back(fmt::format("{} {} {}, which {} has: it is not stopped", agent.value(),
+                                    in.contains(lane) ? "is in"
+                                    : by_hand         ? "was sent by hand over"
+                                                      : "is on its way over",
+                                    network_.Called(lane), other.value()));
+      }
+    }
+  }
+  const LaneSet left = Without(held, has);
+  // Of where it is nothing is known before it has said so.
+  const bool is_sure = heard && stand != nullptr;
+  const LaneSet out_of = is_sure ? left : LaneSet{};
+  if (robot.out_of != out_of) {
+    robot.out_of = out_of;
+    robot.out_since = now;
+  }
+  if (robot.out_of.empty() || now - robot.out_since < kSettled) return false;
+  if (auto released = network_.Release(left, agent); !released) {
+    return tl::unexpected(released.error());
+  }
+  for (const std::size_t lane : left) {
+    lines.push_back(fmt::format("{} has left {}", agent.value(), network_.Called(lane)));
+  }
+  return true;
+}
+
+// It is to wait before what it has not been let into.
+Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Lines& lines) {
+  std::vector<Stretch> way = rest.now;
+  way.insert(way.end(), rest.later.begin(), rest.later.end());
+  const double ahead_m =
+      rest.speed_mps > 0.0 ? kHearsWithin_s * rest.speed_mps + kTakesPlace_m : 0.0;
+  const auto lanes = network_.Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  const auto legs = network::LegsOf(way, *lanes, network_.HeldBy(record.mission.agent), ahead_m);
+  const LaneSet before = network::LanesOn(rest.now, *lanes);
+  const LaneSet after = network::LanesOn(legs.front().stretches, *lanes);
+  const LaneSet barred = Without(before, after);
+  if (barred.empty()) return {};  // it is too near to be told
+  const std::vector<Task> tasks = network_.TasksOf(legs);
+  const std::string because = network_.Called(*barred.begin()) + " is narrow";
+  lines.push_back(
+      fmt::format("{}is told to wait: {}: {}", Who(record), because, mission::ToText(tasks)));
+  return Amend(record, rest, tasks, because);
+}
+
+Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
+  const mission::Record* record = missions_.CurrentOf(agent);
+  if (record == nullptr) return {};
+  auto rest = RestOf(*record, robot);
+  if (!rest) return tl::unexpected(rest.error());
+  if (!rest->may_ask) {
+    robot.waits_since.reset();
+    return {};
+  }
+  const auto lanes = network_.Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  if (!robot.waits_since) robot.waits_since = now;
+  std::vector<Stretch> way = std::move(rest->now);
+  way.insert(way.end(), rest->later.begin(), rest->later.end());
+  auto legs = network::LegsOf(way, *lanes, network_.HeldBy(agent));
+  const bool stays = legs.size() > 1 && LengthOf(legs.front().stretches) <= kThere_m;
+  std::string why_not;
+  std::string because = "enters what is no longer narrow";
+  if (stays) {
+    // What is left of the first leg is a part of the second.
+    Leg& leg = legs[1];
+    leg.through_m += LengthOf(legs.front().stretches);
+    leg.stretches.insert(leg.stretches.begin(), legs.front().stretches.begin(),
+                         legs.front().stretches.end());
+    legs.front().stretches.clear();
+    why_not = WhyNot(agent, leg, now);
+    because = std::string(mission::kEnters) + network_.Called(*leg.lanes.begin());
+  }
+  if (!why_not.empty()) {
+    const bool is_told = rest->going.because == PlainText(why_not, exchange::kMaxLineBytes);
+    // While it still drives it may come to an end without a stop.
+    if (is_told || !rest->stands) return {};
+    lines.push_back(Who(*record) + why_not);
+    return Amend(*record, *rest, network_.TasksOf(legs), why_not);
+  }
+  if (stays) {
+    if (auto holds = network_.Hold(legs[1].lanes, agent); !holds) return holds;
+    legs.erase(legs.begin());
+  }
+  robot.waits_since.reset();
+  lines.push_back(Who(*record) + because);
+  return Amend(*record, *rest, network_.TasksOf(legs), because);
+}
+
+std::string LaneKeeper::WhyNot(const AgentId& agent, const Leg& leg, Time now) {
+  for (const std::size_t lane : leg.lanes) {
+    for (const AgentId& other : network_.HoldersOf(lane)) {
+      if (other == agent) continue;
+      // After the start it may take a while.
+      const Robot* robot = robots_.Find(other);
+      const Time heard_at =
+          robot == nullptr ? since_.value_or(now) : robot->heard_at.value_or(since_.value_or(now));
+      const bool is_silent = now - heard_at > kSilent;
+      const std::string called = network_.Called(lane);
+      return fmt::format("{}{} to leave {}{}", mission::kWaits, other.value(), called,
+                         is_silent ? "; it is not heard: once it is out of it, say 'trailcast "
+                                     "network vacate " +
+                                         called + "'"
+                                   : "");
+    }
+  }
+  // Beyond it there has to be room.
+  const auto* own = network_.StandOf(agent);
+  const auto own_m =
+      own == nullptr || !own->now ? std::nullopt : FindOn(leg.stretches, leg.through_m, own->place);
+  for (const AgentId& other : missions_.AtWork()) {
+    const auto* stand = network_.StandOf(other);
+    if (other == agent || stand == nullptr || !stand->now) continue;
+    const auto at_m = FindOn(leg.stretches, leg.through_m, stand->place);
+    if (!at_m) continue;
+    const double ahead_m = *at_m - own_m.value_or(0.0);
+    if (ahead_m < -kBeside_m || (ahead_m < kBeside_m && agent < other)) continue;
+    return fmt::format("{}{}, which is ahead of it, to go on", mission::kWaits, other.value());
+  }
+  return {};
+}
+
+Result<void> LaneKeeper::Amend(const mission::Record& record, const Rest& rest,
+                               const std::vector<Task>& tasks, const std::string& because) {
+  const std::string orders = NextWay(rest.going, tasks, because);
+  if (orders.size() > exchange::kMaxLineBytes) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "its way has {} stretches, more than one mission holds: send it to a place on the "
+                "way first",
+                tasks.size());
+  }
+  return missions_.Amend(record.mission.agent, orders);
+}
+
+}  // namespace trailcast::server

@@ -1,0 +1,457 @@
+#include "route_server/network/network_board.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "route_server/network/network_ids.h"
+#include "route_server/routes/followable.h"
+#include "services/base/number.h"
+#include "services/base/process_name.h"
+#include "services/base/text.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+#include "services/network/passing.h"
+
+namespace trailcast::server {
+namespace {
+
+using network::Condition;
+using network::Edit;
+using network::Goal;
+using network::Joint;
+using network::NamedPlace;
+using network::Place;
+using Lines = std::vector<std::string>;
+
+bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkBoard::kSame_m; }
+
+bool IsNear(const Place& a, const Place& b) {
+  return a.route == b.route && IsNear(a.along_m, b.along_m);
+}
+
+Joint Reversed(Joint joint) {
+  std::swap(joint.from, joint.to);
+  return joint;
+}
+
+std::vector<std::string> NamesOf(const std::set<AgentId>& agents) {
+  std::vector<std::string> names;
+  for (const AgentId& agent : agents) names.push_back(agent.value());
+  return names;
+}
+
+std::string ListedText(const std::string& edit, bool used) {
+  return used ? edit : std::string(network::kUnused) + edit;
+}
+
+std::string PlacesText(const std::string& line) {
+  const network::Listed listed = network::ParseListed(line);
+  const Joint joint = listed.proposal ? listed.proposal->joint
+                      : listed.edit   ? listed.edit->joint
+                                      : Joint{};
+  return network::ToText(joint.from) + " " + network::ToText(joint.to);
+}
+
+// What an edit has done, as one edit each: of several proposals that were confirmed, each joint.
+// `words`: the edit; `lines`: its answer.
+std::vector<std::string> DoneText(const Edit& edit, const std::string& words, const Lines& lines) {
+  switch (edit.kind) {
+    case Edit::Kind::kJoin:
+    case Edit::Kind::kName:
+    case Edit::Kind::kConfirm:
+      return lines;
+    case Edit::Kind::kForget:
+      return {"forget " + edit.named.name};
+    case Edit::Kind::kPart:
+    case Edit::Kind::kRefuse: {
+      const std::string verb = edit.kind == Edit::Kind::kPart ? "part " : "refuse ";
+      std::vector<std::string> done;
+      for (const std::string& line : lines) done.push_back(verb + PlacesText(line));
+      return done;
+    }
+    default:
+      return {PlainText(words, exchange::kMaxLineBytes / 2)};
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
+                                                         std::unique_ptr<store::NetworkStore> store,
+                                                         store::RouteStore& routes) {
+  std::unique_ptr<NetworkBoard> board(
+      new NetworkBoard(std::move(server), std::move(store), routes));
+  auto joints = board->store_->Joints();
+  if (!joints) return tl::unexpected(joints.error());
+  auto conditions = board->store_->Conditions();
+  if (!conditions) return tl::unexpected(conditions.error());
+  auto names = board->store_->Names();
+  if (!names) return tl::unexpected(names.error());
+  for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named.place));
+  auto proposed = board->store_->Proposals();
+  if (!proposed) return tl::unexpected(proposed.error());
+  auto searched = board->store_->Searched();
+  if (!searched) return tl::unexpected(searched.error());
+  auto lanes = board->store_->Lanes();
+  if (!lanes) return tl::unexpected(lanes.error());
+  const auto followed = board->store_->Followed();
+  if (!followed) return tl::unexpected(followed.error());
+  board->followed_.Load(*followed);
+  board->lanes_ = *std::move(lanes);
+  board->proposed_ = *std::move(proposed);
+  board->searched_.insert(searched->begin(), searched->end());
+  board->joints_ = *std::move(joints);
+  board->conditions_ = *std::move(conditions);
+  return board;
+}
+
+exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
+                                            std::int64_t now_unix_ms) {
+  auto& answered = answered_.Touch({edit.client, edit.request});
+  if (answered) return *answered;
+  exchange::NetworkReply reply{.server = server_, .client = edit.client, .request = edit.request};
+  const std::string by = WithoutProcess(edit.client.value());
+  auto lines = network::ParseEdit(edit.words).and_then([&](const Edit& parsed) {
+    auto carried = Carry(parsed, by, now_unix_ms);
+    if (!carried) return carried;
+    for (std::string& done : DoneText(parsed, edit.words, *carried)) {
+      made_.push_back({now_unix_ms, by, std::move(done)});
+    }
+    return carried;
+  });
+  if (lines) {
+    lines->resize(std::min(lines->size(), exchange::kMaxNetworkLines));
+    reply.lines = *std::move(lines);
+  } else {
+    reply.error = PlainText(lines.error().message, exchange::kMaxLineBytes);
+  }
+  answered = reply;
+  return reply;
+}
+
+exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& request) {
+  exchange::NetworkReply reply{
+      .server = server_, .client = request.client, .request = request.request};
+  const auto lines = Answered(request.words);
+  if (!lines) {
+    reply.error = PlainText(lines.error().message, exchange::kMaxLineBytes);
+    return reply;
+  }
+  const std::size_t begin = std::min<std::size_t>(request.first, lines->size());
+  const std::size_t end = std::min(begin + exchange::kMaxNetworkLines, lines->size());
+  reply.lines.assign(lines->begin() + static_cast<std::ptrdiff_t>(begin),
+                     lines->begin() + static_cast<std::ptrdiff_t>(end));
+  if (end < lines->size()) reply.next = static_cast<std::uint32_t>(end);
+  return reply;
+}
+
+Result<Lines> NetworkBoard::Answered(const std::string& words) {
+  if (words.empty()) return All();
+  if (const auto goal = network::ParseWhatPasses(words)) {
+    return network::ParseGoal(*goal).and_then([&](const Goal& at) { return WhatPasses(at); });
+  }
+  return network::ParseQuestion(words).and_then(
+      [&](const network::Question& question) { return WayTo(question); });
+}
+
+void NetworkBoard::Hear(const exchange::AgentStatus& status) {
+  if (status.role != exchange::AgentRole::kFollower) return;
+  if (status.place) {
+    places_.Touch(status.agent) = {
+        {IdOf(status.place->key), status.place->along_m}, status.speed_mps, true};
+  } else if (Stand* stand = places_.Find(status.agent)) {
+    stand->now = false;
+  }
+}
+
+void NetworkBoard::Note(const route::RouteInfo& info) {
+  if (info.standing == route::Standing::kDeleted) DropProposals(info.key);
+  const auto at = known_.find(info.key.route);
+  if (at == known_.end()) {
+    // Its name may no longer tell another from it.
+    if (!names_.contains(info.name)) return;
+    known_.clear();
+  } else {
+    const auto& followed = at->second.followed;
+    const bool is_followed = followed && followed->key == info.key;
+    if (is_followed ? *followed == info : !IsFollowable(info)) return;
+    known_.erase(at);
+  }
+  NoteChange();
+}
+
+Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
+                                  std::int64_t now_unix_ms) {
+  switch (edit.kind) {
+    case Edit::Kind::kJoin:
+      return Join(edit.joint, by, now_unix_ms);
+    case Edit::Kind::kPart:
+      return Part(edit.joint);
+    case Edit::Kind::kName:
+      return Name(edit.named, by, now_unix_ms);
+    case Edit::Kind::kForget:
+      return Forget(edit.named.name);
+    case Edit::Kind::kConfirm:
+    case Edit::Kind::kRefuse:
+      return Settle(edit, by, now_unix_ms);
+    case Edit::Kind::kNarrow:
+      return Narrow(edit.lane, by, now_unix_ms);
+    case Edit::Kind::kBack:
+      return LetBack(edit, by, now_unix_ms);
+    case Edit::Kind::kWide:
+    case Edit::Kind::kVacate:
+      return Leave(edit);
+    default:
+      return Set(edit, by, now_unix_ms);
+  }
+}
+
+Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_t now_unix_ms) {
+  for (Place* place : {&joint.from, &joint.to}) {
+    auto resolved = Resolve(*place);
+    if (!resolved) return tl::unexpected(resolved.error());
+    *place = *std::move(resolved);
+  }
+  if (IsNear(joint.from, joint.to)) {
+    return Fail(ErrorCode::kInvalidArgument, "a joint leads to another place than where it begins");
+  }
+  const auto before = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& each) {
+    return IsNear(each.from, joint.from) && IsNear(each.to, joint.to);
+  });
+  if (before != joints_.end()) {
+    joint.from = before->from;
+    joint.to = before->to;
+  }
+  if (auto put = store_->Put(joint, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  if (before != joints_.end()) joints_.erase(before);
+  joints_.push_back(joint);
+  NoteChange();
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  const auto called = Called(joint);
+  if (!called) return tl::unexpected(called.error());
+  return Lines{network::ToText(*called)};
+}
+
+Result<Lines> NetworkBoard::Part(const Joint& joint) {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  // Those of deleted routes are known by what they are called in the list alone.
+  const auto from = Resolve(joint.from);
+  const auto to = Resolve(joint.to);
+  std::vector<Joint> parted;
+  Lines lines;
+  for (const Joint& each : joints_) {
+    const auto called = Called(each);
+    if (!called) return tl::unexpected(called.error());
+    const auto is = [&](const Joint& it, const Joint& its_name) {
+      return (IsNear(its_name.from, joint.from) || (from && IsNear(it.from, *from))) &&
+             (IsNear(its_name.to, joint.to) || (to && IsNear(it.to, *to)));
+    };
+    if (!is(each, *called) && !is(Reversed(each), Reversed(*called))) continue;
+    parted.push_back(each);
+    lines.push_back(network::ToText(*called));
+  }
+  if (parted.empty()) {
+    return Fail(ErrorCode::kNotFound, "there is no joint of {} and {}", network::ToText(joint.from),
+                network::ToText(joint.to));
+  }
+  for (const Joint& each : parted) {
+    if (auto dropped = store_->Drop(each); !dropped) return tl::unexpected(dropped.error());
+    std::erase(joints_, each);
+    NoteChange();
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t now_unix_ms) {
+  Condition& condition = edit.condition;
+  const auto meant = Meant(condition.route);
+  if (!meant) return tl::unexpected(meant.error());
+  if (condition.from_m >= meant->length_m) {
+    return Fail(ErrorCode::kInvalidArgument, "route '{}' is {:.1f} m long: {:g} m is beyond it",
+                meant->name, meant->length_m, condition.from_m);
+  }
+  condition.route = meant->key.route.value();
+  auto after = network::Amended(conditions_, edit);
+  std::vector<Condition> its;
+  std::copy_if(after.begin(), after.end(), std::back_inserter(its),
+               [&](const Condition& each) { return each.route == condition.route; });
+  if (auto stored = store_->Replace(condition.route, its, by, now_unix_ms); !stored) {
+    return tl::unexpected(stored.error());
+  }
+  conditions_ = std::move(after);
+  NoteChange();
+  if (auto known = Know({meant->key.route}); !known) return tl::unexpected(known.error());
+  Lines lines;
+  for (Condition& each : its) {
+    each.route = Called(meant->key.route);
+    lines.push_back(network::ToText(each));
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
+                                 std::int64_t now_unix_ms) {
+  auto place = Resolve(named.place);
+  if (!place) return tl::unexpected(place.error());
+  named.place = *std::move(place);
+  if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  named_[named.name] = named.place;
+  NoteChange();
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  const auto called = Called(named);
+  if (!called) return tl::unexpected(called.error());
+  return Lines{network::ToText(*called)};
+}
+
+Result<Lines> NetworkBoard::Forget(const std::string& name) {
+  const auto at = named_.find(name);
+  if (at == named_.end()) return Fail(ErrorCode::kNotFound, "no place is called '{}'", name);
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  const auto called = Called(NamedPlace{at->first, at->second});
+  if (!called) return tl::unexpected(called.error());
+  if (auto forgotten = store_->Forget(name); !forgotten) return tl::unexpected(forgotten.error());
+  named_.erase(at);
+  NoteChange();
+  return Lines{network::ToText(*called)};
+}
+
+Result<Lines> NetworkBoard::All() {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  Lines lines;
+  for (const auto& [id, known] : known_) {
+    if (!known.followed) continue;
+    lines.push_back(network::ToText(
+        network::Route{.name = known.called, .length_m = known.followed->length_m}));
+  }
+  for (const Joint& joint : joints_) {
+    const auto called = Called(joint);
+    if (!called) return tl::unexpected(called.error());
+    lines.push_back(ListedText(network::ToText(*called), IsUsed(joint.from) && IsUsed(joint.to)));
+  }
+  for (Condition condition : conditions_) {
+    condition.route = Called(RouteId(condition.route));
+    lines.push_back(network::ToText(condition));
+  }
+  for (std::string& line : PoorLines()) lines.push_back(std::move(line));
+  for (const store::KeptLane& kept : lanes_) {
+    std::string line = network::ToText(CalledLane(kept));
+    if (!kept.holders.empty()) {
+      line += fmt::format("{}{}", network::kTakenBy, fmt::join(NamesOf(kept.holders), " "));
+    }
+    lines.push_back(PlainText(line, exchange::kMaxLineBytes));
+  }
+  for (const auto& [name, place] : named_) {
+    const auto called = Called(NamedPlace{name, place});
+    if (!called) return tl::unexpected(called.error());
+    lines.push_back(ListedText(network::ToText(*called), IsUsed(place)));
+  }
+  for (const std::size_t each : Open()) {
+    network::Proposal proposal = proposed_[each].proposal;
+    auto called = Called(std::move(proposal.joint));
+    if (!called) return tl::unexpected(called.error());
+    proposal.joint = *std::move(called);
+    lines.push_back(network::ToText(proposal));
+  }
+  return lines;
+}
+
+Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
+  const auto to = Resolve(question.to);
+  if (!to) return tl::unexpected(to.error());
+  const std::string& robot = question.from.name;
+  const auto* stands = robot.empty() ? nullptr : places_.Find(AgentId(robot));
+  if (stands == nullptr && !robot.empty() && !named_.contains(robot)) {
+    return Fail(
+        ErrorCode::kNotFound,
+        "'{}' has not said where on a route it stands since this server was started, nor is "
+        "a place called so: say from where it is to go",
+        robot);
+  }
+  const auto from = stands == nullptr ? Resolve(question.from) : Result<Place>(stands->place);
+  if (!from) return tl::unexpected(from.error());
+  if (auto known = Know({KeyOf(from->route).route, KeyOf(to->route).route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  for (const auto& place : {*from, *to}) {
+    if (IsUsed(place)) continue;
+    const auto called = Called(place);
+    if (!called) return tl::unexpected(called.error());
+    return Fail(ErrorCode::kNotFound, "{} is on a revision that robots do not follow{}",
+                network::ToText(*called),
+                stands == nullptr ? "" : ", where " + robot + " may stand");
+  }
+  const auto way = network_->ShortestWay(*from, *to);
+  if (!way) return tl::unexpected(way.error());
+  const auto tasks = TasksOf(way->stretches, HeldBy(AgentId(robot)));
+  if (!tasks) return tl::unexpected(tasks.error());
+  Lines lines;
+  for (const mission::Task& task : *tasks) lines.push_back(mission::ToText(task));
+  return lines;
+}
+
+mission::Task NetworkBoard::TaskOf(const network::Stretch& stretch) const {
+  return {.route = {.route = Called(KeyOf(stretch.route).route)},
+          .from_m = ToCentimetre(stretch.from_m),
+          .to_m = ToCentimetre(stretch.to_m),
+          .backwards = stretch.backwards(),
+          .speed_factor = stretch.speed};
+}
+
+Result<network::Stretch> NetworkBoard::StretchOf(std::span<const mission::Task> tasks,
+                                                 std::size_t number) {
+  const mission::Task& task = tasks[number];
+  const auto& [name, revision] = task.route;
+  const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
+  if (!meant) return tl::unexpected(meant.error());
+  network::Stretch stretch{.route = IdOf(meant->key),
+                           .from_m = task.from_m,
+                           .to_m = task.to_m,
+                           .speed = task.speed_factor,
+                           .turn_rad = mission::TurnBefore(tasks, number)};
+  double& end_m = task.backwards ? stretch.from_m : stretch.to_m;
+  if (end_m <= 0.0) end_m = meant->length_m;
+  return stretch;
+}
+
+Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Stretch& stretch) {
+  if (auto known = Know({KeyOf(stretch.route).route}); !known) return tl::unexpected(known.error());
+  return network_->FirstClosed(stretch);
+}
+
+Result<std::optional<Condition>> NetworkBoard::ClosedAround(const Place& place) {
+  if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
+  return network_->ClosedAround(place);
+}
+
+std::string NetworkBoard::Called(const Condition& closed) const {
+  return fmt::format("{} {:g}..{:g}", Called(KeyOf(closed.route).route),
+                     ToCentimetre(closed.from_m), ToCentimetre(closed.to_m));
+}
+
+Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
+                                                          const std::string& goal) {
+  const auto parsed = network::ParseGoal(goal);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const auto to = Resolve(*parsed);
+  if (!to) return tl::unexpected(to.error());
+  if (auto known = Know({KeyOf(from.route).route, KeyOf(to->route).route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  auto way = network_->WayOn(from, *to);
+  if (!way) return tl::unexpected(way.error());
+  std::erase_if(way->stretches, [](const network::Stretch& each) {
+    return each.length_m() <= kSame_m && each.turn_rad == 0.0;
+  });
+  return std::move(way->stretches);
+}
+
+void NetworkBoard::NoteChange() {
+  network_.reset();
+  ++changes_;
+}
+
+}  // namespace trailcast::server

@@ -1,0 +1,161 @@
+// What a network board knows of routes: which are meant and followed, and what they are called.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "route_server/network/network_board.h"
+#include "route_server/network/network_ids.h"
+#include "route_server/routes/followable.h"
+#include "services/exchange/route_finder.h"
+#include "services/route/route_ref.h"
+
+namespace trailcast::server {
+
+using network::Condition;
+using network::Goal;
+using network::Joint;
+using network::NamedPlace;
+using network::Place;
+
+Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
+  const auto ref = route::ParseRouteRef(words);
+  if (!ref) return tl::unexpected(ref.error());
+  const auto routes = routes_.FindMeant(ref->route);
+  if (!routes) return tl::unexpected(routes.error());
+  auto found = exchange::ChooseMeant(ref->route, *routes, {.number = ref->revision});
+  if (!found) return tl::unexpected(found.error());
+  auto& meant = *found;
+  if (!meant) return Fail(ErrorCode::kNotFound, "there is no route '{}'", words);
+  if (meant->state != route::RouteState::kComplete) {
+    return Fail(ErrorCode::kNotFound, "route '{}' is not complete yet", words);
+  }
+  if (meant->length_m <= 0.0) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route '{}' was taught without odometry: no places on it are known in metres",
+                words);
+  }
+  return *std::move(meant);
+}
+
+Result<Place> NetworkBoard::Resolve(const Place& named) const {
+  const auto meant = Meant(named.route);
+  if (!meant) return tl::unexpected(meant.error());
+  if (named.along_m > meant->length_m + kSame_m) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "route '{}' is {:.2f} m long: there is no {:g} m on it", meant->name,
+                meant->length_m, named.along_m);
+  }
+  return Place{IdOf(meant->key), ToCentimetre(named.along_m)};
+}
+
+Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
+  if (goal.name.empty()) return Resolve(goal.place);
+  const auto at = named_.find(goal.name);
+  if (at != named_.end()) return at->second;
+  return Fail(
+      ErrorCode::kNotFound,
+      "no place is called '{}': 'trailcast network' lists those that are, 'trailcast network "
+      "name {} ROUTE@METRES' makes it one",
+      goal.name, goal.name);
+}
+
+Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
+  const auto all_known = std::all_of(asked.begin(), asked.end(),
+                                     [&](const RouteId& id) { return known_.contains(id); });
+  if (network_ && all_known) return {};
+  std::set<RouteId> wanted = asked;
+  for (const Joint& joint : joints_) {
+    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  }
+  for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
+  for (const auto& [name, place] : named_) wanted.insert(KeyOf(place.route).route);
+  for (const store::KeptLane& kept : lanes_) {
+    for (const network::Part& part : kept.lane.parts) wanted.insert(RouteId(part.route));
+  }
+  for (const store::ProposedJoint& each : proposed_) {
+    if (each.verdict != store::ProposedJoint::Verdict::kNone) continue;
+    const Joint& joint = each.proposal.joint;
+    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  }
+  std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
+  names_.clear();
+  std::vector<network::Route> routes;
+  for (const RouteId& id : wanted) {
+    auto at = known_.find(id);
+    if (at == known_.end()) {
+      auto known = LookUp(id);
+      if (!known) return tl::unexpected(known.error());
+      at = known_.emplace(id, *std::move(known)).first;
+    }
+    if (const auto& followed = at->second.followed) {
+      names_.insert(followed->name);
+      routes.push_back({IdOf(followed->key), at->second.called, followed->length_m});
+    }
+  }
+  std::vector<Joint> joints;
+  std::copy_if(joints_.begin(), joints_.end(), std::back_inserter(joints),
+               [&](const Joint& joint) { return IsUsed(joint.from) && IsUsed(joint.to); });
+  std::vector<Condition> conditions = CostsOfPoor();
+  for (Condition condition : conditions_) {
+    const Known& known = known_.at(RouteId(condition.route));
+    if (!known.followed) continue;
+    condition.route = IdOf(known.followed->key);
+    conditions.push_back(std::move(condition));
+  }
+  auto built = network::Network::Build(std::move(routes), joints, conditions);
+  if (!built) return tl::unexpected(built.error());
+  network_ = *std::move(built);
+  return {};
+}
+
+Result<NetworkBoard::Known> NetworkBoard::LookUp(const RouteId& route) const {
+  const auto revisions = routes_.FindRevisions(route);
+  if (!revisions) return tl::unexpected(revisions.error());
+  const auto followed = std::find_if(revisions->begin(), revisions->end(), IsFollowable);
+  Known known{.followed = {}, .called = route.value()};
+  if (followed == revisions->end()) return known;
+  known.followed = *followed;
+  const auto namesakes = routes_.FindMeant(followed->name);
+  if (!namesakes) return tl::unexpected(namesakes.error());
+  if (exchange::FindRivals(*namesakes).empty()) known.called = followed->name;
+  return known;
+}
+
+bool NetworkBoard::IsUsed(const Place& place) const {
+  const auto key = KeyOf(place.route);
+  const auto at = known_.find(key.route);
+  return at != known_.end() && at->second.followed && at->second.followed->key == key;
+}
+
+std::string NetworkBoard::Called(const RouteId& route) const {
+  const auto at = known_.find(route);
+  return at == known_.end() ? route.value() : at->second.called;
+}
+
+Result<Place> NetworkBoard::Called(const Place& place) const {
+  const auto key = KeyOf(place.route);
+  if (IsUsed(place)) return Place{Called(key.route), place.along_m};
+  const auto info = routes_.FindRoute(key);
+  if (!info) return tl::unexpected(info.error());
+  if (!*info) return Place{key.route.value(), place.along_m};
+  return Place{fmt::format("{}@{}", (*info)->name, (*info)->revision.value()), place.along_m};
+}
+
+Result<Joint> NetworkBoard::Called(Joint joint) const {
+  for (Place* place : {&joint.from, &joint.to}) {
+    auto called = Called(*place);
+    if (!called) return tl::unexpected(called.error());
+    *place = *std::move(called);
+  }
+  return joint;
+}
+
+Result<NamedPlace> NetworkBoard::Called(NamedPlace named) const {
+  auto called = Called(named.place);
+  if (!called) return tl::unexpected(called.error());
+  named.place = *std::move(called);
+  return named;
+}
+
+}  // namespace trailcast::server

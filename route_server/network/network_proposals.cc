@@ -1,0 +1,200 @@
+// What a network board makes of joints that were found.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "route_server/network/network_board.h"
+#include "route_server/network/network_ids.h"
+#include "services/exchange/bounds.h"
+
+namespace trailcast::server {
+namespace {
+
+using network::Edit;
+using network::Joint;
+using network::Place;
+using Verdict = store::ProposedJoint::Verdict;
+
+// An operator who names the two places need not copy the centimetres.
+constexpr double kNamed_m = 1.0;
+
+Joint JointOf(const Meeting& meeting) {
+  Joint joint{.from = {IdOf(meeting.a), ToCentimetre(meeting.at_a_m)},
+              .to = {IdOf(meeting.b), ToCentimetre(meeting.at_b_m)},
+              .both = true};
+  double turn_rad = meeting.heading_rad.value_or(0.0);
+  // Of a route that comes back, its end leads to its beginning.
+  if (meeting.a == meeting.b && joint.from.along_m < joint.to.along_m) {
+    std::swap(joint.from, joint.to);
+    turn_rad = -turn_rad;
+  }
+  if (meeting.heading_rad) joint.lie = network::Lie{.turn_rad = turn_rad};
+  return joint;
+}
+
+bool IsBeside(const Place& one, const Place& other, double length_m, double within_m) {
+  return one.route == other.route && other.along_m >= one.along_m - within_m &&
+         other.along_m <= one.along_m + length_m + within_m;
+}
+
+// Whether the other's places are these, or further along a stretch that both run together.
+bool Covers(const Joint& joint, double length_m, const Joint& other, double within_m) {
+  const auto beside = [&](const Place& from, const Place& to) {
+    return IsBeside(joint.from, from, length_m, within_m) &&
+           IsBeside(joint.to, to, length_m, within_m);
+  };
+  return beside(other.from, other.to) || beside(other.to, other.from);
+}
+
+bool AreOfOnePair(const Joint& one, const Joint& other) {
+  return (one.from.route == other.from.route && one.to.route == other.to.route) ||
+         (one.from.route == other.to.route && one.to.route == other.from.route);
+}
+
+std::pair<std::string, std::string> PairOf(const Joint& joint) {
+  return std::minmax(joint.from.route, joint.to.route);
+}
+
+}  // namespace
+
+Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meeting& meeting,
+                                                                    double take_from,
+                                                                    std::int64_t now_unix_ms) {
+  store::ProposedJoint found{.proposal = {JointOf(meeting), meeting.confidence},
+                             .length_m = meeting.length_m};
+  const Joint& joint = found.proposal.joint;
+  const bool is_joined = std::any_of(joints_.begin(), joints_.end(), [&](const Joint& each) {
+    return Covers(joint, 0.0, each, kSameMeeting_m);
+  });
+  const bool is_known = std::any_of(proposed_.begin(), proposed_.end(), [&](const auto& each) {
+    return Covers(joint, meeting.length_m, each.proposal.joint, kSameMeeting_m);
+  });
+  const auto of_pair = std::count_if(proposed_.begin(), proposed_.end(), [&](const auto& each) {
+    return AreOfOnePair(joint, each.proposal.joint);
+  });
+  if (is_joined || is_known || of_pair >= static_cast<std::ptrdiff_t>(kMostOfAPair)) {
+    return std::nullopt;
+  }
+  if (auto known = Know({meeting.a.route, meeting.b.route}); !known) {
+    return tl::unexpected(known.error());
+  }
+  if (!IsUsed(joint.from) || !IsUsed(joint.to)) return std::nullopt;
+  if (meeting.confidence >= take_from) found.verdict = Verdict::kTaken;
+  if (auto put = store_->Put({&found, 1}, server_.value(), now_unix_ms); !put) {
+    return tl::unexpected(put.error());
+  }
+  const bool taken = found.verdict == Verdict::kTaken;
+  auto called = Called(joint);
+  if (!called) return tl::unexpected(called.error());
+  if (taken) {
+    joints_.push_back(joint);
+    made_.push_back({now_unix_ms, server_.value(), network::ToText(*called)});
+  }
+  proposed_.push_back(found);
+  NoteChange();
+  return Proposed{network::ToText(network::Proposal{*std::move(called), meeting.confidence}),
+                  taken};
+}
+
+bool NetworkBoard::WasSearched(const route::RouteKey& key) const {
+  return searched_.contains(IdOf(key));
+}
+
+void NetworkBoard::MarkSearched(const route::RouteKey& key) {
+  if (searched_.insert(IdOf(key)).second) unsaved_.push_back(IdOf(key));
+}
+
+Result<void> NetworkBoard::SaveSearched() {
+  const auto unsaved = std::exchange(unsaved_, {});
+  return unsaved.empty() ? Result<void>() : store_->MarkSearched(unsaved);
+}
+
+std::size_t NetworkBoard::open_proposals() const {
+  return static_cast<std::size_t>(std::count_if(
+      proposed_.begin(), proposed_.end(),
+      [](const store::ProposedJoint& each) { return each.verdict == Verdict::kNone; }));
+}
+
+void NetworkBoard::DropProposals(const route::RouteKey& key) {
+  const std::string id = IdOf(key);
+  const std::size_t dropped = std::erase_if(proposed_, [&](const auto& each) {
+    return each.proposal.joint.from.route == id || each.proposal.joint.to.route == id;
+  });
+  if (searched_.erase(id) == 0 && dropped == 0) return;
+  std::erase(unsaved_, id);
+  NoteChange();
+  // What stays on the disk is of a revision that is not there, and is listed nowhere.
+  (void)store_->DropProposals(id);
+}
+
+std::vector<std::size_t> NetworkBoard::Open() const {
+  std::map<std::pair<std::string, std::string>, std::vector<const Joint*>> joined;
+  for (const Joint& joint : joints_) joined[PairOf(joint)].push_back(&joint);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < proposed_.size(); ++i) {
+    const Joint& joint = proposed_[i].proposal.joint;
+    if (proposed_[i].verdict != Verdict::kNone) continue;
+    if (!IsUsed(joint.from) || !IsUsed(joint.to)) continue;
+    const auto& of_pair = joined[PairOf(joint)];
+    const bool is_joined = std::any_of(of_pair.begin(), of_pair.end(), [&](const Joint* each) {
+      return Covers(joint, 0.0, *each, kSameMeeting_m);
+    });
+    if (!is_joined) open.push_back(i);
+  }
+  return open;
+}
+
+Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Joint& named) const {
+  Joint joint;
+  auto from = Resolve(named.from);
+  if (!from) return tl::unexpected(from.error());
+  auto to = Resolve(named.to);
+  if (!to) return tl::unexpected(to.error());
+  joint.from = *std::move(from);
+  joint.to = *std::move(to);
+  auto open = Open();
+  std::erase_if(open, [&](std::size_t each) {
+    return !Covers(joint, 0.0, proposed_[each].proposal.joint, kNamed_m);
+  });
+  if (!open.empty()) return open;
+  return Fail(ErrorCode::kNotFound,
+              "no joint of {} and {} is proposed: 'trailcast network proposals' lists those that "
+              "are",
+              network::ToText(named.from), network::ToText(named.to));
+}
+
+Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const std::string& by,
+                                                      std::int64_t now_unix_ms) {
+  if (auto known = Know({}); !known) return tl::unexpected(known.error());
+  auto open = edit.all ? Result<std::vector<std::size_t>>(Open()) : OpenAt(edit.joint);
+  if (!open) return tl::unexpected(open.error());
+  if (edit.all) {
+    std::erase_if(*open, [&](std::size_t each) {
+      const double confidence = proposed_[each].proposal.confidence;
+      return confidence < edit.all->least || confidence > edit.all->most;
+    });
+  }
+  // The others are there to be asked for again.
+  open->resize(std::min(open->size(), exchange::kMaxNetworkLines));
+  const bool taken = edit.kind == Edit::Kind::kConfirm;
+  std::vector<std::string> lines;
+  std::vector<store::ProposedJoint> settled;
+  for (const std::size_t each : *open) {
+    settled.push_back(proposed_[each]);
+    settled.back().verdict = taken ? Verdict::kTaken : Verdict::kRefused;
+    const network::Proposal& proposal = settled.back().proposal;
+    auto called = Called(proposal.joint);
+    if (!called) return tl::unexpected(called.error());
+    lines.push_back(taken ? network::ToText(*called)
+                          : network::ToText(network::Proposal{*called, proposal.confidence}));
+  }
+  if (auto put = store_->Put(settled, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  for (std::size_t i = 0; i < settled.size(); ++i) {
+    proposed_[(*open)[i]] = settled[i];
+    if (taken) joints_.push_back(settled[i].proposal.joint);
+  }
+  NoteChange();
+  return lines;
+}
+
+}  // namespace trailcast::server

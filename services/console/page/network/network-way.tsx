@@ -1,0 +1,55 @@
+import { useEffect, useRef } from 'react';
+import { get, type Answer, type Way } from '../api';
+import { Field, type Draft } from './network-changes';
+import { metres } from './network-layout';
+
+// How long it is, and what one drives along.
+export function WayText({ to, way }: { to: string; way: Way }) {
+  return (
+    <p role="status">
+      <strong>{metres(way.way.length_m)} m</strong> to {to}:{' '}
+      {way.way.stretches.map(({ route, from_m, to_m, speed }) =>
+        `${route} ${metres(from_m)} to ${metres(to_m)} m${speed !== 1 ? ` at ${speed} times the taught speed` : ''}`).join(', then ')}
+    </p>
+  );
+}
+
+// From one place to another, for whoever wants to know: nobody is sent.
+export function FindWay({ draft, onDraft, names, way, onWay, onAnswer }: {
+  draft: Draft;
+  onDraft: (draft: Draft) => void;
+  names: string[];
+  way: Way | null;
+  onWay: (way: Way | null) => void;
+  onAnswer: (answer: Answer | null) => void;
+}) {
+  const [from, to] = [draft.first.trim(), draft.second.trim()];
+  const latest = useRef<object | null>(null);
+  // An answer is about the places that it was asked for.
+  useEffect(() => {
+    onWay(null);
+    onAnswer(null);
+    return () => { latest.current = null; };
+  }, [from, to]);
+  const ask = async () => {
+    const question = {};
+    latest.current = question;
+    onAnswer({ ok: true, text: 'Asks for the way …' });
+    const found = await get<Way>('/api/network/way', { from, to });
+    if (latest.current !== question) return;
+    const there = typeof found !== 'string' && !found.orders;
+    onWay(typeof found === 'string' || there ? null : found);
+    onAnswer(typeof found === 'string' ? { ok: false, text: found } : there ? { ok: true, text: 'That is the same place.' } : null);
+  };
+  return (
+    <>
+      <div className="net-fields">
+        <Field label="From (click there, or a name, a robot, ROUTE@METRES)" list="net-places" value={draft.first} onChange={(value) => onDraft({ ...draft, first: value })} />
+        <Field label="To" list="net-places" value={draft.second} onChange={(value) => onDraft({ ...draft, second: value })} />
+        <datalist id="net-places">{names.map((name) => <option key={name} value={name} />)}</datalist>
+        <button disabled={!from || !to} onClick={ask}>Find the way</button>
+      </div>
+      {way && <div className="net-way"><WayText to={to} way={way} /></div>}
+    </>
+  );
+}

@@ -1,0 +1,82 @@
+import { memo, useState } from 'react';
+import { tell, type Answer, type Order, type Robot } from '../api';
+import { age } from '../fleet';
+import { Glance } from './glance';
+import { useMay } from '../me';
+import { Send } from './send';
+import { Badge, shapes } from './state';
+import { Strip } from './strip';
+import { Teach, Teaching } from './teach';
+import { Vitals } from './vitals';
+
+const labels: Record<Order, string> = {
+  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End',
+};
+
+// Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
+// is not heard.
+export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
+  const [answer, setAnswer] = useState<Answer | null>(null);
+  const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
+  const [looking, setLooking] = useState(false);
+  const order = async (given: Order) => {
+    setAnswer({ ok: true, text: `${labels[given]}: told …` });
+    setAnswer(await tell(robot.name, given));
+  };
+  const sent = (to: Answer | null) => {
+    setAnswer(to ?? { ok: true, text: 'Sent …' });
+    if (to?.ok) setOpen('');
+  };
+  const mayOperate = useMay('operate');
+  const obeys = mayOperate && robot.role === 'follower';
+  const others = robot.orders.filter((each) => each !== 'stop' && !(robot.teaches && (each === 'end' || each === 'cancel')));
+  const mission = robot.mission;
+  const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);
+  return (
+    <article id={`robot-${robot.name}`} className={robot.heard ? '' : 'unheard'} aria-label={robot.name}>
+      <header>
+        <h2>{robot.name}</h2>
+        <Badge state={robot.state} />
+        {obeys && (
+          <button className="stop" onClick={() => order('stop')} aria-describedby="stop-help"
+            title="Stands until it is released. No emergency stop.">
+            <svg viewBox="0 0 16 16" aria-hidden="true"><path d={shapes.stopped} /></svg>Stop
+            <span className="hidden"> {robot.name}</span>
+          </button>
+        )}
+      </header>
+      {robot.last_heard_unix_ms !== null && (
+        <p className="last-heard">Last heard {age(now_ms - robot.last_heard_unix_ms)} ago; what follows is from then.</p>
+      )}
+      {robot.detail && robot.detail !== 'free' && <p className="detail">{robot.detail}</p>}
+      {robot.route && !robot.teaches && <Strip robot={robot} />}
+      <Vitals robot={robot} />
+      {mission && (
+        <p className="mission">
+          Mission <code>{mission.mission}</code> of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'}
+          {' '}– <strong>{mission.state}</strong>
+        </p>
+      )}
+      <div className="orders">
+        {obeys && others.map((each) => (
+          <button key={each} onClick={() => order(each)}>{labels[each]}</button>
+        ))}
+        {obeys && maySend && (['send', 'teach'] as const).map((each) => (
+          <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
+            {each === 'send' ? 'Send …' : 'Teach …'}
+          </button>
+        ))}
+        {robot.state !== 'ended' && (
+          <button aria-expanded={looking} onClick={() => setLooking(!looking)}>Camera</button>
+        )}
+      </div>
+      {looking && robot.state !== 'ended' && <Glance robot={robot} />}
+      {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
+      {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={setAnswer} />}
+      <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
+        {answer && (answer.ok ? '' : '⚠ ') + answer.text}
+      </p>
+    </article>
+  );
+});

@@ -1,0 +1,36 @@
+// What a robot does, in a shape, a word and a line of text.
+import type { Robot, RobotState } from '../api';
+
+const words: Record<RobotState, string> = {
+  silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
+  waiting: 'Waiting', teaching: 'Teaching', driving: 'Driving', arrived: 'Arrived', ended: 'Ended',
+  fault: 'Fault',
+};
+
+// A shape each, so that colour is not needed to tell them apart.
+export const shapes: Record<RobotState, string> = {
+  silent: 'M3 3 13 13M13 3 3 13', stopped: 'M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z',
+  paused: 'M4 3h3v10H4zM9 3h3v10H9z', starting: 'M8 3v5l3 3', free: 'M3 8h10',
+  waiting: 'M4 2h8L8 8l4 6H4l4-6z', teaching: 'M3 13 4 9l7-7 3 3-7 7z', driving: 'M4 2l9 6-9 6z',
+  arrived: 'M2 8l4 4 8-8', ended: 'M4 4h8v8H4z', fault: 'M8 2l7 12H1z',
+};
+
+export function Badge({ state }: { state: RobotState }) {
+  const filled = ['stopped', 'paused', 'driving', 'fault'].includes(state);
+  return (
+    <span className={`badge ${state}`}>
+      <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
+      {words[state]}
+    </span>
+  );
+}
+
+// Of them names and marks are seen first.
+export const stands = (robot: Robot) => robot.state !== 'driving' && robot.state !== 'teaching';
+
+export function how(robot: Robot, at: number | null, unit: string): string {
+  const of = robot.length_m && unit === 'm' ? ` of ${robot.length_m.toFixed(1)}` : '';
+  const where = at === null ? `${Math.round(100 * robot.progress)} %` : `${at.toFixed(1)}${of} ${unit}`;
+  const sure = robot.left_sigma_m ? `, ${Math.abs(robot.left_m ?? 0).toFixed(2)} ± ${robot.left_sigma_m.toFixed(2)} m ${(robot.left_m ?? 0) < 0 ? 'right' : 'left'} of its path` : '';
+  return `${where}${robot.speed_mps !== 0 ? `, ${robot.speed_mps.toFixed(2)} m/s` : ''}${sure}`;
+}

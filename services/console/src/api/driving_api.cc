@@ -1,0 +1,32 @@
+#include "services/console/src/api/driving_api.h"
+
+#include <chrono>
+
+#include "services/console/json.h"
+#include "services/console/src/api/answers.h"
+
+namespace trailcast::console {
+
+void ServeDriving(http::Server& server, Desk& desk) {
+  server.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/drive",
+              [&desk](const httplib::Request& request, httplib::Response& response) {
+                const std::string robot = request.matches[1];
+                const auto word = ReadDrive(request.body);
+                if (!word) return Refuse(response, 400, word.error().message);
+                using Verdict = mission::DriverSeat::Verdict;
+                switch (desk.Drive(AgentId(robot), *word)) {
+                  case Verdict::kGood:
+                    return Answer(response, 200, "{\"passed_on\":true}");
+                  case Verdict::kTaken:
+                    return Refuse(response, 409,
+                                  "somebody else drives " + robot +
+                                      ": it is free a second after that one lets go");
+                  case Verdict::kLate:
+                    return Refuse(response, 409,
+                                  "this was under way for too long and is not passed on: the "
+                                  "network is slow");
+                }
+              });
+}
+
+}  // namespace trailcast::console

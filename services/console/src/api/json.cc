@@ -1,0 +1,235 @@
+#include "services/console/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "services/base/text.h"
+#include "services/console/parameters.h"
+#include "services/console/src/api/values.h"
+#include "services/console/src/api/words.h"
+#include "services/exchange/bounds.h"
+#include "services/mission/orders.h"
+#include "services/network/words.h"
+
+namespace trailcast::console {
+namespace {
+
+constexpr std::uint32_t kLongestValid_s = 365U * 86400U;
+
+Result<Json> ReadObject(const std::string& body, const std::set<std::string>& fields) {
+  Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the body is no JSON object, as {{\"reason\": \"..\"}}");
+  }
+  for (const auto& [name, value] : json.items()) {
+    if (!fields.contains(name)) {
+      return Fail(ErrorCode::kInvalidArgument, "there is no field '{}'", PlainText(name, 64));
+    }
+  }
+  return json;
+}
+
+// Empty where it is absent.
+Result<std::string> LineIn(const Json& json, const char* field) {
+  if (!json.contains(field)) return std::string();
+  const Json& value = json[field];
+  if (!value.is_string() ||
+      !IsPlainText(value.get_ref<const std::string&>(), exchange::kMaxLineBytes)) {
+    return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a text of one line, at most {} bytes",
+                field, exchange::kMaxLineBytes);
+  }
+  return value.get<std::string>();
+}
+
+Result<double> NumberIn(const Json& json, const char* field) {
+  if (json.contains(field) && json[field].is_number()) return json[field].get<double>();
+  return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a number", field);
+}
+
+const std::map<std::string, route::EditAction>& EditWords() {
+  using route::EditAction;
+  static const std::map<std::string, EditAction> kWords{
+      {"activate", EditAction::kActivate}, {"rollback", EditAction::kRollBack},
+      {"rename", EditAction::kRename},     {"tag", EditAction::kTag},
+      {"untag", EditAction::kUntag},       {"describe", EditAction::kDescribe},
+      {"retire", EditAction::kRetire}};
+  return kWords;
+}
+
+Result<std::vector<std::string>> TagsIn(const Json& json) {
+  std::vector<std::string> tags;
+  if (!json.contains("tags")) return tags;
+  const Json& list = json["tags"];
+  if (!list.is_array() || list.size() > route::kMaxTags) {
+    return Fail(ErrorCode::kInvalidArgument, "'tags' is to be a list of at most {} words",
+                route::kMaxTags);
+  }
+  for (const Json& tag : list) {
+    if (!tag.is_string()) {
+      return Fail(ErrorCode::kInvalidArgument, "'tags' is to be a list of words");
+    }
+    tags.push_back(tag.get<std::string>());
+  }
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  return tags;
+}
+
+}  // namespace
+
+Result<std::string> ReadReason(const std::string& body) {
+  if (body.empty()) return std::string();
+  return ReadObject(body, {"reason"}).and_then([](const Json& json) {
+    return LineIn(json, "reason");
+  });
+}
+
+Result<SendBody> ReadSend(const std::string& body) {
+  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on"});
+  if (!json) return tl::unexpected(json.error());
+  auto orders = LineIn(*json, "orders");
+  if (!orders) return tl::unexpected(orders.error());
+  if (const auto tasks = mission::ParseOrders(*orders); !tasks) {
+    return tl::unexpected(tasks.error());
+  }
+  auto id = LineIn(*json, "id");
+  if (!id) return tl::unexpected(id.error());
+  if (!id->empty() && !IsValidName(*id)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'id' is to be a name of 1 to 64 letters, digits, '_', '.', '-'");
+  }
+  SendBody send{.orders = *std::move(orders), .id = *std::move(id)};
+  if (json->contains("valid_s")) {
+    const Json& valid_s = (*json)["valid_s"];
+    if (!valid_s.is_number_unsigned() || valid_s.get<std::uint64_t>() > kLongestValid_s) {
+      return Fail(ErrorCode::kInvalidArgument, "'valid_s' is to be whole seconds, 0 to {}",
+                  kLongestValid_s);
+    }
+    send.valid_s = valid_s.get<std::uint32_t>();
+  }
+  if (json->contains("goes_on")) {
+    if (!(*json)["goes_on"].is_boolean()) {
+      return Fail(ErrorCode::kInvalidArgument, "'goes_on' is to be true or false");
+    }
+    send.goes_on = (*json)["goes_on"].get<bool>();
+  }
+  return send;
+}
+
+Result<Driving::Word> ReadDrive(const std::string& body) {
+  const auto json = ReadObject(body, {"linear_mps", "turn_radps", "driver", "said_ms"});
+  if (!json) return tl::unexpected(json.error());
+  const auto linear_mps = NumberIn(*json, "linear_mps");
+  if (!linear_mps) return tl::unexpected(linear_mps.error());
+  const auto turn_radps = NumberIn(*json, "turn_radps");
+  if (!turn_radps) return tl::unexpected(turn_radps.error());
+  auto driver = LineIn(*json, "driver");
+  if (!driver) return tl::unexpected(driver.error());
+  if (!IsValidName(*driver)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'driver' is to be a name of 1 to 64 letters, digits, '_', '.', '-', the same one "
+                "for as long as one person drives");
+  }
+  if (!json->contains("said_ms") || !(*json)["said_ms"].is_number_unsigned()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'said_ms' is to be a whole number: by the driver's clock, from any time on");
+  }
+  const exchange::DriveCommand command{.agent = AgentId("robot"),
+                                       .client = AgentId("console"),
+                                       .linear_mps = *linear_mps,
+                                       .turn_radps = *turn_radps};
+  if (auto possible = exchange::CheckBounds(command); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  return Driving::Word{.linear_mps = *linear_mps,
+                       .turn_radps = *turn_radps,
+                       .driver = *std::move(driver),
+                       .said_ms = (*json)["said_ms"].get<std::uint64_t>()};
+}
+
+Result<route::RouteEdit> ReadRouteEdit(const std::string& route, const std::string& body) {
+  const auto json = ReadObject(body, {"action", "revision", "text", "tags"});
+  if (!json) return tl::unexpected(json.error());
+  const auto action = LineIn(*json, "action").and_then([](const std::string& word) {
+    return ReadWord(EditWords(), word);
+  });
+  if (!action) return Wrap(action.error(), "'action'");
+  const auto text = LineIn(*json, "text");
+  if (!text) return tl::unexpected(text.error());
+  const auto tags = TagsIn(*json);
+  if (!tags) return tl::unexpected(tags.error());
+  route::RouteEdit edit{.action = *action, .route = route, .text = *text, .tags = *tags};
+  if (json->contains("revision")) {
+    const Json& revision = (*json)["revision"];
+    constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
+    if (!revision.is_number_unsigned() || revision.get<std::uint64_t>() > kMost) {
+      return Fail(ErrorCode::kInvalidArgument, "'revision' is to be a number, 0 for all");
+    }
+    edit.revision = revision.get<std::uint32_t>();
+  }
+  const bool of_whole_route =
+      edit.action == route::EditAction::kRename || edit.action == route::EditAction::kRollBack;
+  if (of_whole_route && edit.revision != 0) {
+    return Fail(ErrorCode::kInvalidArgument, "this is about the whole route: leave 'revision' out");
+  }
+  if (auto possible = exchange::CheckEdit(edit); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  return edit;
+}
+
+Result<std::string> ReadNetworkEdit(const std::string& body) {
+  return ReadObject(body, {"words"})
+      .and_then([](const Json& json) { return LineIn(json, "words"); })
+      .and_then([](const std::string& words) -> Result<std::string> {
+        if (const auto edit = network::ParseEdit(words); !edit) return tl::unexpected(edit.error());
+        return words;
+      });
+}
+
+Result<LogInBody> ReadLogIn(const std::string& body) {
+  const auto json = ReadObject(body, {"user", "password"});
+  if (!json) return tl::unexpected(json.error());
+  LogInBody log_in;
+  for (const auto& [field, text] :
+       {std::pair{"user", &log_in.user}, std::pair{"password", &log_in.password}}) {
+    if (!json->contains(field) || !(*json)[field].is_string()) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a text", field);
+    }
+    *text = (*json)[field].get<std::string>();
+  }
+  return log_in;
+}
+
+std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks) {
+  const bool only = !only_looks.empty();
+  return Text({{"user", who.name.empty() ? Json(nullptr) : Json(who.name)},
+               {"role", users::NameOf(only ? users::Role::kLook : who.role)},
+               {"logs_in", asks},
+               {"only_looks", only ? Json(only_looks) : Json(nullptr)}});
+}
+
+Result<route::RouteKey> ReadFetch(const std::string& body) {
+  const auto json = ReadObject(body, {"route", "teaching"});
+  if (!json) return tl::unexpected(json.error());
+  const auto route = LineIn(*json, "route");
+  const auto teaching = LineIn(*json, "teaching");
+  if (!route) return tl::unexpected(route.error());
+  if (!teaching) return tl::unexpected(teaching.error());
+  constexpr std::size_t kIdDigits = 32;
+  if (route->size() != kIdDigits || !IsValidName(*route)) {
+    return Fail(ErrorCode::kInvalidArgument, "'route' is to be a route's id, of {} digits",
+                kIdDigits);
+  }
+  const auto number = ReadTeaching(*teaching);
+  if (!number) return Wrap(number.error(), "'teaching'");
+  return route::RouteKey{RouteId(*route), *number};
+}
+
+std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }
+
+}  // namespace trailcast::console

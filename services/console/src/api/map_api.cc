@@ -1,0 +1,75 @@
+#include "services/console/src/api/map_api.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+#include "services/console/parameters.h"
+#include "services/console/src/api/answers.h"
+
+namespace trailcast::console {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+// Then whoever asks is told how far it is, and asks again.
+constexpr std::chrono::milliseconds kLook{2000};
+constexpr const char* kId = "([0-9a-f]{32})";
+
+void Draw(Atlas& atlas, const Request& request, Response& response) {
+  std::optional<TeachingId> teaching;
+  if (request.has_param("teaching")) {
+    const auto read = ReadTeaching(request.get_param_value("teaching"));
+    if (!read) return Refuse(response, 400, "'teaching': " + read.error().message);
+    teaching = *read;
+  }
+  const auto found = atlas.Find(RouteId(request.matches[1]), teaching, kLook);
+  if (!found) return Refuse(response, found.error());
+  if (found->shape) return Answer(response, 200, *found->shape);
+  Answer(response, 202, fmt::format("{{\"fetched\":{:.2f}}}", found->fetched));
+}
+
+void Place(Site* site, const Request& request, Response& response,
+           const std::optional<Placement>& placement) {
+  if (site == nullptr) {
+    return Refuse(response, 409,
+                  "nothing is kept of where routes lie: start the console with --site FOLDER");
+  }
+  const auto placed = site->Place(RouteId(request.matches[1]), placement);
+  if (!placed) return Refuse(response, placed.error());
+  Answer(response, 200, site->Body());
+}
+
+}  // namespace
+
+void ServeMap(http::Server& server, Atlas& atlas, Site* site) {
+  server.Get(
+      fmt::format("/api/routes/{}/shape", kId),
+      [&atlas](const Request& request, Response& response) { Draw(atlas, request, response); });
+  server.Get("/api/site", [site](const Request&, Response& response) {
+    Answer(response, 200, site != nullptr ? site->Body() : NoSiteBody());
+  });
+  server.Get("/api/site/plan", [site](const Request&, Response& response) {
+    if (site == nullptr || !site->plan()) return Refuse(response, 404, "there is no floor plan");
+    const Site::Plan& plan = *site->plan();
+    response.set_header("Cache-Control", "private, max-age=300");
+    response.set_content_provider(
+        plan.bytes.size(), plan.type,
+        [&plan](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+          return sink.write(plan.bytes.data() + offset, length);
+        });
+  });
+  const std::string placement = fmt::format("/api/site/placements/{}", kId);
+  server.Put(placement, [site](const Request& request, Response& response) {
+    const auto read = ReadPlacement(request.body);
+    if (!read) return Refuse(response, read.error());
+    Place(site, request, response, *read);
+  });
+  server.Delete(placement, [site](const Request& request, Response& response) {
+    Place(site, request, response, std::nullopt);
+  });
+}
+
+}  // namespace trailcast::console

@@ -1,0 +1,246 @@
+#include "services/console/web.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "services/base/text.h"
+#include "services/base/unix_time.h"
+#include "services/console/json.h"
+#include "services/console/runs.h"
+#include "services/console/src/api/answers.h"
+#include "services/console/src/api/driving_api.h"
+#include "services/console/src/api/files.h"
+#include "services/console/src/api/glances_api.h"
+#include "services/console/src/api/history_api.h"
+#include "services/console/src/api/map_api.h"
+#include "services/console/src/api/network_api.h"
+#include "services/console/src/api/routes_api.h"
+#include "services/console/src/api/runs_api.h"
+#include "services/console/src/api/transfers_api.h"
+#include "services/console/src/api/where_api.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/draw.h"
+#include "services/fleet/mission_client.h"
+
+namespace trailcast::console {
+namespace {
+
+using exchange::NowOrder;
+using exchange::NowWhom;
+using httplib::Request;
+using httplib::Response;
+
+// How soon a stream notices that its page is gone.
+constexpr std::chrono::milliseconds kLook{1000};
+constexpr std::size_t kMostBody = 64U << 10U;
+
+constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCancel,
+                             NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd};
+
+int StatusOf(const fleet::RobotsWord& word) {
+  if (!word.answered) return 504;
+  return word.refused ? 409 : 200;
+}
+
+// Robots and servers know the console alone, and who it is of its users from this.
+std::string ReasonOf(const users::Who& who, const std::string& reason) {
+  if (who.name.empty()) return reason;
+  return PlainText(reason.empty() ? who.name : who.name + ": " + reason, exchange::kMaxLineBytes);
+}
+std::string IdFor(const users::Who& who) {
+  return who.name.empty() ? fleet::DrawMissionId() : who.name + "-" + fleet::DrawMissionId();
+}
+
+// A thread for each stream, for each errand that waits for its answer, and for each who waits
+// for a picture; stops have enough left. Where strangers come, too, one address has enough for a
+// room of people, and leaves more.
+http::Limits LimitsFor(const Access& access) {
+  constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers +
+                               Runs::kMostWaiting + NetworkWatch::kMostWaiting + 16;
+  if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
+  return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
+}
+
+}  // namespace
+
+Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
+    : desk_(desk), access_(std::move(entry)), network_(desk), server_(LimitsFor(access_)) {
+  httplib::Headers headers{
+      {"Content-Security-Policy",
+       "default-src 'self'; base-uri 'none'; form-action 'none'; "
+       "frame-ancestors 'none'; object-src 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"X-Frame-Options", "DENY"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"}};
+  if (access_.encrypted()) headers.emplace("Strict-Transport-Security", "max-age=31536000");
+  server_.set_default_headers(std::move(headers));
+  server_.set_error_handler([](const Request&, Response& response) {
+    if (response.body.empty())
+      Refuse(response, response.status, "there is nothing of this kind here");
+  });
+  server_.JudgeBy(
+      [this](const Request& request) {
+        auto refusal = http::Judge(request, door_);
+        return refusal ? refusal : access_.Judge(request);
+      },
+      [](const http::Refusal& refusal, Response& response) {
+        Refuse(response, refusal.status, refusal.why);
+      });
+  ServeFiles();
+  ServeState();
+  ServeOrders();
+  ServeMissions();
+  ServeMetrics();
+  ServeRoutes(server_, desk_);
+  ServeMap(server_, atlas, site);
+  ServeNetwork(server_, desk_, network_, access_);
+  ServeDriving(server_, desk_);
+  ServeWhere(server_, desk_);
+  if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
+  ServeGlances(server_, desk_);
+  if (runs != nullptr) ServeRuns(server_, desk_, *runs);
+  access_.Serve(server_);
+}
+
+Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
+                                       const std::string& host, int port,
+                                       std::set<std::string> names, Entry entry,
+                                       Transfers::Join join, Runs* runs) {
+  const bool asks = entry.guard != nullptr;
+  const auto tls = entry.tls;
+  std::unique_ptr<Web> web(new Web(desk, atlas, site, std::move(entry), std::move(join), runs));
+  web->door_ = {.port = port, .names = std::move(names), .encrypted = tls.has_value()};
+  web->door_.any_name = asks && web->door_.names.empty();
+  if (tls) web->server_.Speak(*tls);
+  web->access_.At(port);
+  // Nobody knows a port yet that the system chooses.
+  if (auto listens = web->server_.Listen(host, port); !listens) {
+    return tl::unexpected(listens.error());
+  }
+  if (port == 0) {
+    web->door_.port = web->port();
+    web->access_.At(web->port());
+  }
+  return web;
+}
+
+void Web::ServeFiles() {
+  for (const File& file : Files()) {
+    server_.Get(file.path, [&file](const Request& request, Response& response) {
+      response.set_header("ETag", file.tag);
+      response.set_header("Cache-Control", "no-cache");
+      if (request.get_header_value("If-None-Match") == file.tag) {
+        response.status = 304;
+        return;
+      }
+      // Not by set_content, which compresses anew for each.
+      response.set_content_provider(
+          file.bytes.size(), file.type,
+          [&file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            return sink.write(file.bytes.data() + offset, length);
+          });
+    });
+  }
+}
+
+void Web::ServeState() {
+  server_.Get("/api/state", [this](const Request&, Response& response) {
+    const auto news = desk_.See(0, kLook);
+    if (!news) return Refuse(response, 503, "nothing is known yet");
+    Answer(response, 200, WholeJson(news->state, NowUnixMs()));
+  });
+  server_.Get("/api/events",
+              [this](const Request& request, Response& response) { Stream(request, response); });
+}
+
+void Web::Stream(const Request& request, Response& response) {
+  // Counted until the last copy of what writes the stream is gone.
+  const std::shared_ptr<void> seat(nullptr, [this](void*) { --streams_; });
+  if (++streams_ > kMostStreams) {
+    ++streams_refused_;
+    response.set_header("Retry-After", "5");
+    return Refuse(response, 503, "too many pages look already: close some");
+  }
+  struct Told {
+    std::shared_ptr<const Desk::News> news{};
+    std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
+  };
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Accel-Buffering", "no");
+  response.set_content_provider(
+      "text/event-stream", [this, seat, still_in = access_.StillIn(request), told = Told{}](
+                               std::size_t, httplib::DataSink& sink) mutable {
+        const auto news = desk_.See(told.news ? told.news->number : 0, kLook);
+        if (desk_.closed() || !sink.is_writable() || !still_in()) return false;
+        std::string text;
+        if (news && told.news) {
+          text = fmt::format("event: change\ndata: {}\n\n",
+                             ChangeJson(told.news->state, news->state, NowUnixMs()));
+        } else if (news) {
+          text = fmt::format("event: state\ndata: {}\n\n", WholeJson(news->state, NowUnixMs()));
+        } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
+          // Not a comment: of those a page is not told, and it is to notice that nothing comes.
+          text = fmt::format("event: alive\ndata: {{\"now_unix_ms\":{}}}\n\n", NowUnixMs());
+        } else {
+          return true;
+        }
+        if (news) told.news = news;
+        told.at = std::chrono::steady_clock::now();
+        stream_bytes_ += text.size();
+        return sink.write(text.data(), text.size());
+      });
+}
+
+void Web::ServeOrders() {
+  for (const NowOrder order : kOrders) {
+    server_.Post(fmt::format("/api/robots/([A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order)),
+                 [this, order](const Request& request, Response& response) {
+                   Tell(order, {NowWhom::kRobot, request.matches[1]}, request, response);
+                 });
+  }
+  server_.Post("/api/all/stop", [this](const Request& request, Response& response) {
+    Tell(NowOrder::kStop, {NowWhom::kAll, ""}, request, response);
+  });
+}
+
+void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& request,
+               Response& response) {
+  const auto reason = ReadReason(request.body);
+  if (!reason) return Refuse(response, 400, reason.error().message);
+  const auto words = desk_.Tell(order, target, ReasonOf(access_.WhoIs(request), *reason));
+  if (!words) return Refuse(response, 503, words.error().message);
+  commands_.Count(order, *words);
+  if (target.whom == NowWhom::kAll)
+    return Answer(response, 200, fmt::format("{{\"robots\": {}}}", fleet::WordsJson(*words)));
+  Answer(response, StatusOf(words->front()), fleet::WordJson(words->front()));
+}
+
+void Web::ServeMissions() {
+  ServeHistory(server_, desk_);
+  server_.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/missions",
+               [this](const Request& request, Response& response) {
+                 Send(request.matches[1], request, response);
+               });
+}
+
+void Web::Send(const std::string& robot, const Request& request, Response& response) {
+  const auto body = ReadSend(request.body);
+  if (!body) return Refuse(response, 400, body.error().message);
+  const auto report = desk_.Send({.agent = AgentId(robot),
+                                  .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
+                                  .orders = body->orders,
+                                  .valid_for_s = body->valid_s,
+                                  .goes_on = body->goes_on});
+  if (!report) return Refuse(response, 504, report.error().message);
+  const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
+  Answer(response, taken ? 200 : 409, fleet::ReportJson(*report));
+}
+
+}  // namespace trailcast::console

@@ -1,0 +1,146 @@
+#include "services/dds/src/domain/domain_config.h"
+
+#include "services/base/ids.h"
+#include "services/dds/src/domain/cyclone_uri.h"
+#include "services/security/folder_layout.h"
+
+namespace trailcast::dds {
+namespace {
+
+// Measured (tests/bench/README.md, "Routes over bad networks"): a route at 5 % packet loss takes a
+// third to a half of the time with packets that fit an Ethernet frame (larger ones are lost with
+// any of their fragments, and cost a tenth less where nothing is lost), heartbeats after 20 ms
+// instead of 100 (what was lost last is noticed by them), and a NACK after 10 ms instead of 100.
+// Samples above 2 MB cannot be ours: they are not even put together. Watermarks: a writer waits
+// with more than 30 kB unacknowledged, so that a full batch of segments (48 kB) goes out when the
+// one before has arrived. So links take segments as fast as they can and no faster: with 4 MB a
+// link of 1 Mbit/s, whose queue then overflows, does not deliver 1 MB within a minute. The price:
+// who is killed while segments are on their way to it keeps them from the others until its lease
+// ends. Not adaptive: that falls with every loss.
+constexpr const char* kDefaults =
+    "<CycloneDDS><Domain><Internal>"
+    "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
+    "<NackDelay>10ms</NackDelay>"
+    "<MaxSampleSize>2MB</MaxSampleSize>"
+    "<WriteBatch>true</WriteBatch>"  // Writer::Write sends at once all the same
+    "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>30kB</WhcHigh>"
+    "<WhcHighInit>30kB</WhcHighInit></Watermarks>"
+    "</Internal></Domain></CycloneDDS>";
+// In a star and at its centre (tests/bench/README.md, "Many agents at once"). A server's heartbeats
+// go to all agents that are there as long as one of them has not confirmed what it wrote, and each
+// answers them: rarer ones, and rarer answers. Of those who send little rarer still: a server that
+// a thousand of them join is behind for some seconds, and would be asked again and again.
+// (What a fetch waits for is told again sooner: reminders.h.)
+constexpr const char* kStar =
+    "<CycloneDDS><Domain><Internal>"
+    "<HeartbeatInterval min=\"5ms\" minsched=\"20ms\" max=\"8s\">100ms</HeartbeatInterval>"
+    "<AckDelay>200ms</AckDelay>"
+    "</Internal></Domain></CycloneDDS>";
+constexpr const char* kSendsLittle =
+    "<CycloneDDS><Domain><Internal>"
+    "<HeartbeatInterval min=\"5ms\" minsched=\"100ms\" max=\"8s\">500ms</HeartbeatInterval>"
+    "</Internal></Domain></CycloneDDS>";
+// On an interface that was chosen; on others Cyclone decides for itself. The environment may forbid
+// it.
+constexpr const char* kMulticast =
+    "<CycloneDDS><Domain><General><AllowMulticast>true</AllowMulticast></General></Domain>"
+    "</CycloneDDS>";
+// The loopback interface has frames of 64 kB and loses nothing: there larger packets take a quarter
+// of the time.
+constexpr const char* kFrameSized =
+    "<CycloneDDS><Domain><General><MaxMessageSize>1400B</MaxMessageSize></General></Domain>"
+    "</CycloneDDS>";
+
+// The plug-ins come with Cyclone, which finds them by these names.
+constexpr const char* kSecurity =
+    "<CycloneDDS><Domain><Security>"
+    "<Authentication>"
+    "<Library path=\"dds_security_auth\" initFunction=\"init_authentication\" "
+    "finalizeFunction=\"finalize_authentication\"/>"
+    "<IdentityCA>file:{folder}/{authority}</IdentityCA>"
+    "<CRL>data:,{revoked}</CRL>"
+    "<IdentityCertificate>file:{folder}/{identity}</IdentityCertificate>"
+    "<PrivateKey>file:{folder}/{key}</PrivateKey>"
+    "</Authentication>"
+    "<Cryptographic><Library path=\"dds_security_crypto\" initFunction=\"init_crypto\" "
+    "finalizeFunction=\"finalize_crypto\"/></Cryptographic>"
+    "<AccessControl>"
+    "<Library path=\"dds_security_ac\" initFunction=\"init_access_control\" "
+    "finalizeFunction=\"finalize_access_control\"/>"
+    "<PermissionsCA>file:{folder}/{authority}</PermissionsCA>"
+    "<Governance>file:{folder}/{governance}</Governance>"
+    "<Permissions>file:{folder}/{permissions}</Permissions>"
+    "</AccessControl>"
+    "</Security></Domain></CycloneDDS>";
+
+Result<std::string> SecurityConfig(const security::MemberKeys& keys) {
+  const std::string folder = keys.folder.string();
+  if (folder.find_first_of("<>&$,") != std::string::npos) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the keys' folder {} has one of < > & $ , in its name, which DDS does not take: "
+                "give it another",
+                folder);
+  }
+  return fmt::format(
+      kSecurity, fmt::arg("folder", folder), fmt::arg("authority", security::kAuthorityFile),
+      fmt::arg("revoked", keys.revoked.text), fmt::arg("identity", security::kIdentityFile),
+      fmt::arg("key", security::kIdentityKeyFile),
+      fmt::arg("governance", security::kGovernanceFile),
+      fmt::arg("permissions", security::kPermissionsFile));
+}
+
+}  // namespace
+
+Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeting,
+                                 const std::string& cyclonedds_uri) {
+  constexpr std::uint32_t kMaxDomainId = 230;  // beyond, port numbers run out
+  if (options.domain_id > kMaxDomainId) {
+    return Fail(ErrorCode::kInvalidArgument, "DDS domain id {} is above {}", options.domain_id,
+                kMaxDomainId);
+  }
+  std::string discovery = fmt::format("<ExternalDomainId>{}</ExternalDomainId>", options.domain_id);
+  if (!options.discovery_tag.empty()) {
+    if (!IsValidName(options.discovery_tag)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "DDS discovery tag is not 1 to 64 of letters, digits, '_', '.', '-'");
+    }
+    discovery += fmt::format("<Tag>{}</Tag>", options.discovery_tag);
+  }
+  std::string general;
+  if (!options.network_interface.empty()) {
+    if (!IsValidName(options.network_interface)) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  "\"{}\" is not the name of a network interface; `ip link` lists them",
+                  options.network_interface);
+    }
+  }
+  // Named in both places it would be there twice, which Cyclone refuses.
+  if (!options.network_interface.empty() &&
+      !ChoosesInterface(UriXml(cyclonedds_uri), options.network_interface)) {
+    // Forced: the loopback interface does multicast although it does not say so.
+    general = fmt::format(
+        "<General><Interfaces>"
+        "<NetworkInterface name=\"{}\" multicast=\"true\"/></Interfaces></General>",
+        options.network_interface);
+  }
+  std::string config = kDefaults;
+  if (meeting.star || options.serves) config += std::string(",") + kStar;
+  if (meeting.star && !meeting.sends_much) config += std::string(",") + kSendsLittle;
+  if (options.network_interface != "lo") config += std::string(",") + kFrameSized;
+  if (!options.network_interface.empty()) config += std::string(",") + kMulticast;
+  if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
+  config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
+                        general, discovery);
+  const auto meet = DiscoveryConfig(options, meeting);
+  if (!meet) return meet;
+  config += "," + *meet;
+  if (options.keys) {
+    const auto secured = SecurityConfig(*options.keys);
+    if (!secured) return secured;
+    config += "," + *secured;
+  }
+  if (!options.extra_config_xml.empty()) config += "," + options.extra_config_xml;
+  return config;
+}
+
+}  // namespace trailcast::dds

@@ -1,0 +1,197 @@
+#include "services/lab/trial/align/align.h"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "services/image/files.h"
+#include "services/lab/trial/align/src/alignment_path.h"
+#include "services/lab/trial/align/src/camera_mask.h"
+#include "services/lab/trial/align/src/feature_file.h"
+#include "services/lab/trial/align/src/scene_match.h"
+#include "services/lab/trial/recording/ordered_frames.h"
+
+namespace trailcast::trial {
+namespace {
+
+// How far from the place last held a long recording's pictures are compared, in taught pictures.
+constexpr int kBack = 6;
+constexpr int kOn = 14;
+constexpr int kLostAfter = 4;     // pictures in a row that agree with nothing near
+constexpr int kSearchStride = 4;  // of the taught pictures, when all over the route
+
+Error Ended() { return {ErrorCode::kUnavailable, "interrupted"}; }
+
+// Calls `use` with every so many frames of a recording.
+Result<void> ForEvery(const std::filesystem::path& recording, int every,
+                      const std::function<Result<void>(const image::GrayImage&, int)>& use) {
+  auto frames = image::FrameSequence::Open(recording);
+  if (!frames) return tl::unexpected(frames.error());
+  for (int number = 0;; ++number) {
+    const auto frame = (*frames)->Next();
+    if (!frame) return tl::unexpected(frame.error());
+    if (!*frame) return {};
+    if (number % every != 0) continue;
+    if (auto used = use(**frame, number); !used) return used;
+  }
+}
+
+// The features of a recording, after a first look for what of it is the camera's own.
+Result<FeatureFile> Describe(const std::filesystem::path& recording, int every, const char* doing,
+                             const AlignProgress& on_progress) {
+  const auto count = CountFrames(recording);
+  if (!count) return tl::unexpected(count.error());
+  CameraMask mask;
+  auto looked = ForEvery(recording, every, [&](const image::GrayImage& frame, int) -> Result<void> {
+    mask.Add(frame);
+    return {};
+  });
+  if (!looked) return tl::unexpected(looked.error());
+  const image::GrayImage own = mask.Find();
+  auto file = FeatureFile::Make();
+  if (!file) return file;
+  const auto described =
+      ForEvery(recording, every, [&](const image::GrayImage& frame, int number) -> Result<void> {
+        if (!on_progress(doing, static_cast<double>(number) / *count)) {
+          return tl::unexpected(Ended());
+        }
+        return file->Append(FindSceneFeatures(frame, own));
+      });
+  if (!described) return tl::unexpected(described.error());
+  return file;
+}
+
+class Aligner {
+ public:
+  Aligner(const FeatureFile& teach, const FeatureFile& replay, const AlignOptions& options)
+      : teach_(teach), replay_(replay), options_(options) {}
+
+  Result<Reference> Run(const AlignProgress& on_progress) {
+    for (std::size_t row = 0; row < replay_.size(); ++row) {
+      const double share = static_cast<double>(row) / static_cast<double>(replay_.size());
+      if (!on_progress("comparing", share)) return tl::unexpected(Ended());
+      auto scene = replay_.Read(row);
+      if (!scene) return tl::unexpected(scene.error());
+      if (auto compared = Compare(*scene); !compared) return tl::unexpected(compared.error());
+    }
+    return Tell();
+  }
+
+ private:
+  [[nodiscard]] int taught() const { return static_cast<int>(teach_.size()); }
+  [[nodiscard]] bool small() const { return teach_.size() * replay_.size() <= options_.most_pairs; }
+
+  Result<void> Compare(const SceneFeatures& scene) {
+    std::vector<int> near = Stretch(0, taught(), 1);
+    if (!small()) {
+      near = path_begun_ ? Stretch(path_.Best().teach - kBack, path_.Best().teach + kOn + 1, 1)
+                         : std::vector<int>();
+    }
+    auto candidates = Match(scene, near);
+    if (!candidates) return tl::unexpected(candidates.error());
+    const int best = Most(*candidates);
+    unheld_ = best >= options_.good_inliers ? 0 : unheld_ + 1;
+    if (!small() && (!path_begun_ || unheld_ % kLostAfter == kLostAfter - 1)) {
+      if (auto searched = SearchAll(scene, *candidates); !searched) return searched;
+    }
+    path_.Add(*candidates);
+    path_begun_ = true;
+    return {};
+  }
+
+  // Adds candidates from all over the route, and all beside the best of them.
+  Result<void> SearchAll(const SceneFeatures& scene, std::vector<Candidate>& candidates) {
+    auto far = Match(scene, Stretch(0, taught(), kSearchStride));
+    if (!far) return tl::unexpected(far.error());
+    const auto best = std::max_element(
+        far->begin(), far->end(),
+        [](const Candidate& a, const Candidate& b) { return a.inliers < b.inliers; });
+    auto beside =
+        Match(scene, Stretch(best->teach - kSearchStride + 1, best->teach + kSearchStride, 1));
+    if (!beside) return tl::unexpected(beside.error());
+    candidates.insert(candidates.end(), far->begin(), far->end());
+    candidates.insert(candidates.end(), beside->begin(), beside->end());
+    return {};
+  }
+
+  [[nodiscard]] std::vector<int> Stretch(int from, int to, int stride) const {
+    std::vector<int> numbers;
+    for (int i = std::max(0, from); i < std::min(to, taught()); i += stride) numbers.push_back(i);
+    return numbers;
+  }
+
+  static int Most(const std::vector<Candidate>& candidates) {
+    int most = 0;
+    for (const Candidate& candidate : candidates) most = std::max(most, candidate.inliers);
+    return most;
+  }
+
+  // Compares with those, on all threads.
+  Result<std::vector<Candidate>> Match(const SceneFeatures& scene, const std::vector<int>& with) {
+    std::vector<Candidate> candidates(with.size());
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> failed{false};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < with.size() && !failed; i = next++) {
+        const auto taught_scene = teach_.Read(static_cast<std::size_t>(with[i]));
+        if (!taught_scene) {
+          failed = true;
+          return;
+        }
+        candidates[i] = {with[i], MatchScenes(*taught_scene, scene).inliers};
+      }
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (int i = 1; i < options_.jobs; ++i) threads.emplace_back(work);
+      work();
+    }
+    if (failed) return Fail(ErrorCode::kUnavailable, "cannot read the temporary file of features");
+    return candidates;
+  }
+
+  // The best way, and how far aside features lie on it.
+  Result<Reference> Tell() const {
+    Reference reference;
+    const std::vector<Candidate> trace = path_.Trace();
+    for (std::size_t row = 0; row < trace.size(); ++row) {
+      const auto taught_scene = teach_.Read(static_cast<std::size_t>(trace[row].teach));
+      const auto scene = replay_.Read(row);
+      if (!taught_scene || !scene) {
+        return tl::unexpected(taught_scene ? scene.error() : taught_scene.error());
+      }
+      const SceneMatch match = MatchScenes(*taught_scene, *scene);
+      reference.push_back({static_cast<int>(row) * options_.every,
+                           trace[row].teach * options_.teach_every, match.inliers,
+                           match.median_du_px, match.inliers >= options_.good_inliers});
+    }
+    return reference;
+  }
+
+  const FeatureFile& teach_;
+  const FeatureFile& replay_;
+  const AlignOptions& options_;
+  AlignmentPath path_;
+  bool path_begun_ = false;
+  int unheld_ = 0;  // pictures in a row that nothing near agreed with
+};
+
+}  // namespace
+
+Result<Reference> Align(const std::filesystem::path& teach, const std::filesystem::path& replay,
+                        const AlignOptions& options, const AlignProgress& on_progress) {
+  const auto taught =
+      Describe(teach, options.teach_every, "looking at the taught one", on_progress);
+  if (!taught) return tl::unexpected(taught.error());
+  const auto replayed = Describe(replay, options.every, "looking at the replayed one", on_progress);
+  if (!replayed) return tl::unexpected(replayed.error());
+  if (taught->size() == 0 || replayed->size() == 0) {
+    return Fail(ErrorCode::kInvalidArgument, "there is no frame to align");
+  }
+  return Aligner(*taught, *replayed, options).Run(on_progress);
+}
+
+}  // namespace trailcast::trial

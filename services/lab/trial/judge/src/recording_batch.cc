@@ -1,0 +1,158 @@
+#include "services/lab/trial/judge/recording_batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "services/lab/trial/judge/src/recording_visits.h"
+#include "services/lab/trial/trial_setup.h"
+
+namespace trailcast::trial {
+namespace {
+
+// Of a pair's work, done when it is taught, and when it is known what the route itself asks for.
+constexpr double kTaughtShare = 0.1;  // and not yet visited
+constexpr double kTeachShare = 0.2;
+constexpr double kOwnShare = 0.5;
+
+// What the threads share: which pair is next, what was taught, what has come of the others.
+class Batch {
+ public:
+  Batch(const std::vector<RecordingPair>& pairs, const RecordingOptions& options,
+        const RecordingProgress& on_progress)
+      : pairs_(pairs),
+        options_(options),
+        on_progress_(on_progress),
+        outcomes_(pairs.size()),
+        shares_(pairs.size(), 0.0) {}
+
+  // A thread's work: pairs, until none is left or one could not be run at all.
+  void Work() {
+    while (!broken_) {
+      const std::size_t index = next_.fetch_add(1);
+      if (index >= pairs_.size()) return;
+      Result<RecordingOutcome> outcome = Run(index);
+      if (!outcome) broken_ = true;
+      const std::scoped_lock lock(mutex_);
+      outcomes_[index].emplace(std::move(outcome));
+      ++ended_;
+      Tell(index, 1.0);
+    }
+  }
+
+  Result<std::vector<RecordingOutcome>> Take() {
+    std::vector<RecordingOutcome> taken;
+    for (std::optional<Result<RecordingOutcome>>& outcome : outcomes_) {
+      if (!outcome) continue;  // never begun, after another one's error
+      if (!*outcome) return tl::unexpected(outcome->error());
+      taken.push_back(std::move(**outcome));
+    }
+    return taken;
+  }
+
+ private:
+  // What all replays on one recording share; each part is made by whoever needs it first.
+  struct Teaching {
+    std::once_flag taught_once;
+    Result<TaughtRecording> taught = Fail(ErrorCode::kInternal, "not taught yet");
+    std::once_flag own_once;
+    Result<std::vector<std::optional<double>>> own_turns_rad;
+  };
+
+  Result<RecordingOutcome> Run(std::size_t index) {
+    const RecordingPair& pair = pairs_[index];
+    Teaching& teaching = TeachingOf(pair);
+    std::call_once(teaching.taught_once, [&] {
+      teaching.taught = TeachRecording(pair.teach, TeachingFor(options_.method),
+                                       Telling(index, 0.0, kTaughtShare));
+      if (!teaching.taught || pair.visits.empty()) return;
+      const auto visited =
+          VisitRoute(pair, options_, Telling(index, kTaughtShare, kTeachShare), *teaching.taught);
+      if (!visited) teaching.taught = tl::unexpected(visited.error());
+    });
+    if (!teaching.taught) {
+      return Wrap(teaching.taught.error(), "teaching " + pair.teach.frames.string());
+    }
+    const bool sided = pair.kind == PairKind::kRight && !pair.reference.empty();
+    if (sided) std::call_once(teaching.own_once, [&] { FindOwnTurns(index, teaching); });
+    if (!teaching.own_turns_rad) return tl::unexpected(teaching.own_turns_rad.error());
+    auto outcome = RunRecordingTrial(pair, *teaching.taught, *teaching.own_turns_rad, options_,
+                                     Telling(index, kOwnShare, 1.0));
+    if (!outcome) {
+      return Wrap(outcome.error(), fmt::format("{} on {}", pair.replay_name, pair.teach_name));
+    }
+    return outcome;
+  }
+
+  Teaching& TeachingOf(const RecordingPair& pair) {
+    const std::scoped_lock lock(mutex_);
+    std::string visits = pair.visits_disturbance;
+    for (const agent::RecordedRun& visit : pair.visits)
+      visits.append("+").append(visit.frames.string());
+    return teachings_[{pair.teach.frames, pair.teach.odometry, std::move(visits)}];
+  }
+
+  void FindOwnTurns(std::size_t index, Teaching& teaching) {
+    const RecordingPair& pair = pairs_[index];
+    RecordingPair identity;
+    identity.kind = PairKind::kIdentity;
+    identity.teach = identity.replay = pair.teach;
+    RecordingOptions options = options_;
+    options.logs.clear();
+    teaching.own_turns_rad = RunRecordingTrial(identity, *teaching.taught, {}, options,
+                                               Telling(index, kTeachShare, kOwnShare))
+                                 .map(OwnTurns);
+  }
+
+  // Tells a part of a pair's work as the shares from `from` to `to` of it.
+  std::function<void(double)> Telling(std::size_t index, double from, double to) {
+    return [this, index, from, to](double share) {
+      const std::scoped_lock lock(mutex_);
+      Tell(index, from + (to - from) * share);
+    };
+  }
+
+  // With the lock held.
+  void Tell(std::size_t index, double share) {
+    shares_[index] = share;
+    double sum = 0.0;
+    for (const double each : shares_) sum += each;
+    if (on_progress_) on_progress_(sum / static_cast<double>(shares_.size()), ended_);
+  }
+
+  const std::vector<RecordingPair>& pairs_;
+  const RecordingOptions& options_;
+  const RecordingProgress& on_progress_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> broken_{false};
+  std::mutex mutex_;  // guards what follows
+  // By the recording, its odometry, and who visits.
+  std::map<std::tuple<std::filesystem::path, std::filesystem::path, std::string>, Teaching>
+      teachings_;
+  std::vector<std::optional<Result<RecordingOutcome>>> outcomes_;
+  std::vector<double> shares_;
+  int ended_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<RecordingOutcome>> RunRecordingTrials(const std::vector<RecordingPair>& pairs,
+                                                         const RecordingOptions& options, int jobs,
+                                                         const RecordingProgress& on_progress) {
+  Batch batch(pairs, options, on_progress);
+  {
+    std::vector<std::jthread> threads;
+    const int count = std::clamp(jobs, 1, std::max(1, static_cast<int>(pairs.size())));
+    threads.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) threads.emplace_back([&] { batch.Work(); });
+  }
+  return batch.Take();
+}
+
+}  // namespace trailcast::trial

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/image/files.h"
+#include "services/lab/trial/recording/judge.h"
+
+namespace trailcast::trial {
+
+// How many frames a recording (a folder of pictures or a video) has. Videos are read for it.
+[[nodiscard]] Result<int> CountFrames(const std::filesystem::path& recording);
+
+// A recording's frames in another order. An order that goes forward is read as it is asked for; any
+// other keeps in memory what it shows.
+class OrderedFrames {
+ public:
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;  // kept in memory
+
+  // kInvalidArgument if more would have to be kept.
+  [[nodiscard]] static Result<OrderedFrames> Open(const std::filesystem::path& recording,
+                                                  std::vector<Shown> order);
+
+  // The next one, or nothing at the end of the order. Errors as FrameSequence's.
+  [[nodiscard]] Result<std::optional<image::GrayImage>> Next();
+
+  [[nodiscard]] const std::vector<Shown>& order() const { return order_; }
+
+ private:
+  OrderedFrames(std::unique_ptr<image::FrameSequence> frames, std::vector<Shown> order)
+      : frames_(std::move(frames)), order_(std::move(order)) {}
+  [[nodiscard]] Result<void> ReadOn(int frame);
+  [[nodiscard]] Result<void> KeepAll(const std::filesystem::path& recording);
+
+  std::unique_ptr<image::FrameSequence> frames_;
+  std::vector<Shown> order_;
+  std::size_t next_ = 0;                // in order_
+  int read_ = 0;                        // frames of the recording
+  image::GrayImage current_;            // the last one read
+  std::vector<image::GrayImage> kept_;  // by frame; empty pictures where none is shown
+};
+
+}  // namespace trailcast::trial

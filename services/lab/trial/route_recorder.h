@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agent/session/teach_session.h"
+#include "services/base/result.h"
+#include "services/lab/trial/recording/taught_frames.h"
+#include "services/route/route.h"
+#include "services/route/terrain_profile.h"
+
+namespace trailcast::trial {
+
+// A route as it travels.
+struct TaughtRoute {
+  route::RouteInfo info;
+  std::vector<route::SegmentPiece> pieces;
+  route::TerrainProfile ground{};
+};
+
+// Teaches a route for a trial, which is never stored or sent.
+class RouteRecorder {
+ public:
+  RouteRecorder(const std::string& name, const std::string& camera,
+                const agent::TeachOptions& options);
+
+  // Errors as TeachSession's.
+  [[nodiscard]] Result<void> Observe(const agent::Observation& seen);
+  // kUnavailable if nothing was seen that a segment could be made of.
+  [[nodiscard]] Result<TaughtRoute> Finish();
+  // Which of the frames observed each segment is made of; complete after Finish.
+  [[nodiscard]] const std::vector<FrameSpan>& spans() const { return spans_; }
+
+ private:
+  void Keep(const std::optional<route::Segment>& segment, int last_frame);
+
+  vision::IntakeOptions intake_;
+  agent::TeachSession session_;
+  TaughtRoute taught_;
+  int frames_ = 0;
+  std::optional<int> began_;  // the frame with which the segment under way did
+  std::vector<FrameSpan> spans_;
+};
+
+}  // namespace trailcast::trial

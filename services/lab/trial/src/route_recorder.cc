@@ -1,0 +1,56 @@
+#include "services/lab/trial/route_recorder.h"
+
+#include <utility>
+
+#include "services/route/digest.h"
+
+namespace trailcast::trial {
+
+RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
+                             const agent::TeachOptions& options)
+    : intake_(options.intake), session_(options) {
+  // It needs no id that differs from others'.
+  taught_.info.key = {RouteId("00000000000000000000000000000000"), TeachingId(1)};
+  taught_.info.name = name;
+  taught_.info.scout = AgentId("scout");
+  taught_.info.camera = camera;
+}
+
+Result<void> RouteRecorder::Observe(const agent::Observation& seen) {
+  if (frames_ == 0) {
+    const auto size = vision::WorkingSize({seen.image.width, seen.image.height}, intake_);
+    taught_.info.image_width_px = size.width;
+    taught_.info.image_height_px = size.height;
+  }
+  const auto step = session_.Observe(seen);
+  if (!step) return tl::unexpected(step.error());
+  Keep(step->finished, frames_);
+  // With odometry a segment is under way even where there is nothing to see.
+  const bool under_way = !step->too_few_features || seen.odometry.has_value();
+  if (!began_ && under_way) began_ = frames_;
+  ++frames_;
+  return {};
+}
+
+Result<TaughtRoute> RouteRecorder::Finish() {
+  Keep(session_.Finish(), frames_ - 1);
+  if (taught_.pieces.empty()) {
+    return Fail(ErrorCode::kUnavailable,
+                "teaching gave no segment: the scout's camera saw nothing to hold on to");
+  }
+  taught_.info.state = route::RouteState::kComplete;
+  return std::move(taught_);
+}
+
+void RouteRecorder::Keep(const std::optional<route::Segment>& segment, int last_frame) {
+  if (!segment) return;
+  taught_.pieces.push_back(route::MakePiece(taught_.info.key, *segment));
+  taught_.ground.Add(*segment);
+  taught_.info.segment_count += 1;
+  taught_.info.length_m += segment->length_m;
+  taught_.info.bytes += taught_.pieces.back().bytes.size();
+  spans_.push_back({began_.value_or(last_frame), last_frame});
+  began_.reset();
+}
+
+}  // namespace trailcast::trial

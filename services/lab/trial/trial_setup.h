@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/session/replay_method.h"
+#include "agent/session/teach_session.h"
+#include "services/base/result.h"
+#include "services/lab/sim/core/camera.h"
+#include "services/lab/sim/core/disturbances.h"
+#include "services/lab/sim/core/path.h"
+#include "services/lab/sim/core/world.h"
+#include "services/lab/sim/places/place.h"
+#include "services/lab/trial/spoiled_eyes.h"
+#include "services/lab/trial/trial_options.h"
+
+namespace trailcast::trial {
+
+// What differs between the trials of one scenario, but for the seed.
+struct TrialCase {
+  agent::ReplayMethod method = agent::ReplayMethod::kDefault;
+  sim::CameraModel scout_camera;
+  sim::CameraModel follower_camera;
+  double push_m = 0.0;  // to the left, half way; 0: none
+  bool through_server = false;
+  std::string flaw;  // of the follower, one of Flaws(); empty: none
+  int start = 0;     // the drawn place where it begins, from 1; 0: the path's beginning
+};
+
+// How a scout of that method teaches: as printed, segments end by the 50 % rule or at the length
+// that the paper's figures speak of, all of their features are kept, none added in the middle.
+[[nodiscard]] agent::TeachOptions TeachingFor(agent::ReplayMethod method);
+
+// Everything that the trials of one command have in common, read and checked.
+struct TrialSetup {
+  std::string scenario;  // its name, or the world file's without its extension
+  std::shared_ptr<const sim::World> world;
+  sim::DrivenPath path;
+  double speed_mps = 0.0;
+  sim::Disturbances follower;
+  bool backwards = false;                       // from the taught path's end to its beginning
+  int laps = 1;                                 // that each follower drives, one after the other
+  bool sun_moves = false;                       // between teaching and following
+  bool same_robot = false;                      // each follower is the scout that taught it
+  double scout_roll_deg = 0.0;                  // what they are told of their cameras
+  agent::ReplayMethodOptions follower_options;  // but for the method
+  // Who else is there, drawn from the robot's seed; nobody unless the scenario says so.
+  std::function<Result<sim::Actors>(sim::Role role, std::uint64_t seed)> actors =
+      [](sim::Role, std::uint64_t) { return sim::Actors{}; };
+  bool scanner = false;                 // followers have one
+  Spoiled spoiled = Spoiled::kNothing;  // of several visits, all but one more at the end
+  // The world after that share of the scenario's change; nothing: it does not change.
+  std::function<Result<std::shared_ptr<const sim::World>>(double share)> world_after{};
+  std::vector<TrialCase> cases;  // at least one
+};
+
+// Loads the world and looks up the names. Errors say which of them there are.
+[[nodiscard]] Result<TrialSetup> PrepareTrials(const TrialOptions& options);
+
+// The built-in ones.
+[[nodiscard]] std::vector<std::string> CameraNames();
+
+}  // namespace trailcast::trial

@@ -1,0 +1,374 @@
+#include "services/records/mission_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "services/mission/orders.h"
+#include "services/records/src/own_file.h"
+
+namespace trailcast::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `number` counts up in the order of arrival. A mission is found by each route that its orders
+// name.
+constexpr OwnFile kMissionFile{.id = 0x5452434D,  // "TRCM"
+                               .version = 1,
+                               .tables = R"(
+CREATE TABLE mission (
+  number INTEGER PRIMARY KEY,
+  agent TEXT NOT NULL,
+  id TEXT NOT NULL,
+  client TEXT NOT NULL,
+  orders TEXT NOT NULL,
+  valid_for_s INTEGER NOT NULL,
+  goes_on INTEGER NOT NULL,
+  sent_unix_ms INTEGER NOT NULL,
+  change INTEGER NOT NULL,
+  state INTEGER NOT NULL,
+  task INTEGER NOT NULL,
+  detail TEXT NOT NULL,
+  changed_unix_ms INTEGER NOT NULL,
+  UNIQUE (agent, id)
+) STRICT;
+CREATE INDEX mission_unanswered ON mission (number) WHERE state = 0;
+CREATE TABLE mission_route (
+  number INTEGER NOT NULL,
+  route TEXT NOT NULL,
+  PRIMARY KEY (route, number)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE command (
+  number INTEGER PRIMARY KEY,
+  client TEXT NOT NULL,
+  drawn INTEGER NOT NULL,
+  order_given INTEGER NOT NULL,
+  whom INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  reason TEXT NOT NULL,
+  given_unix_ms INTEGER NOT NULL,
+  UNIQUE (client, drawn)
+) STRICT;
+CREATE TABLE answer (
+  client TEXT NOT NULL,
+  drawn INTEGER NOT NULL,
+  agent TEXT NOT NULL,
+  refused INTEGER NOT NULL,
+  detail TEXT NOT NULL,
+  PRIMARY KEY (client, drawn, agent)
+) STRICT, WITHOUT ROWID;
+)",
+                               .holds = "missions",
+                               .called = "mission store"};
+
+constexpr const char* kColumns =
+    "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, detail, "
+    "changed_unix_ms, number";
+constexpr int kNumberColumn = 12;
+
+mission::Record RecordIn(SQLite::Statement& row) {
+  const auto small = [&](int column) {
+    return static_cast<std::uint32_t>(row.getColumn(column).getInt64());
+  };
+  mission::Record record;
+  record.mission = {.agent = AgentId(row.getColumn(0).getString()),
+                    .id = row.getColumn(1).getString(),
+                    .client = AgentId(row.getColumn(2).getString()),
+                    .orders = row.getColumn(3).getString(),
+                    .valid_for_s = small(4),
+                    .goes_on = small(5) != 0};
+  record.sent_unix_ms = row.getColumn(6).getInt64();
+  record.last = {
+      .agent = record.mission.agent,
+      .mission = record.mission.id,
+      .change = small(7),
+      .state = static_cast<mission::State>(std::min<std::uint32_t>(small(8), mission::kStates - 1)),
+      .task = small(9),
+      .detail = row.getColumn(10).getString()};
+  record.changed_unix_ms = row.getColumn(11).getInt64();
+  return record;
+}
+
+// The number that all on the page are below.
+std::int64_t Before(const mission::Query& query) {
+  const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(query.before == 0 ? most : std::min(query.before, most));
+}
+
+mission::GivenCommand CommandIn(SQLite::Statement& row) {
+  return {.command = {.client = AgentId(row.getColumn(0).getString()),
+                      .number = static_cast<std::uint64_t>(row.getColumn(1).getInt64()),
+                      .order = static_cast<mission::NowOrder>(row.getColumn(2).getInt()),
+                      .whom = static_cast<mission::NowWhom>(row.getColumn(3).getInt()),
+                      .name = row.getColumn(4).getString(),
+                      .reason = row.getColumn(5).getString()},
+          .answers = {},
+          .given_unix_ms = row.getColumn(6).getInt64()};
+}
+
+// "2, 6, 7": as SQL has a list.
+std::string EndedStates() {
+  std::string list;
+  for (std::uint8_t state = 0; state < mission::kStates; ++state) {
+    if (!mission::HasEnded(static_cast<mission::State>(state))) continue;
+    list += (list.empty() ? "" : ", ") + std::to_string(state);
+  }
+  return list;
+}
+
+}  // namespace
+
+struct MissionStore::Database : OwnDatabase {
+  Database(const fs::path& file, std::int64_t most)
+      : OwnDatabase(file, kMissionFile), most_kept(most) {}
+
+  std::optional<mission::Record> Get(const AgentId& agent, const std::string& id) {
+    auto select = compiled.Take(std::string("SELECT ") + kColumns +
+                                " FROM mission WHERE agent = ?1 AND id = ?2");
+    select->bind(1, agent.value());
+    select->bind(2, id);
+    if (!select->executeStep()) return std::nullopt;
+    return RecordIn(*select);
+  }
+
+  void Insert(const mission::Mission& mission, std::int64_t now_unix_ms) {
+    auto insert = compiled.Take(
+        "INSERT INTO mission (agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, "
+        "change, state, task, detail, changed_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, 0, 0, "
+        "0, '', ?7)");
+    insert->bind(1, mission.agent.value());
+    insert->bind(2, mission.id);
+    insert->bind(3, mission.client.value());
+    insert->bind(4, mission.orders);
+    insert->bind(5, static_cast<std::int64_t>(mission.valid_for_s));
+    insert->bind(6, mission.goes_on ? 1 : 0);
+    insert->bind(7, now_unix_ms);
+    insert->exec();
+    NameRoutes(db.getLastInsertRowid(), mission.orders);
+  }
+
+  void NameRoutes(std::int64_t number, const std::string& orders) {
+    for (const std::string& route : mission::RoutesIn(orders)) {
+      auto name =
+          compiled.Take("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)");
+      name->bind(1, number);
+      name->bind(2, route);
+      name->exec();
+    }
+  }
+
+  std::vector<mission::NowAnswer> AnswersTo(const mission::NowCommand& command) {
+    auto select = compiled.Take(
+        "SELECT agent, refused, detail FROM answer WHERE client = ?1 AND drawn = ?2 ORDER BY agent "
+        "LIMIT 64");
+    select->bind(1, command.client.value());
+    select->bind(2, static_cast<std::int64_t>(command.number));
+    std::vector<mission::NowAnswer> answers;
+    while (select->executeStep()) {
+      answers.push_back({.agent = AgentId(select->getColumn(0).getString()),
+                         .client = command.client,
+                         .number = command.number,
+                         .refused = select->getColumn(1).getInt() != 0,
+                         .detail = select->getColumn(2).getString()});
+    }
+    return answers;
+  }
+
+  // Now and then, since looking for the oldest is not free.
+  void Thin() {
+    if (++since_thinned_ <= most_kept / 100) return;
+    since_thinned_ = 0;
+    const std::string kept = std::to_string(most_kept);
+    db.exec("DELETE FROM mission WHERE state IN (" + EndedStates() +
+            ") AND number <= (SELECT max(number) FROM mission) - " + kept);
+    db.exec("DELETE FROM mission_route WHERE number NOT IN (SELECT number FROM mission)");
+    db.exec("DELETE FROM command WHERE number <= (SELECT max(number) FROM command) - " + kept);
+    db.exec(
+        "DELETE FROM answer WHERE NOT EXISTS (SELECT 1 FROM command WHERE command.client = "
+        "answer.client AND command.drawn = answer.drawn)");
+  }
+
+  std::int64_t since_thinned_ = 0;
+  std::int64_t most_kept;
+};
+
+MissionStore::MissionStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+MissionStore::~MissionStore() = default;
+
+Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
+                                                         std::int64_t most_kept) {
+  using Opened = Result<std::unique_ptr<MissionStore>>;
+  return OwnDatabase::Guard(file, kMissionFile, "opening it", [&]() -> Opened {
+    return std::unique_ptr<MissionStore>(
+        new MissionStore(std::make_unique<Database>(file, most_kept)));
+  });
+}
+
+Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
+                                          std::int64_t now_unix_ms) {
+  return database_->Guarded("storing mission " + mission.id, [&]() -> Result<mission::Record> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
+    if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
+      return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already", kMostUnanswered);
+    }
+    database_->Insert(mission, now_unix_ms);
+    database_->Thin();
+    transaction.commit();
+    return database_->Get(mission.agent, mission.id).value();
+  });
+}
+
+Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
+                                 const std::string& orders) {
+  return database_->Guarded("storing other orders of mission " + id, [&]() -> Result<bool> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto update = database_->compiled.Take(
+        "UPDATE mission SET orders = ?3 WHERE agent = ?1 AND id = ?2 RETURNING number");
+    update->bind(1, agent.value());
+    update->bind(2, id);
+    update->bind(3, orders);
+    if (!update->executeStep()) return false;
+    const std::int64_t number = update->getColumn(0).getInt64();
+    while (update->executeStep()) continue;
+    database_->NameRoutes(number, orders);
+    transaction.commit();
+    return true;
+  });
+}
+
+Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t now_unix_ms) {
+  return database_->Guarded("storing what became of mission " + report.mission,
+                            [&]() -> Result<bool> {
+                              // A server's own word (0) counts until the robot's does.
+                              auto update = database_->compiled.Take(
+                                  "UPDATE mission SET change = ?3, state = ?4, task = ?5, detail = "
+                                  "?6, changed_unix_ms = ?7 "
+                                  "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
+                                  "change = 0 AND state = 0))");
+                              update->bind(1, report.agent.value());
+                              update->bind(2, report.mission);
+                              update->bind(3, static_cast<std::int64_t>(report.change));
+                              update->bind(4, static_cast<int>(report.state));
+                              update->bind(5, static_cast<std::int64_t>(report.task));
+                              update->bind(6, report.detail);
+                              update->bind(7, now_unix_ms);
+                              return update->exec() > 0;
+                            });
+}
+
+Result<std::vector<mission::Record>> MissionStore::Unanswered() {
+  return database_->Guarded("reading missions", [&]() -> Result<std::vector<mission::Record>> {
+    std::vector<mission::Record> missions;
+    auto select = database_->compiled.Take(std::string("SELECT ") + kColumns +
+                                           " FROM mission WHERE state = 0 ORDER BY number");
+    while (select->executeStep()) missions.push_back(RecordIn(*select));
+    return missions;
+  });
+}
+
+Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
+  return database_->Guarded("looking missions up", [&]() -> Result<Page> {
+    auto select = database_->compiled.Take(
+        std::string("SELECT ") + kColumns +
+        " FROM mission WHERE number < ?1 AND (?2 = '' OR agent = ?2) AND (?3 = '' OR id = ?3) AND "
+        "(?4 = '' OR client = ?4 OR client GLOB ?4 || '-p*') AND (?5 = 0 OR (1 << state) & ?5) AND "
+        "sent_unix_ms >= ?6 AND (?7 = 0 OR sent_unix_ms < ?7) AND (?8 = '' OR EXISTS (SELECT 1 "
+        "FROM mission_route WHERE route = ?8 AND mission_route.number = mission.number)) ORDER BY "
+        "number DESC LIMIT ?9");
+    select->bind(1, Before(query));
+    select->bind(2, query.agent);
+    select->bind(3, query.id);
+    select->bind(4, query.client);
+    select->bind(5, static_cast<std::int64_t>(query.states));
+    select->bind(6, query.from_unix_ms);
+    select->bind(7, query.until_unix_ms);
+    select->bind(8, query.route);
+    select->bind(9, static_cast<std::int64_t>(query.page_size) + 1);
+    Page page;
+    std::uint64_t last_number = 0;
+    while (select->executeStep()) {
+      if (page.missions.size() == query.page_size) {
+        page.next = last_number;
+        break;
+      }
+      page.missions.push_back(RecordIn(*select));
+      last_number = static_cast<std::uint64_t>(select->getColumn(kNumberColumn).getInt64());
+    }
+    return page;
+  });
+}
+
+Result<void> MissionStore::Add(const mission::NowCommand& command, std::int64_t now_unix_ms) {
+  return database_->Guarded("storing a command", [&]() -> Result<void> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    auto insert = database_->compiled.Take(
+        "INSERT OR IGNORE INTO command (client, drawn, order_given, whom, name, reason, "
+        "given_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
+    insert->bind(1, command.client.value());
+    insert->bind(2, static_cast<std::int64_t>(command.number));
+    insert->bind(3, static_cast<int>(command.order));
+    insert->bind(4, static_cast<int>(command.whom));
+    insert->bind(5, command.name);
+    insert->bind(6, command.reason);
+    insert->bind(7, now_unix_ms);
+    insert->exec();
+    database_->Thin();
+    transaction.commit();
+    return {};
+  });
+}
+
+Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
+  return database_->Guarded("storing an answer", [&]() -> Result<void> {
+    auto insert = database_->compiled.Take(
+        "INSERT OR IGNORE INTO answer (client, drawn, agent, refused, detail) SELECT ?1, ?2, ?3, "
+        "?4, ?5 WHERE EXISTS (SELECT 1 FROM command WHERE client = ?1 AND drawn = ?2)");
+    insert->bind(1, answer.client.value());
+    insert->bind(2, static_cast<std::int64_t>(answer.number));
+    insert->bind(3, answer.agent.value());
+    insert->bind(4, answer.refused ? 1 : 0);
+    insert->bind(5, answer.detail);
+    insert->exec();
+    return {};
+  });
+}
+
+Result<MissionStore::CommandPage> MissionStore::FindCommands(const mission::Query& query) {
+  return database_->Guarded("looking commands up", [&]() -> Result<CommandPage> {
+    auto select = database_->compiled.Take(
+        "SELECT client, drawn, order_given, whom, name, reason, given_unix_ms, number FROM command "
+        "WHERE number < ?1 AND (?2 = '' OR (whom = 0 AND name = ?2) OR EXISTS (SELECT 1 FROM "
+        "answer WHERE answer.client = command.client AND answer.drawn = command.drawn AND agent = "
+        "?2)) AND (?3 = '' OR (whom = 1 AND name = ?3)) AND (?4 = '' OR client = ?4 OR client GLOB "
+        "?4 || '-p*') AND given_unix_ms >= ?5 AND (?6 = 0 OR given_unix_ms < ?6) ORDER BY number "
+        "DESC LIMIT ?7");
+    select->bind(1, Before(query));
+    select->bind(2, query.agent);
+    select->bind(3, query.route);
+    select->bind(4, query.client);
+    select->bind(5, query.from_unix_ms);
+    select->bind(6, query.until_unix_ms);
+    select->bind(7, static_cast<std::int64_t>(query.page_size) + 1);
+    CommandPage page;
+    std::uint64_t last_number = 0;
+    while (select->executeStep()) {
+      if (page.commands.size() == query.page_size) {
+        page.next = last_number;
+        break;
+      }
+      page.commands.push_back(CommandIn(*select));
+      last_number = static_cast<std::uint64_t>(select->getColumn(7).getInt64());
+    }
+    for (mission::GivenCommand& given : page.commands) {
+      given.answers = database_->AnswersTo(given.command);
+    }
+    return page;
+  });
+}
+
+}  // namespace trailcast::store

@@ -1,0 +1,64 @@
+// `trailcast fleet`.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "services/base/time.h"
+#include "services/fleet/operator_peer.h"
+#include "services/fleet/robots_there.h"
+#include "services/program/stop_signal.h"
+#include "services/tool/commands/command.h"
+
+namespace trailcast::tool {
+namespace {
+
+constexpr const char* kFleetExamples =
+    "Examples:\n"
+    "  trailcast fleet                        # robots that are heard, battery, radio, version\n"
+    "  trailcast fleet --json | jq '.[] | select(.battery_percent < 20).robot'\n"
+    "Exit status: 0; 1 nobody was heard; 2 wrong usage.";
+
+struct FleetOptions {
+  double listen_s = 3.0;
+  bool json = false;
+};
+
+int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOptions& options) {
+  program::CommonOptions network = common;
+  // In a star robots are heard by servers alone.
+  if (network.discovery == "auto") network.discovery = "mesh";
+  const program::StopSignal stop;
+  const auto peer =
+      fleet::JoinAsOperator(network, {.write = {}, .read = {exchange::Topic::kAgents}});
+  if (!peer) return program::Complain(app, peer.error());
+  fleet::RobotsThere robots;
+  const auto until = std::chrono::steady_clock::now() + ToMilliseconds(options.listen_s);
+  while (std::chrono::steady_clock::now() < until && !program::StopSignal::requested()) {
+    for (const exchange::Message& message : peer->exchange->Take(std::chrono::milliseconds(100))) {
+      robots.Hear(message);
+    }
+  }
+  std::fputs((options.json ? robots.Json() : robots.Text()).c_str(), stdout);
+  if (robots.size() > 0) return program::kExitOk;
+  std::fputs(
+      "no robot was heard: do its agent and this program have the same --domain and --dds-tag?\n",
+      stderr);
+  return program::kExitFailure;
+}
+
+}  // namespace
+
+Command AddFleetCommand(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<FleetOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "fleet", "List robots that are heard: what they do, how they are, what they say");
+  app->footer(kFleetExamples);
+  app->add_flag("--json", options->json, "For programs");
+  app->add_option("--listen", options->listen_s,
+                  "Seconds; a hundred robots speak once a second each")
+      ->capture_default_str()
+      ->check(CLI::Range(0.5, 3600.0));
+  return {app, [app, options, &common] { return Run(*app, common, *options); }};
+}
+
+}  // namespace trailcast::tool

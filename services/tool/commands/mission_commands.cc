@@ -1,0 +1,318 @@
+// `trailcast send` and `trailcast missions`.
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "services/base/time.h"
+#include "services/base/unix_time.h"
+#include "services/fleet/draw.h"
+#include "services/fleet/mission_client.h"
+#include "services/fleet/network_client.h"
+#include "services/fleet/operator_peer.h"
+#include "services/mission/orders.h"
+#include "services/network/words.h"
+#include "services/program/stop_signal.h"
+#include "services/tool/commands/command.h"
+#include "services/tool/commands/time_spans.h"
+
+namespace trailcast::tool {
+namespace {
+
+using mission::State;
+
+constexpr double kLongest_s = 365.0 * 86400.0;
+constexpr std::chrono::milliseconds kLookAgain{1000};
+
+struct SendOptions {
+  std::string robot;
+  std::vector<std::string> orders;
+  std::string id;
+  std::string from;  // of goto; empty: where the robot stands
+  double valid_s = 600.0;
+  bool goes_on = false;
+  bool wait = false;
+  bool json = false;
+  double timeout_s = 5.0;
+};
+
+constexpr const char* kSendExamples =
+    "Orders, one after the other:\n"
+    "  follow ROUTE[@REVISION] [FROM..TO] [laps N] [speed F]\n"
+    "                       metres along the route, either may be missing; F times the taught "
+    "speed\n"
+    "  follow ROUTE[@REVISION] backwards [FROM..TO] [speed F]\n"
+    "                       in reverse gear, looking as the scout did, from its end, or FROM, down "
+    "to\n"
+    "                       its beginning, or TO, at half the taught speed: what is behind the "
+    "robot\n"
+    "                       it does not see\n"
+    "  teach ROUTE [TAG ...]   a person drives until 'trailcast end robot1'\n"
+    "  turn DEGREES           on the spot, by its wheels: to the left, below 0 to the right\n"
+    "  wait SECONDS\n"
+    "or, alone:\n"
+    "  goto PLACE           ROUTE@METRES, or what it is called: the best way over the network of\n"
+    "                       routes ('trailcast network'), as 'follow' after 'follow'; from where "
+    "the\n"
+    "                       robot last said that it stands, or --from; round what is closed, also\n"
+    "                       meanwhile\n"
+    "Examples:\n"
+    "  trailcast send robot1 follow hall\n"
+    "  trailcast send robot1 follow hall 3..10 speed 0.5 wait 20 follow yard laps 2\n"
+    "  trailcast send robot1 follow dock backwards ..3   # out of a dead end\n"
+    "  trailcast send robot1 teach yard wet gravel   # then drive it: its joystick, or the "
+    "console\n"
+    "  trailcast send robot1 follow hall --wait      # until it has arrived, or says why not\n"
+    "  trailcast send robot1 follow hall --valid 2h  # however late it is back by then\n"
+    "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
+    "  trailcast send robot1 goto loading-bay\n"
+    "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
+    "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
+    "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, or nobody "
+    "answered\n(with --wait: not arrived); 2 wrong usage.";
+
+// Where it is to go, if that is what it is sent to.
+Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
+  if (options.orders.front() != "goto") {
+    if (options.from.empty()) return std::nullopt;
+    return Fail(ErrorCode::kInvalidArgument, "--from is for 'goto' alone");
+  }
+  if (options.orders.size() != 2) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'goto' is followed by one place and nothing else: goto office@8");
+  }
+  for (const std::string& place : {options.orders[1], options.from}) {
+    if (place.empty()) continue;
+    if (const auto is = network::ParseGoal(place); !is) return tl::unexpected(is.error());
+  }
+  return options.orders[1];
+}
+
+// The way there as one mission has it; empty: it is there already. Tells which way it is.
+Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer& peer,
+                             const SendOptions& options) {
+  const auto way = fleet::AskForWay(*peer.exchange, peer.self,
+                                    options.from.empty() ? options.robot : options.from, goal,
+                                    ToMilliseconds(options.timeout_s));
+  if (!way) return tl::unexpected(way.error());
+  if (!options.json) {
+    fmt::print("{}", fleet::WayText(*way));
+  } else if (way->empty()) {
+    fmt::print("{}", fleet::WayJson(*way));
+  }
+  return fleet::OrdersAlong(*way, goal);
+}
+
+int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {
+  const auto goal = GoalOf(options);
+  if (!goal) return program::Complain(app, goal.error());
+  mission::Mission mission{.agent = AgentId(options.robot),
+                           .id = options.id.empty() ? fleet::DrawMissionId() : options.id,
+                           .orders = fmt::format("{}", fmt::join(options.orders, " ")),
+                           .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
+                           .goes_on = options.goes_on};
+  if (const auto tasks = mission::ParseOrders(mission.orders); !*goal && !tasks) {
+    return program::Complain(app, tasks.error());
+  }
+  const program::StopSignal stop;
+  exchange::TopicUse use = exchange::SenderTopics();
+  if (*goal) {
+    const exchange::TopicUse asking = exchange::NetworkTopics();
+    use.write.insert(use.write.end(), asking.write.begin(), asking.write.end());
+    use.read.insert(use.read.end(), asking.read.begin(), asking.read.end());
+  }
+  const auto peer = fleet::JoinAsOperator(common, use);
+  if (!peer) return program::Complain(app, peer.error());
+  mission.client = peer->self;
+  if (*goal) {
+    auto orders = OrdersTo(**goal, *peer, options);
+    if (!orders) return program::Complain(app, orders.error());
+    if (orders->empty()) return program::kExitOk;
+    mission.orders = *std::move(orders);
+  }
+  fleet::SendWatch watch;
+  watch.timeout = ToMilliseconds(options.timeout_s);
+  watch.to_its_end = options.wait;
+  watch.stop = [] { return program::StopSignal::requested(); };
+  if (!options.json) {
+    fmt::print("mission {}\n", mission.id);
+    watch.news = [](const mission::Report& report) {
+      fmt::print("{}\n", fleet::ReportText(report));
+      std::fflush(stdout);
+    };
+  }
+  const auto report = fleet::SendMission(*peer->exchange, mission, watch);
+  if (!report) return program::Complain(app, report.error());
+  if (options.json) fmt::print("{}\n", fleet::ReportJson(*report));
+  const bool well = options.wait
+                        ? report->state == State::kArrived
+                        : !mission::HasEnded(report->state) || report->state == State::kArrived;
+  return well ? program::kExitOk : program::kExitFailure;
+}
+
+struct MissionsOptions {
+  mission::Query query;
+  std::vector<std::string> states;
+  double newer_than_s = 0.0;
+  std::size_t limit = 50;
+  bool commands = false;
+  bool watch = false;
+  bool json = false;
+  double timeout_s = 5.0;
+};
+
+constexpr const char* kMissionsExamples =
+    "Examples:\n"
+    "  trailcast missions                          # the newest first\n"
+    "  trailcast missions --robot robot1 --watch   # and again whenever something has changed\n"
+    "  trailcast missions --commands               # who told whom to pause, stop, .. and when\n"
+    "  trailcast missions --route hall --state failed --newer-than 7d --json";
+
+// "under-way", as one types it.
+std::string TypedName(State state) {
+  std::string name = mission::ToString(state);
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name;
+}
+
+std::map<std::string, State> States() {
+  std::map<std::string, State> states;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    states.emplace(TypedName(static_cast<State>(i)), static_cast<State>(i));
+  }
+  return states;
+}
+
+mission::Query QueryOf(const MissionsOptions& options) {
+  mission::Query query = options.query;
+  for (const std::string& state : options.states) {
+    query.states |= 1U << static_cast<unsigned>(States().at(state));
+  }
+  if (options.newer_than_s > 0.0) {
+    query.from_unix_ms = NowUnixMs() - static_cast<std::int64_t>(1e3 * options.newer_than_s);
+  }
+  return query;
+}
+
+// What there is now, as it is shown; the ages of a table are left out of what is compared.
+struct Listing {
+  std::string text;
+  std::string compared;
+};
+
+Result<Listing> Look(fleet::OperatorPeer& peer, const MissionsOptions& options) {
+  const auto timeout = ToMilliseconds(options.timeout_s);
+  const auto listed = [&](const auto& records, auto table, auto json) -> Listing {
+    std::string compared = json(records);
+    return {options.json ? compared : table(records, NowUnixMs()), compared};
+  };
+  if (options.commands) {
+    const auto commands =
+        fleet::AskForCommands(*peer.exchange, peer.self, QueryOf(options), options.limit, timeout);
+    if (!commands) return tl::unexpected(commands.error());
+    return listed(*commands, fleet::CommandsTable, fleet::CommandsJson);
+  }
+  const auto missions =
+      fleet::AskForMissions(*peer.exchange, peer.self, QueryOf(options), options.limit, timeout);
+  if (!missions) return tl::unexpected(missions.error());
+  return listed(*missions, fleet::MissionsTable, fleet::MissionsJson);
+}
+
+int List(const CLI::App& app, const program::CommonOptions& common,
+         const MissionsOptions& options) {
+  const program::StopSignal stop;
+  auto peer = fleet::JoinAsOperator(common, exchange::HistoryTopics());
+  if (!peer) return program::Complain(app, peer.error());
+  std::optional<std::string> shown;
+  do {
+    const auto now = Look(*peer, options);
+    if (!now && !(options.watch && shown)) return program::Complain(app, now.error());
+    if (!now) {
+      fmt::print(stderr, "{}\n", now.error().message);
+    } else if (now->compared != shown) {
+      std::fputs(now->text.c_str(), stdout);
+      std::fflush(stdout);
+      shown = now->compared;
+    }
+    // What comes meanwhile is nobody's.
+    if (options.watch) (void)peer->exchange->Take(kLookAgain);
+  } while (options.watch && !program::StopSignal::requested());
+  return program::kExitOk;
+}
+
+Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<SendOptions>();
+  CLI::App* app = parent.add_subcommand("send", "Send a robot on duty along routes");
+  app->footer(kSendExamples);
+  app->add_option("ROBOT", options->robot, "Its name, as --name of 'trailcast-agent serve'")
+      ->required()
+      ->check(program::NameValidator());
+  app->add_option("ORDERS", options->orders, "What it is to do: see below")->required();
+  app->add_option("--id", options->id,
+                  "The mission's name, by which it is done once however often it is sent; default: "
+                  "drawn")
+      ->check(program::NameValidator());
+  app->add_option(
+      "--from", options->from,
+      "Where a robot stands that goes to a place, ROUTE@METRES or a name; default: where "
+      "it last said so");
+  app->add_option("--valid", options->valid_s,
+                  "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
+                  "for ever")
+      ->transform(TimeSpan("TIME"))
+      ->check(CLI::Range(0.0, kLongest_s))
+      ->capture_default_str();
+  app->add_flag("--goes-on", options->goes_on,
+                "It goes on by itself after its agent has started again; without, it stands then "
+                "until it is told to resume");
+  app->add_flag("--wait", options->wait, "Until it has ended; tells what becomes of it meanwhile");
+  app->add_flag("--json", options->json, "For programs: what is known of it in the end");
+  app->add_option("--timeout", options->timeout_s, "Seconds to wait for an answer")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  return {app, [app, options, &common] { return Send(*app, common, *options); }};
+}
+
+Command AddMissions(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<MissionsOptions>();
+  CLI::App* app =
+      parent.add_subcommand("missions", "List what robots were sent to do, and what became of it");
+  app->footer(kMissionsExamples);
+  const auto name = [&](const char* flag, std::string& value, const char* help) {
+    app->add_option(flag, value, help)->check(program::NameValidator());
+  };
+  name("--robot", options->query.agent, "Only of this one");
+  name("--route", options->query.route, "Only with this route in their orders");
+  name("--mission", options->query.id, "Only of this name");
+  name("--sent-by", options->query.client, "Only sent by this operator");
+  std::vector<std::string> states;
+  for (const auto& [state, value] : States()) states.push_back(state);
+  app->add_option("--state", options->states, "Only these; several: any of them")
+      ->check(CLI::IsMember(states))
+      ->take_all()
+      ->allow_extra_args(false);
+  app->add_option("--newer-than", options->newer_than_s, "Only sent since: 90min, 12h, 7d; 0: any")
+      ->transform(TimeSpan("AGE"));
+  app->add_option("--limit", options->limit, "Missions to list at most")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app->add_flag("--commands", options->commands,
+                "Those that robots were given with pause, resume, cancel, stop, release and end");
+  app->add_flag("--watch", options->watch, "Again whenever something has changed, until Ctrl-C");
+  app->add_flag("--json", options->json, "For programs");
+  app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  return {app, [app, options, &common] { return List(*app, common, *options); }};
+}
+
+}  // namespace
+
+std::vector<Command> AddMissionCommands(CLI::App& parent, const program::CommonOptions& common) {
+  return {AddSend(parent, common), AddMissions(parent, common)};
+}
+
+}  // namespace trailcast::tool

@@ -1,0 +1,197 @@
+// `trailcast network`.
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "services/base/time.h"
+#include "services/fleet/network_client.h"
+#include "services/fleet/operator_peer.h"
+#include "services/network/words.h"
+#include "services/tool/commands/command.h"
+#include "services/tool/network_picture.h"
+
+namespace trailcast::tool {
+namespace {
+
+struct NetworkOptions {
+  std::vector<std::string> words;
+  bool json = false;
+  std::string plot;
+  double timeout_s = 5.0;
+};
+
+constexpr const char* kNetworkExamples =
+    "Words; without any, it lists the routes that are joined, joints, what is closed, names, and\n"
+    "proposed joints:\n"
+    "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
+    "                       robots may change over from the first place to the second; both: and\n"
+    "                       back; how the second lies there, where it is known. From 60 degrees "
+    "on\n"
+    "                       a robot turns there on the spot: to a route that was taught the other\n"
+    "                       way, heading 180\n"
+    "  part PLACE PLACE     no more, neither way\n"
+    "  close ROUTE [FROM..TO]   no robot is sent along it by 'goto', and those under way to a\n"
+    "                       place go round it, or stand and wait; open ROUTE [FROM..TO]\n"
+    "  back ROUTE [FROM..TO]    robots may be sent backwards along it, too, a few metres, hardly\n"
+    "                       bent, out of a dead end: it is narrow there from now on; ahead ROUTE\n"
+    "                       [FROM..TO]: no more\n"
+    "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
+    "                       at most F times the taught speed; a metre counts as F when ways are\n"
+    "                       compared; with neither, no limit any more\n"
+    "  narrow ROUTE FROM..TO [ROUTE FROM..TO ...]\n"
+    "                       robots cannot pass each other there: those that go to a place are let\n"
+    "                       in one at a time, and wait before it. The stretches are one place; a\n"
+    "                       lane that is driven both ways was taught as two routes: name both\n"
+    "  wide ROUTE [FROM..TO]    they can, on the whole of each such place\n"
+    "  vacate ROUTE [FROM..TO]  whoever has one is not in it any more: you have looked\n"
+    "  name NAME PLACE      'goto NAME' leads there; forget NAME\n"
+    "  proposals            the joints alone that the server proposes: places where scouts saw, "
+    "it\n"
+    "                       finds, that two routes meet, looking the same way, and how sure it is\n"
+    "  confirm PLACE PLACE  the joint proposed there is made; confirm all [above F]\n"
+    "  refuse PLACE PLACE   it is not, nor proposed again for these revisions; refuse all [below "
+    "F]\n"
+    "  way FROM TO          the way that costs least, between PLACEs or named ones; FROM may be a\n"
+    "                       robot, as it stands. Where robots lost their path lately a metre\n"
+    "                       counts as more, and 'trailcast network' lists that\n"
+    "  passing PLACE        the routes that pass there, by joints and proposed ones: where on each "
+    "that\n"
+    "                       is; PLACE, or what one is called\n"
+    "A PLACE is ROUTE@METRES along it: hall@12.5; FROM..TO are metres, either may be missing.\n"
+    "Examples:\n"
+    "  trailcast network join hall@12 office@0\n"
+    "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
+    "  trailcast network confirm hall@12 office@0.4\n"
+    "  trailcast network confirm all above 0.9     # as 'trailcast-server --joints-auto' does\n"
+    "  trailcast network join hall@20 home@0.5 heading 180\n"
+    "  trailcast network back dock 0..3\n"
+    "  trailcast network close hall 3..7\n"
+    "  trailcast network narrow hall 3..7 back 10..14\n"
+    "  trailcast network name loading-bay office@8\n"
+    "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
+    "  trailcast network way robot1 office@8 --json\n"
+    "  trailcast network passing hall@12.3         # office@0.3  join hall@12 office@0\n"
+    "  trailcast network --plot network.png\n"
+    "A route is followed in the direction in which it was taught, and backwards where robots may.\n"
+    "A joint or a name is of the revisions that robots follow when it is made; while another is\n"
+    "followed, it is not used.\n"
+    "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
+
+bool AsksForProposals(const NetworkOptions& options) {
+  return options.words.size() == 1 && options.words.front() == "proposals";
+}
+
+bool AsksForAll(const NetworkOptions& options) {
+  return options.words.empty() || AsksForProposals(options);
+}
+
+bool AsksWhatPasses(const NetworkOptions& options) {
+  return !options.words.empty() && options.words.front() == "passing";
+}
+
+bool Asks(const NetworkOptions& options) {
+  return AsksForAll(options) || options.words.front() == "way" || AsksWhatPasses(options);
+}
+
+// What an edit has brought about.
+std::string ChangedText(const std::string& edit, const std::vector<std::string>& lines) {
+  const bool settles = edit == "confirm" || edit == "refuse";
+  if (lines.empty()) {
+    return settles ? "none is proposed that is so sure\n"
+                   : "nothing is closed, limited or driven backwards there now\n";
+  }
+  const bool ends = edit == "part" || edit == "forget" || edit == "refuse" || edit == "wide";
+  return (ends ? "no more: " : "") + fleet::NetworkText(lines);
+}
+
+// Of a question what passes.
+Result<void> CheckPlace(const NetworkOptions& options) {
+  if (options.words.size() == 2)
+    return network::ParseGoal(options.words[1]).map([](const auto&) {});
+  return Fail(ErrorCode::kInvalidArgument,
+              "'passing' takes one place: ROUTE@METRES, as hall@12.3, or what one is called");
+}
+
+int Print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return program::kExitOk;
+}
+
+int Run(const CLI::App& app, const program::CommonOptions& common, const NetworkOptions& options) {
+  const std::string words = fmt::format("{}", fmt::join(options.words, " "));
+  // Before anybody is asked, what no server would understand.
+  if (!Asks(options)) {
+    if (const auto edit = network::ParseEdit(words); !edit) {
+      return program::Complain(app, edit.error());
+    }
+  } else if (AsksWhatPasses(options)) {
+    if (const auto place = CheckPlace(options); !place) {
+      return program::Complain(app, place.error());
+    }
+  } else if (!AsksForAll(options)) {
+    if (const auto question = network::ParseQuestion(words); !question) {
+      return program::Complain(app, question.error());
+    }
+  }
+  if (!options.plot.empty() && !words.empty()) {
+    return program::Complain(
+        app, {ErrorCode::kInvalidArgument, "--plot draws all there is: no words beside it"});
+  }
+  const auto peer = fleet::JoinAsOperator(
+      common, Asks(options) ? exchange::NetworkTopics() : exchange::JoinerTopics());
+  if (!peer) return program::Complain(app, peer.error());
+  const auto timeout = ToMilliseconds(options.timeout_s);
+  if (AsksForAll(options)) {
+    auto lines = fleet::AskForNetwork(*peer->exchange, peer->self, timeout);
+    if (!lines) return program::Complain(app, lines.error());
+    if (AsksForProposals(options)) {
+      std::erase_if(*lines,
+                    [](const std::string& line) { return !line.starts_with(network::kProposed); });
+      if (lines->empty() && !options.json) return Print("no joints are proposed\n");
+    }
+    if (!options.plot.empty()) {
+      const auto written = PictureOf(*lines).and_then([&](const plot::NetworkPicture& picture) {
+        return plot::DrawNetwork(picture).Write(options.plot);
+      });
+      if (!written) return program::Complain(app, written.error());
+    }
+    return Print(options.json ? fleet::NetworkJson(*lines) : fleet::NetworkText(*lines));
+  }
+  if (AsksWhatPasses(options)) {
+    const auto passing =
+        fleet::AskWhatPasses(*peer->exchange, peer->self, options.words[1], timeout);
+    if (!passing) return program::Complain(app, passing.error());
+    return Print(options.json ? fleet::PassingJson(*passing) : fleet::PassingText(*passing));
+  }
+  if (Asks(options)) {
+    const auto way =
+        fleet::AskForWay(*peer->exchange, peer->self, options.words[1], options.words[2], timeout);
+    if (!way) return program::Complain(app, way.error());
+    return Print(options.json ? fleet::WayJson(*way) : fleet::WayText(*way));
+  }
+  const auto lines = fleet::AskToJoin(*peer->exchange, peer->self, words, timeout);
+  if (!lines) return program::Complain(app, lines.error());
+  if (options.json) return Print(fleet::NetworkJson(*lines));
+  return Print(ChangedText(options.words.front(), *lines));
+}
+
+}  // namespace
+
+Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<NetworkOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "network", "How routes are joined or might be, what is closed, and which way leads where");
+  app->footer(kNetworkExamples);
+  app->add_option("WORDS", options->words, "What to change, or to ask: see below");
+  app->add_flag("--json", options->json, "For programs");
+  app->add_option("--plot", options->plot,
+                  "Where a picture of it goes (PNG, or SVG by its name): routes as straight lines, "
+                  "metres to scale, joints, what is closed, narrow or limited, names");
+  app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  return {app, [app, options, &common] { return Run(*app, common, *options); }};
+}
+
+}  // namespace trailcast::tool

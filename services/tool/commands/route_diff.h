@@ -1,0 +1,11 @@
+#pragma once
+
+#include "services/tool/commands/command.h"
+
+namespace trailcast::tool {
+
+// `trailcast routes diff`. `common` and `timeout_s` are filled by the time it runs, and outlive it.
+[[nodiscard]] Command AddRouteDiff(CLI::App& routes, const program::CommonOptions& common,
+                                   const double& timeout_s);
+
+}  // namespace trailcast::tool

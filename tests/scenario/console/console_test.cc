@@ -1,0 +1,187 @@
+// The console: a fleet over HTTP, and in a browser.
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/console/console_fleet.h"
+#include "tests/scenario/console/webdriver.h"
+
+namespace trailcast::test {
+namespace {
+
+using nlohmann::json;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ConsoleTest : public ConsoleFleetTest {
+ protected:
+  void SetUp() override {
+    Teach();
+    server_ = Server();
+    ASSERT_TRUE(Publish());
+    ASSERT_NO_FATAL_FAILURE(PutOnDuty({"--sim-truth", Path("truth.csv"), "--sim-battery", "1000"}));
+    StartConsole();
+  }
+};
+
+TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2) << console_->output();
+  EXPECT_EQ(State()["routes"], json::array()) << "no robot is on one";
+  EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == true; }));
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["battery_percent"] > 90; })) << Robot1();
+  EXPECT_NE(Robot1()["software"], "");
+
+  const Replied sent =
+      Post("/api/robots/robot1/missions", {{"orders", "follow hall"}, {"id", "trip"}});
+  EXPECT_EQ(sent.status, 200) << sent.body.dump();
+  EXPECT_EQ(sent.body["mission"], "trip");
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2) << agent_->output();
+  EXPECT_EQ(Robot1()["mission"]["orders"], "follow hall");
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["length_m"].is_number(); })) << State().dump(2);
+  EXPECT_EQ(State()["routes"][0]["name"], "hall");
+
+  const Replied paused = Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}});
+  EXPECT_EQ(paused.status, 200) << paused.body.dump();
+  EXPECT_EQ(paused.body["detail"], "paused by console: somebody walks here");
+  ASSERT_TRUE(WaitForState("paused")) << State().dump(2);
+  EXPECT_TRUE(Stands("truth.csv"));
+  EXPECT_EQ(Robot1()["orders"], json({"resume", "cancel", "stop"}));
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+
+  const Replied stopped = Post("/api/robots/robot1/stop");
+  EXPECT_EQ(stopped.status, 200) << stopped.body.dump();
+  ASSERT_TRUE(WaitForState("stopped")) << State().dump(2);
+  EXPECT_TRUE(Stands("truth.csv"));
+  EXPECT_LT(Along_m("truth.csv"), 4.3) << "of 4.5 m";
+  const Replied refused = Post("/api/robots/robot1/resume");
+  EXPECT_EQ(refused.status, 409) << refused.body.dump();
+  EXPECT_THAT(refused.body["detail"].get<std::string>(), HasSubstr("release it first"));
+  EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitUntil([&] {
+    const auto got = Client().Get("/api/missions?robot=robot1");
+    return got && got->body.find("\"arrived\"") != std::string::npos;
+  })) << State().dump(2)
+      << agent_->output();
+  EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+}
+
+TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "dance"}}).status, 400);
+  const Replied unknown = Post("/api/robots/robot1/missions", {{"orders", "follow attic"}});
+  EXPECT_THAT(unknown.status, testing::AnyOf(200, 409)) << unknown.body.dump();
+  EXPECT_TRUE(WaitUntil([&] {
+    const std::string detail = Robot1().value("detail", "");
+    return detail.find("refused") != detail.npos && detail.find("attic") != detail.npos;
+  })) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot7/pause").status, 504);
+  EXPECT_EQ(Post("/api/robots/robot1/dance").status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "wait 600"}, {"id", "long"}}).status,
+            200);
+  ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_object(); }));
+
+  agent_->Signal(SIGKILL);
+  (void)End(*agent_);
+  ASSERT_TRUE(WaitForState("silent")) << State().dump(2);
+  const json robot = Robot1();
+  EXPECT_EQ(robot["heard"], false);
+  EXPECT_EQ(robot["needs_person"], true) << "in the middle of a mission";
+  EXPECT_TRUE(robot["last_heard_unix_ms"].is_number());
+  server_->Signal(SIGTERM);
+  (void)End(*server_);
+  EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == false; }));
+  console_->Signal(SIGTERM);
+  EXPECT_EQ(End(*console_).status, 0) << console_->output();
+}
+
+TEST_F(ConsoleTest, AllAreStoppedAtOnce) {
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall"}}).status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+  const Replied stopped = Post("/api/all/stop");
+  EXPECT_EQ(stopped.status, 200);
+  EXPECT_EQ(stopped.body["robots"][0]["robot"], "robot1") << stopped.body.dump();
+  EXPECT_EQ(stopped.body["robots"][0]["obeys"], true) << stopped.body.dump();
+  EXPECT_TRUE(WaitForState("stopped"));
+}
+
+// A program of ten lines of shell.
+TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
+  if (std::system("command -v curl jq >/dev/null") != 0) {
+    GTEST_SKIP() << "curl and jq are not installed";
+  }
+  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  const auto example = [&](const Words& words) {
+    Process process(With({"/usr/bin/env", "CONSOLE=http://localhost:" + std::to_string(port_),
+                          TRAILCAST_SOURCE_DIR "/config/examples/send_and_wait.sh", "robot1"},
+                         words),
+                    Path("example.log"));
+    return End(process);
+  };
+  const Ended unknown = example({"follow", "attic"});
+  EXPECT_EQ(unknown.status, 1) << unknown.output;
+  EXPECT_THAT(unknown.output, HasSubstr("robot1: refused"));
+  const Ended wrong = example({"dance"});
+  EXPECT_NE(wrong.status, 0);
+  EXPECT_THAT(wrong.output, HasSubstr("dance"));
+  const Ended sent = example({"follow", "hall"});
+  EXPECT_EQ(sent.status, 0) << sent.output << agent_->output();
+  EXPECT_THAT(sent.output, HasSubstr("robot1: arrived"));
+  EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+}
+
+TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
+  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(390, 844);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
+  EXPECT_THAT(browser.Text(), HasSubstr("emergency stop"));
+
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Send')]"));
+  ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
+  browser.Screenshot(Shot("phone-send"));
+  // A tap at the far end is no slide.
+  (void)browser.Type("//input[@type='range']", "\xEE\x80\x90");  // End
+  EXPECT_EQ(Robot1()["mission"], nullptr);
+  ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
+  ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
+  browser.Screenshot(Shot("phone-driving"));
+
+  ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));
+  ASSERT_TRUE(browser.WaitForText("Stopped")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("stopped by console")) << browser.Text();
+  EXPECT_TRUE(Stands("truth.csv"));
+  EXPECT_LT(Along_m("truth.csv"), 4.3) << "of 4.5 m";
+  browser.Screenshot(Shot("phone-stopped"));
+  browser.Look(390, 844, true);
+  browser.Screenshot(Shot("phone-dark"));
+  browser.Look(1280, 800);
+  browser.Screenshot(Shot("desktop"));
+
+  agent_->Signal(SIGKILL);
+  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
+  browser.Look(1280, 800, true);
+  browser.Screenshot(Shot("desktop-silent"));
+  browser.Open("about:blank");
+  EXPECT_TRUE(WaitUntil([&] {
+    const auto metrics = Client().Get("/metrics");
+    return metrics && metrics->body.find("\ntrailcast_console_streams 0\n") != std::string::npos;
+  })) << "a page that was left is told nothing";
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  console_->Signal(SIGKILL);
+  ASSERT_TRUE(browser.WaitForText("This page has lost its console")) << browser.Text();
+  browser.Look(390, 844);
+  browser.Screenshot(Shot("phone-lost"));
+}
+
+}  // namespace
+}  // namespace trailcast::test

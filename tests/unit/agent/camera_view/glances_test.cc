@@ -1,0 +1,98 @@
+#include "agent/camera_view/glances.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "services/exchange/in_process_exchange.h"
+#include "services/image/files.h"
+#include "services/program/presence.h"
+#include "tests/support/walk_frames.h"
+
+namespace trailcast::agent {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::HasSubstr;
+
+class GlancesTest : public testing::Test {
+ protected:
+  void Ask(std::uint64_t request) {
+    ASSERT_TRUE(desk_->Publish(exchange::GlanceRequest{
+        .agent = AgentId("robot1"), .client = AgentId("desk"), .request = request}));
+  }
+  // The robot's threads do their part; what comes at the desk by then, and `show` is called when a
+  // picture is wanted.
+  template <typename Show>
+  std::optional<exchange::Glance> Answer(const Show& show) {
+    const auto until = steady_clock::now() + std::chrono::seconds(20);
+    while (steady_clock::now() < until) {
+      (void)robot_->Take(milliseconds(5));
+      if (glances_.wanted()) show();
+      for (const exchange::Message& message : desk_->Take(milliseconds(0))) {
+        if (const auto* glance = std::get_if<exchange::Glance>(&message)) return *glance;
+      }
+    }
+    return std::nullopt;
+  }
+
+  exchange::InProcessBus bus_;
+  Glances glances_{AgentId("robot1")};
+  std::unique_ptr<exchange::RouteExchange> robot_ =
+      glances_.Through(bus_.Open(program::WithAgents(exchange::OnDutyTopics())));
+  std::unique_ptr<exchange::RouteExchange> desk_ = bus_.Open(exchange::GlanceTopics());
+};
+
+TEST_F(GlancesTest, WhoAsksGetsAPictureOfFewBytesThatShowsWhatTheRobotSees) {
+  Ask(7);
+  GlanceFrame frame{.picture = test::WalkFrame(3)};
+  frame.turn_rad = 0.1;
+  const auto glance = Answer([&] { glances_.Show(frame); });
+  ASSERT_TRUE(glance);
+  EXPECT_EQ(glance->request, 7U);
+  EXPECT_LE(glance->picture.size(), Glances::kMostBytes);
+  EXPECT_THAT(glance->detail, HasSubstr("right"));
+  const auto picture = image::DecodeRgb(glance->picture, "glance");
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->width, frame.picture.width);
+}
+
+TEST_F(GlancesTest, APictureThatIsHardToEncodeIsCoarserAndNotLarger) {
+  std::mt19937 random(1);
+  GlanceFrame noise{.picture = {640, 480, std::vector<std::uint8_t>(640 * 480)}};
+  for (std::uint8_t& pixel : noise.picture.pixels) pixel = static_cast<std::uint8_t>(random());
+  Ask(1);
+  const auto glance = Answer([&] { glances_.Show(noise); });
+  ASSERT_TRUE(glance);
+  EXPECT_FALSE(glance->picture.empty());
+  EXPECT_LE(glance->picture.size(), Glances::kMostBytes);
+}
+
+TEST_F(GlancesTest, ACameraThatGivesNothingIsSaid) {
+  Ask(1);
+  const auto glance = Answer([] {});
+  ASSERT_TRUE(glance);
+  EXPECT_TRUE(glance->picture.empty());
+  EXPECT_THAT(glance->detail, HasSubstr("no picture comes"));
+}
+
+TEST_F(GlancesTest, WhileNobodyLooksNothingIsWantedMadeOrSent) {
+  Ask(1);
+  GlanceFrame frame{.picture = test::WalkFrame(3)};
+  ASSERT_TRUE(Answer([&] { glances_.Show(frame); }));
+  const auto until = steady_clock::now() + milliseconds(500);
+  int wanted = 0;
+  std::size_t sent = 0;
+  while (steady_clock::now() < until) {
+    (void)robot_->Take(milliseconds(5));
+    if (glances_.wanted()) ++wanted;
+    sent += desk_->Take(milliseconds(0)).size();
+  }
+  EXPECT_EQ(wanted, 0);
+  EXPECT_EQ(sent, 0U);
+}
+
+}  // namespace
+}  // namespace trailcast::agent

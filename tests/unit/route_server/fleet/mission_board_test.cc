@@ -1,0 +1,290 @@
+#include "route_server/fleet/mission_board.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/support/temp_dir.h"
+
+namespace trailcast::server {
+namespace {
+
+using exchange::NowOrder;
+using exchange::NowWhom;
+using mission::Mission;
+using mission::Report;
+using mission::State;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class MissionBoardTest : public testing::Test {
+ protected:
+  void SetUp() override { Restart(); }
+  void Restart() {
+    board_.reset();
+    auto store = store::MissionStore::Open(folder_ / "missions");
+    ASSERT_TRUE(store) << store.error().message;
+    auto board = MissionBoard::Open(AgentId("server"), std::move(*store));
+    ASSERT_TRUE(board) << board.error().message;
+    board_ = std::move(*board);
+  }
+  static Mission For(const std::string& id, const std::string& orders = "follow hall") {
+    return {.agent = AgentId("robot1"),
+            .id = id,
+            .client = AgentId("desk-p7"),
+            .orders = orders,
+            .valid_for_s = 60};
+  }
+  void Hear(const exchange::Message& message) { board_->Handle(message, now_, unix_ms_); }
+  void Pass(milliseconds time) {
+    now_ += time;
+    unix_ms_ += time.count();
+  }
+  std::vector<exchange::Message> Say() { return board_->Tick(now_, unix_ms_); }
+  // What it says of missions, and what it hands over.
+  std::optional<Report> Said() {
+    std::optional<Report> report;
+    for (const exchange::Message& message : Say()) {
+      if (const auto* said = std::get_if<Report>(&message)) report = *said;
+    }
+    return report;
+  }
+  std::optional<Mission> HandedOver() {
+    for (const exchange::Message& message : Say()) {
+      if (const auto* mission = std::get_if<Mission>(&message)) return *mission;
+    }
+    return std::nullopt;
+  }
+  void RobotIsThere(std::uint64_t instance = 1) {
+    exchange::AgentStatus status;
+    status.agent = AgentId("robot1");
+    status.instance = instance;
+    status.role = exchange::AgentRole::kFollower;
+    status.mode = exchange::AgentMode::kWaiting;
+    Hear(status);
+  }
+  void RobotSays(const std::string& id, std::uint32_t change, State state) {
+    Hear(Report{.agent = AgentId("robot1"), .mission = id, .change = change, .state = state});
+  }
+  State StateOf(const std::string& id) {
+    Hear(exchange::MissionRequest{.client = AgentId("desk"), .request = 7, .query = {.id = id}});
+    for (const exchange::Message& message : Say()) {
+      const auto* reply = std::get_if<exchange::MissionReply>(&message);
+      if (reply == nullptr) continue;
+      EXPECT_EQ(reply->client, AgentId("desk"));
+      EXPECT_EQ(reply->request, 7U);
+      EXPECT_THAT(reply->missions, SizeIs(1));
+      return reply->missions.empty() ? State::kSent : reply->missions[0].last.state;
+    }
+    ADD_FAILURE() << "no reply";
+    return State::kSent;
+  }
+
+  test::TempDir folder_;
+  std::chrono::steady_clock::time_point now_{};
+  std::int64_t unix_ms_ = 1'700'000'000'000;
+  std::unique_ptr<MissionBoard> board_;
+};
+
+TEST_F(MissionBoardTest, SaysThatItKeepsAMissionEachTimeThatItIsSent) {
+  Hear(For("m1"));
+  const auto kept = Said();
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->state, State::kSent);
+  EXPECT_TRUE(kept->relayed);
+  Hear(For("m1"));
+  EXPECT_TRUE(Said());
+  EXPECT_EQ(board_->unanswered(), 1U);
+  EXPECT_THAT(board_->TakeNotes(), SizeIs(1)) << "it is news once";
+}
+
+TEST_F(MissionBoardTest, HandsItOverOnceTheRobotIsThereAndUntilItHasAnswered) {
+  Hear(For("m1"));
+  EXPECT_FALSE(HandedOver()) << "to nobody";
+  RobotIsThere();
+  const auto handed = HandedOver();
+  ASSERT_TRUE(handed);
+  EXPECT_EQ(handed->id, "m1");
+  EXPECT_TRUE(handed->relayed);
+  EXPECT_FALSE(HandedOver()) << "at once again";
+  Pass(milliseconds(1100));
+  EXPECT_TRUE(HandedOver());
+  RobotSays("m1", 1, State::kAccepted);
+  const auto confirmed = Said();
+  ASSERT_TRUE(confirmed);
+  EXPECT_EQ(confirmed->change, 1U);
+  EXPECT_TRUE(confirmed->relayed);
+  Pass(seconds(100));
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(StateOf("m1"), State::kAccepted);
+}
+
+TEST_F(MissionBoardTest, KeepsItOverARestart) {
+  Hear(For("m1"));
+  Restart();
+  RobotIsThere();
+  const auto handed = HandedOver();
+  ASSERT_TRUE(handed);
+  EXPECT_EQ(handed->orders, "follow hall");
+  RobotSays("m1", 1, State::kAccepted);
+  Restart();
+  RobotIsThere();
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(StateOf("m1"), State::kAccepted);
+}
+
+TEST_F(MissionBoardTest, OfSeveralTheOldestGoesFirst) {
+  Hear(For("m1"));
+  Hear(For("m2", "follow yard"));
+  RobotIsThere();
+  EXPECT_EQ(HandedOver()->id, "m1");
+  RobotSays("m1", 1, State::kAccepted);
+  Pass(milliseconds(1100));
+  EXPECT_EQ(HandedOver()->id, "m2");
+}
+
+TEST_F(MissionBoardTest, ARobotThatIsBackIsToldAtOnce) {
+  Hear(For("m1"));
+  RobotIsThere();
+  ASSERT_TRUE(HandedOver());
+  for (int i = 0; i < 4; ++i) {
+    Pass(seconds(2));
+    (void)HandedOver();
+  }
+  Pass(milliseconds(100));
+  ASSERT_FALSE(HandedOver());
+  Hear(exchange::AgentGone{AgentId("robot1"), 1});
+  RobotIsThere(2);
+  EXPECT_TRUE(HandedOver());
+}
+
+TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
+  Hear(For("m1"));
+  (void)Say();
+  Pass(seconds(61));
+  const auto dropped = Said();
+  ASSERT_TRUE(dropped);
+  EXPECT_EQ(dropped->state, State::kExpired);
+  RobotIsThere();
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(StateOf("m1"), State::kExpired);
+}
+
+TEST_F(MissionBoardTest, WhatIsStoppedOrCancelledIsNotHandedOverLater) {
+  std::uint64_t number = 0;
+  const auto command = [&number](NowOrder order, NowWhom whom, const std::string& name) {
+    return exchange::NowCommand{.client = AgentId("desk-p9"),
+                                .number = ++number,
+                                .order = order,
+                                .whom = whom,
+                                .name = name};
+  };
+  Hear(For("m1"));
+  Hear(command(NowOrder::kPause, NowWhom::kAll, ""));
+  Hear(command(NowOrder::kStop, NowWhom::kRobot, "robot2"));
+  Hear(command(NowOrder::kCancel, NowWhom::kOnRoute, "yard"));
+  EXPECT_EQ(board_->unanswered(), 1U);
+  Hear(command(NowOrder::kCancel, NowWhom::kOnRoute, "hall"));
+  const auto said = Said();
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->state, State::kCancelled);
+  EXPECT_THAT(said->detail, HasSubstr("desk told it to cancel"));
+  Hear(For("m2"));
+  Hear(command(NowOrder::kStop, NowWhom::kAll, ""));
+  EXPECT_EQ(board_->unanswered(), 0U);
+  RobotIsThere();
+  EXPECT_FALSE(HandedOver());
+}
+
+TEST_F(MissionBoardTest, KeepsWhoToldRobotsWhatAndWhatTheyAnswered) {
+  exchange::NowCommand stop{.client = AgentId("desk-p9"), .number = 77};
+  exchange::NowAnswer answer{
+      .agent = AgentId("robot1"), .client = stop.client, .number = 77, .detail = "stands"};
+  Hear(stop);
+  Hear(stop);
+  Hear(answer);
+  stop.relayed = answer.relayed = true;
+  Hear(stop);
+  Hear(answer);
+  Hear(exchange::MissionRequest{.client = AgentId("lab"), .request = 8, .commands = true});
+  const auto said = Say();
+  ASSERT_THAT(said, SizeIs(1));
+  const auto& reply = std::get<exchange::MissionReply>(said[0]);
+  ASSERT_THAT(reply.commands, SizeIs(1));
+  EXPECT_EQ(reply.commands[0].command.client, AgentId("desk-p9"));
+  ASSERT_THAT(reply.commands[0].answers, SizeIs(1));
+  EXPECT_EQ(reply.commands[0].answers[0].detail, "stands");
+}
+
+TEST_F(MissionBoardTest, RefusesOrdersThatNobodyUnderstands) {
+  Hear(For("m1", "dance"));
+  const auto said = Said();
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->state, State::kRefused);
+  EXPECT_THAT(said->detail, HasSubstr("'dance'"));
+  EXPECT_EQ(board_->unanswered(), 0U);
+}
+
+TEST_F(MissionBoardTest, RefusesOtherOrdersUnderTheSameName) {
+  Hear(For("m1"));
+  (void)Say();
+  Hear(For("m1", "follow yard"));
+  const auto said = Said();
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->state, State::kRefused);
+  EXPECT_THAT(said->detail, HasSubstr("follow hall"));
+  EXPECT_EQ(StateOf("m1"), State::kSent) << "the first is as it was";
+}
+
+TEST_F(MissionBoardTest, LeavesToOtherServersWhatTheyPassOn) {
+  Mission relayed = For("m1");
+  relayed.relayed = true;
+  Hear(relayed);
+  Hear(Report{.agent = AgentId("robot1"), .mission = "m1", .change = 1, .relayed = true});
+  EXPECT_THAT(Say(), IsEmpty());
+}
+
+TEST_F(MissionBoardTest, TellsOfAnotherWayAgainAndAgainUntilTheMissionHasEnded) {
+  const std::string first = "goto bay follow hall 0..2";
+  const std::string other = "goto bay way 2 follow hall 0..1 follow yard 0..3 because it was so";
+  EXPECT_FALSE(board_->Amend(AgentId("robot1"), other)) << "of nothing";
+  Hear(For("m1", first));
+  RobotIsThere();
+  EXPECT_THAT(board_->AtWork(), IsEmpty()) << "it has not answered";
+  RobotSays("m1", 1, State::kAccepted);
+  (void)Say();
+  ASSERT_THAT(board_->AtWork(), SizeIs(1));
+  EXPECT_EQ(board_->CurrentOf(AgentId("robot1"))->last.state, State::kAccepted);
+  Pass(seconds(5));
+  EXPECT_FALSE(HandedOver()) << "it goes the way that it was sent";
+  ASSERT_TRUE(board_->Amend(AgentId("robot1"), other));
+  for (int i = 0; i < 2; ++i) {
+    const auto told = HandedOver();
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->orders, other);
+    EXPECT_TRUE(told->relayed);
+    EXPECT_FALSE(HandedOver()) << "at once again";
+    Pass(seconds(3));
+    Restart();
+    RobotIsThere();
+  }
+  Hear(For("m1", first));
+  const auto same = Said();
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->state, State::kAccepted) << "whoever sent it says it once more";
+  Hear(For("m1", "goto dock follow hall 0..2"));
+  const auto another = Said();
+  ASSERT_TRUE(another);
+  EXPECT_EQ(another->state, State::kRefused);
+  RobotSays("m1", 2, State::kArrived);
+  Pass(seconds(5));
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(board_->CurrentOf(AgentId("robot1")), nullptr);
+}
+
+}  // namespace
+}  // namespace trailcast::server
