@@ -99,7 +99,8 @@ function(trailcast_test name)
   add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
   trailcast_compile_together(${name} ${ARG_APART})
-  target_link_libraries(${name} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${ARG_DEPS} trailcast_test_places GTest::gmock
+                                        GTest::gtest_main)
   if(TARGET ${ARG_LABEL}s)
     add_dependencies(${ARG_LABEL}s ${name})
   endif()
@@ -109,9 +110,6 @@ function(trailcast_test name)
   else()
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
-  target_compile_definitions(
-    ${name} PRIVATE TRAILCAST_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                    TRAILCAST_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60) # from a cold disk, beside other work
   list(JOIN ARG_LONG ":" long)
   if(long)

@@ -19,6 +19,7 @@
 #include "services/program/command_line.h"
 #include "services/route/digest.h"
 #include "tests/bench/view_corpus.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::bench {
@@ -210,7 +211,8 @@ int main(int argc, char** argv) {
   return trailcast::program::RunMain("bench_view", [&] {
     const auto segments = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100'000UL;
     const std::filesystem::path data =
-        argc > 2 ? argv[2] : std::filesystem::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "data";
+        argc > 2 ? argv[2]
+                 : std::filesystem::path(trailcast::SourceDir()) / ".." / "shared" / "data";
     return trailcast::bench::Run(static_cast<std::uint32_t>(segments), data);
   });
 }

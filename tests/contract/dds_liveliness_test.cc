@@ -9,6 +9,7 @@
 
 #include "tests/contract/network.h"
 #include "tests/support/pieces.h"
+#include "tests/support/places.h"
 
 namespace trailcast::dds {
 namespace {
@@ -22,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 class Peer {
  public:
   Peer(std::string tag, std::string agent, std::string instance) {
-    std::string program = TRAILCAST_BINARY_DIR "/status_peer";
+    std::string program = ProgramsDir() + "/status_peer";
     const std::array<char*, 5> arguments{program.data(), tag.data(), agent.data(), instance.data(),
                                          nullptr};
     EXPECT_EQ(posix_spawn(&pid_, program.c_str(), nullptr, nullptr, arguments.data(), environ), 0);

@@ -5,6 +5,7 @@
 #include "tests/interop/fast_dds_programs.h"
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 namespace {
@@ -41,9 +42,9 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
         Path("robot-" + does + ".log"));
   }
   Ended RunAgentOfRobot(const std::string& command, const Words& words) {
-    Process agent(lab_->At(kHost, With({std::string(TRAILCAST_BINARY_DIR) + "/trailcast-agent",
-                                        command, "--ros2", "/robot1", "--ros-domain", kDomain,
-                                        "--route", "hall", "--store", Path("routes.db")},
+    Process agent(lab_->At(kHost, With({ProgramsDir() + "/trailcast-agent", command, "--ros2",
+                                        "/robot1", "--ros-domain", kDomain, "--route", "hall",
+                                        "--store", Path("routes.db")},
                                        words)),
                   Path(command + ".log"));
     return End(agent);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
@@ -23,8 +24,7 @@ class ProgramsTest : public testing::Test {
 
   std::unique_ptr<Process> Start(const std::string& program, const Words& words,
                                  const std::string& log) {
-    Words argv{std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--dds-tag", tag_,
-               "--network-interface", "lo"};
+    Words argv{ProgramsDir() + "/" + program, "--dds-tag", tag_, "--network-interface", "lo"};
     argv.insert(argv.end(), words.begin(), words.end());
     return std::make_unique<Process>(argv, Path(log + ".log"));
   }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/scenario/programs.h"
+#include "tests/support/places.h"
 #include "tests/support/record_through.h"
 
 namespace trailcast::test {
@@ -21,7 +22,7 @@ struct Frame {
 class RecordedRunsTest : public ProgramsTest {
  protected:
   static std::filesystem::path Data(const std::string& name) {
-    return std::filesystem::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "data" / name;
+    return std::filesystem::path(SourceDir()) / ".." / "shared" / "data" / name;
   }
   static bool Absent(const std::string& name) { return !std::filesystem::is_directory(Data(name)); }
 

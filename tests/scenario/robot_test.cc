@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/scenario/robots.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 namespace {
@@ -176,10 +177,10 @@ TEST_F(RobotTest, ARobotWithoutAnAgentEndsWithASignal) {
 
 TEST_F(RobotTest, ARosDomainInTheEnvironmentAsksForNoRobot) {
   std::ofstream(Path("path.csv")) << "x_m,y_m\n" << kPath;
-  Process agent({"/usr/bin/env", "ROS_DOMAIN_ID=3",
-                 std::string(TRAILCAST_BINARY_DIR) + "/trailcast-agent", "teach", "--sim", "indoor",
-                 "--path", Path("path.csv"), "--route", "hall", "--store", Path("routes.db")},
-                Path("env.log"));
+  Process agent(
+      {"/usr/bin/env", "ROS_DOMAIN_ID=3", ProgramsDir() + "/trailcast-agent", "teach", "--sim",
+       "indoor", "--path", Path("path.csv"), "--route", "hall", "--store", Path("routes.db")},
+      Path("env.log"));
   EXPECT_EQ(End(agent).status, 0) << agent.output();
 }
 

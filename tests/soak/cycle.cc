@@ -7,6 +7,7 @@
 
 #include "services/exchange/publish.h"
 #include "services/store/route_store.h"
+#include "tests/support/places.h"
 
 namespace trailcast::soak {
 namespace {
@@ -142,8 +143,7 @@ void Cycle::WatchAudit(Clock::time_point now) {
 
 void Cycle::Operate(const std::vector<std::string>& words, Stage next, Clock::time_point now) {
   if (!tool_) {
-    Words all{std::string(TRAILCAST_BINARY_DIR) + "/trailcast", "--network-interface", "air",
-              "routes"};
+    Words all{ProgramsDir() + "/trailcast", "--network-interface", "air", "routes"};
     all.insert(all.end(), words.begin(), words.end());
     tool_ = std::make_unique<test::Process>(all, errand_.folder / "tool.log");
     ++tool_runs_;

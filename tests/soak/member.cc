@@ -1,4 +1,5 @@
 #include "tests/soak/member.h"
+#include "tests/support/places.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,7 @@ Member::Member(test::NetworkLab& lab, int host, std::string name, std::filesyste
 }
 
 void Member::Start(const std::string& program, const Words& words) {
-  Words all{std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--network-interface", "eth0",
-            "--name", name_};
+  Words all{ProgramsDir() + "/" + program, "--network-interface", "eth0", "--name", name_};
   all.insert(all.end(), words.begin(), words.end());
   // The log before the last is of no use any more.
   std::filesystem::remove(folder_ / fmt::format("{}-{}.log", name_, starts_ - 2));

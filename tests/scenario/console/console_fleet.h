@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/robots.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 
@@ -21,7 +22,7 @@ inline int ConsolesPort(Process& console) {
 
 // Where a picture of the page goes, for people to look at.
 inline std::filesystem::path Shot(const std::string& name) {
-  const auto shots = std::filesystem::path(TRAILCAST_BINARY_DIR).parent_path() / "console";
+  const auto shots = std::filesystem::path(ProgramsDir()).parent_path() / "console";
   std::filesystem::create_directories(shots);
   return shots / (name + ".png");
 }

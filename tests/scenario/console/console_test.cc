@@ -5,6 +5,7 @@
 
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 namespace {
@@ -117,7 +118,7 @@ TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
   ASSERT_TRUE(WaitForState("free")) << State().dump(2);
   const auto example = [&](const Words& words) {
     Process process(With({"/usr/bin/env", "CONSOLE=http://localhost:" + std::to_string(port_),
-                          TRAILCAST_SOURCE_DIR "/config/examples/send_and_wait.sh", "robot1"},
+                          SourceDir() + "/config/examples/send_and_wait.sh", "robot1"},
                          words),
                     Path("example.log"));
     return End(process);

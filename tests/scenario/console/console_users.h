@@ -9,6 +9,7 @@
 
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
+#include "tests/support/places.h"
 #include "tests/support/self_signed.h"
 
 namespace trailcast::test {
@@ -27,8 +28,7 @@ class ConsoleUsersTest : public ConsoleFleetTest {
   // `input`: what comes on its standard input.
   Ended Users(const Words& words, const std::string& input = kPassword) {
     std::string line = "printf '%s\\n' \"$0\" | \"$@\"";
-    Words argv{"/bin/sh", "-c", line, input,
-               std::string(TRAILCAST_BINARY_DIR) + "/trailcast-console"};
+    Words argv{"/bin/sh", "-c", line, input, ProgramsDir() + "/trailcast-console"};
     Process process(With(std::move(argv), UsersWords(words)), Path("users.log"));
     return End(process);
   }

@@ -15,6 +15,7 @@
 
 #include "services/image/files.h"
 #include "services/lab/demo/child_process.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::demo {
@@ -25,7 +26,7 @@ using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::filesystem::path kPrograms = TRAILCAST_BINARY_DIR;
+const std::filesystem::path kPrograms = ProgramsDir();
 
 bool Within(seconds bound, const std::function<bool()>& predicate) {
   const auto deadline = std::chrono::steady_clock::now() + bound;

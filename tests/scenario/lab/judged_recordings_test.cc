@@ -8,6 +8,7 @@
 
 #include "services/lab/trial/judge/recording_batch.h"
 #include "services/lab/trial/judge/recording_report.h"
+#include "tests/support/places.h"
 
 namespace trailcast::trial {
 namespace {
@@ -49,7 +50,7 @@ class JudgedRecordingsTest : public testing::Test {
   // Of the verdict's counts.
   static RecordingShares Shares(const RecordingRow& row) { return SharesOf(row.verdict); }
 
-  const fs::path data_ = fs::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "data";
+  const fs::path data_ = fs::path(SourceDir()) / ".." / "shared" / "data";
 };
 
 TEST_F(JudgedRecordingsTest, WhatWasTaughtIsFollowedInEveryFrame) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "tests/support/places.h"
+
 namespace trailcast::test {
 
 // A scout's store that several tests, each a process of its own, begin with: kept in the build's
@@ -39,7 +41,7 @@ class TaughtOnce {
     return std::to_string(std::hash<std::string>{}(text));
   }
   static std::filesystem::path Folder() {
-    const std::filesystem::path programs(TRAILCAST_BINARY_DIR);
+    const std::filesystem::path programs(ProgramsDir());
     std::string builds;
     for (const char* file : {"trailcast", "trailcast-agent", "libtrailcast_simulated.so"}) {
       const auto built = std::filesystem::last_write_time(programs / file).time_since_epoch();

@@ -11,6 +11,7 @@
 #include "services/lab/trial/trial_batch.h"
 #include "services/lab/trial/trial_csv.h"
 #include "tests/scenario/lab/picture_hall.h"
+#include "tests/support/places.h"
 
 namespace trailcast::trial {
 namespace {
@@ -114,7 +115,7 @@ TEST(Trial, WhoIsSetDownAnywhereOnTheRouteKnowsWhereAndFollowsOn) {
 
 TEST(Trial, AFollowerArrivesInAShopThatSomebodyElseModelled) {
   const std::filesystem::path shop =
-      std::filesystem::path(TRAILCAST_SOURCE_DIR) / "../shared/worlds/bookstore";
+      std::filesystem::path(SourceDir()) / "../shared/worlds/bookstore";
   if (!std::filesystem::exists(shop / "world.obj")) {
     GTEST_SKIP() << "no world to drive in at " << shop << ": nothing was tried";
   }

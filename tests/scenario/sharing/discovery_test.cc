@@ -1,6 +1,7 @@
 // Who finds whom on networks of different kinds, by flags and by the files of config/dds.
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 namespace {
@@ -26,13 +27,13 @@ class DiscoveryTest : public ProgramsTest {
                                    const Words& words) {
     Words all{"/usr/bin/env"};
     all.insert(all.end(), settings.begin(), settings.end());
-    all.push_back(std::string(TRAILCAST_BINARY_DIR) + "/" + program);
+    all.push_back(ProgramsDir() + "/" + program);
     all.insert(all.end(), {"--dds-tag", tag_, "--network-interface", "eth0"});
     all.insert(all.end(), words.begin(), words.end());
     return std::make_unique<Process>(lab_->At(host, all), Path(program + std::to_string(host)));
   }
   static std::string File(const std::string& file) {
-    return "CYCLONEDDS_URI=file://" + std::string(TRAILCAST_SOURCE_DIR) + "/config/dds/" + file;
+    return "CYCLONEDDS_URI=file://" + SourceDir() + "/config/dds/" + file;
   }
   void StartServer(const Words& settings) {
     server_ = StartAt(kServer, settings, "trailcast-server", {"--store", Path("server.db")});

@@ -10,6 +10,7 @@
 #include "services/store/route_store.h"
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
+#include "tests/support/places.h"
 #include "tests/support/taught_route.h"
 
 namespace trailcast::test {
@@ -44,8 +45,8 @@ class NetworkTest : public ProgramsTest {
 
   std::unique_ptr<Process> StartAt(int host, const std::string& program, const Words& words,
                                    const std::string& log) {
-    Words all{"/usr/bin/env", "CYCLONEDDS_URI=" + cyclonedds_uri_,
-              std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--network-interface", "eth0"};
+    Words all{"/usr/bin/env", "CYCLONEDDS_URI=" + cyclonedds_uri_, ProgramsDir() + "/" + program,
+              "--network-interface", "eth0"};
     all.insert(all.end(), words.begin(), words.end());
     return std::make_unique<Process>(lab_->At(host, all), Path(log + ".log"));
   }

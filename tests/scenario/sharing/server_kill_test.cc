@@ -8,6 +8,7 @@
 
 #include "services/store/route_store.h"
 #include "tests/scenario/sharing/kill_scout.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
@@ -27,9 +28,8 @@ class ServerKill : public KillScoutsTest {
   void SetUp() override { StartScouts(kScouts, tag_); }
   void StartServer() {
     server_ = std::make_unique<Process>(
-        std::vector<std::string>{std::string(TRAILCAST_BINARY_DIR) + "/trailcast-server",
-                                 "--dds-tag", tag_, "--network-interface", "lo", "--store",
-                                 file_.string()},
+        std::vector<std::string>{ProgramsDir() + "/trailcast-server", "--dds-tag", tag_,
+                                 "--network-interface", "lo", "--store", file_.string()},
         (folder_ / "server.log").string());
     ASSERT_TRUE(server_->WaitForOutput("ready")) << server_->output();
   }

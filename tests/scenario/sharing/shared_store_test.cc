@@ -11,6 +11,7 @@
 #include "services/exchange/route_fetcher.h"
 #include "services/store/route_store.h"
 #include "tests/scenario/sharing/kill_scout.h"
+#include "tests/support/places.h"
 #include "tests/support/postgres_server.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
@@ -87,8 +88,8 @@ class SharedStore : public KillScoutsTest {
   static std::string Name(std::size_t which) { return fmt::format("server-{}", which); }
   [[nodiscard]] std::vector<std::string> Words(const std::string& program,
                                                const std::vector<std::string>& more) const {
-    std::vector<std::string> words{std::string(TRAILCAST_BINARY_DIR) + "/" + program, "--dds-tag",
-                                   tag_, "--network-interface", "lo"};
+    std::vector<std::string> words{ProgramsDir() + "/" + program, "--dds-tag", tag_,
+                                   "--network-interface", "lo"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -188,9 +189,8 @@ TEST_F(SharedStore, AServerThatNobodyAsksAnythingTellsThatPostgresIsAway) {
   Process server(Words("trailcast-server", {"--store", url_, "--heartbeat", beat}),
                  folder_ / "idle.log");
   const auto health = [&] {
-    Process asked(
-        {std::string(TRAILCAST_BINARY_DIR) + "/trailcast-server", "health", "--heartbeat", beat},
-        folder_ / "health.log");
+    Process asked({ProgramsDir() + "/trailcast-server", "health", "--heartbeat", beat},
+                  folder_ / "health.log");
     const auto status = asked.Wait();
     return std::pair(status, asked.output());
   };

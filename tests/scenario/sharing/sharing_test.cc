@@ -1,5 +1,6 @@
 // Scout, server and follower as processes over DDS on the loopback interface.
 #include "tests/scenario/programs.h"
+#include "tests/support/places.h"
 
 namespace trailcast::test {
 namespace {
@@ -90,7 +91,7 @@ TEST_F(SharingTest, AFollowerThatNoServerAnswersSaysSo) {
 }
 
 TEST_F(SharingTest, TheExampleConfigurationsAreAccepted) {
-  const std::string config = std::string(TRAILCAST_SOURCE_DIR) + "/config/";
+  const std::string config = SourceDir() + "/config/";
   const auto agent =
       RunAgent({"--config", config + "agent/agent.toml", "--store", Path("a.db"), "replay",
                 "--camera", config + "agent/camera.toml", "--wait", "0.1"});

@@ -6,6 +6,7 @@
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/sharing/secured_fleet.h"
 #include "tests/support/pieces.h"
+#include "tests/support/places.h"
 #include "tests/support/stranger.h"
 
 namespace trailcast::test {
@@ -103,9 +104,9 @@ TEST_F(StrangersTest, ExpiredKeysAreNotBelievedBecauseTheirOwnersClockIsBehind) 
   ASSERT_EQ(Teach(scout_keys_).status, 0);
   const std::string keys = authority_.Add("old", Role::kOperator, LongAgo(), 10)->string();
   Process late({"/usr/bin/env", "LD_PRELOAD=" + std::string(kFakeTime), "FAKETIME=-15d",
-                "FAKETIME_DONT_FAKE_MONOTONIC=1", std::string(TRAILCAST_BINARY_DIR) + "/trailcast",
-                "--dds-tag", tag_, "--network-interface", "lo", "--security", keys, "routes",
-                "--timeout", std::to_string(kStay.count())},
+                "FAKETIME_DONT_FAKE_MONOTONIC=1", ProgramsDir() + "/trailcast", "--dds-tag", tag_,
+                "--network-interface", "lo", "--security", keys, "routes", "--timeout",
+                std::to_string(kStay.count())},
                Path("late.log"));
   const Ended ended = End(late);
   EXPECT_EQ(ended.status, 1);

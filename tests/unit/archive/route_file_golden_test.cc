@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "services/archive/route_file_writer.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/archive/made_file.h"
 
@@ -10,7 +11,7 @@ namespace trailcast::archive {
 namespace {
 
 const std::filesystem::path kFile =
-    std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden/route-v1.trailcast";
+    std::filesystem::path(SourceDir()) / "tests/golden/route-v1.trailcast";
 
 void Write(const std::filesystem::path& file) {
   const test::TaughtRoute taught = test::TeachSamples(2);

@@ -5,6 +5,7 @@
 
 #include "services/bag/ros_messages.h"
 #include "tests/support/bag_writers.h"
+#include "tests/support/places.h"
 #include "tests/support/ros_messages.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/bag/bag_reading.h"
@@ -103,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(All, McapCompressions,
 TEST(Bag, ReadsWhatOtherProgramsWrote) {
   for (const char* name : {"lz4.mcap", "zstd.mcap", "loose.mcap"}) {
     SCOPED_TRACE(name);
-    const auto bag = OpenBag(fs::path(TRAILCAST_SOURCE_DIR) / "tests/unit/bag/others" / name);
+    const auto bag = OpenBag(fs::path(SourceDir()) / "tests/unit/bag/others" / name);
     ASSERT_TRUE(bag);
     ASSERT_EQ(bag->topics().size(), 2U);
     EXPECT_EQ(bag->topics()[0].type, "sensor_msgs/msg/Image");

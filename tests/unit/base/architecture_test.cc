@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/places.h"
 #include "tests/unit/base/source_rooms.h"
 
 namespace trailcast {
@@ -74,7 +75,7 @@ std::string Picture(const Arrows& arrows) {
 
 TEST(Architecture, ThePictureInTheReadmeIsOfTheCode) {
   const std::filesystem::path readme =
-      std::filesystem::path(TRAILCAST_SOURCE_DIR) / "services" / "README.md";
+      std::filesystem::path(SourceDir()) / "services" / "README.md";
   std::ostringstream text;
   text << std::ifstream(readme).rdbuf();
   const std::string picture = Picture(ArrowsOf(FindIncludes(ReadSources())));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
 #include "tests/unit/base/source_rooms.h"
 
 namespace trailcast {
@@ -225,12 +226,12 @@ std::vector<std::string> Faults(const std::vector<Include>& includes) {
 
 TEST(Layering, EveryIncludeFollowsTheOrderOfRoomsAndKeepsLibrariesInTheirs) {
   const std::vector<Include> includes = FindIncludes(ReadSources());
-  EXPECT_GT(includes.size(), 50U) << "read from " << TRAILCAST_SOURCE_DIR;
+  EXPECT_GT(includes.size(), 50U) << "read from " << SourceDir();
   EXPECT_THAT(Faults(includes), IsEmpty());
 }
 
 TEST(Layering, EveryRoomHasARule) {
-  const fs::path root(TRAILCAST_SOURCE_DIR);
+  const fs::path root(SourceDir());
   for (const char* top : {"services", "services/lab", "agent", "route_server"}) {
     for (const auto& entry : fs::directory_iterator(root / top)) {
       const std::string room = entry.path().lexically_relative(root).string();

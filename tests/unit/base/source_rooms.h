@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/places.h"
+
 // The sources of libraries and programs, read as text: which room each line is in, what it
 // includes.
 namespace trailcast {
@@ -33,7 +35,7 @@ inline std::string RoomOf(const std::string& path) {
 }
 
 inline std::vector<SourceLine> ReadSources() {
-  const std::filesystem::path root(TRAILCAST_SOURCE_DIR);
+  const std::filesystem::path root(SourceDir());
   std::vector<SourceLine> lines;
   for (const char* top : {"services", "agent", "route_server"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / top)) {

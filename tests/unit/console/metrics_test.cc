@@ -13,6 +13,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
+#include "tests/support/places.h"
 
 namespace trailcast::console {
 namespace {
@@ -159,7 +160,7 @@ std::set<std::string> NamesIn(const std::string& text) {
 }
 
 std::string Read(const std::string& file) {
-  std::ifstream in(std::string(TRAILCAST_SOURCE_DIR) + "/" + file);
+  std::ifstream in(SourceDir() + "/" + file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -7,12 +7,13 @@
 
 #include "services/route/codec.h"
 #include "services/route/digest.h"
+#include "tests/support/places.h"
 #include "tests/unit/route/sample_segment.h"
 
 namespace trailcast::route {
 namespace {
 
-const std::filesystem::path kGolden = std::filesystem::path(TRAILCAST_SOURCE_DIR) / "tests/golden";
+const std::filesystem::path kGolden = std::filesystem::path(SourceDir()) / "tests/golden";
 const std::filesystem::path kFile = kGolden / "segment-v1.bin";
 const std::filesystem::path kFileOfVersion2 = kGolden / "segment-v2.bin";
 const std::filesystem::path kFileOfVersion3 = kGolden / "segment-v3.bin";

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "services/store/route_store.h"
+#include "tests/support/places.h"
 #include "tests/support/postgres_server.h"
 #include "tests/unit/store/golden_route.h"
 
@@ -21,8 +22,7 @@ using testing::IsEmpty;
 class PostgresUpgrade : public testing::Test {
  protected:
   PostgresUpgrade() {
-    std::ifstream in(std::filesystem::path(TRAILCAST_SOURCE_DIR) /
-                     "tests/golden/routes-postgres-v2.sql");
+    std::ifstream in(std::filesystem::path(SourceDir()) / "tests/golden/routes-postgres-v2.sql");
     test::PostgresServer::Execute(
         url_, {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
   }

@@ -9,6 +9,7 @@
 
 #include "services/store/lacking.h"
 #include "services/store/route_store.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/store/golden_route.h"
 #include "tests/unit/store/pieces.h"
@@ -258,9 +259,9 @@ TEST_F(SalvageTest, WithItsLogAWholeStoreLosesNothing) {
 
 TEST_F(SalvageTest, StoresOfVersionsBeforeAreSavedToo) {
   for (const int version : {4, 5}) {
-    std::filesystem::copy_file(std::filesystem::path(TRAILCAST_SOURCE_DIR) /
-                                   fmt::format("tests/golden/routes-v{}.db", version),
-                               file_, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(
+        std::filesystem::path(SourceDir()) / fmt::format("tests/golden/routes-v{}.db", version),
+        file_, std::filesystem::copy_options::overwrite_existing);
     const auto salvaged = Salvage(file_, saved_);
     ASSERT_TRUE(salvaged) << salvaged.error().message;
     EXPECT_THAT(salvaged->lost, IsEmpty()) << version;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "services/store/route_store.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/store/golden_route.h"
 
@@ -17,9 +18,8 @@ namespace fs = std::filesystem;
 class StoreUpgrade : public testing::TestWithParam<int> {
  protected:
   StoreUpgrade() {
-    fs::copy_file(
-        fs::path(TRAILCAST_SOURCE_DIR) / fmt::format("tests/golden/routes-v{}.db", GetParam()),
-        file_);
+    fs::copy_file(fs::path(SourceDir()) / fmt::format("tests/golden/routes-v{}.db", GetParam()),
+                  file_);
     fs::permissions(file_, fs::perms::owner_all);
   }
   void Execute(const char* sql) const {

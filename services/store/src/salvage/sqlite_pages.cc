@@ -27,8 +27,8 @@ std::uint64_t SizeOf(const std::filesystem::path& file) {
 }
 
 template <std::size_t kBytes>
-std::optional<std::array<std::uint8_t, kBytes>> ReadBytes(std::ifstream& from,
-                                                          std::uint64_t offset) {
+std::optional<std::array<std::uint8_t, kBytes>> ReadHead(std::ifstream& from,
+                                                         std::uint64_t offset) {
   std::array<std::uint8_t, kBytes> bytes{};
   from.clear();
   from.seekg(static_cast<std::streamoff>(offset));
@@ -46,7 +46,7 @@ SqlitePages::SqlitePages(const std::filesystem::path& file)
 }
 
 void SqlitePages::ReadHeader(std::uint64_t file_bytes) {
-  const auto bytes = ReadBytes<SqliteHeader::kBytes>(file_, 0);
+  const auto bytes = ReadHead<SqliteHeader::kBytes>(file_, 0);
   const SqliteHeader header{bytes.value_or(std::array<std::uint8_t, SqliteHeader::kBytes>{})};
   std::uint32_t promised = 0;
   if (header.IsSqlite()) {
@@ -67,12 +67,12 @@ void SqlitePages::ReadHeader(std::uint64_t file_bytes) {
 // The log is written from its beginning again once the file has all of it, so that older frames lie
 // behind newer ones; those have the salt of its header.
 void SqlitePages::ListFrames(std::uint64_t log_bytes) {
-  const auto header = ReadBytes<kLogHeaderBytes>(log_, 0);
+  const auto header = ReadHead<kLogHeaderBytes>(log_, 0);
   if (!header) return;
   const std::uint64_t frame_bytes = kFrameHeaderBytes + page_bytes_;
   std::vector<Frame> current;
   for (std::uint64_t at = kLogHeaderBytes; at + frame_bytes <= log_bytes; at += frame_bytes) {
-    const auto frame = ReadBytes<kFrameHeaderBytes>(log_, at);
+    const auto frame = ReadHead<kFrameHeaderBytes>(log_, at);
     if (!frame) continue;
     const bool is_current =
         std::equal(frame->begin() + kFrameSaltAt, frame->begin() + kFrameSaltAt + kSaltBytes,

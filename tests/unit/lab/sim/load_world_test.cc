@@ -10,6 +10,7 @@
 #include "services/image/files.h"
 #include "services/lab/sim/core/path.h"
 #include "services/lab/sim/core/simulated_robot.h"
+#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::sim {
@@ -166,7 +167,7 @@ TEST(LoadWorld, WordsOfTheCommandLineAreUnderstood) {
 
 TEST(LoadWorld, BookstoreCanBeStoodInAndSeen) {
   const std::filesystem::path folder =
-      std::filesystem::path(TRAILCAST_SOURCE_DIR) / ".." / "shared" / "worlds" / "bookstore";
+      std::filesystem::path(SourceDir()) / ".." / "shared" / "worlds" / "bookstore";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
   const auto world = LoadWorld({folder / "world.obj"});
   ASSERT_TRUE(world) << world.error().message;
