@@ -1,6 +1,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/program/heap.h"
 #include "services/tool/commands/command.h"
 
 namespace {
@@ -63,6 +64,7 @@ int Run(int argc, char** argv) {
     commands.push_back(std::move(command));
   }
   if (const auto ended = trailcast::program::Parse(app, argc, argv)) return *ended;
+  trailcast::program::KeepFreedMemory();
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();
   }

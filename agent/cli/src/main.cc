@@ -1,4 +1,5 @@
 #include "agent/cli/src/commands.h"
+#include "services/program/heap.h"
 #include "services/program/heartbeat.h"
 #include "services/program/stop_signal.h"
 
@@ -70,6 +71,7 @@ int Run(int argc, char** argv) {
     const bool follows = replay_app->parsed() || serve_app->parsed() || fetch_app->parsed();
     options.common.name = follows ? "follower" : "scout";
   }
+  program::KeepFreedMemory();
   program::SetUpLog(options.common);
   const program::StopSignal stop;
   const auto status = teach_app->parsed()       ? agent::RunTeach(options, teach)
