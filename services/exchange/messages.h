@@ -327,11 +327,23 @@ struct AgentGone {
   bool operator==(const AgentGone&) const = default;
 };
 
-using Message =
+using AnyMessage =
     std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
                  FollowedStretches, AgentGone>;
+
+// One of these. Its copies are made in one source file: where each file that hands messages on made
+// its own of two dozen types, compilers were busy with nothing else.
+struct Message : AnyMessage {
+  using AnyMessage::AnyMessage;
+  Message();
+  Message(const Message& other);
+  Message(Message&& other) noexcept;
+  Message& operator=(const Message& other);
+  Message& operator=(Message&& other) noexcept;
+  ~Message();
+};
 
 }  // namespace trailcast::exchange

@@ -11,7 +11,7 @@ namespace trailcast::exchange {
 
 inline constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kFollowed) + 1;
 // Each has a type of message; AgentGone has no topic.
-static_assert(std::variant_size_v<Message> == kTopics + 1);
+static_assert(std::variant_size_v<AnyMessage> == kTopics + 1);
 
 // The topic a message travels on; empty for AgentGone, which no one publishes.
 [[nodiscard]] std::optional<Topic> TopicOf(const Message& message);
