@@ -230,19 +230,28 @@ int Run(const CLI::App& app, JudgeCommand& judge) {
   judge.options.judging.steering_leads_least = judge.steering_lead.first;
   judge.options.judging.steering_leads_most = judge.steering_lead.second;
   program::LiveLines live(stderr, std::chrono::seconds(20));
-  const auto outcomes =
+  auto results =
       trial::RunRecordingTrials(*pairs, judge.options, judge.jobs, [&](double share, int ended) {
         live.Show({fmt::format("{} {:>3.0f} %  {} of {} replays ended",
                                program::ProgressBar(share, kBarWidth), 100.0 * share, ended,
                                pairs->size())},
                   static_cast<std::size_t>(ended) == pairs->size());
       });
-  if (!outcomes) return program::Complain(app, outcomes.error());
+  std::vector<trial::RecordingOutcome> outcomes;
   std::vector<trial::RecordingRow> rows;
-  for (const trial::RecordingOutcome& outcome : *outcomes) rows.push_back(outcome.row);
+  int status = program::kExitOk;
+  for (Result<trial::RecordingOutcome>& result : results) {
+    if (!result) {
+      status = program::Complain(app, result.error());
+      continue;
+    }
+    rows.push_back(result->row);
+    outcomes.push_back(*std::move(result));
+  }
+  if (rows.empty()) return status;
   std::fputs(trial::RecordingTable(rows).c_str(), stdout);
-  const auto written = Write(judge, rows, *outcomes);
-  return written ? program::kExitOk : program::Complain(app, written.error());
+  const auto written = Write(judge, rows, outcomes);
+  return written ? status : program::Complain(app, written.error());
 }
 
 }  // namespace

@@ -37,12 +37,12 @@ class JudgedRecordingsTest : public testing::Test {
     return pair;
   }
   static std::vector<RecordingRow> Run(const std::vector<RecordingPair>& pairs) {
-    const auto outcomes = RunRecordingTrials(pairs, {}, 2, {});
-    EXPECT_TRUE(outcomes) << outcomes.error().message;
     std::vector<RecordingRow> rows;
-    for (const RecordingOutcome& outcome : outcomes.value_or(std::vector<RecordingOutcome>())) {
-      rows.push_back(outcome.row);
-      EXPECT_EQ(outcome.row.error, "");
+    for (const Result<RecordingOutcome>& outcome : RunRecordingTrials(pairs, {}, 2, {})) {
+      EXPECT_TRUE(outcome) << outcome.error().message;
+      if (!outcome) continue;
+      rows.push_back(outcome->row);
+      EXPECT_EQ(outcome->row.error, "");
     }
     EXPECT_EQ(rows.size(), pairs.size());
     return rows;

@@ -11,9 +11,9 @@ namespace trailcast::trial {
 using RecordingProgress = std::function<void(double share, int ended)>;
 
 // All pairs on `jobs` threads; each recording is taught once, whoever is replayed on it. The
-// outcomes come in the order of the pairs and are the same whatever the number of threads. The
-// error is the first pair's whose files cannot be used; it ends the batch.
-[[nodiscard]] Result<std::vector<RecordingOutcome>> RunRecordingTrials(
+// outcomes come in the order of the pairs, one a pair, and are the same whatever the number of
+// threads. A pair whose files cannot be used has an error, which names it; the others go on.
+[[nodiscard]] std::vector<Result<RecordingOutcome>> RunRecordingTrials(
     const std::vector<RecordingPair>& pairs, const RecordingOptions& options, int jobs,
     const RecordingProgress& on_progress);
 

@@ -44,9 +44,12 @@ class RecordingTrialTest : public testing::Test {
   }
   static std::vector<RecordingOutcome> Run(const std::vector<RecordingPair>& pairs, int jobs = 1,
                                            const RecordingOptions& options = {}) {
-    auto outcomes = RunRecordingTrials(pairs, options, jobs, {});
-    EXPECT_TRUE(outcomes) << outcomes.error().message;
-    return outcomes ? std::move(*outcomes) : std::vector<RecordingOutcome>();
+    std::vector<RecordingOutcome> outcomes;
+    for (Result<RecordingOutcome>& outcome : RunRecordingTrials(pairs, options, jobs, {})) {
+      EXPECT_TRUE(outcome) << outcome.error().message;
+      if (outcome) outcomes.push_back(*std::move(outcome));
+    }
+    return outcomes;
   }
   test::TempDir folder_;
 };
@@ -130,13 +133,16 @@ TEST_F(RecordingTrialTest, ARecordingThatTeachesNothingIsAnOutcome) {
   EXPECT_EQ(outcomes[0].row.verdict.following, 0);
 }
 
-TEST_F(RecordingTrialTest, AnAbsentFileEndsTheBatchSayingWhich) {
+TEST_F(RecordingTrialTest, APairWithAnAbsentFileIsNamedAndTheOthersGoOn) {
   RecordingPair pair = Pair("second");
   pair.reference = folder_ / "absent.csv";
-  const auto outcomes = RunRecordingTrials({pair}, {}, 1, {});
-  ASSERT_FALSE(outcomes);
-  EXPECT_THAT(outcomes.error().message, HasSubstr("second on first: cannot read"));
-  EXPECT_THAT(RunRecordingTrials({Pair("third")}, {}, 1, {}).error().message, HasSubstr("third"));
+  const auto outcomes = RunRecordingTrials({pair, Pair("third"), Pair("second")}, {}, 1, {});
+  ASSERT_THAT(outcomes, SizeIs(3));
+  ASSERT_FALSE(outcomes[0]);
+  EXPECT_THAT(outcomes[0].error().message, HasSubstr("second on first: cannot read"));
+  ASSERT_FALSE(outcomes[1]);
+  EXPECT_THAT(outcomes[1].error().message, HasSubstr("third"));
+  EXPECT_TRUE(outcomes[2]);
 }
 
 TEST_F(RecordingTrialTest, ProgressGoesFromNothingToAll) {
@@ -147,7 +153,7 @@ TEST_F(RecordingTrialTest, ProgressGoesFromNothingToAll) {
     last = share;
     ended = count;
   });
-  ASSERT_TRUE(outcomes);
+  ASSERT_THAT(outcomes, SizeIs(1));
   EXPECT_NEAR(last, 1.0, 1e-9);
   EXPECT_EQ(ended, 1);
 }

@@ -32,13 +32,12 @@ class Batch {
         outcomes_(pairs.size()),
         shares_(pairs.size(), 0.0) {}
 
-  // A thread's work: pairs, until none is left or one could not be run at all.
+  // A thread's work: pairs, until none is left.
   void Work() {
-    while (!broken_) {
+    for (;;) {
       const std::size_t index = next_.fetch_add(1);
       if (index >= pairs_.size()) return;
       Result<RecordingOutcome> outcome = Run(index);
-      if (!outcome) broken_ = true;
       const std::scoped_lock lock(mutex_);
       outcomes_[index].emplace(std::move(outcome));
       ++ended_;
@@ -46,12 +45,11 @@ class Batch {
     }
   }
 
-  Result<std::vector<RecordingOutcome>> Take() {
-    std::vector<RecordingOutcome> taken;
+  // Once all threads have ended.
+  std::vector<Result<RecordingOutcome>> Take() {
+    std::vector<Result<RecordingOutcome>> taken;
     for (std::optional<Result<RecordingOutcome>>& outcome : outcomes_) {
-      if (!outcome) continue;  // never begun, after another one's error
-      if (!*outcome) return tl::unexpected(outcome->error());
-      taken.push_back(std::move(**outcome));
+      taken.push_back(*std::move(outcome));
     }
     return taken;
   }
@@ -130,7 +128,6 @@ class Batch {
   const RecordingOptions& options_;
   const RecordingProgress& on_progress_;
   std::atomic<std::size_t> next_{0};
-  std::atomic<bool> broken_{false};
   std::mutex mutex_;  // guards what follows
   // By the recording, its odometry, and who visits.
   std::map<std::tuple<std::filesystem::path, std::filesystem::path, std::string>, Teaching>
@@ -142,7 +139,7 @@ class Batch {
 
 }  // namespace
 
-Result<std::vector<RecordingOutcome>> RunRecordingTrials(const std::vector<RecordingPair>& pairs,
+std::vector<Result<RecordingOutcome>> RunRecordingTrials(const std::vector<RecordingPair>& pairs,
                                                          const RecordingOptions& options, int jobs,
                                                          const RecordingProgress& on_progress) {
   Batch batch(pairs, options, on_progress);
