@@ -43,7 +43,7 @@ void BindKey(SQLite::Statement& statement, const route::RouteKey& key) {
 
 struct HistoryStore::Database : OwnDatabase {
   Database(const fs::path& file, std::int64_t most)
-      : OwnDatabase(file, kHistoryFile), most_kept(most) {}
+      : OwnDatabase(file, kHistoryFile), since_thinned_(most), most_kept(most) {}
 
   void Insert(const network::Change& change) {
     auto insert =
@@ -66,7 +66,8 @@ struct HistoryStore::Database : OwnDatabase {
     note->exec();
   }
 
-  // Now and then, since looking for the oldest is not free.
+  // Now and then, since looking for the oldest is not free; and with the first change of each run,
+  // which may be too short for so many.
   void Thin() {
     if (since_thinned_ <= most_kept / 100) return;
     since_thinned_ = 0;
@@ -77,7 +78,7 @@ struct HistoryStore::Database : OwnDatabase {
     db.exec("DELETE " + old);
   }
 
-  std::int64_t since_thinned_ = 0;
+  std::int64_t since_thinned_;
   std::int64_t most_kept;
 };
 

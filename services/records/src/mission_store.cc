@@ -124,7 +124,7 @@ std::string EndedStates() {
 
 struct MissionStore::Database : OwnDatabase {
   Database(const fs::path& file, std::int64_t most)
-      : OwnDatabase(file, kMissionFile), most_kept(most) {}
+      : OwnDatabase(file, kMissionFile), since_thinned_(most), most_kept(most) {}
 
   std::optional<mission::Record> Get(const AgentId& agent, const std::string& id) {
     auto select = compiled.Take(std::string("SELECT ") + kColumns +
@@ -178,7 +178,8 @@ struct MissionStore::Database : OwnDatabase {
     return answers;
   }
 
-  // Now and then, since looking for the oldest is not free.
+  // Now and then, since looking for the oldest is not free; and with the first change of each run,
+  // which may be too short for so many.
   void Thin() {
     if (++since_thinned_ <= most_kept / 100) return;
     since_thinned_ = 0;
@@ -192,7 +193,7 @@ struct MissionStore::Database : OwnDatabase {
         "answer.client AND command.drawn = answer.drawn)");
   }
 
-  std::int64_t since_thinned_ = 0;
+  std::int64_t since_thinned_;
   std::int64_t most_kept;
 };
 

@@ -64,6 +64,16 @@ TEST_F(HistoryStoreTest, TheOldestGoAndSinceWhenItIsKeptIsSaid) {
   EXPECT_EQ(store_->KeptSince(9000), 1003);
 }
 
+TEST_F(HistoryStoreTest, TheOldestGoInRunsThatAreShortToo) {
+  for (int run = 0; run < 60; ++run) {
+    Reopen(100);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(store_->Note(std::vector{Change{run, "desk", "open hall"}}, {}));
+    }
+  }
+  EXPECT_THAT(Since(0), SizeIs(101)) << "the last run's second change is one too many";
+}
+
 TEST_F(HistoryStoreTest, ARevisionIsNotedAsItWasLastUntilItIsDeleted) {
   const route::RouteKey key = test::KeyNumber(1);
   EXPECT_EQ(store_->Noted(key).value(), std::nullopt);

@@ -201,6 +201,17 @@ TEST_F(MissionStoreTest, ForgetsTheOldestThatHaveEnded) {
   EXPECT_EQ(page->commands.size(), 3U);
 }
 
+TEST_F(MissionStoreTest, ForgetsInRunsThatAreShortToo) {
+  for (int run = 0; run < 60; ++run) {
+    store_.reset();
+    store_ = *MissionStore::Open(folder_ / "missions", 50);
+    const std::string id = "m" + std::to_string(run);
+    Add(For("robot1", id));
+    (void)Change("robot1", id, 1, State::kArrived);
+  }
+  EXPECT_LE(Found({.page_size = 100}).size(), 51U);
+}
+
 TEST_F(MissionStoreTest, IsOneProcessAlone) {
   const auto other = MissionStore::Open(folder_ / "missions");
   ASSERT_FALSE(other);
