@@ -1,7 +1,9 @@
 #include "services/users/guard.h"
 
 #include <algorithm>
-#include <thread>
+#include <exception>
+#include <future>
+#include <optional>
 
 #include "services/base/give_way.h"
 
@@ -13,15 +15,20 @@ using std::chrono::milliseconds;
 constexpr Throttle::Pace kAddressPace{.free = 5, .longest = milliseconds(15 * 60 * 1000)};
 constexpr Throttle::Pace kNamePace{.free = 5};
 
-// A robot's stop is not to wait for a stranger's password.
-bool InIdleTime(const std::function<bool()>& matches) {
-  bool matched = false;
-  std::thread([&] {
-    constexpr int kLowest = 19;
-    GiveWay(kLowest);
-    matched = matches();
-  }).join();
-  return matched;
+// On a thread of its own: a robot's stop is not to wait for a stranger's password. Nothing: there
+// was no thread, or no memory, to look at it.
+std::optional<bool> InIdleTime(const std::function<bool()>& matches) {
+  try {
+    return std::async(std::launch::async,
+                      [&] {
+                        constexpr int kLowest = 19;
+                        GiveWay(kLowest);
+                        return matches();
+                      })
+        .get();
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -62,14 +69,15 @@ std::variant<std::string, Turned> Guard::LogIn(const std::string& name, const st
   const std::string kept = found == users.end() ? "" : found->second.password;
   hashes_ = true;
   lock.unlock();
-  const bool matches = password.size() <= kLongestPassword && InIdleTime([&] {
-                         return parts_.matches(password, kept.empty() ? NobodysHash() : kept);
-                       });
+  const std::optional<bool> matches = password.size() > kLongestPassword ? false : InIdleTime([&] {
+    return parts_.matches(password, kept.empty() ? NobodysHash() : kept);
+  });
   lock.lock();
   hashes_ = false;
   hashed_.notify_one();
+  if (!matches) return Turned{.why = Turned::Why::kBusy};
   const auto now = parts_.clock();
-  if (!matches || kept.empty()) {
+  if (!*matches || kept.empty()) {
     of_address_.Fail(address, now);
     if (known_.Find({name, address}) == nullptr) of_name_.Fail(name, now);
     return Turned{};

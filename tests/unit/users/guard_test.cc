@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <fstream>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -40,6 +41,7 @@ class GuardTest : public testing::Test {
   }
   bool Match(const std::string& password, const std::string& hash) {
     ++hashed_;
+    if (no_memory_) throw std::bad_alloc();
     std::unique_lock lock(mutex_);
     goes_on_.wait(lock, [this] { return !held_; });
     return HashOf(password) == hash;
@@ -70,6 +72,7 @@ class GuardTest : public testing::Test {
   std::mutex mutex_;
   std::condition_variable goes_on_;
   bool held_ = false;
+  std::atomic<bool> no_memory_{false};
   std::atomic<int> hashed_{0};
   test::TempDir folder_;
   std::atomic<std::int64_t> passed_ms_{0};
@@ -96,6 +99,14 @@ TEST_F(GuardTest, LetsUsersInAndKnowsThemAgain) {
   EXPECT_EQ(LogIn("wms", ""), "") << "it has no password";
   EXPECT_EQ(turned_.why, Turned::Why::kWrong);
   EXPECT_EQ(LogIn("anna", std::string(100'000, 'x')), "");
+}
+
+TEST_F(GuardTest, APasswordThatCannotBeLookedAtLocksNobodyOut) {
+  no_memory_ = true;
+  EXPECT_EQ(LogIn("anna", "correct horse"), "");
+  EXPECT_EQ(turned_.why, Turned::Why::kBusy);
+  no_memory_ = false;
+  EXPECT_NE(LogIn("anna", "correct horse"), "");
 }
 
 TEST_F(GuardTest, AnotherPasswordRoleOrNoUserAtAllCountsAtOnce) {
