@@ -250,10 +250,13 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
 // True: it looks elsewhere from now on. Who is only to drive a route may not be led over others.
 bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
+  if (!mission::GoingIn(desk_.current()->mission.orders) || !elsewhere_.MayBegin()) return false;
+  // It listens to the network while it asks what it sees, and may be sent another way meanwhile:
+  // what it is to do is looked at afterwards.
+  const std::vector<std::string> seen = RoutesInView();
   const MissionDesk::Current& current = *desk_.current();
-  if (!mission::GoingIn(current.mission.orders) || !elsewhere_.MayBegin()) return false;
   elsewhere_.Begin(current.tasks, current.task,
-                   fmt::format("{}: {}", outcome->state, outcome->reason), RoutesInView());
+                   fmt::format("{}: {}", outcome->state, outcome->reason), seen);
   spdlog::warn("{}", elsewhere_.Lost());
   told_.reset();
   return true;
