@@ -47,6 +47,7 @@ class Glances {
   void HandOver(Item item);
   void Serve(exchange::RouteExchange& exchange, Time now);
   void Paint();
+  [[nodiscard]] CameraPicture Painted(const Item& item);
   [[nodiscard]] CameraPicture Encode(const GlanceFrame& frame);
 
   GlanceDesk desk_;  // the exchange's thread's

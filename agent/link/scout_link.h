@@ -104,6 +104,7 @@ class ScoutLink {
   [[nodiscard]] Result<void> Number(route::RouteInfo& route);
   [[nodiscard]] Result<void> GoOn(const route::RouteInfo& cut_off);
   void Run();
+  [[nodiscard]] Result<void> Work();
   [[nodiscard]] Result<void> Step();
   [[nodiscard]] Result<void> StoreOffered();
   [[nodiscard]] Result<void> Trade();

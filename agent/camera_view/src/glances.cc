@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/base/give_way.h"
+#include "services/base/guarded.h"
 #include "services/image/files.h"
 
 namespace trailcast::agent {
@@ -101,13 +102,19 @@ void Glances::Paint() {
   while (!ending_) {
     handed_over_.Wait(kGlanceWakeUp);
     while (auto item = frames_.TryGet()) {
-      const auto* frame = std::get_if<GlanceFrame>(&*item);
-      CameraPicture picture =
-          frame != nullptr ? Encode(*frame) : CameraPicture{.detail = std::get<std::string>(*item)};
+      CameraPicture picture{.detail = kNoPicture};
+      // What cannot be drawn is no picture; the robot drives on.
+      (void)Guarded("the thread that draws what the camera sees",
+                    [&] { picture = Painted(*item); });
       // Full: nobody takes them, so nobody waits for them.
       (void)pictures_.TryPut(std::move(picture));
     }
   }
+}
+
+CameraPicture Glances::Painted(const Item& item) {
+  const auto* frame = std::get_if<GlanceFrame>(&item);
+  return frame != nullptr ? Encode(*frame) : CameraPicture{.detail = std::get<std::string>(item)};
 }
 
 CameraPicture Glances::Encode(const GlanceFrame& frame) {

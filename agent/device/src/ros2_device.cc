@@ -7,6 +7,7 @@
 
 #include "agent/device/src/ros2_state.h"
 #include "agent/device/src/ros2_trouble.h"
+#include "services/base/guarded.h"
 #include "services/image/files.h"
 
 namespace trailcast::agent {
@@ -59,6 +60,7 @@ Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
 }
 
 std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
+  if (deaf) return deaf;
   // Whoever stands in the way may stand there as long as he likes.
   if (trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
     waiting_since = now;
@@ -156,7 +158,13 @@ std::vector<motion::ImuSample> Ros2Device::State::TakeImu() {
 }
 
 Ros2Device::Ros2Device(std::unique_ptr<State> state) : state_(std::move(state)) {
-  state_->hearing = std::thread([s = state_.get()] { s->Hear(); });
+  state_->hearing = std::thread([s = state_.get()] {
+    auto heard = Guarded("the thread that hears the robot", [s] { s->Hear(); });
+    if (heard) return;
+    const std::lock_guard guard(s->lock);
+    s->deaf = std::move(heard.error());
+    s->news.notify_one();
+  });
 }
 
 Ros2Device::~Ros2Device() {
@@ -187,7 +195,7 @@ Result<std::optional<Ros2Frame>> Ros2Device::State::Await(std::unique_lock<std::
     answered = true;
     if (auto said = Tell({}); !said) return tl::unexpected(said.error());
   }
-  while (!ready(steady_clock::now())) {
+  while (deaf || !ready(steady_clock::now())) {
     ShareTrouble();
     if (run.stop()) return std::nullopt;
     if (auto error = GiveUp(steady_clock::now())) return tl::unexpected(*error);

@@ -87,6 +87,7 @@ struct Ros2Device::State {
   std::mutex lock;  // of all below
   std::condition_variable news;
   bool ending = false;
+  std::optional<Error> deaf;  // why the robot is heard no more
   RobotWatch watch;
   std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
   bool by_hand = false;                    // Next does not wait for the way to be free

@@ -8,6 +8,7 @@
 
 #include "agent/link/src/held_revisions.h"
 #include "agent/link/src/route_ahead.h"
+#include "services/base/guarded.h"
 #include "services/base/time.h"
 #include "services/exchange/publish.h"
 #include "services/route/digest.h"
@@ -97,7 +98,7 @@ void FollowerLink::Finish() {
 }
 
 void FollowerLink::Run() {
-  auto worked = Work();
+  auto worked = Guarded("the thread that fetches and stores the route", [this] { return Work(); });
   if (worked) return;
   while (!over() && !TryPut(worked.error())) reported_.Wait(kWait);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "agent/link/src/held_revisions.h"
+#include "services/base/guarded.h"
 #include "services/base/text.h"
 #include "services/base/time.h"
 #include "services/exchange/bounds.h"
@@ -118,16 +119,22 @@ void ScoutLink::Close(exchange::AgentMode mode, const std::string& detail) {
 }
 
 void ScoutLink::Run() {
+  const auto result =
+      Guarded("the thread that stores and sends the route", [this] { return Work(); });
+  if (!result) {
+    error_ = result.error();
+    failed_ = true;
+  }
+}
+
+Result<void> ScoutLink::Work() {
   Result<void> result;
   while (result && !ending_.load()) result = Step();
   if (result) result = StoreOffered();
   if (result && key_) result = End();
   if (result) result = TellHeld();
   if (result && exchange_) result = Deliver();
-  if (!result) {
-    error_ = result.error();
-    failed_ = true;
-  }
+  return result;
 }
 
 Result<void> ScoutLink::End() {

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <future>
+#include <memory>
+#include <set>
+#include <stdexcept>
 
 #include "agent/fetch/fetch.h"
 #include "services/base/angles.h"
@@ -76,6 +80,59 @@ TEST_F(FollowerTest, ArrivesAtTheEndOfARouteFromItsOwnStore) {
   EXPECT_EQ(*outcome->summary.Find("frames"), std::to_string(outcome->log.frames()));
   ASSERT_GT(device_.told.size(), 100U);
   EXPECT_GT(device_.told[50].linear_mps, 0.0);
+  EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
+}
+
+// Throws once it is told to.
+class ThrowingExchange : public exchange::RouteExchange {
+ public:
+  struct State {
+    std::atomic<bool> throws{false};
+    std::promise<void> thrown;
+  };
+  ThrowingExchange(std::unique_ptr<RouteExchange> inner, State& state)
+      : inner_(std::move(inner)), state_(state) {}
+
+  Result<void> Publish(const exchange::Message& message) override {
+    return inner_->Publish(message);
+  }
+  std::vector<exchange::Message> Take(milliseconds max_wait) override {
+    if (state_.throws.exchange(false)) {
+      state_.thrown.set_value();
+      throw std::runtime_error("no such index");
+    }
+    return inner_->Take(max_wait);
+  }
+  Result<void> Listen(exchange::Topic topic, const std::set<route::RouteKey>& routes) override {
+    return inner_->Listen(topic, routes);
+  }
+  std::uint64_t dropped() const override { return inner_->dropped(); }
+
+ private:
+  std::unique_ptr<RouteExchange> inner_;
+  State& state_;
+};
+
+TEST_F(FollowerTest, IsToldToStandAndSaysWhyWhenItsLinkThreadThrows) {
+  TeachInto("robot");
+  ThrowingExchange::State link;
+  device_.before_frame = [&](int frame) -> Result<void> {
+    if (frame != kFrames / 3) return {};
+    link.throws = true;
+    const auto thrown = link.thrown.get_future().wait_for(std::chrono::minutes(1));
+    EXPECT_EQ(thrown, std::future_status::ready);
+    return {};
+  };
+  const auto options = swarm_.FollowerNamed("robot");
+  const auto outcome =
+      Replay(device_, options, swarm_.OpenStore("robot"),
+             std::make_unique<ThrowingExchange>(swarm_.Join(exchange::ReplayTopics()), link));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_TRUE(outcome->error) << outcome->state << ": " << outcome->reason;
+  EXPECT_THAT(outcome->error->message, AllOf(HasSubstr("thread that fetches and stores the route"),
+                                             HasSubstr("no such index")));
+  EXPECT_GT(device_.told[20].linear_mps, 0.0);
+  EXPECT_LT(device_.next, kFollowerFrames) << "it drove on as if nothing had happened";
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
