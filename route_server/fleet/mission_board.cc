@@ -32,6 +32,11 @@ std::uint32_t WayOf(const mission::Mission& mission) {
   return going ? going->way : 0;
 }
 
+std::uint32_t ValidFor_s(const mission::Mission& mission) {
+  const std::uint32_t asked_s = mission.valid_for_s;
+  return asked_s == 0 ? mission::kLongestValid_s : std::min(asked_s, mission::kLongestValid_s);
+}
+
 // Another way to the same place is the same mission.
 bool AreSame(const std::string& orders, const std::string& others) {
   if (orders == others) return true;
@@ -304,15 +309,15 @@ void MissionBoard::Expire(std::int64_t now_unix_ms) {
   std::vector<mission::Mission> over;
   for (const auto& [agent, missions] : unanswered_) {
     for (const mission::Record& record : missions) {
-      const std::int64_t valid_ms = std::int64_t{record.mission.valid_for_s} * 1000;
-      if (valid_ms > 0 && now_unix_ms - record.sent_unix_ms >= valid_ms) {
+      const std::int64_t valid_ms = std::int64_t{ValidFor_s(record.mission)} * 1000;
+      if (now_unix_ms - record.sent_unix_ms >= valid_ms) {
         over.push_back(record.mission);
       }
     }
   }
   for (const mission::Mission& mission : over) {
     Drop(mission, mission::State::kExpired,
-         fmt::format("the robot did not answer within {} s", mission.valid_for_s), now_unix_ms);
+         fmt::format("the robot did not answer within {} s", ValidFor_s(mission)), now_unix_ms);
   }
 }
 

@@ -7,16 +7,20 @@
 
 namespace trailcast::mission {
 
+// A robot that was not heard for so long is not waited for.
+inline constexpr std::uint32_t kLongestValid_s = 7 * 24 * 3600;
+
 // trailcast/missions: what a robot on duty is sent to do, from an operator, and from servers that
 // keep it. Said again until it is answered; the same one is carried out once.
 struct Mission {
-  AgentId agent{};                // whom it is for
-  std::string id{};               // made by the sender; a name, of the agent's missions this one's
-  AgentId client{};               // who sends it
-  std::string orders{};           // one line: orders.h
-  std::uint32_t valid_for_s = 0;  // a server that cannot hand it over by then drops it; 0: never
-  bool goes_on = false;           // by itself after its agent has started again
-  bool relayed = false;           // by a server
+  AgentId agent{};       // whom it is for
+  std::string id{};      // made by the sender; a name, of the agent's missions this one's
+  AgentId client{};      // who sends it
+  std::string orders{};  // one line: orders.h
+  // A server that cannot hand it over by then drops it; 0, and what is longer: kLongestValid_s.
+  std::uint32_t valid_for_s = 0;
+  bool goes_on = false;  // by itself after its agent has started again
+  bool relayed = false;  // by a server
   bool operator==(const Mission&) const = default;
 };
 

@@ -23,6 +23,7 @@ class MissionStore {
   // `most_kept`, or one in a hundred more.
   static constexpr std::int64_t kMostKept = 100'000;
   static constexpr std::int64_t kMostUnanswered = 10'000;
+  static constexpr std::int64_t kMostUnansweredOfClient = 1000;  // nobody shuts out the others
   [[nodiscard]] static Result<std::unique_ptr<MissionStore>> Open(
       const std::filesystem::path& file, std::int64_t most_kept = kMostKept);
   ~MissionStore();
@@ -30,7 +31,8 @@ class MissionStore {
   MissionStore& operator=(const MissionStore&) = delete;
 
   // Times are in milliseconds since 1970, by the caller's clock. A mission that is there already
-  // (agent and id) stays as it is. Returns what is stored then. kUnavailable: too many wait.
+  // (agent and id) stays as it is. Returns what is stored then. kUnavailable: too many wait, all
+  // told or of its client.
   [[nodiscard]] Result<mission::Record> Add(const mission::Mission& mission,
                                             std::int64_t now_unix_ms);
   // False: it was no news (Report::change), or the mission is not there.

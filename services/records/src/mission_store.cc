@@ -151,6 +151,15 @@ struct MissionStore::Database : OwnDatabase {
     NameRoutes(db.getLastInsertRowid(), mission.orders);
   }
 
+  std::int64_t UnansweredOf(const AgentId& client) {
+    auto count = compiled.Take("SELECT count(*) FROM mission WHERE state = 0 AND client = ?1");
+    count->bind(1, client.value());
+    count->executeStep();
+    const std::int64_t unanswered = count->getColumn(0).getInt64();
+    count->reset();
+    return unanswered;
+  }
+
   void NameRoutes(std::int64_t number, const std::string& orders) {
     for (const std::string& route : mission::RoutesIn(orders)) {
       auto name =
@@ -216,6 +225,12 @@ Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
     if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
     if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
       return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already", kMostUnanswered);
+    }
+    if (database_->UnansweredOf(mission.client) >= kMostUnansweredOfClient) {
+      return Fail(ErrorCode::kUnavailable,
+                  "{} missions of '{}' wait for robots already, which is as many as one sender may "
+                  "have: cancel some, or send it when robots have answered",
+                  kMostUnansweredOfClient, mission.client.value());
     }
     database_->Insert(mission, now_unix_ms);
     database_->Thin();

@@ -201,6 +201,20 @@ TEST_F(MissionStoreTest, ForgetsTheOldestThatHaveEnded) {
   EXPECT_EQ(page->commands.size(), 3U);
 }
 
+TEST_F(MissionStoreTest, NobodyShutsOutTheOthers) {
+  for (int i = 0; i < MissionStore::kMostUnansweredOfClient; ++i) {
+    Add(For("robot1", "m" + std::to_string(i)));
+  }
+  const auto more = store_->Add(For("robot1", "more"), ++now_ms_);
+  ASSERT_FALSE(more);
+  EXPECT_THAT(more.error().message, HasSubstr("missions of 'desk-p7' wait"));
+  Mission of_another = For("robot1", "other");
+  of_another.client = AgentId("desk-p8");
+  Add(of_another);
+  EXPECT_TRUE(Change("robot1", "m0", 1, State::kAccepted));
+  Add(For("robot1", "more"));
+}
+
 TEST_F(MissionStoreTest, ForgetsInRunsThatAreShortToo) {
   for (int run = 0; run < 60; ++run) {
     store_.reset();

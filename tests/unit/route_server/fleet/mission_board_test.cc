@@ -174,6 +174,18 @@ TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
   EXPECT_EQ(StateOf("m1"), State::kExpired);
 }
 
+TEST_F(MissionBoardTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
+  Mission mission = For("m1");
+  mission.valid_for_s = 0;
+  Hear(mission);
+  (void)Say();
+  Pass(std::chrono::seconds(mission::kLongestValid_s - 1));
+  EXPECT_FALSE(Said());
+  Pass(std::chrono::seconds(1));
+  ASSERT_TRUE(Said());
+  EXPECT_EQ(StateOf("m1"), State::kExpired);
+}
+
 TEST_F(MissionBoardTest, WhatIsStoppedOrCancelledIsNotHandedOverLater) {
   std::uint64_t number = 0;
   const auto command = [&number](NowOrder order, NowWhom whom, const std::string& name) {
