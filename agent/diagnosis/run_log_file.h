@@ -43,7 +43,9 @@ class RunLogFile {
 
  private:
   RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_t capacity);
+  [[nodiscard]] std::string DroppedText() const;
   void Write();
+  void WriteUntilItEnds();
   void WriteText(const std::string& text);
   void WriteWaiting();
 

@@ -101,9 +101,8 @@ Result<void> Diagnosis::End(const std::string& state, const std::string& reason)
   // A run that found no route has a log all the same: it says why.
   if (!begun_) Begin({});
   const RunEvent event = recorder_.End(state, reason);
-  if (file_) file_->Put(EventText(event));
-  auto closed =
-      file_ ? file_->Close() : mcap_->Close({.text = EventText(event), .events = {event}});
+  auto closed = file_ ? file_->Close([&event] { return EventText(event); })
+                      : mcap_->Close({.text = EventText(event), .events = {event}});
   if (!closed) return closed;
   return view_result_;
 }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "services/base/guarded.h"
+
 namespace trailcast::agent {
 namespace {
 
@@ -28,11 +30,14 @@ RunLogFile::RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_
 RunLogFile::~RunLogFile() { std::ignore = Close(); }
 
 void RunLogFile::Put(std::string text) {
-  if (dropped_ > 0) {
-    text = fmt::format("# dropped {} lines: the disk did not keep up\n", dropped_) + text;
-  }
+  text = DroppedText() + text;
   const bool put = TryPut([text = std::move(text)] { return text; });
   dropped_ = put ? 0 : dropped_ + 1;
+}
+
+std::string RunLogFile::DroppedText() const {
+  if (dropped_ == 0) return "";
+  return fmt::format("# dropped {} lines: the disk did not keep up\n", dropped_);
 }
 
 void RunLogFile::WriteText(const std::string& text) {
@@ -46,6 +51,11 @@ void RunLogFile::WriteWaiting() {
 }
 
 void RunLogFile::Write() {
+  const auto written = Guarded("the thread that writes the log", [this] { WriteUntilItEnds(); });
+  failed_ = failed_ || !written;
+}
+
+void RunLogFile::WriteUntilItEnds() {
   while (!ending_.load()) {
     bell_.Wait(kWriteEvery);
     WriteWaiting();
@@ -58,7 +68,7 @@ Result<void> RunLogFile::Close(const Make& last) {
     ending_.store(true);
     bell_.Ring();
     thread_.join();
-    WriteText(last());
+    WriteText(DroppedText() + last());
     failed_ = std::fclose(stream_) != 0 || failed_;
   }
   if (!failed_) return {};

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <future>
 #include <sstream>
+#include <stdexcept>
 
 #include "tests/support/temp_dir.h"
 
@@ -65,6 +67,22 @@ TEST(RunLogFile, MoreThanFitsIsDroppedAndSaidSo) {
   EXPECT_THAT(TextOf(folder / "run.log"), EndsWith("last\n"));
 }
 
+TEST(RunLogFile, ItsEndIsThereAndSaysWhatWasDropped) {
+  const test::TempDir folder;
+  auto file = RunLogFile::Create(folder / "run.log", 1);
+  ASSERT_TRUE(file);
+  std::promise<void> goes_on;
+  ASSERT_TRUE((*file)->TryPut([&goes_on] {
+    goes_on.get_future().wait();
+    return std::string("slow\n");
+  }));
+  for (int i = 0; i < 3; ++i) (*file)->Put("line\n");
+  goes_on.set_value();
+  EXPECT_TRUE((*file)->Close([] { return std::string("end\n"); }));
+  EXPECT_THAT(TextOf(folder / "run.log"), HasSubstr("# dropped "));
+  EXPECT_THAT(TextOf(folder / "run.log"), EndsWith("end\n"));
+}
+
 TEST(RunLogFile, AFullDiskIsToldAtTheEnd) {
   auto file = RunLogFile::Create("/dev/full");
   if (!file) GTEST_SKIP() << "no /dev/full here";
@@ -72,6 +90,14 @@ TEST(RunLogFile, AFullDiskIsToldAtTheEnd) {
   const auto closed = (*file)->Close();
   ASSERT_FALSE(closed);
   EXPECT_THAT(closed.error().message, HasSubstr("is the disk full?"));
+}
+
+TEST(RunLogFile, ALineThatCannotBeMadeIsToldAtTheEnd) {
+  const test::TempDir folder;
+  auto file = RunLogFile::Create(folder / "run.log");
+  ASSERT_TRUE(file);
+  EXPECT_TRUE((*file)->TryPut([]() -> std::string { throw std::runtime_error("no memory"); }));
+  EXPECT_FALSE((*file)->Close());
 }
 
 TEST(RunLogFile, AFolderThatIsNotThereIsNamed) {
