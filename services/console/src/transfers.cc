@@ -7,6 +7,7 @@
 
 #include "services/archive/route_file.h"
 #include "services/archive/route_file_writer.h"
+#include "services/base/guarded.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/routes/route_export.h"
@@ -53,7 +54,8 @@ Result<Transfers::Job*> Transfers::MakeRoom() {
   return (jobs_[job->progress.id] = std::move(job)).get();
 }
 
-void Transfers::Start(Job& job, Work work) {
+// With the lock held.
+void Transfers::Start(Job& job, Work work) try {
   job.thread = std::thread([this, &job, work = std::move(work)] {
     fleet::TransferWatch watch;
     watch.timeout = timeout_;
@@ -62,8 +64,13 @@ void Transfers::Start(Job& job, Work work) {
       const std::scoped_lock lock(mutex_);
       job.progress.done_bytes = done_bytes;
     };
-    End(job, work(job, watch));
+    Result<std::string> ended;
+    const auto done = Guarded("the transfer", [&] { ended = work(job, watch); });
+    End(job, done ? std::move(ended) : tl::unexpected(done.error()));
   });
+} catch (const std::system_error& refused) {
+  job.progress.state = State::kFailed;
+  job.progress.detail = std::string("no thread could be started for it: ") + refused.what();
 }
 
 void Transfers::End(Job& job, const Result<std::string>& result) {
