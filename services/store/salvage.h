@@ -18,11 +18,11 @@ struct Salvaged {
   std::vector<std::string> lost;
 };
 
-// Copies what is whole of a store, however damaged or cut short, of this version or one before,
-// into a new one, `to`, which must not exist. Every page of the file and of its log is looked at,
-// those too that no table has any more: what was deleted stays deleted by its tombstone. Reads
-// `from` only; nothing else may have it open (kConflict). kCorrupt if nothing in it can be read as
-// a store; kUnavailable when there is no room for the new one, which is then not there.
+// Copies what is whole of a store, however damaged or cut short, into a new one, `to`, which must
+// not exist. Every page of the file and of its log is looked at, those too that no table has any
+// more: what was deleted stays deleted by its tombstone. Reads `from` only; nothing else may have
+// it open (kConflict). kCorrupt if nothing in it can be read as a store; kUnavailable when there is
+// no room for the new one, which is then not there.
 [[nodiscard]] Result<Salvaged> Salvage(const std::filesystem::path& from,
                                        const std::filesystem::path& to,
                                        const SqliteOptions& options = {});

@@ -10,10 +10,8 @@ namespace trailcast::store {
 
 // In SQLite's header, so that `file` and we can tell a route store from any other database: "TRCT".
 inline constexpr std::uint32_t kApplicationId = 0x54524354;
-// Version of the tables, in SQLite's user_version.
+// Version of the tables, in SQLite's user_version: stores of no other are opened.
 inline constexpr std::uint32_t kSchemaVersion = 6;
-// Of this version and later ones stores are opened, and brought up to date by that.
-inline constexpr std::uint32_t kOldestSchemaVersion = 4;
 
 // The file of a store, locked for this process and looked at before SQLite touches it (which would
 // create files beside it, or roll back a stranger's journal). The lock is the kernel's: it goes

@@ -3,7 +3,6 @@
 #include <sqlite3.h>
 
 #include "services/store/src/sqlite_tables.h"
-#include "services/store/src/sqlite_upgrade.h"
 #include "services/store/store_file.h"
 
 namespace trailcast::store {
@@ -99,8 +98,6 @@ Result<std::unique_ptr<SQLite::Database>> OpenDatabase(const std::filesystem::pa
     sqlite3_extended_result_codes(db->getHandle(), 1);
     db->exec(kExclusive);
     if (db->execAndGet("PRAGMA page_count").getInt64() == 0) MakeStore(*db);
-    const auto version = db->execAndGet("PRAGMA user_version").getUInt();
-    if (version < kSchemaVersion) BringUpToDate(*db, version);
     CheckTables(*db);
     Configure(*db, options);
     return db;

@@ -74,16 +74,12 @@ CREATE VIRTUAL TABLE route_place USING rtree(
 
 // Table `route` is what is offered and searched; deleted revisions are apart, so that searching
 // costs nothing for them.
-void CreateRowTables(SQLite::Database& db) {
+void CreateTables(SQLite::Database& db) {
   for (const char* table : {"route", "tombstone"}) {
     db.exec(fmt::format("CREATE TABLE {} (id INTEGER PRIMARY KEY,{}) STRICT", table, kRouteRow));
   }
   db.exec(kRouteIndices);
   db.exec(kSegmentTables);
-}
-
-void CreateTables(SQLite::Database& db) {
-  CreateRowTables(db);
   db.exec(kSearchTables);
 }
 

@@ -111,13 +111,12 @@ Result<void> StoreFile::Inspect() const {
                 path_.string());
   }
   const std::uint32_t version = header.user_version();
-  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
+  if (version != kSchemaVersion) {
     return Fail(ErrorCode::kCorrupt,
-                "route store {} has version {}, this program reads {} to {}; {}, or give another "
+                "route store {} has version {}, this program reads {}; export its routes with the "
+                "program that wrote it and import them here, or teach them again, into another "
                 "file",
-                path_.string(), version, kOldestSchemaVersion, kSchemaVersion,
-                version > kSchemaVersion ? "update this program"
-                                         : "export its routes with the program that wrote it");
+                path_.string(), version, kSchemaVersion);
   }
   // With a log beside it the file may rightly be shorter: SQLite then decides when it recovers.
   if (size < PromisedBytes(header) && !HasContent(path_.string() + "-wal")) {

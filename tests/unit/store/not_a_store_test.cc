@@ -78,12 +78,16 @@ TEST_F(NotAStore, SomebodyElsesDatabaseIsRefused) {
   EXPECT_THAT(Refusal().message, HasSubstr("is not a route store"));
 }
 
-TEST_F(NotAStore, StoreOfANewerVersionIsRefusedAndNamed) {
+TEST_F(NotAStore, StoreOfAnotherVersionIsRefusedWithWhatToDo) {
   ASSERT_TRUE(OpenSqliteStore(file_));
-  Execute("PRAGMA user_version = 7");
-  const Error error = Refusal();
-  EXPECT_EQ(error.code, ErrorCode::kCorrupt);
-  EXPECT_THAT(error.message, HasSubstr("has version 7, this program reads 4"));
+  for (const char* version : {"5", "7"}) {
+    Execute(std::string("PRAGMA user_version = ") + version);
+    const Error error = Refusal();
+    EXPECT_EQ(error.code, ErrorCode::kCorrupt);
+    EXPECT_THAT(error.message, HasSubstr(std::string("has version ") + version +
+                                         ", this program reads 6; export its routes with the "
+                                         "program that wrote it and import them here, or teach"));
+  }
 }
 
 TEST_F(NotAStore, StoreCutShortIsRefusedAtEveryLength) {

@@ -9,9 +9,7 @@
 
 #include "services/store/lacking.h"
 #include "services/store/route_store.h"
-#include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/store/golden_route.h"
 #include "tests/unit/store/pieces.h"
 
 namespace trailcast::store {
@@ -257,29 +255,25 @@ TEST_F(SalvageTest, WithItsLogAWholeStoreLosesNothing) {
   EXPECT_THAT(salvaged->lost, IsEmpty());
 }
 
-TEST_F(SalvageTest, StoresOfVersionsBeforeAreSavedToo) {
-  for (const int version : {4, 5}) {
-    std::filesystem::copy_file(
-        std::filesystem::path(SourceDir()) / fmt::format("tests/golden/routes-v{}.db", version),
-        file_, std::filesystem::copy_options::overwrite_existing);
-    const auto salvaged = Salvage(file_, saved_);
-    ASSERT_TRUE(salvaged) << salvaged.error().message;
-    EXPECT_THAT(salvaged->lost, IsEmpty()) << version;
-    const test::TaughtRoute taught = version == 4 ? test::TeachSamples(2) : GoldenRoute();
-    {
-      const auto saved = OpenSqliteStore(saved_).value();
-      EXPECT_EQ(saved->ListRoutes().value(), std::vector{taught.info});
-      for (const route::SegmentPiece& piece : taught.pieces) {
-        EXPECT_EQ(saved->ReadSegment(piece.key, piece.index).value(), piece);
-      }
-      if (version == 5) {
-        EXPECT_EQ(saved->FindRoute(GoldenTombstone().key).value(), GoldenTombstone());
-        EXPECT_THAT(saved->UnreceiptedSegments(taught.info.key).value(),
-                    ElementsAre(SegmentIndex(1)));
-      }
-    }
-    std::filesystem::remove(saved_);
-  }
+// Its rows have other columns: were nothing found in it a store without routes, a repair would put
+// that in its place.
+TEST_F(SalvageTest, AStoreOfAnotherVersionIsRefusedAndStaysAsItIs) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db,
+                         "CREATE TABLE other AS SELECT route, teaching, number, 1, digest, seal, "
+                         "bytes FROM segment; DROP TABLE segment; DROP TABLE route; "
+                         "PRAGMA user_version = 5; VACUUM",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK)
+      << sqlite3_errmsg(db);
+  sqlite3_close(db);
+  const std::string before = Read();
+  const auto repaired = Repair(file_);
+  ASSERT_FALSE(repaired);
+  EXPECT_EQ(repaired.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(repaired.error().message, HasSubstr("nothing of a route store of version 6"));
+  EXPECT_EQ(Read(), before);
 }
 
 TEST_F(SalvageTest, WithoutRoomForItNothingIsMade) {

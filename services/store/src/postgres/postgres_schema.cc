@@ -2,8 +2,6 @@
 
 #include <optional>
 
-#include "services/store/src/postgres/postgres_upgrade.h"
-
 namespace trailcast::store {
 namespace {
 
@@ -135,17 +133,11 @@ Result<void> PrepareSchema(pqxx::connection& connection, const std::string& stor
                 store);
   }
   if (*version == kSchemaVersion) return {};
-  const bool older = *version == 2;
-  if (older && create) {
-    BringUpFrom2(transaction);
-    transaction.commit();
-    return {};
-  }
   return Fail(ErrorCode::kInvalidArgument,
-              "route store {} has version {}, this program reads {}; {}", store, *version,
-              kSchemaVersion,
-              older ? "start a trailcast-server of this version on it, which brings it up to date"
-                    : "use the program that wrote it, or give another database");
+              "route store {} has version {}, this program reads {}; export its routes with the "
+              "program that wrote it and import them here, or teach them again, into another "
+              "database",
+              store, *version, kSchemaVersion);
 }
 
 }  // namespace trailcast::store

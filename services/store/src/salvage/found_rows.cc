@@ -6,7 +6,6 @@
 #include <string>
 #include <tuple>
 
-#include "services/store/src/old_rows.h"
 #include "services/store/src/row_values.h"
 
 namespace trailcast::store {
@@ -15,12 +14,8 @@ namespace {
 using Kind = RecordValue::Kind;
 
 constexpr std::size_t kSegmentColumns = 6;
-constexpr std::size_t kSegmentColumnsBefore6 = 7;  // their fourth: whether it was receipted
-// Their first is the row's number, their last, but in version 4, when the route has grown.
+// Their first is the row's number, their last when the route has grown.
 constexpr std::size_t kColumnsOfRoute = kRouteColumnCount + 2;
-constexpr std::size_t kColumnsOfRoute5 = kOldColumnCount + 2;
-constexpr std::size_t kColumnsOfRoute4 = 22;
-constexpr int kRevisionOf4 = 1;
 
 std::string Text(const RecordValue& value) { return {value.bytes.begin(), value.bytes.end()}; }
 
@@ -61,64 +56,33 @@ bool Is(const RecordValue& found, const SqlValue& value) {
   return real != nullptr ? Real(found) == *real : found.kind == Kind::kNull;
 }
 
-// Of versions 4 and 5. Version 4 had no columns for who teaches and whether that was cut off.
-class OldFoundRow final : public OldRow {
- public:
-  explicit OldFoundRow(const Record& record) : record_(record) {}
-  [[nodiscard]] bool IsNull(int column) const override { return At(column).kind == Kind::kNull; }
-  [[nodiscard]] std::string Text(int column) const override { return store::Text(At(column)); }
-  [[nodiscard]] std::int64_t Number(int column) const override { return At(column).integer; }
-  [[nodiscard]] double Real(int column) const override { return store::Real(At(column)); }
-  [[nodiscard]] route::Bytes Bytes(int column) const override { return store::Bytes(At(column)); }
-
- private:
-  [[nodiscard]] const RecordValue& At(int column) const {
-    static const RecordValue kNone;
-    const bool of_4 = record_.size() == kColumnsOfRoute4;
-    if (of_4 && column == kOldColumnCount - 1) return kNone;
-    if (of_4 && column == kOldColumnCount - 2) return record_[kRevisionOf4 + 1];
-    return record_[static_cast<std::size_t>(column) + 1];
-  }
-  const Record& record_;
-};
-
 }  // namespace
 
 const std::vector<std::size_t>& ColumnsOfInterest() {
-  static const std::vector<std::size_t> kColumns{
-      kSegmentColumns, kSegmentColumnsBefore6, kColumnsOfRoute, kColumnsOfRoute4, kColumnsOfRoute5};
+  static const std::vector<std::size_t> kColumns{kSegmentColumns, kColumnsOfRoute};
   return kColumns;
 }
 
-// The columns' order is that of sqlite_tables.cc, and was in the versions before.
+// The columns' order is that of sqlite_tables.cc.
 std::optional<FoundSegment> ReadFoundSegment(const Record& record) {
-  const bool before_6 = record.size() == kSegmentColumnsBefore6;
-  if (!before_6 && record.size() != kSegmentColumns) return std::nullopt;
-  const std::size_t content = before_6 ? 4 : 3;
+  if (record.size() != kSegmentColumns) return std::nullopt;
   const auto where = WhereOf(record);
-  const auto digest = DigestOf(record[content]);
+  const auto digest = DigestOf(record[3]);
   FoundSegment found;
-  found.piece.bytes = Bytes(record[content + 2]);
+  found.piece.bytes = Bytes(record[5]);
   if (!where || !digest) return found;
   std::tie(found.piece.key, found.piece.index) = *where;
   found.piece.digest = *digest;
-  found.receipted = before_6 && record[3].integer == 1;
-  found.sealed = DigestOf(record[content + 1]) == Seal(found.piece);
+  found.sealed = DigestOf(record[4]) == Seal(found.piece);
   return found;
 }
 
 std::optional<Result<route::RouteInfo>> ReadFoundRoute(const Record& record) {
-  if (record.size() == kColumnsOfRoute) {
-    return OpenInfo(Bytes(record[kFoundByCount + 1]), Bytes(record[kFoundByCount + 2]),
-                    [&](int column, const SqlValue& value) {
-                      return Is(record[static_cast<std::size_t>(column) + 1], value);
-                    });
-  }
-  const bool of_4 = record.size() == kColumnsOfRoute4;
-  if (!of_4 && record.size() != kColumnsOfRoute5) return std::nullopt;
-  OldRoute old = ReadOldRow(OldFoundRow(record), of_4 ? OldSeal::kWithoutLabels : OldSeal::kOfAll);
-  if (old.whole) return std::move(old.info);
-  return DamagedRoute(old.info.key, old.info.name);
+  if (record.size() != kColumnsOfRoute) return std::nullopt;
+  return OpenInfo(Bytes(record[kFoundByCount + 1]), Bytes(record[kFoundByCount + 2]),
+                  [&](int column, const SqlValue& value) {
+                    return Is(record[static_cast<std::size_t>(column) + 1], value);
+                  });
 }
 
 std::vector<std::pair<route::RouteKey, SegmentIndex>> ReadFoundReceipts(

@@ -10,14 +10,13 @@
 
 namespace trailcast::store {
 
-// What rows that were found in a damaged file say, of whichever version of the tables: all that is
-// known here of their formats. How many columns a row has tells which table's it is.
+// What rows that were found in a damaged file say: all that is known here of the tables' formats.
+// How many columns a row has tells which table's it is.
 [[nodiscard]] const std::vector<std::size_t>& ColumnsOfInterest();
 inline constexpr std::size_t kReceiptColumns = 3;
 
 struct FoundSegment {
   route::SegmentPiece piece;  // without bytes: another row's
-  bool receipted = false;     // in versions before 6
   bool sealed = false;        // all but the bytes is as it was stored
 };
 // Nothing if it is no row of table `segment`. What it says may be damaged.

@@ -9,6 +9,7 @@
 #include "services/store/src/row_values.h"
 #include "services/store/src/salvage/found_rows.h"
 #include "services/store/src/salvage/page_scan.h"
+#include "services/store/store_file.h"
 
 namespace trailcast::store {
 namespace {
@@ -64,7 +65,6 @@ class Salvaging {
       NoteDamaged(age);
       return true;
     }
-    if (found.receipted) receipted_[piece.key].push_back(piece.index);
     if (!piece.bytes.empty() && route::CheckDigest(piece)) {
       return Save(std::move(piece)).map([] { return true; });
     }
@@ -241,7 +241,8 @@ Result<Salvaged> SaveWhole(const std::filesystem::path& from, const std::filesys
     return tl::unexpected(ToError(exception, to, "counting what was saved"));
   }
   if (pages.is_store() || salvaged.routes + salvaged.segments > 0) return salvaged;
-  return Fail(ErrorCode::kCorrupt, "there is nothing of a route store in {}", from.string());
+  return Fail(ErrorCode::kCorrupt, "there is nothing of a route store of version {} in {}",
+              kSchemaVersion, from.string());
 }
 
 }  // namespace trailcast::store

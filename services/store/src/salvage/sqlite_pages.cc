@@ -50,7 +50,8 @@ void SqlitePages::ReadHeader(std::uint64_t file_bytes) {
   const SqliteHeader header{bytes.value_or(std::array<std::uint8_t, SqliteHeader::kBytes>{})};
   std::uint32_t promised = 0;
   if (header.IsSqlite()) {
-    is_store_ = header.application_id() == kApplicationId;
+    is_store_ =
+        header.application_id() == kApplicationId && header.user_version() == kSchemaVersion;
     const std::uint32_t size = header.page_bytes();
     if (size >= kLeastPage && (size & (size - 1)) == 0) page_bytes_ = size;
     const std::uint32_t reserved = header.reserved_bytes();
