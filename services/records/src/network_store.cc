@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of joints that were found, `shared_by_routes` has the metres that their routes share.
 constexpr OwnFile kNetworkFile{.id = 0x5452434E,  // "TRCN"
                                .version = 1,
                                .tables = R"(
@@ -40,23 +41,14 @@ CREATE TABLE condition (
   set_unix_ms INTEGER NOT NULL
 ) STRICT;
 CREATE INDEX condition_route ON condition (route);
-)",
-                               .holds = "joints",
-                               .called = "store of the network"};
-
-// Apart: files that were made without it get it.
-constexpr const char* kNames = R"(
-CREATE TABLE IF NOT EXISTS named_place (
+CREATE TABLE named_place (
   name TEXT PRIMARY KEY,
   route TEXT NOT NULL,
   along_m REAL NOT NULL,
   set_by TEXT NOT NULL,
   set_unix_ms INTEGER NOT NULL
 ) STRICT;
-)";
-
-constexpr const char* kProposals = R"(
-CREATE TABLE IF NOT EXISTS proposed_joint (
+CREATE TABLE proposed_joint (
   number INTEGER PRIMARY KEY,
   from_route TEXT NOT NULL,
   from_m REAL NOT NULL,
@@ -72,12 +64,8 @@ CREATE TABLE IF NOT EXISTS proposed_joint (
   set_unix_ms INTEGER NOT NULL,
   UNIQUE (from_route, from_m, to_route, to_m)
 ) STRICT;
-CREATE TABLE IF NOT EXISTS searched (revision TEXT PRIMARY KEY) STRICT;
-)";
-
-// Of joints that were found, metres that their routes share.
-constexpr const char* kShared = R"(
-CREATE TABLE IF NOT EXISTS shared_by_routes (
+CREATE TABLE searched (revision TEXT PRIMARY KEY) STRICT;
+CREATE TABLE shared_by_routes (
   from_route TEXT NOT NULL,
   from_m REAL NOT NULL,
   to_route TEXT NOT NULL,
@@ -85,10 +73,7 @@ CREATE TABLE IF NOT EXISTS shared_by_routes (
   length_m REAL NOT NULL,
   PRIMARY KEY (from_route, from_m, to_route, to_m)
 ) STRICT;
-)";
-
-constexpr const char* kLanes = R"(
-CREATE TABLE IF NOT EXISTS lane_part (
+CREATE TABLE lane_part (
   number INTEGER PRIMARY KEY,
   lane INTEGER NOT NULL,
   route TEXT NOT NULL,
@@ -97,15 +82,12 @@ CREATE TABLE IF NOT EXISTS lane_part (
   set_by TEXT NOT NULL,
   set_unix_ms INTEGER NOT NULL
 ) STRICT;
-CREATE TABLE IF NOT EXISTS lane_holder (
+CREATE TABLE lane_holder (
   lane INTEGER NOT NULL,
   agent TEXT NOT NULL,
   PRIMARY KEY (lane, agent)
 ) STRICT;
-)";
-
-constexpr const char* kFollowed = R"(
-CREATE TABLE IF NOT EXISTS followed_stretch (
+CREATE TABLE followed_stretch (
   route TEXT NOT NULL,
   teaching INTEGER NOT NULL,
   number INTEGER NOT NULL,
@@ -114,10 +96,7 @@ CREATE TABLE IF NOT EXISTS followed_stretch (
   at_unix_ms INTEGER NOT NULL,
   PRIMARY KEY (route, teaching, number)
 ) STRICT;
-)";
-
-constexpr const char* kBacked = R"(
-CREATE TABLE IF NOT EXISTS backed_stretch (
+CREATE TABLE backed_stretch (
   number INTEGER PRIMARY KEY,
   route TEXT NOT NULL,
   from_m REAL NOT NULL,
@@ -125,7 +104,9 @@ CREATE TABLE IF NOT EXISTS backed_stretch (
   set_by TEXT NOT NULL,
   set_unix_ms INTEGER NOT NULL
 ) STRICT;
-)";
+)",
+                               .holds = "joints",
+                               .called = "store of the network"};
 
 network::Joint JointIn(SQLite::Statement& row) {
   network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
@@ -202,14 +183,7 @@ void BindJoint(SQLite::Statement& statement, const network::Joint& joint) {
 }  // namespace
 
 struct NetworkStore::Database : OwnDatabase {
-  explicit Database(const fs::path& file) : OwnDatabase(file, kNetworkFile) {
-    db.exec(kNames);
-    db.exec(kProposals);
-    db.exec(kShared);
-    db.exec(kLanes);
-    db.exec(kFollowed);
-    db.exec(kBacked);
-  }
+  explicit Database(const fs::path& file) : OwnDatabase(file, kNetworkFile) {}
 
   template <typename Value>
   std::vector<Value> All(const char* sql, Value (*in)(SQLite::Statement&)) {

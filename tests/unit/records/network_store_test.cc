@@ -135,15 +135,6 @@ TEST_F(NetworkStoreTest, ANameIsThatOfOnePlace) {
   EXPECT_THAT(store_->Names().value(), ElementsAre(NamedPlace{"dock", {"b/7", 3.0}}));
 }
 
-TEST_F(NetworkStoreTest, NamesAreKeptInAFileThatWasMadeWithoutThem) {
-  Put({{"a/1", 1.0}, {"b/7", 2.0}});
-  store_.reset();
-  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE named_place");
-  Reopen();
-  EXPECT_THAT(store_->Names().value(), IsEmpty());
-  EXPECT_EQ(store_->Joints().value().size(), 1U);
-}
-
 TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
   EXPECT_EQ(NetworkStore::Open(file_).error().code, ErrorCode::kConflict) << "it is open";
   ASSERT_TRUE(MissionStore::Open(folder_ / "missions"));
