@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "services/base/process_name.h"
 #include "services/mission/orders.h"
 #include "services/records/src/own_file.h"
 
@@ -151,9 +152,12 @@ struct MissionStore::Database : OwnDatabase {
     NameRoutes(db.getLastInsertRowid(), mission.orders);
   }
 
+  // Of all processes of a member: each `trailcast send` has a name of its own.
   std::int64_t UnansweredOf(const AgentId& client) {
-    auto count = compiled.Take("SELECT count(*) FROM mission WHERE state = 0 AND client = ?1");
-    count->bind(1, client.value());
+    auto count = compiled.Take(
+        "SELECT count(*) FROM mission WHERE state = 0 AND (client = ?1 OR client GLOB ?1 || "
+        "'-p*')");
+    count->bind(1, WithoutProcess(client.value()));
     count->executeStep();
     const std::int64_t unanswered = count->getColumn(0).getInt64();
     count->reset();

@@ -203,13 +203,15 @@ TEST_F(MissionStoreTest, ForgetsTheOldestThatHaveEnded) {
 
 TEST_F(MissionStoreTest, NobodyShutsOutTheOthers) {
   for (int i = 0; i < MissionStore::kMostUnansweredOfClient; ++i) {
-    Add(For("robot1", "m" + std::to_string(i)));
+    Mission mission = For("robot1", "m" + std::to_string(i));
+    mission.client = AgentId("desk-p" + std::to_string(i));  // a process each
+    Add(mission);
   }
   const auto more = store_->Add(For("robot1", "more"), ++now_ms_);
   ASSERT_FALSE(more);
   EXPECT_THAT(more.error().message, HasSubstr("missions of 'desk-p7' wait"));
   Mission of_another = For("robot1", "other");
-  of_another.client = AgentId("desk-p8");
+  of_another.client = AgentId("hall-p7");
   Add(of_another);
   EXPECT_TRUE(Change("robot1", "m0", 1, State::kAccepted));
   Add(For("robot1", "more"));
