@@ -154,9 +154,10 @@ struct MissionStore::Database : OwnDatabase {
 
   // Of all processes of a member: each `trailcast send` has a name of its own.
   std::int64_t UnansweredOf(const AgentId& client) {
+    // Behind "-p" a process's name has digits alone (WithoutProcess): "desk-pump" is no process.
     auto count = compiled.Take(
-        "SELECT count(*) FROM mission WHERE state = 0 AND (client = ?1 OR client GLOB ?1 || "
-        "'-p*')");
+        "SELECT count(*) FROM mission WHERE state = 0 AND (client = ?1 OR (client GLOB ?1 || "
+        "'-p[0-9]*' AND substr(client, length(?1) + 3) NOT GLOB '*[^0-9]*'))");
     count->bind(1, WithoutProcess(client.value()));
     count->executeStep();
     const std::int64_t unanswered = count->getColumn(0).getInt64();

@@ -211,10 +211,24 @@ TEST_F(MissionStoreTest, NobodyShutsOutTheOthers) {
   ASSERT_FALSE(more);
   EXPECT_THAT(more.error().message, HasSubstr("missions of 'desk-p7' wait"));
   Mission of_another = For("robot1", "other");
-  of_another.client = AgentId("hall-p7");
-  Add(of_another);
+  for (const char* other : {"hall-p7", "desk-pump", "desk-p7x", "de"}) {
+    of_another.client = AgentId(other);
+    of_another.id = other;
+    Add(of_another);
+  }
   EXPECT_TRUE(Change("robot1", "m0", 1, State::kAccepted));
   Add(For("robot1", "more"));
+}
+
+TEST_F(MissionStoreTest, WhoseNameOnlyBeginsAlikeIsAnotherSender) {
+  for (int i = 0; i < MissionStore::kMostUnansweredOfClient; ++i) {
+    Mission mission = For("robot1", "m" + std::to_string(i));
+    mission.client = AgentId("desk-pump");
+    Add(mission);
+  }
+  Mission mission = For("robot1", "other");
+  mission.client = AgentId("desk");
+  Add(mission);
 }
 
 TEST_F(MissionStoreTest, ForgetsInRunsThatAreShortToo) {
