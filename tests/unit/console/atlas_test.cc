@@ -28,7 +28,6 @@ using test::TaughtRoute;
 using testing::HasSubstr;
 
 constexpr milliseconds kLong{60'000};
-constexpr milliseconds kForever = std::chrono::hours(24);
 
 // A server with a route, and the atlas of a console beside it.
 class AtlasTest : public testing::Test {
@@ -128,12 +127,21 @@ TEST(Atlas, WhoDoesNotWaitIsToldHowFarItIsAndOnlySoManyAreAskedFor) {
   EXPECT_EQ(first.error().message, "no network");
 }
 
-TEST_F(AtlasTest, ClosedItLetsGoWhoWaits) {
-  auto waits = std::async(std::launch::async, [&] {
-    return atlas_.Find(RouteId(std::string(32, 'a')), std::nullopt, kForever).has_value();
+TEST(Atlas, ClosedItLetsGoWhoWaits) {
+  std::promise<void> network;
+  Atlas atlas([joins = network.get_future().share()]() -> Result<fleet::OperatorPeer> {
+    joins.wait();
+    return Fail(ErrorCode::kUnavailable, "no network");
   });
-  atlas_.Close();
-  EXPECT_FALSE(waits.get()) << "and this test has not waited for ever";
+  auto waits = std::async(std::launch::async, [&] {
+    return atlas.Find(RouteId(std::string(32, 'a')), std::nullopt, std::chrono::hours(24));
+  });
+  atlas.Close();
+  EXPECT_EQ(waits.wait_for(kLong), std::future_status::ready);
+  network.set_value();  // lets go whoever still waits
+  const auto found = waits.get();
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_FALSE(found->shape);
 }
 
 }  // namespace
