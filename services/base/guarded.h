@@ -9,20 +9,22 @@
 
 namespace trailcast {
 
-// A thread's body, run so that nothing it throws ends the program: a robot whose program ends that
-// way has been told by nobody to stand. `body` returns a Result<void>, or nothing; what it throws
-// becomes an error that names the thread, for its owner to end the run with.
+// Runs a thread's body so that nothing it throws ends the program: a robot whose program ends that
+// way has been told by nobody to stand. `body` returns a Result, or nothing; what it throws becomes
+// an error that names the thread, for its owner to end the run with.
 template <typename Body>
-[[nodiscard]] Result<void> Guarded(std::string_view thread, Body&& body) {
-  const auto failed = [&](std::string_view what) {
+[[nodiscard]] auto Guarded(std::string_view thread, Body&& body) {
+  using Returned = std::invoke_result_t<Body>;
+  using Ended = std::conditional_t<std::is_void_v<Returned>, Result<void>, Returned>;
+  const auto failed = [&](std::string_view what) -> Ended {
     return Fail(ErrorCode::kInternal,
                 "{} has failed ({}): this is a fault of the program; please report it with its log",
                 thread, what);
   };
   try {
-    if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
+    if constexpr (std::is_void_v<Returned>) {
       std::forward<Body>(body)();
-      return {};
+      return Ended();
     } else {
       return std::forward<Body>(body)();
     }

@@ -102,10 +102,10 @@ void Glances::Paint() {
   while (!ending_) {
     handed_over_.Wait(kGlanceWakeUp);
     while (auto item = frames_.TryGet()) {
-      CameraPicture picture{.detail = kNoPicture};
-      // What cannot be drawn is no picture; the robot drives on.
-      (void)Guarded("the thread that draws what the camera sees",
-                    [&] { picture = Painted(*item); });
+      // A frame that cannot be drawn gives no picture, and the robot drives on.
+      auto painted = Guarded("the thread that draws what the camera sees",
+                             [&]() -> Result<CameraPicture> { return Painted(*item); });
+      CameraPicture picture = painted.value_or(CameraPicture{.detail = kNoPicture});
       // Full: nobody takes them, so nobody waits for them.
       (void)pictures_.TryPut(std::move(picture));
     }

@@ -64,9 +64,7 @@ void Transfers::Start(Job& job, Work work) try {
       const std::scoped_lock lock(mutex_);
       job.progress.done_bytes = done_bytes;
     };
-    Result<std::string> ended;
-    const auto done = Guarded("the transfer", [&] { ended = work(job, watch); });
-    End(job, done ? std::move(ended) : tl::unexpected(done.error()));
+    End(job, Guarded("the transfer", [&] { return work(job, watch); }));
   });
 } catch (const std::system_error& refused) {
   job.progress.state = State::kFailed;

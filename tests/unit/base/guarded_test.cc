@@ -22,7 +22,7 @@ TEST(Guarded, WhatItThrowsIsAnErrorThatNamesTheThread) {
 
 TEST(Guarded, WhatItReturnsIsPassedOn) {
   EXPECT_TRUE(Guarded("the link", [] {}));
-  EXPECT_TRUE(Guarded("the link", []() -> Result<void> { return {}; }));
+  EXPECT_EQ(Guarded("the link", []() -> Result<int> { return 7; }), 7);
   const auto failed = Guarded("the link", []() -> Result<void> {
     return Fail(ErrorCode::kUnavailable, "the disk is full");
   });

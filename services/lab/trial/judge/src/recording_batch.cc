@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "services/base/guarded.h"
 #include "services/lab/trial/judge/src/recording_visits.h"
 #include "services/lab/trial/trial_setup.h"
 
@@ -37,7 +38,7 @@ class Batch {
     for (;;) {
       const std::size_t index = next_.fetch_add(1);
       if (index >= pairs_.size()) return;
-      Result<RecordingOutcome> outcome = Run(index);
+      Result<RecordingOutcome> outcome = Guarded("judging a pair", [&] { return Run(index); });
       const std::scoped_lock lock(mutex_);
       outcomes_[index].emplace(std::move(outcome));
       ++ended_;
