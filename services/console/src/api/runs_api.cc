@@ -8,6 +8,7 @@
 #include "services/base/number.h"
 #include "services/console/parameters.h"
 #include "services/console/src/api/answers.h"
+#include "services/console/src/api/incoming_file.h"
 #include "services/console/src/api/run_body.h"
 
 namespace trailcast::console {
@@ -85,20 +86,12 @@ void Picture(const OpenedRun::Seen& seen, Response& response) {
   response.set_content(reinterpret_cast<const char*>(jpeg.data()), jpeg.size(), "image/jpeg");
 }
 
-// Piece by piece into a file.
 void Upload(Desk& desk, Runs& runs, Response& response, const httplib::ContentReader& read) {
   const auto upload = runs.BeginUpload();
   if (!upload) return Refuse(response, upload.error());
-  std::ofstream file(upload->path, std::ios::binary | std::ios::trunc);
-  const bool came = read([&](const char* data, std::size_t size) {
-    return !desk.closed() && file.write(data, static_cast<std::streamsize>(size));
-  });
-  file.close();
-  runs.EndUpload(*upload, came && file);
-  if (!came || !file) {
-    return Refuse(response, file ? 400 : 503,
-                  file ? "the log did not come whole" : "there is no room for the log here");
-  }
+  const auto came = ReceiveInto(upload->path, "log", desk, read);
+  runs.EndUpload(*upload, came.has_value());
+  if (!came) return Refuse(response, came.error());
   Answer(response, 202, fmt::format("{{\"run\": \"{}\"}}", upload->id));
 }
 

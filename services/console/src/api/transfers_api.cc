@@ -6,12 +6,11 @@
 #include <array>
 #include <fstream>
 #include <memory>
-#include <string>
-#include <utility>
 
 #include "services/base/number.h"
 #include "services/console/json.h"
 #include "services/console/src/api/answers.h"
+#include "services/console/src/api/incoming_file.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {
@@ -60,45 +59,16 @@ void Fetch(Desk& desk, Transfers& transfers, const Request& request, Response& r
   Answer(response, 202, ProgressJson(*progress));
 }
 
-// Whose upload does not come to be delivered, whichever way it ends, gives its place to others.
-class UploadPlace {
- public:
-  UploadPlace(Transfers& transfers, std::string id) : transfers_(transfers), id_(std::move(id)) {}
-  ~UploadPlace() {
-    if (!delivered_) transfers_.GiveUp(id_);
-  }
-  UploadPlace(const UploadPlace&) = delete;
-  UploadPlace& operator=(const UploadPlace&) = delete;
-
-  Transfers::Progress Deliver() {
-    Transfers::Progress progress = transfers_.Deliver(id_);
-    delivered_ = true;
-    return progress;
-  }
-
- private:
-  Transfers& transfers_;
-  std::string id_;
-  bool delivered_ = false;
-};
-
-// Piece by piece into a file: it may be larger than what this program may have of memory.
 void Upload(Desk& desk, Transfers& transfers, const Request& request, Response& response,
             const httplib::ContentReader& read) {
   const auto bytes = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
   const auto upload = transfers.BeginUpload(bytes.value_or(0));
   if (!upload) return Refuse(response, upload.error());
-  UploadPlace place(transfers, upload->id);
-  std::ofstream file(upload->path, std::ios::binary | std::ios::trunc);
-  const bool came = read([&](const char* data, std::size_t size) {
-    return !desk.closed() && file.write(data, static_cast<std::streamsize>(size));
-  });
-  file.close();
-  if (!came || !file) {
-    return Refuse(response, file ? 400 : 503,
-                  file ? "the file did not come whole" : "there is no room for the file here");
+  if (const auto came = ReceiveInto(upload->path, "file", desk, read); !came) {
+    transfers.GiveUp(upload->id);
+    return Refuse(response, came.error());
   }
-  Answer(response, 202, ProgressJson(place.Deliver()));
+  Answer(response, 202, ProgressJson(transfers.Deliver(upload->id)));
 }
 
 void Download(Desk& desk, Transfers& transfers, const Request& request, Response& response) {
