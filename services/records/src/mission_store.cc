@@ -121,6 +121,15 @@ std::string EndedStates() {
   return list;
 }
 
+// That a row's client is the name in a parameter, or one of its processes: ProcessName puts "-p"
+// and digits behind, so that "desk-p7" is of "desk", and "desk-pump" is not.
+std::string IsOrIsOf(int parameter) {
+  return fmt::format(
+      "(client = ?{0} OR (client GLOB ?{0} || '-p[0-9]*' AND "
+      "substr(client, length(?{0}) + 3) NOT GLOB '*[^0-9]*'))",
+      parameter);
+}
+
 }  // namespace
 
 struct MissionStore::Database : OwnDatabase {
@@ -152,17 +161,12 @@ struct MissionStore::Database : OwnDatabase {
     NameRoutes(db.getLastInsertRowid(), mission.orders);
   }
 
-  // Of all processes of a member: each `trailcast send` has a name of its own.
+  // A member's processes are counted together: each `trailcast send` has a name of its own.
   std::int64_t UnansweredOf(const AgentId& client) {
-    // Behind "-p" a process's name has digits alone (WithoutProcess): "desk-pump" is no process.
-    auto count = compiled.Take(
-        "SELECT count(*) FROM mission WHERE state = 0 AND (client = ?1 OR (client GLOB ?1 || "
-        "'-p[0-9]*' AND substr(client, length(?1) + 3) NOT GLOB '*[^0-9]*'))");
+    auto count = compiled.Take("SELECT count(*) FROM mission WHERE state = 0 AND " + IsOrIsOf(1));
     count->bind(1, WithoutProcess(client.value()));
     count->executeStep();
-    const std::int64_t unanswered = count->getColumn(0).getInt64();
-    count->reset();
-    return unanswered;
+    return count->getColumn(0).getInt64();
   }
 
   void NameRoutes(std::int64_t number, const std::string& orders) {
@@ -297,7 +301,9 @@ Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
     auto select = database_->compiled.Take(
         std::string("SELECT ") + kColumns +
         " FROM mission WHERE number < ?1 AND (?2 = '' OR agent = ?2) AND (?3 = '' OR id = ?3) AND "
-        "(?4 = '' OR client = ?4 OR client GLOB ?4 || '-p*') AND (?5 = 0 OR (1 << state) & ?5) AND "
+        "(?4 = '' OR " +
+        IsOrIsOf(4) +
+        ") AND (?5 = 0 OR (1 << state) & ?5) AND "
         "sent_unix_ms >= ?6 AND (?7 = 0 OR sent_unix_ms < ?7) AND (?8 = '' OR EXISTS (SELECT 1 "
         "FROM mission_route WHERE route = ?8 AND mission_route.number = mission.number)) ORDER BY "
         "number DESC LIMIT ?9");
@@ -362,11 +368,15 @@ Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
 Result<MissionStore::CommandPage> MissionStore::FindCommands(const mission::Query& query) {
   return database_->Guarded("looking commands up", [&]() -> Result<CommandPage> {
     auto select = database_->compiled.Take(
-        "SELECT client, drawn, order_given, whom, name, reason, given_unix_ms, number FROM command "
-        "WHERE number < ?1 AND (?2 = '' OR (whom = 0 AND name = ?2) OR EXISTS (SELECT 1 FROM "
-        "answer WHERE answer.client = command.client AND answer.drawn = command.drawn AND agent = "
-        "?2)) AND (?3 = '' OR (whom = 1 AND name = ?3)) AND (?4 = '' OR client = ?4 OR client GLOB "
-        "?4 || '-p*') AND given_unix_ms >= ?5 AND (?6 = 0 OR given_unix_ms < ?6) ORDER BY number "
+        std::string(
+            "SELECT client, drawn, order_given, whom, name, reason, given_unix_ms, number FROM "
+            "command "
+            "WHERE number < ?1 AND (?2 = '' OR (whom = 0 AND name = ?2) OR EXISTS (SELECT 1 FROM "
+            "answer WHERE answer.client = command.client AND answer.drawn = command.drawn AND "
+            "agent = "
+            "?2)) AND (?3 = '' OR (whom = 1 AND name = ?3)) AND (?4 = '' OR ") +
+        IsOrIsOf(4) +
+        ") AND given_unix_ms >= ?5 AND (?6 = 0 OR given_unix_ms < ?6) ORDER BY number "
         "DESC LIMIT ?7");
     select->bind(1, Before(query));
     select->bind(2, query.agent);
