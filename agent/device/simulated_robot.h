@@ -13,7 +13,7 @@
 
 namespace trailcast::agent {
 
-// What a simulated robot drives through, by the words of a command line.
+// A SimulatedPlace is where a simulated robot drives, as a command line names it.
 struct SimulatedPlace {
   std::string world;            // a built-in place's name, or a world file (.obj, .glb, ...)
   std::filesystem::path path;   // x_m,y_m way-points; empty: the built-in place's own
@@ -22,7 +22,7 @@ struct SimulatedPlace {
   std::string ground = "mesh";  // what robots stand on: mesh or flat
 };
 
-// Bumps of the ground within a circle of the world's plane, which only wheels feel.
+// RoughGround is a circle of the world's plane with bumps that only wheels feel.
 struct RoughGround {
   double x_m = 0.0;
   double y_m = 0.0;

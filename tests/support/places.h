@@ -2,8 +2,8 @@
 
 #include <string>
 
-// Where this checkout and what was built of it lie. Functions, so that a test's own objects are the
-// same in every checkout, and a compiler cache has them for all of them.
+// These tell where this checkout and what was built of it lie. They are functions, so that a test's
+// own objects are the same in every checkout and a compiler cache has them for all.
 namespace trailcast {
 
 [[nodiscard]] std::string SourceDir();

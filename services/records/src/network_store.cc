@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of joints that were found, `shared_by_routes` has the metres that their routes share.
+// `shared_by_routes` holds the metres that the routes of a joint that was found share.
 constexpr OwnFile kNetworkFile{.id = 0x5452434E,  // "TRCN"
                                .version = 1,
                                .tables = R"(

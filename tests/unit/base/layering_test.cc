@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 using Rooms = std::set<std::string>;
 using testing::IsEmpty;
 
-// What each room may include besides itself. A room is a folder of services/, services/lab/, agent/
-// or route_server/, which is one itself as well.
+// A room may include itself and the rooms that are listed here for it. A room is a folder of
+// services/, services/lab/, agent/ or route_server/, which is one itself as well.
 const std::map<std::string, Rooms> kMayInclude{
     {"services/base", {}},
     {"services/motion", {"services/base"}},

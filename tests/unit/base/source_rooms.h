@@ -25,8 +25,8 @@ struct SourceLine {
   std::string text;
 };
 
-// Of a file or header, by its path from the root: the folder below agent/, route_server/, services/
-// or services/lab/ that it lies in.
+// The room of a file or header is told by its path from the root: it is the folder below agent/,
+// route_server/, services/ or services/lab/ that it lies in.
 inline std::string RoomOf(const std::string& path) {
   const std::string lab = "services/lab/";
   const std::size_t below = path.starts_with(lab) ? lab.size() : path.find('/') + 1;

@@ -10,8 +10,8 @@
 
 namespace trailcast::store {
 
-// What the golden stores hold: a route with labels, cut off, of whose
-// two segments the first is receipted, and a tombstone.
+// The golden stores hold this route and a tombstone. It has labels and is cut off, and the first of
+// its two segments is receipted.
 [[nodiscard]] inline test::TaughtRoute GoldenRoute() {
   test::TaughtRoute taught = test::TeachSamples(2);
   taught.info.standing = route::Standing::kActive;

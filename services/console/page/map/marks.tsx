@@ -1,4 +1,4 @@
-// What is drawn upon any plan: robots, and a route's course.
+// Every plan draws robots and a route's course with these.
 import { classPaths, type OnPlan, type Point } from './plan';
 import type { Measure, Shape } from './shape';
 import { shapes } from '../robot/state';

@@ -1,4 +1,4 @@
-// What a robot does, in a shape, a word and a line of text.
+// These tell what a robot does: by a shape, a word and a line of text.
 import type { Robot, RobotState } from '../api';
 
 const words: Record<RobotState, string> = {
@@ -25,7 +25,7 @@ export function Badge({ state }: { state: RobotState }) {
   );
 }
 
-// Of them names and marks are seen first.
+// Robots that stand are seen first: they are listed first, and drawn last.
 export const stands = (robot: Robot) => robot.state !== 'driving' && robot.state !== 'teaching';
 
 export function how(robot: Robot, at: number | null, unit: string): string {

@@ -10,7 +10,7 @@
 
 namespace trailcast::store {
 
-// What rows that were found in a damaged file say: all that is known here of the tables' formats.
+// These read rows that were found in a damaged file; nothing else here knows the tables' formats.
 // How many columns a row has tells which table's it is.
 [[nodiscard]] const std::vector<std::size_t>& ColumnsOfInterest();
 inline constexpr std::size_t kReceiptColumns = 3;
