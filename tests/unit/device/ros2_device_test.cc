@@ -12,6 +12,7 @@
 #include <optional>
 #include <thread>
 
+#include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 #include "tests/support/walk_frames.h"
 
@@ -21,6 +22,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::AllOf;
+using testing::Contains;
+using testing::Field;
 using testing::HasSubstr;
 
 constexpr milliseconds kCameraFrame{33};
@@ -33,7 +36,7 @@ class Ros2DeviceTest : public testing::Test {
     run_.topics.robot = "/robot1";
     run_.topics.discovery_tag = test::UniqueTag();
     run_.topics.network_interface = "lo";
-    run_.patience = std::chrono::seconds(20);
+    run_.patience = test::kLongEnough;
     run_.limits.acceleration_mps2 = 1000.0;
   }
 
@@ -43,16 +46,17 @@ class Ros2DeviceTest : public testing::Test {
     if (topics.odometry.empty()) topics.odometry = "odom";  // which the device does not hear
     robot_ = dds::Ros2Robot::Open(topics).value();
     device_->OnTrouble([this](const RobotDevice::Halt& halt) { told_.push_back(halt); });
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (!robot_->watched() && steady_clock::now() < deadline)
       (void)robot_->Take(milliseconds(5));
     ASSERT_TRUE(robot_->watched());
   }
 
+  void SayOdometry() {
+    ASSERT_TRUE(robot_->Publish(dds::Ros2Odometry{stamp_ - odometry_lag_, pose_}));
+  }
   void Say(bool with_odometry = true) {
-    if (with_odometry) {
-      ASSERT_TRUE(robot_->Publish(dds::Ros2Odometry{stamp_ - odometry_lag_, pose_}));
-    }
+    if (with_odometry) SayOdometry();
     const image::GrayImage picture = test::WalkFrame(frame_);
     const dds::Ros2Image image{.stamp = stamp_,
                                .width_px = static_cast<std::uint32_t>(picture.width),
@@ -81,7 +85,7 @@ class Ros2DeviceTest : public testing::Test {
   // All of it, until `next` has a frame.
   Result<std::optional<Observation>> SayAllUntil(
       std::future<Result<std::optional<Observation>>>& next, std::optional<float> range_m) {
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (next.wait_for(milliseconds(20)) != std::future_status::ready &&
            steady_clock::now() < deadline) {
       GoOn();
@@ -132,7 +136,7 @@ class Ros2DeviceTest : public testing::Test {
     EXPECT_TRUE((*seen)->odometry);
   }
   // Until the robot is told that; false if it is not.
-  bool Told(const motion::VelocityCommand& command, milliseconds bound = milliseconds(5000)) {
+  bool Told(const motion::VelocityCommand& command, milliseconds bound = test::kLongEnough) {
     const auto deadline = steady_clock::now() + bound;
     while (steady_clock::now() < deadline) {
       const auto heard = robot_->Take(milliseconds(5));
@@ -148,6 +152,17 @@ class Ros2DeviceTest : public testing::Test {
       if (Told(kRos2Ahead, milliseconds(1000))) return true;
       auto next = std::async(std::launch::async, [this] { return device_->Next(); });
       if (!SayAllUntil(next, std::nullopt)) return false;
+    }
+    return false;
+  }
+
+  // The odometry goes on, so that the camera alone is what is missed.
+  bool ToldToStandWithoutPictures() {
+    const auto deadline = steady_clock::now() + test::kLongEnough;
+    while (steady_clock::now() < deadline) {
+      GoOn();
+      SayOdometry();
+      if (Told(kStand, milliseconds(20))) return true;
     }
     return false;
   }
@@ -179,7 +194,7 @@ TEST_F(Ros2DeviceTest, AFrameComesWithWhatTheImuSaidSinceTheOneBefore) {
   run_.topics.imu = "imu";
   Open();
   std::size_t felt = 0;
-  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   while (felt == 0 && steady_clock::now() < deadline) {
     auto next = std::async(std::launch::async, [this] { return device_->Next(); });
     while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
@@ -327,7 +342,7 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenNobodyDrivesOnWithIt) {
   ASSERT_TRUE(DrivesAhead());
   // The camera goes on: what ends is that Next and Drive are called.
   bool stopped = false;
-  while (!stopped && steady_clock::now() - began < std::chrono::seconds(20)) {
+  while (!stopped && steady_clock::now() - began < test::kLongEnough) {
     GoOn();
     Say();
     stopped = Told(kStand, milliseconds(20));
@@ -342,7 +357,7 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) 
   ASSERT_TRUE(SayUntilSeen());
   ASSERT_TRUE(DrivesAhead());
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  ASSERT_TRUE(Told(kStand));
+  ASSERT_TRUE(ToldToStandWithoutPictures());
   const SensorTime silent = stamp_;
   // Stamps go on: on a busy machine odometry that is only repeated would count as standing still.
   while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
@@ -352,10 +367,10 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) 
   const auto seen = next.get();
   ASSERT_TRUE(seen) << seen.error().message;
   EXPECT_GT((*seen)->stamp, silent);
-  ASSERT_GE(told_.size(), 2U);
-  EXPECT_THAT(told_.front().what,
-              AllOf(HasSubstr("camera /robot1/image_raw"), HasSubstr("no picture")));
-  EXPECT_TRUE(told_.front().fault);
+  ASSERT_FALSE(told_.empty());
+  EXPECT_THAT(told_, Contains(AllOf(Field(&RobotDevice::Halt::what,
+                                          HasSubstr("camera /robot1/image_raw: no picture")),
+                                    Field(&RobotDevice::Halt::fault, true))));
   EXPECT_EQ(told_.back().what, "");
 }
 
@@ -363,7 +378,12 @@ TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
   run_.patience = kSoonTired;
   Open();
   ASSERT_TRUE(SayUntilSeen());
-  const auto seen = device_->Next();
+  auto next = std::async(std::launch::async, [this] { return device_->Next(); });
+  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    GoOn();
+    SayOdometry();
+  }
+  const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message,
               AllOf(HasSubstr("camera /robot1/image_raw: no picture for 0.3 s"),
@@ -406,7 +426,7 @@ TEST_F(Ros2DeviceTest, DrivenByHandItStandsBeforeWhatItScansAndIsDrivenAwayFromT
   };
   const auto drive_until = [&](const motion::VelocityCommand& word, std::optional<float> range_m,
                                const auto& wanted) {
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < deadline) {
       drive(word, range_m);
       const auto heard = robot_->Take(milliseconds(5));
@@ -439,7 +459,7 @@ TEST_F(Ros2DeviceTest, DrivenByHandItStandsBeforeWhatItScansAndIsDrivenAwayFromT
 
 TEST_F(Ros2DeviceTest, SlowsDownByAScanThatComesBetweenTwoPictures) {
   OpenWithAScanner();
-  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   double told_mps = 0.0;
   while (told_mps == 0.0 && steady_clock::now() < deadline) {  // 0: the picture was too old by then
     ASSERT_TRUE(DrivesAhead());
@@ -469,9 +489,9 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheScannerIsSilent) {
   }
   EXPECT_THAT(next.get(), AllOf(HasSubstr("scan /robot1/scan: no scan for 0.3 s"),
                                 HasSubstr("not within 1.5 s")));
-  ASSERT_FALSE(told_.empty());
-  EXPECT_EQ(told_.front().what, "scan /robot1/scan: no scan for 0.3 s");
-  EXPECT_TRUE(told_.front().fault);
+  EXPECT_THAT(
+      told_, Contains(AllOf(Field(&RobotDevice::Halt::what, "scan /robot1/scan: no scan for 0.3 s"),
+                            Field(&RobotDevice::Halt::fault, true))));
 }
 
 TEST_F(Ros2DeviceTest, StandsBeforeWhatARangeSensorSeesAndGoesOnWhenThatIsGone) {
@@ -532,7 +552,7 @@ TEST_F(Ros2DeviceTest, InLockstepItAnswersEachFrameWhileItWaits) {
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
   for (int frame = 0; frame < 5; ++frame) {
     GoOn(0.0);
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     do {
       SayScan(0.55F);
       Say();
@@ -545,7 +565,7 @@ TEST_F(Ros2DeviceTest, InLockstepItAnswersEachFrameWhileItWaits) {
   // Its half a second is that of the robot's stamps.
   const SensorTime free_from = stamp_ + kCameraFrame;
   int answered = 0;
-  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   while (next.wait_for(milliseconds(0)) != std::future_status::ready &&
          steady_clock::now() < deadline) {
     GoOn(0.0);
@@ -587,7 +607,7 @@ TEST_F(Ros2DeviceTest, WaitsForASilentRobotOnlyUntilItIsToldToEnd) {
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
   ASSERT_EQ(next.wait_for(milliseconds(100)), std::future_status::timeout);
   stop = true;
-  ASSERT_EQ(next.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  ASSERT_EQ(next.wait_for(test::kLongEnough), std::future_status::ready);
   const auto end = next.get();
   ASSERT_TRUE(end) << end.error().message;
   EXPECT_FALSE(*end);
