@@ -6,8 +6,8 @@
 
 namespace trailcast::console {
 
-Result<void> ReceiveInto(const std::filesystem::path& path, const std::string& called,
-                         const Desk& desk, const httplib::ContentReader& read) {
+Result<void> ReceiveInto(const std::filesystem::path& path, const std::string& called, Desk& desk,
+                         const httplib::ContentReader& read) {
   return Guarded("an upload", [&]() -> Result<void> {
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     const bool came = read([&](const char* data, std::size_t size) {

@@ -15,6 +15,6 @@ namespace trailcast::console {
 // Errors call the file what `called` says: kInvalidArgument when it did not come whole,
 // kUnavailable when there is no room for it.
 [[nodiscard]] Result<void> ReceiveInto(const std::filesystem::path& path, const std::string& called,
-                                       const Desk& desk, const httplib::ContentReader& read);
+                                       Desk& desk, const httplib::ContentReader& read);
 
 }  // namespace trailcast::console
