@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/contract/network.h"
+#include "tests/support/await.h"
 
 namespace trailcast::dds {
 namespace {
@@ -16,8 +17,6 @@ using exchange::Message;
 using exchange::RouteExchange;
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::seconds kPatience{20};
 
 // On the network under a name, heard by whoever can hear it.
 class Member {
@@ -78,7 +77,7 @@ class DdsStarTest : public testing::Test {
     return std::make_unique<Member>(Options(discovery), name);
   }
   static bool Until(const std::vector<Member*>& members, const std::function<bool()>& done) {
-    for (const auto deadline = Clock::now() + kPatience; !done();) {
+    for (const auto deadline = Clock::now() + test::kLongEnough; !done();) {
       if (Clock::now() > deadline) return false;
       for (Member* member : members) member->Live();
     }

@@ -11,6 +11,7 @@
 #include "services/dds/src/domain/user_data.h"
 #include "services/dds/src/entities.h"
 #include "tests/contract/network.h"
+#include "tests/support/await.h"
 
 namespace trailcast::dds {
 namespace {
@@ -19,8 +20,6 @@ using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::seconds kSoonEnough{20};
 
 class Program {
  public:
@@ -45,7 +44,7 @@ class DdsVersionTest : public testing::Test {
     return options;
   }
   static void LiveUntilTold(const std::vector<Program*>& programs) {
-    const auto deadline = Clock::now() + kSoonEnough;
+    const auto deadline = Clock::now() + test::kLongEnough;
     const auto has_been_told = [](const Program* one) { return !one->told().empty(); };
     while (!std::all_of(programs.begin(), programs.end(), has_been_told)) {
       ASSERT_LT(Clock::now(), deadline);
@@ -62,7 +61,7 @@ TEST_F(DdsVersionTest, BothTellOnce) {
   LiveUntilTold({&older, &newer});
   // One that comes later is told of alone: of the others nothing more is said.
   Program another(Options("robot2", kProtocolVersion + 2));
-  const auto deadline = Clock::now() + kSoonEnough;
+  const auto deadline = Clock::now() + test::kLongEnough;
   while (older.told().size() < 2 || newer.told().size() < 2) {
     ASSERT_LT(Clock::now(), deadline);
     for (Program* program : {&older, &newer, &another}) program->Live();
@@ -86,7 +85,7 @@ TEST_F(DdsVersionTest, WhoCallsAgainAndAgainIsToldOfOnce) {
     program.Live();
   }
   const auto last = Participant::Create(domain, ToText({"robot2", kProtocolVersion + 2})).value();
-  const auto deadline = Clock::now() + kSoonEnough;
+  const auto deadline = Clock::now() + test::kLongEnough;
   while (program.told().size() < 2 && Clock::now() < deadline) program.Live();
   EXPECT_THAT(program.told(), ElementsAre(HasSubstr("'robot1' speaks version"),
                                           HasSubstr("'robot2' speaks version")));

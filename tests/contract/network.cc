@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "services/exchange/in_process_exchange.h"
+#include "tests/support/await.h"
 #include "tests/support/pieces.h"
 
 namespace trailcast::test {
@@ -16,7 +17,6 @@ using exchange::Topic;
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = std::chrono::seconds(20);
 const AgentId kProbe("probe");
 
 class InProcessNetwork : public Network {
@@ -154,7 +154,7 @@ exchange::TopicUse EveryTopic() {
 
 bool TakeUntil(RouteExchange& exchange, const std::function<void(const Message&)>& use,
                const std::function<bool()>& done) {
-  for (const auto deadline = Clock::now() + kPatience; !done();) {
+  for (const auto deadline = Clock::now() + test::kLongEnough; !done();) {
     if (Clock::now() > deadline) return false;
     for (const Message& message : exchange.Take(milliseconds(20))) {
       if (!IsProbe(message)) use(message);
@@ -165,7 +165,7 @@ bool TakeUntil(RouteExchange& exchange, const std::function<void(const Message&)
 
 bool Connect(RouteExchange& writer, Topic topic, const std::vector<RouteExchange*>& readers) {
   std::vector<bool> connected(readers.size(), false);
-  for (const auto deadline = Clock::now() + kPatience; Clock::now() < deadline;) {
+  for (const auto deadline = Clock::now() + test::kLongEnough; Clock::now() < deadline;) {
     if (!writer.Publish(ProbeFor(topic))) return false;
     for (std::size_t i = 0; i < readers.size(); ++i) {
       const std::vector<Message> taken = readers[i]->Take(milliseconds(connected[i] ? 0 : 20));

@@ -4,6 +4,7 @@
 
 #include "services/dds/dds_exchange.h"
 #include "tests/scenario/robots.h"
+#include "tests/support/await.h"
 
 namespace trailcast::test {
 namespace {
@@ -37,7 +38,7 @@ class FollowersTest : public RobotsTest {
     }
     // Waits for a status that is as wanted.
     [[nodiscard]] bool See(const std::function<bool(const AgentStatus&)>& wanted) {
-      const auto deadline = steady_clock::now() + Process::kBound;
+      const auto deadline = steady_clock::now() + test::kLongEnough;
       while (steady_clock::now() < deadline) {
         for (const auto& message : exchange_->Take(std::chrono::milliseconds(100))) {
           const auto* status = std::get_if<AgentStatus>(&message);

@@ -15,6 +15,7 @@
 
 #include "tests/scenario/lab/taught_once.h"
 #include "tests/scenario/programs.h"
+#include "tests/support/await.h"
 
 namespace trailcast::test {
 
@@ -52,7 +53,7 @@ class RobotsTest : public ProgramsTest {
   // It stays where it is for a second; false if it does not within ten.
   bool Stands(const std::string& truth) {
     using std::chrono::steady_clock;
-    const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     double at_m = Along_m(truth);
     auto since = steady_clock::now();
     while (steady_clock::now() < deadline) {

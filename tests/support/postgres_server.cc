@@ -1,4 +1,5 @@
 #include "tests/support/postgres_server.h"
+#include "tests/support/await.h"
 
 #include <fmt/format.h>
 #include <pwd.h>
@@ -80,7 +81,7 @@ void PostgresServer::SignalAll(int signal) const {
 
 void PostgresServer::Start() {
   const fs::path log = folder_ / "log";
-  const auto deadline = std::chrono::steady_clock::now() + Process::kBound;
+  const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
   do {  // after a crash, until the last of the old processes has noticed
     process_ = std::make_unique<Process>(
         AsItsUser({programs_ / "postgres", "-D", folder_ / "data", "-k", folder_.path(), "-c",

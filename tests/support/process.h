@@ -16,13 +16,13 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/await.h"
+
 namespace trailcast::test {
 
 // A process under test: stdout and stderr together in a file, killed when the test is over.
 class Process {
  public:
-  static constexpr std::chrono::seconds kBound{60};
-
   Process(std::vector<std::string> argv, std::filesystem::path output)
       : output_(std::move(output)) {
     std::vector<char*> words;
@@ -71,7 +71,7 @@ class Process {
   }
 
   // The exit status, or 128 and the signal that ended it; nothing if it goes on beyond the bound.
-  [[nodiscard]] std::optional<int> Wait(std::chrono::seconds bound = kBound) {
+  [[nodiscard]] std::optional<int> Wait(std::chrono::seconds bound = kLongEnough) {
     WaitUntil([&] { return Ended(); }, bound);
     return status_;
   }
@@ -85,7 +85,7 @@ class Process {
 
  private:
   template <typename Predicate>
-  static bool WaitUntil(Predicate predicate, std::chrono::seconds bound = kBound) {
+  static bool WaitUntil(Predicate predicate, std::chrono::seconds bound = kLongEnough) {
     const auto deadline = std::chrono::steady_clock::now() + bound;
     while (!predicate()) {
       if (std::chrono::steady_clock::now() > deadline) return false;

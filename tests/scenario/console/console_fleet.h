@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/robots.h"
+#include "tests/support/await.h"
 #include "tests/support/places.h"
 
 namespace trailcast::test {
@@ -84,7 +85,7 @@ class ConsoleFleetTest : public RobotsTest {
   }
   static bool WaitUntil(const std::function<bool()>& condition) {
     using std::chrono::steady_clock;
-    const auto until = steady_clock::now() + Process::kBound;
+    const auto until = steady_clock::now() + test::kLongEnough;
     while (!condition()) {
       if (steady_clock::now() > until) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -7,6 +7,7 @@
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
 #include "tests/scenario/sharing/secured_fleet.h"
+#include "tests/support/await.h"
 
 namespace trailcast::test {
 namespace {
@@ -40,7 +41,7 @@ class ConsoleWithKeysTest : public SecuredFleetTest {
   // Asks until `is_so`; the last answer.
   template <typename IsSo>
   Replied GetUntil(const std::string& path, const IsSo& is_so) {
-    const auto until = std::chrono::steady_clock::now() + Process::kBound;
+    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
     Replied got = Get(path);
     while (!is_so(got) && std::chrono::steady_clock::now() < until) got = Get(path);
     EXPECT_TRUE(is_so(got)) << path << ": " << got.status << " " << got.body.dump()

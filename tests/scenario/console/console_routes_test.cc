@@ -4,6 +4,7 @@
 
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
+#include "tests/support/await.h"
 #include "tests/support/walk_frames.h"
 
 namespace trailcast::test {
@@ -28,7 +29,7 @@ class ConsoleRoutesTest : public ConsoleFleetTest {
   void Slide() { ASSERT_TRUE(browser_->Type("//input[@type='range']", kSlide)); }
   // Of a picture that was chosen.
   bool WaitForAnswer() {
-    const auto until = std::chrono::steady_clock::now() + Process::kBound;
+    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
     while (std::chrono::steady_clock::now() < until) {
       const std::string text = browser_->Text();
       const bool none = text.find("No route looks like this") != text.npos;
@@ -149,7 +150,7 @@ TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {
   ASSERT_TRUE(browser_->WaitForText("1 of 1")) << browser_->Text();
   // Until the server has looked through what it was just given.
   const std::string found = "segment ";
-  const auto until = std::chrono::steady_clock::now() + Process::kBound;
+  const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
   while (browser_->Text().find(found) == std::string::npos) {
     ASSERT_LT(std::chrono::steady_clock::now(), until) << browser_->Text();
     ASSERT_TRUE(browser_->Type("//input[@accept='image/*']", picture));

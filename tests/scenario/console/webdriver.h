@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/await.h"
 #include "tests/support/process.h"
 
 namespace trailcast::test {
@@ -87,7 +88,7 @@ class Browser {
     return text.is_string() ? text.get<std::string>() : text.dump();
   }
   [[nodiscard]] bool WaitForText(const std::string& text) {
-    const auto until = std::chrono::steady_clock::now() + Process::kBound;
+    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
     while (Text().find(text) == std::string::npos) {
       if (std::chrono::steady_clock::now() > until) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -97,7 +98,7 @@ class Browser {
   // As a person's click: where the element is, if nothing lies above it. Until then, and while it
   // moves away under the pointer, it is tried again.
   [[nodiscard]] bool Click(const std::string& xpath) {
-    const auto gives_up = std::chrono::steady_clock::now() + Process::kBound;
+    const auto gives_up = std::chrono::steady_clock::now() + test::kLongEnough;
     do {
       const std::string element = Find(xpath);
       if (element.empty()) continue;
@@ -111,7 +112,7 @@ class Browser {
   }
   // Once the element is there.
   [[nodiscard]] bool Type(const std::string& xpath, const std::string& keys) {
-    const auto gives_up = std::chrono::steady_clock::now() + Process::kBound;
+    const auto gives_up = std::chrono::steady_clock::now() + test::kLongEnough;
     std::string element;
     while ((element = Find(xpath)).empty()) {
       if (std::chrono::steady_clock::now() > gives_up) return false;

@@ -16,6 +16,7 @@
 #include "services/exchange/route_sender.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/support/await.h"
 #include "tests/support/pieces.h"
 
 namespace trailcast::test {
@@ -129,7 +130,7 @@ class KillScoutsTest : public testing::Test {
   // False if that takes too long.
   template <typename Condition>
   static bool Await(const Condition& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
     while (!condition() && std::chrono::steady_clock::now() < deadline) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

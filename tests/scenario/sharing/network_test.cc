@@ -9,6 +9,7 @@
 
 #include "services/store/route_store.h"
 #include "tests/scenario/programs.h"
+#include "tests/support/await.h"
 #include "tests/support/network_lab.h"
 #include "tests/support/places.h"
 #include "tests/support/taught_route.h"
@@ -22,7 +23,6 @@ using testing::HasSubstr;
 constexpr int kServer = 1;
 constexpr int kRobot = 2;
 constexpr int kFeatures = 38;  // of a segment: some 4 KB
-constexpr seconds kPatience{60};
 
 double SecondOfDay(const std::string& line) {
   int hour = 0;
@@ -231,7 +231,7 @@ TEST_F(FetchOverBadNetworks, ResumesWithWhatIsMissingWhereverItWasCut) {
       }
       return !last.empty() && std::stoul(last) >= wanted;
     };
-    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
     while (!enough() && !fetch->Ended() && std::chrono::steady_clock::now() < deadline) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

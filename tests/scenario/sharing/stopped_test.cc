@@ -9,6 +9,7 @@
 #include "services/route/manifest.h"
 #include "services/store/route_store.h"
 #include "tests/scenario/programs.h"
+#include "tests/support/await.h"
 #include "tests/support/pieces.h"
 #include "tests/unit/route/sample_segment.h"
 
@@ -93,7 +94,7 @@ class StoppedTest : public ProgramsTest {
   }
   // In the middle of what fills that store, which was so large before.
   void AwaitGrown(const std::string& store, const Process& filling, double begin_mb = 0.0) const {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
     while (SizeMB(store) < begin_mb + kBeginningMB) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << filling.output();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

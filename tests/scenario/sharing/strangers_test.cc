@@ -5,6 +5,7 @@
 #include "services/security/src/signing.h"
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/sharing/secured_fleet.h"
+#include "tests/support/await.h"
 #include "tests/support/pieces.h"
 #include "tests/support/places.h"
 #include "tests/support/stranger.h"
@@ -47,7 +48,7 @@ class StrangersTest : public SecuredFleetTest {
   // Says it again and again: the first ones come before both ends have met.
   static void PublishUntil(exchange::RouteExchange& stranger, const exchange::Message& message,
                            Process& server, const std::string& told) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
     while (server.output().find(told) == std::string::npos) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << server.output();
       (void)stranger.Publish(message);

@@ -16,6 +16,7 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/support/await.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 
@@ -26,8 +27,6 @@ using nlohmann::json;
 using std::chrono::milliseconds;
 using test::TaughtRoute;
 using testing::HasSubstr;
-
-constexpr milliseconds kLong{60'000};
 
 // A server with a route, and the atlas of a console beside it.
 class AtlasTest : public testing::Test {
@@ -73,7 +72,7 @@ TEST_F(AtlasTest, ARouteIsFetchedOnceAndDrawn) {
   const TaughtRoute hall = Hold(40);
   Serve();
   EXPECT_EQ(joined_, 0) << "nobody has asked";
-  const auto found = atlas_.Find(hall.info.key.route, hall.info.key.teaching, kLong);
+  const auto found = atlas_.Find(hall.info.key.route, hall.info.key.teaching, test::kLongEnough);
   ASSERT_TRUE(found) << found.error().message;
   ASSERT_TRUE(found->shape);
   const json shape = json::parse(*found->shape);
@@ -84,7 +83,7 @@ TEST_F(AtlasTest, ARouteIsFetchedOnceAndDrawn) {
   const auto again = atlas_.Find(hall.info.key.route, hall.info.key.teaching, milliseconds(0));
   ASSERT_TRUE(again);
   EXPECT_EQ(again->shape, found->shape);
-  const auto active = atlas_.Find(hall.info.key.route, std::nullopt, kLong);
+  const auto active = atlas_.Find(hall.info.key.route, std::nullopt, test::kLongEnough);
   ASSERT_TRUE(active) << active.error().message;
   EXPECT_EQ(active->shape, found->shape) << "of the same teaching";
   EXPECT_EQ(joined_, 1);
@@ -93,17 +92,17 @@ TEST_F(AtlasTest, ARouteIsFetchedOnceAndDrawn) {
 TEST_F(AtlasTest, WhatIsNotThereIsSaid) {
   const TaughtRoute hall = Hold(2);
   Serve();
-  const auto unknown = atlas_.Find(RouteId(std::string(32, 'f')), std::nullopt, kLong);
+  const auto unknown = atlas_.Find(RouteId(std::string(32, 'f')), std::nullopt, test::kLongEnough);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::kNotFound);
-  const auto other = atlas_.Find(hall.info.key.route, TeachingId(77), kLong);
+  const auto other = atlas_.Find(hall.info.key.route, TeachingId(77), test::kLongEnough);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, ErrorCode::kNotFound);
 }
 
 TEST_F(AtlasTest, WithoutAServerItSaysSoAndTriesAgainLater) {
   Atlas impatient([this] { return Join(); }, milliseconds(100));
-  const auto found = impatient.Find(RouteId(std::string(32, 'a')), std::nullopt, kLong);
+  const auto found = impatient.Find(RouteId(std::string(32, 'a')), std::nullopt, test::kLongEnough);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kUnavailable);
 }
@@ -122,7 +121,7 @@ TEST(Atlas, WhoDoesNotWaitIsToldHowFarItIsAndOnlySoManyAreAskedFor) {
   network.set_value();
   ASSERT_FALSE(more);
   EXPECT_THAT(more.error().message, HasSubstr("too many routes"));
-  const auto first = atlas.Find(RouteId(fmt::format("{:032x}", 0)), {}, kLong);
+  const auto first = atlas.Find(RouteId(fmt::format("{:032x}", 0)), {}, test::kLongEnough);
   ASSERT_FALSE(first);
   EXPECT_EQ(first.error().message, "no network");
 }
@@ -137,7 +136,7 @@ TEST(Atlas, ClosedItLetsGoWhoWaits) {
     return atlas.Find(RouteId(std::string(32, 'a')), std::nullopt, std::chrono::hours(24));
   });
   atlas.Close();
-  EXPECT_EQ(waits.wait_for(kLong), std::future_status::ready);
+  EXPECT_EQ(waits.wait_for(test::kLongEnough), std::future_status::ready);
   network.set_value();  // lets go whoever still waits
   const auto found = waits.get();
   ASSERT_TRUE(found) << found.error().message;

@@ -13,6 +13,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 #include "tests/support/places.h"
 
 namespace trailcast::console {
@@ -172,7 +173,7 @@ TEST_F(MetricsPageTest, HasAllThatDashboardAndAlertsName) {
   of_serving.role = exchange::AgentRole::kServer;
   ASSERT_TRUE(serving->Publish(of_serving));
   std::string page;
-  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
   while (page.find("robot1") == page.npos && std::chrono::steady_clock::now() < until) {
     ASSERT_TRUE(peer->Publish(Robot("robot1")));
     page = Page();

@@ -11,6 +11,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 #include "tests/support/hostile_client.h"
 #include "tests/support/temp_dir.h"
 
@@ -231,7 +232,7 @@ TEST_F(WebTest, OneStreamTooManyIsRefusedAndThosePagesThatCloseMakeRoom) {
     EXPECT_THAT(one_more.Receive(), HasSubstr(" 503 "));
     EXPECT_EQ(Client().Get("/")->status, 200) << "others are served";
   }
-  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
   std::string answer;
   while (answer.find("200 OK") == std::string::npos && std::chrono::steady_clock::now() < until) {
     const test::RawConnection again(web_->port());

@@ -6,6 +6,7 @@
 #include "ros2.h"
 #include "services/dds/ros2_link.h"
 #include "services/dds/src/ros2/ros2_wire.h"
+#include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {
@@ -27,7 +28,7 @@ TEST(Ros2ImuTest, ComesFromTheRobotAsItWasFelt) {
   said.felt.acceleration_mps2 = {0.5, -0.25, 9.75};
   said.felt.attitude = motion::Attitude{0.0, 0.6, 0.0, 0.8};
   std::vector<Ros2Sensed> heard;
-  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   while (heard.empty() && steady_clock::now() < deadline) {
     ASSERT_TRUE(robot->Publish(said));
     heard = driver->Take(milliseconds(20));

@@ -7,6 +7,7 @@
 
 #include "services/dds/ros2_link.h"
 #include "services/dds/src/ros2/ros2_network.h"
+#include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {
@@ -41,7 +42,7 @@ class Ros2NetworkTest : public testing::Test {
     const auto robot = Ros2Robot::Open(options_).value();
     Configure(nullptr);
     if (!driver) driver = Ros2Driver::Open(options_).value();
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < deadline) {
       if (robot->Publish(Ros2Odometry{}) && !driver->Take(milliseconds(20)).empty()) return true;
     }

@@ -10,6 +10,7 @@
 #include "services/dds/src/domain/domain_config.h"
 #include "services/dds/src/entities.h"
 #include "services/dds/src/ros2/ros2_wire.h"
+#include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {
@@ -31,7 +32,7 @@ class Ros2RangeTest : public testing::Test {
   template <typename Say>
   std::optional<Ros2Range> HearWhile(const Say& say) {
     std::vector<Ros2Sensed> heard;
-    const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (heard.empty() && steady_clock::now() < deadline) {
       say();
       heard = driver_->Take(milliseconds(20));

@@ -8,6 +8,7 @@
 #include "ros2.h"
 #include "services/dds/ros2_link.h"
 #include "services/dds/src/ros2/ros2_wire.h"
+#include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 
 namespace trailcast::dds {
@@ -30,7 +31,7 @@ TEST(Ros2Scan, ComesFromTheRobotAsItWasSeen) {
   const auto robot = Ros2Robot::Open(options).value();
   const Ros2Scan said{std::chrono::seconds(12), {-0.5, 0.25, 0.125, 8.0, {1.0F, 2.5F, 3.0F}}};
   std::vector<Ros2Sensed> heard;
-  const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   while (heard.empty() && steady_clock::now() < deadline) {
     ASSERT_TRUE(robot->Publish(said));
     heard = driver->Take(milliseconds(20));

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/await.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::agent {
@@ -30,7 +31,7 @@ TEST(RunLogFile, WhatWasPutIsOnTheDiskWhileTheRunGoesOn) {
   ASSERT_TRUE(file) << file.error().message;
   (*file)->Put("first\n");
   (*file)->Put("second\n");
-  const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+  const auto deadline = steady_clock::now() + test::kLongEnough;
   while (TextOf(folder / "run.log").size() < 13 && steady_clock::now() < deadline) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
+#include "tests/support/await.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -17,8 +18,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-constexpr milliseconds kPatience{20'000};
 
 class NetworkClientTest : public testing::Test {
  protected:
@@ -62,9 +61,9 @@ TEST_F(NetworkClientTest, AsksForPageAfterPageAndForAWay) {
     return reply;
   });
   const auto desk = bus_.Open(exchange::NetworkTopics());
-  EXPECT_THAT(AskForNetwork(*desk, AgentId("desk"), kPatience).value(),
+  EXPECT_THAT(AskForNetwork(*desk, AgentId("desk"), test::kLongEnough).value(),
               ElementsAre("route r0 1", "route r1 1", "route r2 1"));
-  EXPECT_THAT(AskForWay(*desk, AgentId("desk"), "hall@2", "office@8", kPatience).value(),
+  EXPECT_THAT(AskForWay(*desk, AgentId("desk"), "hall@2", "office@8", test::kLongEnough).value(),
               ElementsAre("way hall@2 office@8"));
 }
 
@@ -76,8 +75,9 @@ TEST_F(NetworkClientTest, TellsWhyAChangeWasNotMade) {
     return reply;
   });
   const auto desk = bus_.Open(exchange::JoinerTopics());
-  EXPECT_THAT(AskToJoin(*desk, AgentId("desk"), "close hall", kPatience).value(), SizeIs(1));
-  const auto refused = AskToJoin(*desk, AgentId("desk"), "close attic", kPatience);
+  EXPECT_THAT(AskToJoin(*desk, AgentId("desk"), "close hall", test::kLongEnough).value(),
+              SizeIs(1));
+  const auto refused = AskToJoin(*desk, AgentId("desk"), "close attic", test::kLongEnough);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("server 'server': there is no route 'attic'"));
 }
@@ -137,7 +137,7 @@ TEST_F(NetworkClientTest, WhatPassesIsToldWithWhatToDo) {
                   "passes ring@7.1 proposed join ring@5 hall@10.2 both confidence 0.93"}};
   });
   const auto desk = bus_.Open(exchange::NetworkTopics());
-  const auto passings = AskWhatPasses(*desk, AgentId("desk"), "bay", kPatience);
+  const auto passings = AskWhatPasses(*desk, AgentId("desk"), "bay", test::kLongEnough);
   ASSERT_TRUE(passings) << passings.error().message;
   EXPECT_EQ(PassingText(*passings),
             "hall@12.3\n"
@@ -165,7 +165,7 @@ TEST_F(NetworkClientTest, ChangesAreShownTheNewestFirst) {
     return reply;
   });
   const auto desk = bus_.Open(exchange::NetworkTopics());
-  const auto history = AskForChanges(*desk, AgentId("desk"), 5000, kPatience);
+  const auto history = AskForChanges(*desk, AgentId("desk"), 5000, test::kLongEnough);
   ASSERT_TRUE(history) << history.error().message;
   EXPECT_THAT(ChangesText(*history, 5000, 100),
               testing::MatchesRegex(".*1970-01-01.*  -     activated hall@3\n.*  desk  close hall "

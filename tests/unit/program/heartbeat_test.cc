@@ -7,6 +7,7 @@
 
 #include "services/exchange/in_process_exchange.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::program {
@@ -56,7 +57,7 @@ TEST_F(HeartbeatTest, AFaultIsKnownAtOnceAndNotWell) {
 TEST_F(HeartbeatTest, TakingKeepsItYoungAndNothingElseDoes) {
   Say(AgentMode::kWaiting, "waiting for a route");
   constexpr milliseconds kStaleAfter{50};
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
   const auto is_young = [&] { return ReadHeartbeat(file_, kStaleAfter).has_value(); };
   while (is_young() && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(milliseconds(5));

@@ -8,6 +8,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/image/files.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 #include "tests/support/walk_frames.h"
 
 namespace trailcast::agent {
@@ -27,7 +28,7 @@ class GlancesTest : public testing::Test {
   // picture is wanted.
   template <typename Show>
   std::optional<exchange::Glance> Answer(const Show& show) {
-    const auto until = steady_clock::now() + std::chrono::seconds(20);
+    const auto until = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < until) {
       (void)robot_->Take(milliseconds(5));
       if (glances_.wanted()) show();

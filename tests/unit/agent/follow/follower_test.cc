@@ -14,6 +14,7 @@
 #include "agent/fetch/fetch.h"
 #include "services/base/angles.h"
 #include "services/route/labels.h"
+#include "tests/support/await.h"
 #include "tests/unit/agent/swarm.h"
 
 namespace trailcast::agent {
@@ -322,7 +323,7 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
       std::async(std::launch::async, [&] { return swarm_.Teach(scout, scout_options, true); });
   // The server has some of it before it is asked: the follower waits for nothing but the rest.
   bool stored = false;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
   while (!stored && std::chrono::steady_clock::now() < deadline) {
     for (const exchange::Message& message : watcher->Take(milliseconds(50))) {
       const auto* receipt = std::get_if<exchange::Receipt>(&message);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <future>
 
+#include "tests/support/await.h"
 #include "tests/unit/agent/driven_device.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -17,7 +18,6 @@ using std::chrono::steady_clock;
 
 constexpr int kTaughtFrames = 150;  // 3 m
 constexpr double kWall_m = 2.0;
-constexpr std::chrono::seconds kBound{60};
 
 // Gives no frames while it is silent, from half-way on, and tells whom it was asked to why.
 class SilentDevice : public test::DrivenDevice {
@@ -53,7 +53,7 @@ void ExpectStatus(const RobotDevice::Halt& why, AgentMode mode) {
   swarm.StartServer();
   const auto watcher = swarm.Join(exchange::OperatorTopics());
   const auto see = [&](const std::function<bool(const AgentStatus&)>& wanted) {
-    const auto deadline = steady_clock::now() + kBound;
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < deadline) {
       for (const auto& message : watcher->Take(milliseconds(50))) {
         const auto* status = std::get_if<AgentStatus>(&message);

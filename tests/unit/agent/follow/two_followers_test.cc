@@ -5,6 +5,7 @@
 #include <future>
 #include <vector>
 
+#include "tests/support/await.h"
 #include "tests/unit/agent/driven_device.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -19,7 +20,6 @@ using test::DrivenDevice;
 
 constexpr int kTaughtFrames = 150;  // 3 m
 constexpr double kDistance_m = 0.8;
-constexpr std::chrono::seconds kBound{60};
 constexpr std::chrono::seconds kNever{3600};
 
 class TwoFollowersTest : public testing::Test {
@@ -44,7 +44,7 @@ class TwoFollowersTest : public testing::Test {
   }
   // What an operator sees of the agents: waits until one is as wanted.
   bool See(const std::function<bool(const AgentStatus&)>& wanted) {
-    const auto deadline = steady_clock::now() + kBound;
+    const auto deadline = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < deadline) {
       for (const auto& message : watcher_->Take(milliseconds(50))) {
         const auto* status = std::get_if<AgentStatus>(&message);

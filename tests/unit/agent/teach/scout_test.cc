@@ -13,6 +13,7 @@
 
 #include "services/route/digest.h"
 #include "services/route/labels.h"
+#include "tests/support/await.h"
 #include "tests/unit/agent/swarm.h"
 
 namespace trailcast::agent {
@@ -101,7 +102,7 @@ TEST_F(ScoutTest, SaysInItsStatusWhatAServerHasToSayOfWhatItTeaches) {
   };
   // While it drives, and it drives no further before that.
   device_.before_frame = [&](int frame) -> Result<void> {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
     while (frame == kFrames - 1 && !is_shown && std::chrono::steady_clock::now() < until) {
       for (const auto& message : server->Take(milliseconds(20))) answer(message);
     }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "services/route/codec.h"
+#include "tests/support/await.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/seen_segment.h"
 
@@ -77,7 +78,7 @@ class JointDeskTest : public testing::Test {
     for (const Crossing& crossing : desk_.TakeCrossings()) crossings_.push_back(crossing);
   }
   bool TurnUntil(const std::function<bool()>& done) {
-    const auto until = steady_clock::now() + std::chrono::seconds(60);
+    const auto until = steady_clock::now() + test::kLongEnough;
     while (!done() && steady_clock::now() < until) {
       Turn();
       std::this_thread::sleep_for(milliseconds(1));
