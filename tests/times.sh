@@ -7,22 +7,23 @@ set -euo pipefail
 root=$1 stages=$2
 presets=(release asan)
 
-# Of each test that was run: seconds, its name, its program's.
+# Of each test that was run: seconds, its name, its program's. GoogleTest says how long its cases
+# took; CTest does of those that another program runs.
 tests() {
   local preset
   for preset in "${presets[@]}"; do
-    (cd "$root" && ctest --preset "$preset" --show-only=json-v1) |
-      jq -r '.tests[] | [.name, ((.command // ["?"])[0] | split("/") | last)] | @tsv' |
-      awk -F'\t' -v log="$root/build/$preset/test.log" '
-        { program[$1] = $2 }
-        END {
-          while ((getline line < log) > 0) {
-            if (line !~ /^ *[0-9]+\/[0-9]+ Test +#/) continue
-            seconds = line; sub(/ sec.*$/, "", seconds); sub(/^.* /, "", seconds)
-            name = line; sub(/^.*Test +#[0-9]+: /, "", name); sub(/ .*$/, "", name)
-            printf "%s\t%s\t%s\n", seconds, name, program[name]
-          }
-        }'
+    awk '
+      /^Command: / {
+        program = $2; gsub(/"/, "", program); sub(/^.*\//, "", program)
+      }
+      /^"[^"]*" start time: / { name = $1; gsub(/"/, "", name); cases = 0 }
+      /^\[       OK \] .* ms\)$/ {
+        ++cases
+        seconds = $(NF - 1); sub(/\(/, "", seconds); sub(/,$/, "", $4)
+        printf "%.3f\t%s\t%s\n", seconds / 1000, $4, program
+      }
+      /^Test time = / && !cases { printf "%.3f\t%s\t%s\n", $4, name, program }
+    ' "$root/build/$preset/Testing/Temporary/LastTest.log"
   done
 }
 
@@ -32,7 +33,7 @@ printf 'On %s, %s cores of %s, by `./run test --note-times`.\n\n' "$(date -I)" "
 printf '| stage | s |\n| --- | --- |\n'
 awk -F'\t' '{ printf "| %s | %d |\n", $1, $2; all += $2 } END { printf "| all | %d |\n", all }' "$stages"
 printf '\n| slowest tests | s |\n| --- | --- |\n'
-sort -rn <<<"$all" | head -30 | awk -F'\t' '{ printf "| `%s` | %.0f |\n", $2, $1 }'
+sort -rn <<<"$all" | awk -F'\t' 'NR <= 30 { printf "| `%s` | %.0f |\n", $2, $1 }'
 printf '\n| test programs, all their tests | s | tests |\n| --- | --- | --- |\n'
 awk -F'\t' '{ s[$3] += $1; n[$3]++ } END { for (p in s) printf "%.0f\t%s\t%d\n", s[p], p, n[p] }' <<<"$all" |
-  sort -rn | head -30 | awk -F'\t' '{ printf "| `%s` | %d | %d |\n", $2, $1, $3 }'
+  sort -rn | awk -F'\t' 'NR <= 30 { printf "| `%s` | %d | %d |\n", $2, $1, $3 }'

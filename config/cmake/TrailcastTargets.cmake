@@ -77,21 +77,23 @@ function(trailcast_executable name)
 endfunction()
 
 # trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc
-#                APART b_test.cc DEPS x)
-# Every case is a ctest test of its own, so that they run in parallel and are named by situation;
-# with TOGETHER they are one, since they share what is slow to come by. ALONE: nothing runs beside
-# them, since they measure time; REAL_TIME: no other such, since their robots keep pace with the clock;
-# WAITS: it mostly waits, and takes half as much of a machine as others: ./run test has twice as many
-# at a time as there are cores, of which the others count for two.
+#                APART b_test.cc DEPS x SHARDS n)
+# Every case is a ctest test of its own, so that they run in parallel and are named by situation.
+# The cases of a unit test's program run in one process, since under sanitizers most take longer to
+# start than to run; where they wait, SHARDS of them run side by side. With TOGETHER other cases are
+# one as well, since they share what is slow to come by.
+# ALONE: nothing runs beside them, since they measure time; REAL_TIME: no other such, since their
+# robots keep pace with the clock; WAITS: it mostly waits, and takes half as much of a machine as
+# others: ./run test has twice as many at a time as there are cores, of which the others count for two.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
 # `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
 # NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;WAITS;NUMERIC" "LABEL;TIMEOUT"
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;WAITS;NUMERIC" "LABEL;TIMEOUT;SHARDS"
                         "SOURCES;APART;DEPS;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 180)
+    set(ARG_TIMEOUT 300)
   endif()
   if(TRAILCAST_SANITIZE)  # several times slower
     math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")
@@ -117,8 +119,25 @@ function(trailcast_test name)
                          PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
   endif()
   set(takes 2)
-  if(ARG_WAITS OR ARG_LABEL STREQUAL unit)
+  if(ARG_WAITS)
     set(takes 1)
+  endif()
+  if(ARG_LABEL STREQUAL unit)
+    if(NOT ARG_SHARDS)
+      set(ARG_SHARDS 1)
+    endif()
+    math(EXPR last "${ARG_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      set(part ${name})
+      if(last GREATER 0)
+        set(part ${name}.${shard})
+      endif()
+      add_test(NAME ${part} COMMAND ${name})
+      set_tests_properties(
+        ${part} PROPERTIES LABELS unit TIMEOUT ${ARG_TIMEOUT} COST ${ARG_SHARDS}
+                           ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+    return()
   endif()
   if(ARG_TOGETHER)
     add_test(NAME ${name} COMMAND ${name} "--gtest_filter=-${long}")
