@@ -56,6 +56,7 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
          "database, postgresql://user@host/database, which several servers may share")
       ->required()
       ->envname("TRAILCAST_STORE");
+  app.option_defaults()->group("What it keeps");
   app.add_option(
          "--store-limit-mb", options.limit_mb,
          "How large the file may grow, in megabytes; scouts are told when it is full and keep "
@@ -91,10 +92,12 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "stored here; 0: never")
       ->check(CLI::Range(0, 36500))
       ->envname("TRAILCAST_KEEP_DAYS");
+  app.option_defaults()->group(trailcast::program::kFirstGroup);
 }
 
 void AddQuotaOptions(CLI::App& app, trailcast::server::QuotaOptions& options,
                      std::uint64_t& stored_mb) {
+  app.option_defaults()->group("Quotas");
   app.add_option("--quota-segments-per-s", options.segments_per_s,
                  "How many segments a second are taken from an agent, or sent to it; the others "
                  "later; 0: as many as there are")
@@ -110,6 +113,7 @@ void AddQuotaOptions(CLI::App& app, trailcast::server::QuotaOptions& options,
                  "How many questions and edits a second are taken from a client; the others are "
                  "answered with an error; 0: any number")
       ->envname("TRAILCAST_QUOTA_REQUESTS_PER_S");
+  app.option_defaults()->group(trailcast::program::kFirstGroup);
 }
 
 // A damaged file is served as far as it is whole.

@@ -34,6 +34,10 @@ struct CommonOptions {
 // Of all of the product's programs: "0.1.0".
 [[nodiscard]] const char* Version();
 
+// The group of the options that `--help` explains; it names those of other groups, which
+// `--help-all` explains as well. Options that are put into no group are of this one.
+inline constexpr const char* kFirstGroup = "Options";
+
 // --version, --config, --name and the options of the network and the log, each with its
 // environment variable. A value on the command line wins over the file, the file over the
 // environment. With --security and no --name, the name is the one in the keys.

@@ -37,7 +37,7 @@ double Since_s(steady_clock::time_point then) {
 }
 
 bool WaitFor(const std::function<bool()>& condition) {
-  const auto until = steady_clock::now() + Process::kBound;
+  const auto until = steady_clock::now() + test::kLongEnough;
   while (!condition()) {
     if (steady_clock::now() > until) return false;
     std::this_thread::sleep_for(milliseconds(50));

@@ -91,7 +91,7 @@ TEST_F(BadInputTest, NeitherFramesNorASimulatedWorldNorARobot) {
 }
 
 TEST_F(BadInputTest, WhoIsOnDutyIsOfferedNoRecording) {
-  const auto help = RunAgent({"serve", "--help"});
+  const auto help = RunAgent({"serve", "--help-all"});
   EXPECT_EQ(help.status, 0);
   EXPECT_THAT(help.output, AllOf(HasSubstr("--sim"), HasSubstr("--ros2"), HasSubstr("--logs")));
   for (const char* option : {"--frames", "--bag", "--odometry", "--rate", "--frame-times"}) {

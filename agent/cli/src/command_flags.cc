@@ -11,6 +11,8 @@ namespace {
 // Longest time that can be asked for: a week.
 constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
+constexpr const char* kHowItFollows = "How it follows";
+
 void AddRoute(CLI::App& command, std::string& route) {
   command
       .add_option("--route", route,
@@ -68,6 +70,7 @@ void AddTerrainOptions(CLI::App& command, ReplayCommand& replay) {
 
 // How a route is followed, whichever it is.
 void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
+  command.option_defaults()->group(kHowItFollows);
   command
       .add_option("--method", replay.method,
                   "The project's best, the 2009 method as printed, or its first version of 2006")
@@ -96,6 +99,7 @@ void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
                   "activates it (review); the same, which needs no look (auto)")
       ->check(CLI::IsMember(RefreshingNames()))
       ->capture_default_str();
+  command.option_defaults()->group(program::kFirstGroup);
   AddDeviceOptions(command, replay.device, use);
   AddTerrainOptions(command, replay);
 }
@@ -145,27 +149,12 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRouteRef(command, replay.route);
   AddRevision(command, replay.revision, "Default: the active one");
   AddScout(command, replay.scout);
-  command.add_option("--csv", replay.csv, "Writes one row a frame here");
   command.add_option("--log", replay.diagnosis.log,
                      "Writes what the robot saw and why it did what it did here, while it runs; "
                      "'trailcast explain FILE' tells its story; where FILE ends in .mcap, with "
                      "pictures, for viewers as roboticists have them, too");
-  CLI::Option* view =
-      command.add_option("--view", replay.diagnosis.view,
-                         "Draws what the robot saw: one picture a frame into this folder");
-  command
-      .add_option("--view-every", replay.diagnosis.view_every, "Only every so many frames of them")
-      ->check(CLI::Range(1, 1'000'000))
-      ->needs(view);
   command.add_flag("--wait-for-route", replay.wait_for_route,
                    "With --server: also wait for a route that no server knows yet");
-  command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
-      ->check(CLI::Range(0.1, 3.0));
-  command.add_flag("--backwards", replay.backwards,
-                   "In reverse gear along what was taught forwards, from the route's end to its "
-                   "beginning (which change places in --start), at half the taught speed, the "
-                   "camera looking as it did; by odometry and the default method. What is behind "
-                   "the robot it does not see");
   command
       .add_option("--start", replay.start,
                   "Where the robot is at first: where its last run has left it, or else at the "
@@ -173,7 +162,24 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
                   "anywhere: it stands until it knows where")
       ->check(CLI::IsMember({"left", "beginning", "anywhere"}))
       ->capture_default_str();
-  command.add_flag("--from-start", replay.from_start, "The same as --start beginning");
+  command.option_defaults()->group("What it writes");
+  command.add_option("--csv", replay.csv, "Writes one row a frame here");
+  CLI::Option* view =
+      command.add_option("--view", replay.diagnosis.view,
+                         "Draws what the robot saw: one picture a frame into this folder");
+  command
+      .add_option("--view-every", replay.diagnosis.view_every, "Only every so many frames of them")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(view);
+  command.option_defaults()->group(kHowItFollows);
+  command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
+      ->check(CLI::Range(0.1, 3.0));
+  command.add_flag("--backwards", replay.backwards,
+                   "In reverse gear along what was taught forwards, from the route's end to its "
+                   "beginning (which change places in --start), at half the taught speed, the "
+                   "camera looking as it did; by odometry and the default method. What is behind "
+                   "the robot it does not see");
+  command.option_defaults()->group(program::kFirstGroup);
   AddFollowing(command, replay, DeviceUse::kReplay);
 }
 

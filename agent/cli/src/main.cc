@@ -24,14 +24,6 @@ constexpr const char* kFooter = R"(Examples:
 Exit status: 0 taught and delivered, arrived, or recording replayed to its end; 3 the follower did
 not arrive; 2 wrong usage; 1 anything else. 'trailcast-agent COMMAND --help' tells more.)";
 
-// A command's help shows what all commands share too.
-void ShareHelp(const CLI::App& app, CLI::App& command) {
-  command.footer([&app] {
-    return "Options of all commands" +
-           CLI::Formatter().make_groups(&app, CLI::AppFormatMode::Normal);
-  });
-}
-
 int Run(int argc, char** argv) {
   CLI::App app("A robot's agent: teaches a route, or follows one that was taught.",
                "trailcast-agent");
@@ -61,10 +53,6 @@ int Run(int argc, char** argv) {
   agent::AddFetchOptions(*fetch_app, fetch);
   agent::AddDeliverOptions(*deliver_app, deliver);
   CLI::App* health_app = program::AddHeartbeat(app, options.common);
-  for (CLI::App* command :
-       {teach_app, replay_app, serve_app, fetch_app, deliver_app, teachings_app, health_app}) {
-    ShareHelp(app, *command);
-  }
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   if (health_app->parsed()) return program::RunHealth(app, options.common);
   if (options.common.name.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/ids.h"
+#include "services/program/src/short_help.h"
 #include "services/program/toml.h"
 #include "services/security/member_keys.h"
 
@@ -16,6 +17,8 @@
 
 namespace trailcast::program {
 namespace {
+
+constexpr const char* kItself = "The program itself";
 
 // Keys a configuration file may hold for `app` itself.
 std::string Keys(const CLI::App& app) {
@@ -53,14 +56,19 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
 const char* Version() { return TRAILCAST_VERSION; }
 
 void AddCommonOptions(CLI::App& app, CommonOptions& options) {
-  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), Version()));
-  app.set_config("--config", "", "TOML file with any of these options; unknown keys are errors");
+  app.formatter(std::make_shared<ShortHelp>());
+  app.set_help_all_flag("--help-all", "Explain all options, and exit");
+  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), Version()))
+      ->group(kItself);
+  app.set_config("--config", "", "TOML file with any of these options; unknown keys are errors")
+      ->group(kItself);
   app.config_formatter(std::make_shared<Toml>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.option_defaults()->always_capture_default();
   CLI::Option* name = app.add_option("--name", options.name,
                                      "Name in the fleet, unique: letters, digits, '_', '.', '-'");
   name->check(NameValidator())->envname("TRAILCAST_NAME");
+  app.option_defaults()->group("Network");
   app.add_option("--domain", options.domain, "DDS domain; only processes of one domain meet")
       ->check(CLI::Range(0, 230))
       ->envname("TRAILCAST_DOMAIN");
@@ -90,6 +98,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
     // Keys that are wrong are told of by who needs them, when it joins.
     if (const auto in_keys = security::NameInKeys(options.security)) options.name = *in_keys;
   });
+  app.option_defaults()->group(kItself);
   app.add_option("--log-level", options.log_level, "What is told on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->envname("TRAILCAST_LOG_LEVEL");
@@ -97,6 +106,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
                  "Lines for people, or a JSON object a line for programs")
       ->check(CLI::IsMember({"text", "json"}))
       ->envname("TRAILCAST_LOG_FORMAT");
+  app.option_defaults()->group(kFirstGroup);
 }
 
 std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
