@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -89,7 +90,7 @@ class Desk {
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1
-    StateParts state{};
+    std::shared_ptr<const nlohmann::ordered_json> state{};
   };
   // The latest, once that is newer than `number`; null when nothing has changed within `most`, or
   // the desk is closed. Who asks looks: only while somebody does is there news, and are servers

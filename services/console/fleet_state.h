@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,23 +16,11 @@
 
 namespace trailcast::console {
 
-// The members of the object that openapi.yaml calls State, but for its time, each as JSON without
-// line breaks.
-struct StateParts {
-  // A robot's members by name; all robots have the same ones, in the same order.
-  using Members = std::vector<std::pair<std::string, std::string>>;
-  std::map<std::string, Members> robots{};  // by name
-  std::string servers = "[]";
-  std::string routes = "[]";
-  std::string missions = "null";  // until it is known whether there are any
-
-  bool operator==(const StateParts&) const = default;
-};
-// All of it.
-[[nodiscard]] std::string WholeJson(const StateParts& parts, std::int64_t now_unix_ms);
-// What openapi.yaml calls Change: what of `parts` is not as in `from`.
-[[nodiscard]] std::string ChangeJson(const StateParts& from, const StateParts& parts,
-                                     std::int64_t now_unix_ms);
+// What openapi.yaml calls State, of what FleetState::Shown gives. Without line breaks.
+[[nodiscard]] std::string StateBody(const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
+// What openapi.yaml calls Change: what of `state` is not as in `from`.
+[[nodiscard]] std::string ChangeBody(const nlohmann::ordered_json& from,
+                                     const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
 
 // What is live in the fleet: who was heard of it, what each was sent to do, the routes that robots
 // are on. Robots that have fallen silent stay. No I/O, no clock of its own.
@@ -64,7 +53,9 @@ class FleetState {
   // Routes that robots are on and of which more is to be asked now.
   [[nodiscard]] std::vector<RouteId> TakeLackingRoutes(Time now);
 
-  [[nodiscard]] StateParts Parts() const;
+  // What openapi.yaml calls State, but for its time: robots by name, all with the same members;
+  // missions are null until it is known whether there are any.
+  [[nodiscard]] nlohmann::ordered_json Shown() const;
   // Robots, servers and missions, for Prometheus.
   void Measure(http::MetricsText& text) const;
 
@@ -101,9 +92,9 @@ class FleetState {
   void On(const exchange::CatalogReply& reply);
   [[nodiscard]] Latest LatestMissions() const;
   [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
-  [[nodiscard]] StateParts::Members MembersOf(const Agent& agent,
-                                              const mission::Record* latest) const;
-  [[nodiscard]] std::string MissionsJson() const;
+  [[nodiscard]] nlohmann::ordered_json RobotOf(const Agent& agent,
+                                               const mission::Record* latest) const;
+  [[nodiscard]] nlohmann::ordered_json MissionsShown() const;
 
   AgentId self_;
   NewestMap<AgentId, Agent> agents_{kMostAgents};

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,14 +40,15 @@ struct SendWatch {
 // "robot1: under way: ..", without what there is not to say.
 [[nodiscard]] std::string ReportText(const mission::Report& report);
 // Objects for programs, without line breaks.
-[[nodiscard]] std::string ReportJson(const mission::Report& report);
-[[nodiscard]] std::string MissionJson(const mission::Record& record);
+[[nodiscard]] nlohmann::ordered_json ReportJson(const mission::Report& report);
+[[nodiscard]] nlohmann::ordered_json MissionJson(const mission::Record& record);
 // A table for people, and an array of objects for programs.
 [[nodiscard]] std::string MissionsTable(const std::vector<mission::Record>& missions,
                                         std::int64_t now_unix_ms);
 [[nodiscard]] std::string CommandsTable(const std::vector<mission::GivenCommand>& commands,
                                         std::int64_t now_unix_ms);
-[[nodiscard]] std::string CommandsJson(const std::vector<mission::GivenCommand>& commands);
-[[nodiscard]] std::string MissionsJson(const std::vector<mission::Record>& missions);
+[[nodiscard]] nlohmann::ordered_json CommandsJson(
+    const std::vector<mission::GivenCommand>& commands);
+[[nodiscard]] nlohmann::ordered_json MissionsJson(const std::vector<mission::Record>& missions);
 
 }  // namespace trailcast::fleet

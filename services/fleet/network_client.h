@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,18 +55,18 @@ namespace trailcast::fleet {
 // For people; and for programs, an object. What is not understood, of a newer server, is in the
 // first alone.
 [[nodiscard]] std::string NetworkText(const std::vector<std::string>& lines);
-[[nodiscard]] std::string NetworkJson(const std::vector<std::string>& lines);
+[[nodiscard]] nlohmann::ordered_json NetworkJson(const std::vector<std::string>& lines);
 [[nodiscard]] std::string WayText(const std::vector<std::string>& way);
-[[nodiscard]] std::string WayJson(const std::vector<std::string>& way);
+[[nodiscard]] nlohmann::ordered_json WayJson(const std::vector<std::string>& way);
 [[nodiscard]] std::string PassingText(const network::Passings& passings);
-[[nodiscard]] std::string PassingJson(const network::Passings& passings);
+[[nodiscard]] nlohmann::ordered_json PassingJson(const network::Passings& passings);
 // The newest `limit` changes, the newest first, by this machine's time zone; and whether it may
 // have been more.
 [[nodiscard]] std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,
                                       std::size_t limit);
 // The same for programs, with the routes that each is about; `of`: only what is about one of these,
 // by its name or whole id.
-[[nodiscard]] std::string ChangesJson(const network::History& history, std::size_t limit,
-                                      std::span<const std::string> of = {});
+[[nodiscard]] nlohmann::ordered_json ChangesJson(const network::History& history, std::size_t limit,
+                                                 std::span<const std::string> of = {});
 
 }  // namespace trailcast::fleet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct RobotsWord {
 // A line a robot.
 [[nodiscard]] std::string WordsText(const std::vector<RobotsWord>& words);
 // For programs: an object, and an array of them.
-[[nodiscard]] std::string WordJson(const RobotsWord& word);
-[[nodiscard]] std::string WordsJson(const std::vector<RobotsWord>& words);
+[[nodiscard]] nlohmann::ordered_json WordJson(const RobotsWord& word);
+[[nodiscard]] nlohmann::ordered_json WordsJson(const std::vector<RobotsWord>& words);
 
 }  // namespace trailcast::fleet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "services/exchange/messages.h"
@@ -21,7 +22,7 @@ class RobotsThere {
   // A line a robot, by name, below a line of heads. Empty where there is none.
   [[nodiscard]] std::string Text() const;
   // For programs: an array of objects; null is what a robot does not tell.
-  [[nodiscard]] std::string Json() const;
+  [[nodiscard]] nlohmann::ordered_json Json() const;
 
  private:
   std::map<AgentId, exchange::AgentStatus> robots_;

@@ -1,14 +1,27 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace trailcast::program {
 
-// Quoted for JSON. What of `text` is no UTF-8 becomes U+FFFD.
-[[nodiscard]] std::string JsonText(std::string_view text);
-// An array of values, each JSON already.
-[[nodiscard]] std::string JsonList(const std::vector<std::string>& values);
+// Keys stay in the order in which they were given. For sources: headers name it by
+// <nlohmann/json_fwd.hpp>, which costs their readers nothing to compile.
+using Json = nlohmann::ordered_json;
+
+// Without line breaks. What of its texts is no UTF-8 becomes U+FFFD: it may be anybody's.
+[[nodiscard]] std::string OneLine(const Json& json);
+// As programs print it: people read along.
+[[nodiscard]] std::string Indented(const Json& json);
+
+// To so many parts of one: coarse, so that noise is no news.
+[[nodiscard]] double Rounded(double value, double parts);
+// null: it is not known.
+[[nodiscard]] Json RoundedOrNull(std::optional<double> value, double parts);
+template <typename Value>
+[[nodiscard]] Json OrNull(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 }  // namespace trailcast::program

@@ -18,8 +18,8 @@ namespace trailcast::tool {
 namespace {
 
 using joints::Part;
-using program::JsonList;
-using program::JsonText;
+using program::Json;
+using program::Rounded;
 
 constexpr double kWorthSaying_m = 0.1;
 
@@ -40,25 +40,28 @@ double LengthOf(const std::vector<Part>& parts) {
 
 std::string Percent(const Part& part) { return fmt::format("{:.0f} %", 100.0 * part.share()); }
 
-std::string RouteJson(const route::RouteInfo& info) {
-  return fmt::format(
-      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"length_m\": {:.2f}, \"bytes\": {}}}",
-      JsonText(info.name), JsonText(info.key.route.value()), info.revision.value(), info.length_m,
-      info.bytes);
+Json RouteJson(const route::RouteInfo& info) {
+  return {{"name", info.name},
+          {"route", info.key.route.value()},
+          {"revision", info.revision.value()},
+          {"length_m", Rounded(info.length_m, 100.0)},
+          {"bytes", info.bytes}};
 }
 
-std::string PartJson(const Part& part) {
-  return fmt::format(
-      "{{\"begin\": {:.2f}, \"end\": {:.2f}, \"begin_b\": {:.2f}, \"end_b\": {:.2f}, "
-      "\"features\": {}, \"stayed\": {}, \"went\": {}, \"came\": {}, \"aside_m\": {}}}",
-      part.begin, part.end, part.begin_b, part.end_b, part.features, part.stayed, part.went(),
-      part.came, part.aside_m ? fmt::format("{:.2f}", *part.aside_m) : "null");
-}
-
-std::string PartsJson(const std::vector<Part>& parts) {
-  std::vector<std::string> list;
-  for (const Part& part : parts) list.push_back(PartJson(part));
-  return JsonList(list);
+Json PartsJson(const std::vector<Part>& parts) {
+  Json list = Json::array();
+  for (const Part& part : parts) {
+    list.push_back({{"begin", Rounded(part.begin, 100.0)},
+                    {"end", Rounded(part.end, 100.0)},
+                    {"begin_b", Rounded(part.begin_b, 100.0)},
+                    {"end_b", Rounded(part.end_b, 100.0)},
+                    {"features", part.features},
+                    {"stayed", part.stayed},
+                    {"went", part.went()},
+                    {"came", part.came},
+                    {"aside_m", program::RoundedOrNull(part.aside_m, 100.0)}});
+  }
+  return list;
 }
 
 bool GoesOn(const std::vector<Part>& parts, std::size_t i) {
@@ -177,13 +180,13 @@ std::string DiffText(const RouteDiff& diff) {
   return text + HowText(diff) + ": " + CountText(diff) + "\n";
 }
 
-std::string DiffJson(const RouteDiff& diff) {
+Json DiffJson(const RouteDiff& diff) {
   const joints::Comparison& found = diff.found;
-  return fmt::format(
-      "{{\"a\": {}, \"b\": {}, \"refreshed\": {}, \"unit_a\": \"{}\", \"unit_b\": \"{}\", "
-      "\"differing\": {}, \"parts\": {}}}\n",
-      RouteJson(diff.a), RouteJson(diff.b), found.refreshed, UnitOf(found.metric),
-      UnitOf(found.metric_b), PartsJson(joints::Differing(found.parts)), PartsJson(found.parts));
+  return {
+      {"a", RouteJson(diff.a)},           {"b", RouteJson(diff.b)},
+      {"refreshed", found.refreshed},     {"unit_a", UnitOf(found.metric)},
+      {"unit_b", UnitOf(found.metric_b)}, {"differing", PartsJson(joints::Differing(found.parts))},
+      {"parts", PartsJson(found.parts)}};
 }
 
 Result<plot::Drawing> DrawDiff(const RouteDiff& diff) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "services/base/result.h"
@@ -19,7 +20,7 @@ struct RouteDiff {
 // A table of the stretches that differ, and a line that sums up; for programs, an object with all
 // parts besides.
 [[nodiscard]] std::string DiffText(const RouteDiff& diff);
-[[nodiscard]] std::string DiffJson(const RouteDiff& diff);
+[[nodiscard]] nlohmann::ordered_json DiffJson(const RouteDiff& diff);
 
 // Along the first route's path: how many features a metre stayed, went and came, and how far aside
 // the second's path is, where that is known. kInvalidArgument: they do not go the same way.

@@ -6,10 +6,14 @@
 #include <cmath>
 
 #include "services/base/angles.h"
+#include "services/program/json.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::tool {
 namespace {
+
+using program::Json;
+using program::Rounded;
 
 std::string CalledIn(const std::vector<JoinableRoute>& routes, std::size_t which) {
   const route::RouteInfo& info = routes[which].info;
@@ -33,13 +37,14 @@ std::string HeadingText(double heading_rad) {
                      std::abs(degrees) == 1.0 ? "" : "s", degrees > 0.0 ? "left" : "right");
 }
 
-std::string SideJson(const std::vector<JoinableRoute>& routes, std::size_t which, double at,
-                     double end) {
+Json SideJson(const std::vector<JoinableRoute>& routes, std::size_t which, double at, double end) {
   const route::RouteInfo& info = routes[which].info;
-  return fmt::format(
-      "{{\"name\": \"{}\", \"route\": \"{}\", \"revision\": {}, \"at\": {:.2f}, \"end\": {:.2f}, "
-      "\"unit\": \"{}\"}}",
-      info.name, info.key.route.value(), info.revision.value(), at, end, UnitOf(routes[which]));
+  return {{"name", info.name},
+          {"route", info.key.route.value()},
+          {"revision", info.revision.value()},
+          {"at", Rounded(at, 100.0)},
+          {"end", Rounded(end, 100.0)},
+          {"unit", UnitOf(routes[which])}};
 }
 
 }  // namespace
@@ -76,21 +81,21 @@ std::string JointsText(const std::vector<JoinableRoute>& routes,
   return fmt::format("no joints of {} routes\n", routes.size());
 }
 
-std::string JointsJson(const std::vector<JoinableRoute>& routes,
-                       const std::vector<FoundJoint>& found) {
-  std::string joints;
+Json JointsJson(const std::vector<JoinableRoute>& routes, const std::vector<FoundJoint>& found) {
+  Json joints = Json::array();
   for (const auto& [a, b, joint] : found) {
-    joints += fmt::format(
-        "{}\n    {{\"a\": {}, \"b\": {},\n     \"length\": {:.2f}, \"views\": {}, \"features\": "
-        "{}, "
-        "\"confidence\": {:.3f}, \"heading_deg\": {:.1f}, \"heading_measured\": {}, "
-        "\"magnification\": {:.3f}, \"aside_m\": null}}",
-        joints.empty() ? "" : ",", SideJson(routes, a, joint.at_a, joint.end_a),
-        SideJson(routes, b, joint.at_b, joint.end_b), joint.length(), joint.views, joint.features,
-        joint.confidence, Degrees(joint.heading_rad), joint.heading_scaled,
-        std::exp(joint.log_scale));
+    joints.push_back({{"a", SideJson(routes, a, joint.at_a, joint.end_a)},
+                      {"b", SideJson(routes, b, joint.at_b, joint.end_b)},
+                      {"length", Rounded(joint.length(), 100.0)},
+                      {"views", joint.views},
+                      {"features", joint.features},
+                      {"confidence", Rounded(joint.confidence, 1000.0)},
+                      {"heading_deg", Rounded(Degrees(joint.heading_rad), 10.0)},
+                      {"heading_measured", joint.heading_scaled},
+                      {"magnification", Rounded(std::exp(joint.log_scale), 1000.0)},
+                      {"aside_m", nullptr}});
   }
-  return fmt::format("{{\n  \"routes\": {},\n  \"joints\": [{}]\n}}\n", routes.size(), joints);
+  return {{"routes", routes.size()}, {"joints", std::move(joints)}};
 }
 
 }  // namespace trailcast::tool

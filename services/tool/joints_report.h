@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct FoundJoint {
 [[nodiscard]] std::string JointsText(const std::vector<JoinableRoute>& routes,
                                      const std::vector<FoundJoint>& found);
 // For programs: one object.
-[[nodiscard]] std::string JointsJson(const std::vector<JoinableRoute>& routes,
-                                     const std::vector<FoundJoint>& found);
+[[nodiscard]] nlohmann::ordered_json JointsJson(const std::vector<JoinableRoute>& routes,
+                                                const std::vector<FoundJoint>& found);
 
 }  // namespace trailcast::tool

@@ -43,17 +43,17 @@ std::string KeysTable(const std::vector<security::Authority::Row>& rows) {
   return text;
 }
 
-std::string KeysJson(const std::vector<security::Authority::Row>& rows) {
-  std::string text = "[";
+program::Json KeysJson(const std::vector<security::Authority::Row>& rows) {
+  auto members = program::Json::array();
   for (const auto& row : rows) {
-    text += fmt::format(
-        "{}{{\"name\": {}, \"role\": \"{}\", \"expires\": \"{}\", \"state\": \"{}\", "
-        "\"generation\": {}, \"id\": \"{}\"}}",
-        text.size() > 1 ? ",\n  " : "\n  ", program::JsonText(row.name),
-        security::NameOf(row.member.role), security::ToText(row.expires), NameOf(row.state),
-        row.member.generation, row.member.id);
+    members.push_back({{"name", row.name},
+                       {"role", security::NameOf(row.member.role)},
+                       {"expires", security::ToText(row.expires)},
+                       {"state", NameOf(row.state)},
+                       {"generation", row.member.generation},
+                       {"id", row.member.id}});
   }
-  return text + "\n]\n";
+  return members;
 }
 
 }  // namespace trailcast::tool

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,6 @@ namespace trailcast::tool {
 // For people: one line a member.
 [[nodiscard]] std::string KeysTable(const std::vector<security::Authority::Row>& rows);
 // For programs: an array of objects.
-[[nodiscard]] std::string KeysJson(const std::vector<security::Authority::Row>& rows);
+[[nodiscard]] nlohmann::ordered_json KeysJson(const std::vector<security::Authority::Row>& rows);
 
 }  // namespace trailcast::tool

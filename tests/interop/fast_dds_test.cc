@@ -1,10 +1,11 @@
 // A robot whose software is of another vendor shares routes with ours: Fast DDS, its types made by
 // its own generator of idl/trailcast.idl.
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <regex>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "services/store/route_store.h"
@@ -70,14 +71,14 @@ class FastDds : public ProgramsTest {
   std::vector<std::string> OurList() {
     const auto listed = Run("trailcast", {"routes", "--json"});
     EXPECT_EQ(listed.status, 0) << listed.output;
-    const std::regex route(
-        R"re("name": "(.*?)", "route": "(.*?)", "revision": (\d+), "state": "(.*?)", )re"
-        R"re("segments": (\d+), "length_m": ([\d.]+), "bytes": (\d+), .*?"scout": "(.*?)", )re"
-        R"re("camera": "(.*?)", .*?"manifest_sha256": "(.*?)")re");
     std::vector<std::string> lines;
-    for (std::sregex_iterator at(listed.output.begin(), listed.output.end(), route), end; at != end;
-         ++at) {
-      lines.push_back(at->format("$1 $2 $3 $4 $5 $6 $7 $8 $10 $9"));
+    for (const auto& route : nlohmann::json::parse(listed.output, nullptr, false)) {
+      const auto word = [&](const char* name) { return route.at(name).get<std::string>(); };
+      const auto number = [&](const char* name) { return route.at(name).get<std::uint64_t>(); };
+      lines.push_back(fmt::format("{} {} {} {} {} {:.3f} {} {} {} {}", word("name"), word("route"),
+                                  number("revision"), word("state"), number("segments"),
+                                  route.at("length_m").get<double>(), number("bytes"),
+                                  word("scout"), word("manifest_sha256"), word("camera")));
     }
     return lines;
   }

@@ -10,6 +10,7 @@
 #include "services/fleet/draw.h"
 #include "services/fleet/sending.h"
 #include "services/fleet/telling.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -414,10 +415,10 @@ void Desk::ShowNews(Clock::time_point now) {
     revisions.page_size = kRevisionsAsked;
     (void)exchange_->Publish(exchange::CatalogRequest{self_, fleet::DrawNumber(), revisions});
   }
-  StateParts state = state_.Parts();
+  auto state = std::make_shared<const program::Json>(state_.Shown());
   {
     const std::scoped_lock lock(mutex_);
-    if (news_ && news_->state == state) return;
+    if (news_ && *news_->state == *state) return;
     news_ = std::make_shared<const News>(News{++news_count_, std::move(state)});
   }
   changed_.notify_all();

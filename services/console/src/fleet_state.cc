@@ -6,7 +6,6 @@
 #include <set>
 #include <variant>
 
-#include "services/console/src/api/values.h"
 #include "services/console/src/robot_state.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/routes/catalog_client.h"
@@ -19,6 +18,8 @@ namespace {
 using exchange::AgentMode;
 using exchange::AgentRole;
 using exchange::AgentStatus;
+using program::Json;
+using program::Rounded;
 
 // What an operator's word would change.
 Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_mission) {
@@ -37,21 +38,21 @@ Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_missi
   return orders;
 }
 
-std::string Object(const StateParts::Members& members) {
-  std::string text;
-  for (const auto& [name, value] : members) {
-    text += fmt::format("{}\"{}\":{}", text.empty() ? '{' : ',', name, value);
-  }
-  return text + "}";
-}
-
 // With the name, which is the first and stays.
-StateParts::Members Changed(const StateParts::Members& from, const StateParts::Members& to) {
-  StateParts::Members changed{to.front()};
-  for (std::size_t i = 1; i < to.size(); ++i) {
-    if (from[i] != to[i]) changed.push_back(to[i]);
+Json Changed(const Json& from, const Json& to) {
+  Json changed = Json::object();
+  for (const auto& [name, value] : to.items()) {
+    if (name == "name" || from.at(name) != value) changed[name] = value;
   }
   return changed;
+}
+
+std::map<std::string_view, const Json*> ByName(const Json& robots) {
+  std::map<std::string_view, const Json*> by_name;
+  for (const Json& robot : robots) {
+    by_name.emplace(robot.at("name").get_ref<const std::string&>(), &robot);
+  }
+  return by_name;
 }
 
 }  // namespace
@@ -181,13 +182,9 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   return standing;
 }
 
-StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Record* latest) const {
-  using console::Json;
+Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) const {
   const AgentStatus& status = agent.status;
   const auto [state, needs_person, mission] = StandingOf(agent, latest);
-  const auto percent = [](std::optional<std::uint8_t> value) {
-    return value ? Json(*value) : Json(nullptr);
-  };
   Json robot{{"name", status.agent.value()},
              {"role", ToText(status.role)},
              {"state", state},
@@ -208,8 +205,8 @@ StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Rec
              {"stood", nullptr},
              {"speed_mps", Rounded(status.speed_mps, 100.0)},
              {"on_duty", status.on_duty},
-             {"battery_percent", percent(status.battery_percent)},
-             {"link_percent", percent(status.link_percent)},
+             {"battery_percent", program::OrNull(status.battery_percent)},
+             {"link_percent", program::OrNull(status.link_percent)},
              {"software", status.software},
              {"teaches", status.mode == AgentMode::kTeaching},
              {"features", status.features},
@@ -236,10 +233,8 @@ StateParts::Members FleetState::MembersOf(const Agent& agent, const mission::Rec
                       {"teaching", fmt::format("{:x}", place.key.teaching.value())},
                       {"along_m", Rounded(place.along_m, 100.0)}};
   }
-  StateParts::Members members;
-  for (const auto& [name, value] : robot.items()) members.emplace_back(name, Text(value));
-  members.emplace_back("mission", mission == nullptr ? "null" : fleet::MissionJson(*mission));
-  return members;
+  robot["mission"] = mission == nullptr ? Json(nullptr) : fleet::MissionJson(*mission);
+  return robot;
 }
 
 bool FleetState::Teaches(const AgentId& robot) const {
@@ -247,23 +242,22 @@ bool FleetState::Teaches(const AgentId& robot) const {
   return agent != nullptr && agent->status.mode == AgentMode::kTeaching;
 }
 
-std::string FleetState::MissionsJson() const {
-  if (missions_.size() == 0 && !missions_told_) return "null";
+Json FleetState::MissionsShown() const {
+  if (missions_.size() == 0 && !missions_told_) return nullptr;
   std::vector<const mission::Record*> newest;
   for (const auto& [name, record] : missions_) newest.push_back(&record);
   std::stable_sort(newest.begin(), newest.end(), [](const auto* one, const auto* other) {
     return one->sent_unix_ms > other->sent_unix_ms;
   });
   newest.resize(std::min(newest.size(), kMissionsShown));
-  std::vector<std::string> missions;
+  Json missions = Json::array();
   for (const mission::Record* record : newest) missions.push_back(fleet::MissionJson(*record));
-  return program::JsonList(missions);
+  return missions;
 }
 
-StateParts FleetState::Parts() const {
-  using console::Json;
-  StateParts parts;
+Json FleetState::Shown() const {
   const Latest latest = LatestMissions();
+  std::map<AgentId, Json> robots;
   std::map<AgentId, Json> servers;
   for (const auto& [name, agent] : agents_) {
     const bool ended = agent.status.mode == AgentMode::kStopped;
@@ -275,53 +269,52 @@ StateParts FleetState::Parts() const {
           {"detail", agent.status.detail}};
     } else if (agent.status.role != AgentRole::kOperator) {
       const auto mission = latest.find(name);
-      parts.robots[name.value()] =
-          MembersOf(agent, mission == latest.end() ? nullptr : mission->second);
+      robots[name] = RobotOf(agent, mission == latest.end() ? nullptr : mission->second);
     }
   }
-  Json listed = Json::array();
-  for (auto& [name, server] : servers) listed.push_back(std::move(server));
-  parts.servers = Text(listed);
-  std::vector<std::string> routes;
+  const auto listed = [](std::map<AgentId, Json>& agents) {
+    Json list = Json::array();
+    for (auto& [name, agent] : agents) list.push_back(std::move(agent));
+    return list;
+  };
+  Json routes = Json::array();
   for (const auto& [key, route] : routes_) {
     if (route.info) routes.push_back(fleet::RouteJson(*route.info));
   }
-  parts.routes = program::JsonList(routes);
-  parts.missions = MissionsJson();
-  return parts;
+  return {{"robots", listed(robots)},
+          {"servers", listed(servers)},
+          {"routes", std::move(routes)},
+          {"missions", MissionsShown()}};
 }
 
-std::string WholeJson(const StateParts& parts, std::int64_t now_unix_ms) {
-  std::vector<std::string> robots;
-  for (const auto& [name, members] : parts.robots) robots.push_back(Object(members));
-  return fmt::format(
-      "{{\"now_unix_ms\":{},\"robots\":{},\"servers\":{},\"routes\":{},\"missions\":{}}}",
-      now_unix_ms, program::JsonList(robots), parts.servers, parts.routes, parts.missions);
+std::string StateBody(const Json& state, std::int64_t now_unix_ms) {
+  Json body = {{"now_unix_ms", now_unix_ms}};
+  body.update(state);
+  return program::OneLine(body);
 }
 
-std::string ChangeJson(const StateParts& from, const StateParts& parts, std::int64_t now_unix_ms) {
-  std::vector<std::string> robots;
-  std::vector<std::string> gone;
-  for (const auto& [name, robot] : parts.robots) {
-    const auto known = from.robots.find(name);
-    if (known == from.robots.end()) {
-      robots.push_back(Object(robot));
-    } else if (known->second != robot) {
-      robots.push_back(Object(Changed(known->second, robot)));
+std::string ChangeBody(const Json& from, const Json& state, std::int64_t now_unix_ms) {
+  const auto before = ByName(from.at("robots"));
+  const auto after = ByName(state.at("robots"));
+  Json robots = Json::array();
+  for (const auto& [name, robot] : after) {
+    const auto known = before.find(name);
+    if (known == before.end()) {
+      robots.push_back(*robot);
+    } else if (*known->second != *robot) {
+      robots.push_back(Changed(*known->second, *robot));
     }
   }
-  for (const auto& [name, robot] : from.robots) {
-    if (!parts.robots.contains(name)) gone.push_back(program::JsonText(name));
+  Json gone = Json::array();
+  for (const auto& [name, robot] : before) {
+    if (!after.contains(name)) gone.push_back(name);
   }
-  std::string text = fmt::format("{{\"now_unix_ms\":{},\"robots\":{},\"gone\":{}", now_unix_ms,
-                                 program::JsonList(robots), program::JsonList(gone));
-  const auto add = [&](const char* name, const std::string& was, const std::string& is) {
-    if (was != is) text += fmt::format(",\"{}\":{}", name, is);
-  };
-  add("servers", from.servers, parts.servers);
-  add("routes", from.routes, parts.routes);
-  add("missions", from.missions, parts.missions);
-  return text + "}";
+  Json body = {
+      {"now_unix_ms", now_unix_ms}, {"robots", std::move(robots)}, {"gone", std::move(gone)}};
+  for (const char* part : {"servers", "routes", "missions"}) {
+    if (from.at(part) != state.at(part)) body[part] = state.at(part);
+  }
+  return program::OneLine(body);
 }
 
 }  // namespace trailcast::console

@@ -1,7 +1,5 @@
 #include "services/console/network_list.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -154,17 +152,17 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
       lines.push_back(mark.line);
     }
   }
-  std::vector<std::string> counts;
-  counts.reserve(elsewhere.size());
+  auto counts = program::Json::array();
   for (const auto& [route, count] : elsewhere) {
-    counts.push_back(fmt::format("{{\"route\": {}, \"joints\": {}}}",
-                                 program::JsonText(routes_[route].name), count));
+    counts.push_back({{"route", routes_[route].name}, {"joints", count}});
   }
-  return fmt::format(
-      "{{\"network\": {}, \"elsewhere\": {}, \"matched\": {}, \"routes\": {}, \"joints\": {}, "
-      "\"left_out\": {}, \"whole\": {}}}",
-      fleet::NetworkJson(lines), program::JsonList(counts), matched, routes_.size(), joints_,
-      left_out, whole_);
+  return program::OneLine({{"network", fleet::NetworkJson(lines)},
+                           {"elsewhere", std::move(counts)},
+                           {"matched", matched},
+                           {"routes", routes_.size()},
+                           {"joints", joints_},
+                           {"left_out", left_out},
+                           {"whole", whole_}});
 }
 
 }  // namespace trailcast::console

@@ -7,12 +7,14 @@
 
 #include "services/base/angles.h"
 #include "services/base/durable_file.h"
-#include "services/console/src/api/values.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
 
 namespace fs = std::filesystem;
+using program::Json;
+using program::OneLine;
 
 constexpr double kFarthest_m = 1e6;
 constexpr double kLeastScale = 0.1;
@@ -179,7 +181,7 @@ Result<void> Site::Place(const RouteId& route, const std::optional<Placement>& p
   if (changed.size() > kMostPlacements) {
     return Fail(ErrorCode::kUnavailable, "a site has room for {} routes", kMostPlacements);
   }
-  if (auto written = ReplaceFile(folder_ / "placements.json", ValueOf(changed).dump(1) + "\n");
+  if (auto written = ReplaceFile(folder_ / "placements.json", program::Indented(ValueOf(changed)));
       !written) {
     return written;
   }
@@ -195,14 +197,14 @@ std::string Site::Body() {
     origin = {{"longitude_deg", origin_->longitude_deg}, {"latitude_deg", origin_->latitude_deg}};
   }
   const std::scoped_lock lock(mutex_);
-  return Text({{"kept", true},
-               {"plan", std::move(plan)},
-               {"origin", std::move(origin)},
-               {"placements", ValueOf(placements_)}});
+  return OneLine({{"kept", true},
+                  {"plan", std::move(plan)},
+                  {"origin", std::move(origin)},
+                  {"placements", ValueOf(placements_)}});
 }
 
 std::string NoSiteBody() {
-  return Text(
+  return OneLine(
       {{"kept", false}, {"plan", nullptr}, {"origin", nullptr}, {"placements", Json::object()}});
 }
 

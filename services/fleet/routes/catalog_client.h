@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,10 @@ namespace trailcast::fleet {
                                       std::int64_t now_unix_ms);
 // For programs: an object; with who holds it and what is lost of it, as the reply tells; and an
 // array of these, with what was found out of some besides.
-[[nodiscard]] std::string RouteJson(const route::RouteInfo& info);
-[[nodiscard]] std::string RouteJson(const route::RouteInfo& info,
-                                    const exchange::CatalogReply& reply);
-[[nodiscard]] std::string RoutesJson(const exchange::CatalogReply& reply,
-                                     const RouteStudies& studies = {});
+[[nodiscard]] nlohmann::ordered_json RouteJson(const route::RouteInfo& info);
+[[nodiscard]] nlohmann::ordered_json RouteJson(const route::RouteInfo& info,
+                                               const exchange::CatalogReply& reply);
+[[nodiscard]] nlohmann::ordered_json RoutesJson(const exchange::CatalogReply& reply,
+                                                const RouteStudies& studies = {});
 
 }  // namespace trailcast::fleet

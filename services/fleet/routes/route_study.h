@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,12 @@ using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 // For people: where followers may be lost and why, a line a place; or that there is no such place.
 [[nodiscard]] std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study);
 // For programs: an array.
-[[nodiscard]] std::string WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study);
+[[nodiscard]] nlohmann::ordered_json WeakPlacesJson(const route::RouteInfo& info,
+                                                    const RouteStudy& study);
 
 // The same of the ground: a line a stretch; or that nothing is known of it.
 [[nodiscard]] std::string GroundText(const route::RouteInfo& info, const RouteStudy& study);
-[[nodiscard]] std::string GroundJson(const route::RouteInfo& info, const RouteStudy& study);
+[[nodiscard]] nlohmann::ordered_json GroundJson(const route::RouteInfo& info,
+                                                const RouteStudy& study);
 
 }  // namespace trailcast::fleet

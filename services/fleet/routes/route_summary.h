@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "services/archive/route_file.h"
@@ -12,6 +13,7 @@ namespace trailcast::fleet {
 // What is in a route file, a few lines for people.
 [[nodiscard]] std::string FileText(const std::string& path, const archive::RouteFile& file);
 // The same, or why it was refused, as an object for programs.
-[[nodiscard]] std::string FileJson(const std::string& path, const Result<archive::RouteFile>& file);
+[[nodiscard]] nlohmann::ordered_json FileJson(const std::string& path,
+                                              const Result<archive::RouteFile>& file);
 
 }  // namespace trailcast::fleet

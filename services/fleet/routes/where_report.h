@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "services/exchange/messages.h"
@@ -10,6 +11,6 @@ namespace trailcast::fleet {
 // and, where not all that is stored was searched, how much was.
 [[nodiscard]] std::string WhereText(const exchange::CatalogReply& reply);
 // For programs: one object.
-[[nodiscard]] std::string WhereJson(const exchange::CatalogReply& reply);
+[[nodiscard]] nlohmann::ordered_json WhereJson(const exchange::CatalogReply& reply);
 
 }  // namespace trailcast::fleet

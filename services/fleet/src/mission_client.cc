@@ -108,24 +108,25 @@ std::string ReportText(const mission::Report& report) {
                      report.detail.empty() ? "" : ": ", report.detail);
 }
 
-std::string ReportJson(const mission::Report& report) {
-  using program::JsonText;
-  return fmt::format(
-      "{{\"mission\": {}, \"robot\": {}, \"state\": {}, \"task\": {}, \"detail\": {}}}",
-      JsonText(report.mission), JsonText(report.agent.value()),
-      JsonText(mission::ToString(report.state)), report.task, JsonText(report.detail));
+program::Json ReportJson(const mission::Report& report) {
+  return {{"mission", report.mission},
+          {"robot", report.agent.value()},
+          {"state", mission::ToString(report.state)},
+          {"task", report.task},
+          {"detail", report.detail}};
 }
 
-std::string MissionJson(const mission::Record& record) {
-  using program::JsonText;
+program::Json MissionJson(const mission::Record& record) {
   const mission::Mission& mission = record.mission;
-  return fmt::format(
-      "{{\"mission\": {}, \"robot\": {}, \"orders\": {}, \"sent_by\": {}, \"state\": {}, "
-      "\"task\": {}, \"detail\": {}, \"sent_unix_ms\": {}, \"changed_unix_ms\": {}}}",
-      JsonText(mission.id), JsonText(mission.agent.value()), JsonText(mission.orders),
-      JsonText(WithoutProcess(mission.client.value())),
-      JsonText(mission::ToString(record.last.state)), record.last.task,
-      JsonText(record.last.detail), record.sent_unix_ms, record.changed_unix_ms);
+  return {{"mission", mission.id},
+          {"robot", mission.agent.value()},
+          {"orders", mission.orders},
+          {"sent_by", WithoutProcess(mission.client.value())},
+          {"state", mission::ToString(record.last.state)},
+          {"task", record.last.task},
+          {"detail", record.last.detail},
+          {"sent_unix_ms", record.sent_unix_ms},
+          {"changed_unix_ms", record.changed_unix_ms}};
 }
 
 std::string MissionsTable(const std::vector<mission::Record>& missions, std::int64_t now_unix_ms) {
@@ -154,12 +155,10 @@ std::string MissionsTable(const std::vector<mission::Record>& missions, std::int
   return text;
 }
 
-std::string MissionsJson(const std::vector<mission::Record>& missions) {
-  std::string text = "[";
-  for (const mission::Record& record : missions) {
-    text += (text.size() == 1 ? "\n  " : ",\n  ") + MissionJson(record);
-  }
-  return text + (missions.empty() ? "]\n" : "\n]\n");
+program::Json MissionsJson(const std::vector<mission::Record>& missions) {
+  auto list = program::Json::array();
+  for (const mission::Record& record : missions) list.push_back(MissionJson(record));
+  return list;
 }
 
 std::string CommandsTable(const std::vector<mission::GivenCommand>& commands,
@@ -188,24 +187,22 @@ std::string CommandsTable(const std::vector<mission::GivenCommand>& commands,
   return text;
 }
 
-std::string CommandsJson(const std::vector<mission::GivenCommand>& commands) {
-  using program::JsonText;
-  std::string text = "[";
+program::Json CommandsJson(const std::vector<mission::GivenCommand>& commands) {
+  auto list = program::Json::array();
   for (const mission::GivenCommand& given : commands) {
-    std::string answers;
+    auto answers = program::Json::array();
     for (const mission::NowAnswer& answer : given.answers) {
-      answers += fmt::format("{}{{\"robot\": {}, \"obeys\": {}, \"detail\": {}}}",
-                             answers.empty() ? "" : ", ", JsonText(answer.agent.value()),
-                             !answer.refused, JsonText(answer.detail));
+      answers.push_back(
+          {{"robot", answer.agent.value()}, {"obeys", !answer.refused}, {"detail", answer.detail}});
     }
-    text += fmt::format(
-        "{}{{\"given_by\": {}, \"command\": \"{}\", \"whom\": {}, \"reason\": {}, "
-        "\"given_unix_ms\": {}, \"answers\": [{}]}}",
-        text.size() == 1 ? "\n  " : ",\n  ", JsonText(WithoutProcess(given.command.client.value())),
-        mission::ToString(given.command.order), JsonText(WhomText(given.command)),
-        JsonText(given.command.reason), given.given_unix_ms, answers);
+    list.push_back({{"given_by", WithoutProcess(given.command.client.value())},
+                    {"command", mission::ToString(given.command.order)},
+                    {"whom", WhomText(given.command)},
+                    {"reason", given.command.reason},
+                    {"given_unix_ms", given.given_unix_ms},
+                    {"answers", std::move(answers)}});
   }
-  return text + (commands.empty() ? "]\n" : "\n]\n");
+  return list;
 }
 
 }  // namespace trailcast::fleet

@@ -20,8 +20,8 @@
 namespace trailcast::fleet {
 namespace {
 
-using program::JsonList;
-using program::JsonText;
+using program::Json;
+using program::Rounded;
 using std::chrono::milliseconds;
 using Lines = std::vector<std::string>;
 
@@ -40,68 +40,56 @@ Result<Lines> AskForLines(exchange::RouteExchange& exchange, exchange::NetworkRe
   }
 }
 
-std::string JsonTexts(const Lines& texts) {
-  Lines all;
-  for (const std::string& text : texts) all.push_back(JsonText(text));
-  return JsonList(all);
+Json PlaceJson(const network::Place& place) {
+  return {{"route", place.route}, {"along_m", Rounded(place.along_m, 100.0)}};
 }
 
-std::string PlaceJson(const network::Place& place) {
-  return fmt::format("{{\"route\": {}, \"along_m\": {:.2f}}}", JsonText(place.route),
-                     place.along_m);
-}
-
-// What is between the braces of a joint's object.
-std::string JointFields(const network::Joint& joint) {
-  std::string lie = "null";
+Json JointJson(const network::Joint& joint) {
+  Json lie;
   if (joint.lie) {
-    lie = fmt::format("{{\"ahead_m\": {:.2f}, \"left_m\": {:.2f}, \"turn_rad\": {:.4f}}}",
-                      joint.lie->ahead_m, joint.lie->left_m, joint.lie->turn_rad);
+    lie = {{"ahead_m", Rounded(joint.lie->ahead_m, 100.0)},
+           {"left_m", Rounded(joint.lie->left_m, 100.0)},
+           {"turn_rad", Rounded(joint.lie->turn_rad, 1e4)}};
   }
-  return fmt::format("\"from\": {}, \"to\": {}, \"both\": {}, \"lie\": {}", PlaceJson(joint.from),
-                     PlaceJson(joint.to), joint.both, lie);
+  return {{"from", PlaceJson(joint.from)},
+          {"to", PlaceJson(joint.to)},
+          {"both", joint.both},
+          {"lie", std::move(lie)}};
 }
 
-std::string JointJson(const network::Joint& joint, bool used) {
-  return fmt::format("{{{}, \"used\": {}}}", JointFields(joint), used);
+// With what is said of it besides.
+Json With(Json object, const char* name, Json value) {
+  object[name] = std::move(value);
+  return object;
 }
 
-std::string ProposalJson(const network::Proposal& proposal) {
-  return fmt::format("{{{}, \"confidence\": {:.2f}}}", JointFields(proposal.joint),
-                     proposal.confidence);
+Json PartJson(const std::string& route, double from_m, double to_m) {
+  return {{"route", route}, {"from_m", Rounded(from_m, 100.0)}, {"to_m", Rounded(to_m, 100.0)}};
 }
 
 // null: up to the route's end.
-std::string ConditionJson(const network::Condition& condition) {
-  const std::string to =
-      condition.to_m >= network::kToTheEnd_m ? "null" : fmt::format("{:.2f}", condition.to_m);
-  std::string text = fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {}",
-                                 JsonText(condition.route), condition.from_m, to);
+Json ConditionJson(const network::Condition& condition) {
+  Json json = PartJson(condition.route, condition.from_m, condition.to_m);
+  if (condition.to_m >= network::kToTheEnd_m) json["to_m"] = nullptr;
   if (!condition.closed && !condition.backed) {
-    text += fmt::format(", \"speed\": {:g}, \"cost\": {:g}", condition.speed, condition.cost);
+    json["speed"] = condition.speed;
+    json["cost"] = condition.cost;
   }
-  return text + "}";
+  return json;
 }
 
-std::string LaneJson(const network::Lane& lane, const Lines& taken_by) {
-  Lines parts;
+Json LaneJson(const network::Lane& lane, const Lines& taken_by) {
+  Json parts = Json::array();
   for (const network::Part& part : lane.parts) {
-    parts.push_back(fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}}}",
-                                JsonText(part.route), part.from_m, part.to_m));
+    parts.push_back(PartJson(part.route, part.from_m, part.to_m));
   }
-  return fmt::format("{{\"parts\": {}, \"taken_by\": {}}}", JsonList(parts), JsonTexts(taken_by));
+  return {{"parts", std::move(parts)}, {"taken_by", taken_by}};
 }
 
-std::string LostJson(const network::LostStretch& lost) {
-  return fmt::format(
-      "{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"passed\": {:g}, \"lost\": {:g}, "
-      "\"cost\": {:g}}}",
-      JsonText(lost.route), lost.from_m, lost.to_m, lost.passed, lost.lost, lost.cost);
-}
-
-std::string RouteJson(const network::Route& route) {
-  return fmt::format("{{\"route\": {}, \"length_m\": {:.2f}}}", JsonText(route.name),
-                     route.length_m);
+Json LostJson(const network::LostStretch& lost) {
+  Json json = PartJson(lost.route, lost.from_m, lost.to_m);
+  json.update({{"passed", lost.passed}, {"lost", lost.lost}, {"cost", lost.cost}});
+  return json;
 }
 
 // One of these; an operator may have said the beginning of an id.
@@ -190,39 +178,40 @@ std::string NetworkText(const Lines& lines) {
   return text;
 }
 
-std::string NetworkJson(const Lines& lines) {
-  Lines routes;
-  Lines joints;
-  Lines closed;
-  Lines backed;
-  Lines limits;
-  Lines narrow;
-  Lines names;
-  Lines proposed;
-  Lines lost_on;
+Json NetworkJson(const Lines& lines) {
+  Json network;
+  for (const char* name :
+       {"routes", "joints", "closed", "backed", "limits", "narrow", "names", "proposed", "lost"}) {
+    network[name] = Json::array();
+  }
   for (const std::string& line : lines) {
     const auto [used, route, edit, proposal, lost, taken_by] = network::ParseListed(line);
-    if (route) routes.push_back(RouteJson(*route));
-    if (proposal) proposed.push_back(ProposalJson(*proposal));
-    if (lost) lost_on.push_back(LostJson(*lost));
+    if (route) {
+      network["routes"].push_back(
+          {{"route", route->name}, {"length_m", Rounded(route->length_m, 100.0)}});
+    }
+    if (proposal) {
+      network["proposed"].push_back(
+          With(JointJson(proposal->joint), "confidence", Rounded(proposal->confidence, 100.0)));
+    }
+    if (lost) network["lost"].push_back(LostJson(*lost));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
-      joints.push_back(JointJson(edit->joint, used));
+      network["joints"].push_back(With(JointJson(edit->joint), "used", used));
     } else if (edit->kind == network::Edit::Kind::kNarrow) {
-      narrow.push_back(LaneJson(edit->lane, taken_by));
+      network["narrow"].push_back(LaneJson(edit->lane, taken_by));
     } else if (edit->kind == network::Edit::Kind::kName) {
-      names.push_back(fmt::format("{{\"name\": {}, \"place\": {}, \"used\": {}}}",
-                                  JsonText(edit->named.name), PlaceJson(edit->named.place), used));
+      network["names"].push_back(
+          {{"name", edit->named.name}, {"place", PlaceJson(edit->named.place)}, {"used", used}});
     } else {
-      Lines& its = edit->condition.closed ? closed : edit->condition.backed ? backed : limits;
-      its.push_back(ConditionJson(edit->condition));
+      const network::Condition& condition = edit->condition;
+      network[condition.closed   ? "closed"
+              : condition.backed ? "backed"
+                                 : "limits"]
+          .push_back(ConditionJson(condition));
     }
   }
-  return fmt::format(
-      "{{\"routes\": {}, \"joints\": {}, \"closed\": {}, \"backed\": {}, \"limits\": {}, "
-      "\"narrow\": {}, \"names\": {}, \"proposed\": {}, \"lost\": {}}}\n",
-      JsonList(routes), JsonList(joints), JsonList(closed), JsonList(backed), JsonList(limits),
-      JsonList(narrow), JsonList(names), JsonList(proposed), JsonList(lost_on));
+  return network;
 }
 
 std::string PassingText(const network::Passings& passings) {
@@ -254,16 +243,15 @@ std::string PassingText(const network::Passings& passings) {
                     network::ToText(proposed->from), network::ToText(proposed->to));
 }
 
-std::string PassingJson(const network::Passings& passings) {
-  Lines routes;
+Json PassingJson(const network::Passings& passings) {
+  Json routes = Json::array();
   for (const network::Passing& each : passings.routes) {
-    routes.push_back(fmt::format(
-        "{{\"at\": {}, \"joined\": {}, \"confidence\": {}, \"joint\": {{{}}}}}", PlaceJson(each.at),
-        !each.confidence, each.confidence ? fmt::format("{:.2f}", *each.confidence) : "null",
-        JointFields(each.joint)));
+    routes.push_back({{"at", PlaceJson(each.at)},
+                      {"joined", !each.confidence},
+                      {"confidence", program::RoundedOrNull(each.confidence, 100.0)},
+                      {"joint", JointJson(each.joint)}});
   }
-  return fmt::format("{{\"place\": {}, \"passing\": {}}}\n", PlaceJson(passings.place),
-                     JsonList(routes));
+  return {{"place", PlaceJson(passings.place)}, {"passing", std::move(routes)}};
 }
 
 std::string WayText(const Lines& way) {
@@ -273,18 +261,16 @@ std::string WayText(const Lines& way) {
   return text + fmt::format("{:.1f} m\n", network::LengthOf(StretchesOf(way)));
 }
 
-std::string WayJson(const Lines& way) {
+Json WayJson(const Lines& way) {
   const auto way_stretches = StretchesOf(way);
-  Lines stretches;
+  Json stretches = Json::array();
   for (const network::Stretch& each : way_stretches) {
-    const std::string turn =
-        each.turn_rad == 0.0 ? "" : fmt::format(", \"turn_rad\": {:.3f}", each.turn_rad);
-    stretches.push_back(
-        fmt::format("{{\"route\": {}, \"from_m\": {:.2f}, \"to_m\": {:.2f}, \"speed\": {:g}{}}}",
-                    JsonText(each.route), each.from_m, each.to_m, each.speed, turn));
+    Json stretch = With(PartJson(each.route, each.from_m, each.to_m), "speed", each.speed);
+    if (each.turn_rad != 0.0) stretch["turn_rad"] = Rounded(each.turn_rad, 1000.0);
+    stretches.push_back(std::move(stretch));
   }
-  return fmt::format("{{\"length_m\": {:.2f}, \"stretches\": {}}}\n",
-                     network::LengthOf(way_stretches), JsonList(stretches));
+  return {{"length_m", Rounded(network::LengthOf(way_stretches), 100.0)},
+          {"stretches", std::move(stretches)}};
 }
 
 std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,
@@ -311,22 +297,23 @@ std::string ChangesText(const network::History& history, std::int64_t since_unix
   return text;
 }
 
-std::string ChangesJson(const network::History& history, std::size_t limit,
-                        std::span<const std::string> of) {
+Json ChangesJson(const network::History& history, std::size_t limit,
+                 std::span<const std::string> of) {
   const auto routes = network::RoutesOf(history.changes);
-  Lines changes;
+  Json changes = Json::array();
   std::size_t total = 0;
   for (std::size_t i = history.changes.size(); i-- > 0;) {
     if (!of.empty() && !IsAbout(routes[i], of)) continue;
     if (++total > limit) continue;
     const network::Change& change = history.changes[i];
-    changes.push_back(
-        fmt::format("{{\"at_unix_ms\": {}, \"by\": {}, \"what\": {}, \"routes\": {}}}",
-                    change.at_unix_ms, change.by.empty() ? "null" : JsonText(change.by),
-                    JsonText(change.what), JsonTexts(routes[i])));
+    changes.push_back({{"at_unix_ms", change.at_unix_ms},
+                       {"by", change.by.empty() ? Json(nullptr) : Json(change.by)},
+                       {"what", change.what},
+                       {"routes", routes[i]}});
   }
-  return fmt::format("{{\"kept_since_unix_ms\": {}, \"total\": {}, \"changes\": {}}}\n",
-                     history.kept_since_unix_ms, total, JsonList(changes));
+  return {{"kept_since_unix_ms", history.kept_since_unix_ms},
+          {"total", total},
+          {"changes", std::move(changes)}};
 }
 
 }  // namespace trailcast::fleet

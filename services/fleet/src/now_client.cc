@@ -62,18 +62,17 @@ std::string WordsText(const std::vector<RobotsWord>& words) {
   return text;
 }
 
-std::string WordJson(const RobotsWord& word) {
-  return fmt::format("{{\"robot\": {}, \"answered\": {}, \"obeys\": {}, \"detail\": {}}}",
-                     program::JsonText(word.robot), word.answered, word.answered && !word.refused,
-                     program::JsonText(word.detail));
+program::Json WordJson(const RobotsWord& word) {
+  return {{"robot", word.robot},
+          {"answered", word.answered},
+          {"obeys", word.answered && !word.refused},
+          {"detail", word.detail}};
 }
 
-std::string WordsJson(const std::vector<RobotsWord>& words) {
-  std::string text = "[";
-  for (const RobotsWord& word : words) {
-    text += (text.size() == 1 ? "\n  " : ",\n  ") + WordJson(word);
-  }
-  return text + (words.empty() ? "]\n" : "\n]\n");
+program::Json WordsJson(const std::vector<RobotsWord>& words) {
+  auto list = program::Json::array();
+  for (const RobotsWord& word : words) list.push_back(WordJson(word));
+  return list;
 }
 
 }  // namespace trailcast::fleet

@@ -14,6 +14,8 @@ namespace {
 using exchange::AgentHold;
 using exchange::AgentMode;
 using exchange::AgentStatus;
+using program::Rounded;
+using program::RoundedOrNull;
 
 const char* HoldText(AgentHold hold) {
   switch (hold) {
@@ -37,28 +39,29 @@ std::string Percent(std::optional<std::uint8_t> value) {
   return value ? fmt::format("{} %", *value) : "-";
 }
 
-std::string JsonOf(std::optional<std::uint8_t> value) {
-  return value ? std::to_string(*value) : "null";
-}
-
-std::string JsonOf(const AgentStatus& status) {
-  std::string place = "null";
+program::Json JsonOf(const AgentStatus& status) {
+  program::Json place;
   if (status.place) {
-    const bool sure = status.place->left_sigma_m > 0.0;
-    place =
-        fmt::format("{{\"route\": {}, \"along_m\": {:.2f}, \"left_m\": {}, \"left_sigma_m\": {}}}",
-                    program::JsonText(status.place->key.route.value()), status.place->along_m,
-                    sure ? fmt::format("{:.3f}", status.place->left_m) : "null",
-                    sure ? fmt::format("{:.3f}", status.place->left_sigma_m) : "null");
+    const auto if_sure = [&](double value) {
+      return status.place->left_sigma_m > 0.0 ? std::optional(value) : std::nullopt;
+    };
+    place = {{"route", status.place->key.route.value()},
+             {"along_m", Rounded(status.place->along_m, 100.0)},
+             {"left_m", RoundedOrNull(if_sure(status.place->left_m), 1000.0)},
+             {"left_sigma_m", RoundedOrNull(if_sure(status.place->left_sigma_m), 1000.0)}};
   }
-  return fmt::format(
-      "{{\"robot\": {}, \"mode\": \"{}\", \"hold\": \"{}\", \"on_duty\": {}, \"route\": {}, "
-      "\"progress\": {:.3f}, \"speed_mps\": {:.3f}, \"place\": {}, \"battery_percent\": {}, "
-      "\"link_percent\": {}, \"software\": {}, \"detail\": {}}}",
-      program::JsonText(status.agent.value()), ToText(status.mode), HoldText(status.hold),
-      status.on_duty, program::JsonText(status.route), status.progress, status.speed_mps, place,
-      JsonOf(status.battery_percent), JsonOf(status.link_percent),
-      program::JsonText(status.software), program::JsonText(status.detail));
+  return {{"robot", status.agent.value()},
+          {"mode", ToText(status.mode)},
+          {"hold", HoldText(status.hold)},
+          {"on_duty", status.on_duty},
+          {"route", status.route},
+          {"progress", Rounded(status.progress, 1000.0)},
+          {"speed_mps", Rounded(status.speed_mps, 1000.0)},
+          {"place", std::move(place)},
+          {"battery_percent", program::OrNull(status.battery_percent)},
+          {"link_percent", program::OrNull(status.link_percent)},
+          {"software", status.software},
+          {"detail", status.detail}};
 }
 
 }  // namespace
@@ -115,12 +118,10 @@ std::string RobotsThere::Text() const {
   return text;
 }
 
-std::string RobotsThere::Json() const {
-  std::string text = "[";
-  for (const auto& [name, status] : robots_) {
-    text += (text.size() == 1 ? "\n  " : ",\n  ") + JsonOf(status);
-  }
-  return text + (robots_.empty() ? "]\n" : "\n]\n");
+nlohmann::ordered_json RobotsThere::Json() const {
+  auto list = program::Json::array();
+  for (const auto& [name, status] : robots_) list.push_back(JsonOf(status));
+  return list;
 }
 
 }  // namespace trailcast::fleet

@@ -1,36 +1,23 @@
 #include "services/program/json.h"
 
-#include <fmt/ranges.h>
-
-#include <algorithm>
-
-#include "services/base/text.h"
+#include <cmath>
 
 namespace trailcast::program {
 
-std::string JsonText(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const std::size_t length = CharacterLength(text);
-    const char c = text.front();
-    if (length == 0) {
-      quoted += "\uFFFD";
-    } else if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      quoted += text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  quoted += '"';
-  return quoted;
+std::string OneLine(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string JsonList(const std::vector<std::string>& values) {
-  return fmt::format("[{}]", fmt::join(values, ", "));
+std::string Indented(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+double Rounded(double value, double parts) {
+  return std::isfinite(value) ? std::round(value * parts) / parts : 0.0;
+}
+
+Json RoundedOrNull(std::optional<double> value, double parts) {
+  return value && std::isfinite(*value) ? Json(Rounded(*value, parts)) : Json(nullptr);
 }
 
 }  // namespace trailcast::program

@@ -17,13 +17,14 @@ class JsonLines final : public spdlog::formatter {
     const auto milliseconds =
         std::chrono::floor<std::chrono::milliseconds>(message.time.time_since_epoch());
     const auto seconds = std::chrono::floor<std::chrono::seconds>(milliseconds);
-    fmt::format_to(std::back_inserter(line),
-                   "{{\"time\": \"{:%Y-%m-%dT%H:%M:%S}.{:03}Z\", \"level\": {}, \"name\": {}, "
-                   "\"text\": {}}}\n",
-                   fmt::gmtime(std::chrono::system_clock::time_point(seconds)),
-                   (milliseconds - seconds).count(),
-                   JsonText(View(spdlog::level::to_string_view(message.level))),
-                   JsonText(View(message.logger_name)), JsonText(View(message.payload)));
+    const auto time = fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                                  fmt::gmtime(std::chrono::system_clock::time_point(seconds)),
+                                  (milliseconds - seconds).count());
+    line.append(OneLine({{"time", time},
+                         {"level", View(spdlog::level::to_string_view(message.level))},
+                         {"name", View(message.logger_name)},
+                         {"text", View(message.payload)}}) +
+                "\n");
   }
   [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
     return std::make_unique<JsonLines>();

@@ -6,6 +6,7 @@
 #include "services/base/time.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/robots_there.h"
+#include "services/program/json.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/commands/command.h"
 
@@ -38,7 +39,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOp
       robots.Hear(message);
     }
   }
-  std::fputs((options.json ? robots.Json() : robots.Text()).c_str(), stdout);
+  std::fputs((options.json ? program::Indented(robots.Json()) : robots.Text()).c_str(), stdout);
   if (robots.size() > 0) return program::kExitOk;
   std::fputs(
       "no robot was heard: do its agent and this program have the same --domain and --dds-tag?\n",

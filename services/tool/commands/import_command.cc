@@ -11,6 +11,7 @@
 #include "services/fleet/routes/catalog_client.h"
 #include "services/fleet/routes/route_import.h"
 #include "services/fleet/routes/route_summary.h"
+#include "services/program/json.h"
 #include "services/tool/commands/command.h"
 
 namespace trailcast::tool {
@@ -40,18 +41,18 @@ constexpr const char* kImportExamples =
 // What is in the files; true if all are whole.
 bool Check(const CLI::App& app, const ImportOptions& options) {
   bool all = true;
-  std::string json;
+  auto json = program::Json::array();
   for (const fs::path& path : options.files) {
     const auto file = RouteFile::Open(path);
     if (!file) program::Complain(app, file.error());
     all = all && file.has_value();
     if (options.json) {
-      json += (json.empty() ? "\n  " : ",\n  ") + fleet::FileJson(path.string(), file);
+      json.push_back(fleet::FileJson(path.string(), file));
     } else if (file) {
       fmt::print("{}", fleet::FileText(path.string(), *file));
     }
   }
-  if (options.json) fmt::print("[{}\n]\n", json);
+  if (options.json) fmt::print("{}", program::Indented(json));
   return all;
 }
 

@@ -9,6 +9,7 @@
 
 #include "services/archive/route_file.h"
 #include "services/exchange/route_finder.h"
+#include "services/program/json.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "services/tool/commands/command.h"
@@ -139,8 +140,10 @@ int Run(const CLI::App& app, const JointsCommandOptions& options) {
   if (!routes) return program::Complain(app, routes.error());
   const bool only_first = !options.store.empty() && options.routes.size() == 1;
   const auto found = FindAllJoints(*routes, only_first);
-  std::fputs((options.json ? JointsJson(*routes, found) : JointsText(*routes, found)).c_str(),
-             stdout);
+  std::fputs(
+      (options.json ? program::Indented(JointsJson(*routes, found)) : JointsText(*routes, found))
+          .c_str(),
+      stdout);
   return program::kExitOk;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/program/json.h"
 #include "services/security/authority.h"
 #include "services/security/revocation_list.h"
 #include "services/tool/commands/command.h"
@@ -129,7 +130,8 @@ Result<void> List(const KeysOptions& options) {
   if (!authority) return tl::unexpected(authority.error());
   const auto rows = authority->List(Now());
   if (!rows) return tl::unexpected(rows.error());
-  std::fputs((options.json ? KeysJson(*rows) : KeysTable(*rows)).c_str(), stdout);
+  std::fputs((options.json ? program::Indented(KeysJson(*rows)) : KeysTable(*rows)).c_str(),
+             stdout);
   return {};
 }
 

@@ -15,6 +15,7 @@
 #include "services/fleet/operator_peer.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
+#include "services/program/json.h"
 #include "services/program/stop_signal.h"
 #include "services/tool/commands/command.h"
 #include "services/tool/commands/time_spans.h"
@@ -101,7 +102,7 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
   if (!options.json) {
     fmt::print("{}", fleet::WayText(*way));
   } else if (way->empty()) {
-    fmt::print("{}", fleet::WayJson(*way));
+    fmt::print("{}", program::Indented(fleet::WayJson(*way)));
   }
   return fleet::OrdersAlong(*way, goal);
 }
@@ -146,7 +147,7 @@ int Send(const CLI::App& app, const program::CommonOptions& common, const SendOp
   }
   const auto report = fleet::SendMission(*peer->exchange, mission, watch);
   if (!report) return program::Complain(app, report.error());
-  if (options.json) fmt::print("{}\n", fleet::ReportJson(*report));
+  if (options.json) fmt::print("{}", program::Indented(fleet::ReportJson(*report)));
   const bool well = options.wait
                         ? report->state == State::kArrived
                         : !mission::HasEnded(report->state) || report->state == State::kArrived;
@@ -206,7 +207,7 @@ struct Listing {
 Result<Listing> Look(fleet::OperatorPeer& peer, const MissionsOptions& options) {
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto listed = [&](const auto& records, auto table, auto json) -> Listing {
-    std::string compared = json(records);
+    std::string compared = program::Indented(json(records));
     return {options.json ? compared : table(records, NowUnixMs()), compared};
   };
   if (options.commands) {

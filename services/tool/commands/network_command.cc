@@ -8,6 +8,7 @@
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/network/words.h"
+#include "services/program/json.h"
 #include "services/tool/commands/command.h"
 #include "services/tool/network_picture.h"
 
@@ -117,6 +118,7 @@ int Print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;
 }
+int PrintJson(const program::Json& json) { return Print(program::Indented(json)); }
 
 int Run(const CLI::App& app, const program::CommonOptions& common, const NetworkOptions& options) {
   const std::string words = fmt::format("{}", fmt::join(options.words, " "));
@@ -156,23 +158,24 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
       });
       if (!written) return program::Complain(app, written.error());
     }
-    return Print(options.json ? fleet::NetworkJson(*lines) : fleet::NetworkText(*lines));
+    return options.json ? PrintJson(fleet::NetworkJson(*lines)) : Print(fleet::NetworkText(*lines));
   }
   if (AsksWhatPasses(options)) {
     const auto passing =
         fleet::AskWhatPasses(*peer->exchange, peer->self, options.words[1], timeout);
     if (!passing) return program::Complain(app, passing.error());
-    return Print(options.json ? fleet::PassingJson(*passing) : fleet::PassingText(*passing));
+    return options.json ? PrintJson(fleet::PassingJson(*passing))
+                        : Print(fleet::PassingText(*passing));
   }
   if (Asks(options)) {
     const auto way =
         fleet::AskForWay(*peer->exchange, peer->self, options.words[1], options.words[2], timeout);
     if (!way) return program::Complain(app, way.error());
-    return Print(options.json ? fleet::WayJson(*way) : fleet::WayText(*way));
+    return options.json ? PrintJson(fleet::WayJson(*way)) : Print(fleet::WayText(*way));
   }
   const auto lines = fleet::AskToJoin(*peer->exchange, peer->self, words, timeout);
   if (!lines) return program::Complain(app, lines.error());
-  if (options.json) return Print(fleet::NetworkJson(*lines));
+  if (options.json) return PrintJson(fleet::NetworkJson(*lines));
   return Print(ChangedText(options.words.front(), *lines));
 }
 

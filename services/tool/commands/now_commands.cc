@@ -7,6 +7,7 @@
 #include "services/fleet/now_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/transfer.h"
+#include "services/program/json.h"
 #include "services/tool/commands/command.h"
 
 namespace trailcast::tool {
@@ -49,7 +50,9 @@ int Run(const CLI::App& app, const program::CommonOptions& common, NowOrder orde
   const auto words = fleet::TellRobots(*peer->exchange, peer->self, order, TargetsOf(options),
                                        options.reason, ToMilliseconds(options.timeout_s));
   if (!words) return program::Complain(app, words.error());
-  std::fputs((options.json ? fleet::WordsJson(*words) : fleet::WordsText(*words)).c_str(), stdout);
+  std::fputs((options.json ? program::Indented(fleet::WordsJson(*words)) : fleet::WordsText(*words))
+                 .c_str(),
+             stdout);
   const bool all_obey =
       std::all_of(words->begin(), words->end(),
                   [](const fleet::RobotsWord& word) { return word.answered && !word.refused; });

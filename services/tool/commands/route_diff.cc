@@ -12,6 +12,7 @@
 #include "services/fleet/routes/catalog_client.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/fleet/routes/transfer.h"
+#include "services/program/json.h"
 #include "services/program/stop_signal.h"
 #include "services/route/codec.h"
 #include "services/route/route_ref.h"
@@ -93,7 +94,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const DiffOpt
         double timeout_s) {
   const auto diff = Compare(common, options, timeout_s);
   if (!diff) return program::Complain(app, diff.error());
-  std::fputs((options.json ? DiffJson(*diff) : DiffText(*diff)).c_str(), stdout);
+  std::fputs((options.json ? program::Indented(DiffJson(*diff)) : DiffText(*diff)).c_str(), stdout);
   if (diff->found.parts.empty()) return program::kExitFailure;
   if (options.plot.empty()) return program::kExitOk;
   const auto written = DrawDiff(*diff).and_then(

@@ -12,6 +12,7 @@
 #include "services/fleet/routes/catalog_client.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/fleet/routes/transfer.h"
+#include "services/program/json.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
 #include "services/route/query_words.h"
@@ -109,7 +110,7 @@ Result<fleet::RouteStudies> Study(fleet::OperatorPeer& peer,
 
 std::string TextOf(const exchange::CatalogReply& reply, const fleet::RouteStudies& studies,
                    bool json, std::int64_t now_unix_ms) {
-  if (json) return fleet::RoutesJson(reply, studies);
+  if (json) return program::Indented(fleet::RoutesJson(reply, studies));
   std::string text = fleet::RoutesTable(reply, now_unix_ms);
   for (const route::RouteInfo& info : reply.page.routes) {
     const auto study = studies.find(info.key);
@@ -129,7 +130,7 @@ int RunSince(const CLI::App& app, const program::CommonOptions& common,
                                             ToMilliseconds(options.timeout_s));
   if (!history) return program::Complain(app, history.error());
   const std::string text = options.json
-                               ? fleet::ChangesJson(*history, options.limit)
+                               ? program::Indented(fleet::ChangesJson(*history, options.limit))
                                : fleet::ChangesText(*history, *since_unix_ms, options.limit);
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;

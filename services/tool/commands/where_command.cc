@@ -10,6 +10,7 @@
 #include "services/fleet/routes/transfer.h"
 #include "services/fleet/routes/where_report.h"
 #include "services/image/files.h"
+#include "services/program/json.h"
 #include "services/tool/commands/command.h"
 
 namespace trailcast::tool {
@@ -40,7 +41,9 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const WhereOp
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto reply = fleet::AskCatalog(*peer->exchange, peer->self, *query, timeout);
   if (!reply) return program::Complain(app, reply.error());
-  std::fputs((options.json ? fleet::WhereJson(*reply) : fleet::WhereText(*reply)).c_str(), stdout);
+  std::fputs((options.json ? program::Indented(fleet::WhereJson(*reply)) : fleet::WhereText(*reply))
+                 .c_str(),
+             stdout);
   return program::kExitOk;
 }
 

@@ -66,9 +66,9 @@ TEST_F(ChangesTest, WhatWasChangedIsToldWithWhoDidItAlsoAfterARestart) {
     if (next != std::string::npos) at = next;
   }
   EXPECT_THAT(told, AllOf(HasSubstr("scout"), HasSubstr(", active\n"), HasSubstr("kept since ")));
-  EXPECT_THAT(
-      Since({"today", "--limit", "1", "--json"}),
-      AllOf(HasSubstr("\"by\": \"desk\", \"what\": \"open aisle\""), Not(HasSubstr("bay"))));
+  EXPECT_THAT(Since({"today", "--limit", "1", "--json"}),
+              AllOf(HasSubstr("\"by\": \"desk\""), HasSubstr("\"what\": \"open aisle\""),
+                    Not(HasSubstr("bay"))));
 }
 
 TEST_F(ChangesTest, TwoRevisionsAreComparedAndDrawn) {
@@ -81,7 +81,7 @@ TEST_F(ChangesTest, TwoRevisionsAreComparedAndDrawn) {
                                      HasSubstr(" m, "), HasSubstr(" kB")));
   EXPECT_GT(std::filesystem::file_size(Path("diff.png")), 1000U);
   EXPECT_THAT(Tool({"routes", "diff", "hall@1", "hall@2", "--json"}).output,
-              HasSubstr("\"b\": {\"name\": \"hall\""));
+              AllOf(HasSubstr("\"differing\": ["), HasSubstr("\"name\": \"hall\"")));
   const Ended absent = Tool({"routes", "diff", "hall@1", "hall@9"});
   EXPECT_EQ(absent.status, 1);
   EXPECT_THAT(absent.output, HasSubstr("has no revision 9 of route 'hall'; it has 1, 2"));

@@ -112,8 +112,8 @@ TEST_F(SharingTest, LogsAreObjectsForProgramsOnRequest) {
   server->Signal(SIGTERM);
   EXPECT_EQ(End(*server).status, 0);
   EXPECT_THAT(server->output(),
-              testing::ContainsRegex("[{]\"time\": \"20[0-9-]+T[0-9:.]+Z\", \"level\": \"info\", "
-                                     "\"name\": \"server\", \"text\": \"ready: 0 routes in the "
+              testing::ContainsRegex("[{]\"time\":\"20[0-9-]+T[0-9:.]+Z\",\"level\":\"info\","
+                                     "\"name\":\"server\",\"text\":\"ready: 0 routes in the "
                                      "store\"[}]\n"));
 }
 

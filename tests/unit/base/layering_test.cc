@@ -161,7 +161,7 @@ const std::vector<Library> kLibraries{
      {"services/console", "services/program", "services/tool", "services/lab/simulated",
       "agent/cli", "agent/device", "route_server"}},
     {"httplib.h", {"services/http"}},
-    {"nlohmann/", {"services/console"}},
+    {"nlohmann/", {"services/console", "services/fleet", "services/program", "services/tool"}},
     {"spdlog/",
      {"services/console", "services/program", "services/lab/simulated", "agent/cli", "agent/device",
       "agent/duty", "agent/fetch", "agent/follow", "agent/link", "agent/teach", "route_server",

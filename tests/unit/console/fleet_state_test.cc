@@ -50,7 +50,7 @@ class FleetStateTest : public testing::Test {
   void Hear(const exchange::Message& message) { state_.Handle(message, now_, 1000); }
   json Shown() {
     state_.Tick(now_);
-    return json::parse(WholeJson(state_.Parts(), 0));
+    return json::parse(StateBody(state_.Shown(), 0));
   }
   json Robot(const std::string& name = "robot1") {
     const json shown = Shown();
@@ -254,25 +254,26 @@ TEST_F(FleetStateTest, AChangeIsWhatIsOtherThanBefore) {
   Hear(Status("robot1", AgentMode::kReplaying));
   Hear(Status("robot2", AgentMode::kReplaying));
   state_.Tick(now_);
-  const StateParts before = state_.Parts();
-  EXPECT_EQ(json::parse(ChangeJson(before, before, 5)),
+  const auto before = state_.Shown();
+  EXPECT_EQ(json::parse(ChangeBody(before, before, 5)),
             json({{"now_unix_ms", 5}, {"robots", json::array()}, {"gone", json::array()}}));
   AgentStatus paused = Status("robot2", AgentMode::kWaiting);
   paused.hold = AgentHold::kPaused;
   Hear(paused);
   Hear(Report("trip", 1, State::kPaused));
   state_.Tick(now_);
-  const json change = json::parse(ChangeJson(before, state_.Parts(), 5));
+  const json change = json::parse(ChangeBody(before, state_.Shown(), 5));
   ASSERT_EQ(change["robots"].size(), 2U) << change;
   EXPECT_EQ(change["robots"][0]["mission"]["mission"], "trip");
   EXPECT_EQ(change["robots"][1]["name"], "robot2");
   EXPECT_EQ(change["robots"][1]["state"], "paused");
   EXPECT_FALSE(change["robots"][1].contains("role")) << "of a robot what is other, too";
-  const json whole = json::parse(ChangeJson(StateParts{}, before, 5));
-  EXPECT_EQ(whole["robots"], json::parse(WholeJson(before, 5))["robots"]) << "of new ones all";
+  const auto nobody = FleetState(AgentId("desk")).Shown();
+  const json whole = json::parse(ChangeBody(nobody, before, 5));
+  EXPECT_EQ(whole["robots"], json::parse(StateBody(before, 5))["robots"]) << "of new ones all";
   EXPECT_EQ(change["missions"].size(), 1U);
   EXPECT_FALSE(change.contains("servers"));
-  EXPECT_EQ(json::parse(ChangeJson(before, StateParts{}, 5))["gone"], json({"robot1", "robot2"}));
+  EXPECT_EQ(json::parse(ChangeBody(before, nobody, 5))["gone"], json({"robot1", "robot2"}));
 }
 
 TEST_F(FleetStateTest, StrangersNamesDoNotFillTheMemory) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace trailcast::fleet {
 namespace {
 
@@ -21,7 +23,7 @@ exchange::AgentStatus RobotStatus(const std::string& name) {
 TEST(RobotsThere, AreToldWithWhatTheySayOfThemselves) {
   RobotsThere robots;
   EXPECT_EQ(robots.Text(), "");
-  EXPECT_EQ(robots.Json(), "[]\n");
+  EXPECT_EQ(robots.Json().dump(), "[]");
   exchange::AgentStatus status = RobotStatus("robot1");
   status.hold = exchange::AgentHold::kPaused;
   status.route = "hall";
@@ -35,11 +37,15 @@ TEST(RobotsThere, AreToldWithWhatTheySayOfThemselves) {
   EXPECT_THAT(robots.Text(), HasSubstr("±3 cm"));
   EXPECT_THAT(robots.Text(), HasSubstr("62 %"));
   EXPECT_THAT(robots.Text(), HasSubstr("robot2           waiting   -"));
-  EXPECT_THAT(robots.Json(), HasSubstr("\"hold\": \"paused\""));
-  EXPECT_THAT(robots.Json(), HasSubstr("\"battery_percent\": 62, \"link_percent\": null"));
-  EXPECT_THAT(robots.Json(), HasSubstr("\"along_m\": 3.50, \"left_m\": 0.012"));
-  EXPECT_THAT(robots.Json(), HasSubstr("\"detail\": \"paused by desk: \\\"rain\\\"\""));
-  EXPECT_THAT(robots.Json(), HasSubstr("\"robot\": \"robot2\", \"mode\": \"waiting\""));
+  const auto json = robots.Json();
+  EXPECT_EQ(json[0]["hold"], "paused");
+  EXPECT_EQ(json[0]["place"]["along_m"], 3.5);
+  EXPECT_EQ(json[0]["place"]["left_m"], 0.012);
+  EXPECT_EQ(json[0]["battery_percent"], 62);
+  EXPECT_EQ(json[0]["link_percent"], nullptr);
+  EXPECT_EQ(json[0]["detail"], "paused by desk: \"rain\"");
+  EXPECT_EQ(json[1]["robot"], "robot2");
+  EXPECT_EQ(json[1]["mode"], "waiting");
 }
 
 TEST(RobotsThere, AreNeitherServersNorGoneNorWithoutEnd) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace trailcast::fleet {
 namespace {
 
@@ -45,11 +47,11 @@ TEST(WhereText, APlaceWithoutItsRouteIsLeftOut) {
 }
 
 TEST(WhereJson, HasPlacesAndCoverage) {
-  const std::string json = WhereJson(Reply());
-  EXPECT_THAT(json, HasSubstr(R"("name": "aisle-3", "route": "0123456789abcdef0123456789abcdef")"));
-  EXPECT_THAT(json, HasSubstr(R"("segment": 7, "segments": 18, "score": 0.625)"));
-  EXPECT_THAT(json, HasSubstr(R"("segments_indexed": 1200)"));
-  EXPECT_THAT(WhereJson({}), HasSubstr(R"("places": [])"));
+  const std::string json = WhereJson(Reply()).dump();
+  EXPECT_THAT(json, HasSubstr(R"("name":"aisle-3","route":"0123456789abcdef0123456789abcdef")"));
+  EXPECT_THAT(json, HasSubstr(R"("segment":7,"segments":18,"score":0.625)"));
+  EXPECT_THAT(json, HasSubstr(R"("segments_indexed":1200)"));
+  EXPECT_EQ(WhereJson({})["places"].dump(), "[]");
 }
 
 }  // namespace

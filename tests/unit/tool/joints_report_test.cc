@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace trailcast::tool {
 namespace {
 
@@ -52,18 +54,16 @@ TEST(JointsReport, SaysThatThereAreNone) {
   const std::vector<JoinableRoute> routes{Route("hall", 'a'), Route("office", 'b')};
   EXPECT_TRUE(FindAllJoints(routes, false).empty());
   EXPECT_EQ(JointsText(routes, {}), "no joints of 2 routes\n");
-  EXPECT_EQ(JointsJson(routes, {}), "{\n  \"routes\": 2,\n  \"joints\": []\n}\n");
+  EXPECT_EQ(JointsJson(routes, {}).dump(), R"({"routes":2,"joints":[]})");
 }
 
 TEST(JointsReport, IsAnObjectForPrograms) {
   const std::vector<JoinableRoute> routes{Route("hall", 'a'), Route("office", 'b')};
-  const std::string json = JointsJson(routes, {{0, 1, Found()}});
-  EXPECT_THAT(json,
-              HasSubstr("\"a\": {\"name\": \"hall\", \"route\": \"aaaaaaaaaaaaaaaaaaaaaaaaaaaa"
-                        "aaaa\", \"revision\": 0, \"at\": 12.04, \"end\": 17.34, \"unit\": "
-                        "\"m\"}"));
-  EXPECT_THAT(json, HasSubstr("\"length\": 5.30, \"views\": 5, \"features\": 43, \"confidence\": "
-                              "0.970, \"heading_deg\": -2.9, \"heading_measured\": false"));
+  const std::string json = JointsJson(routes, {{0, 1, Found()}}).dump();
+  EXPECT_THAT(json, HasSubstr(R"("a":{"name":"hall","route":"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",)"
+                              R"("revision":0,"at":12.04,"end":17.34,"unit":"m"})"));
+  EXPECT_THAT(json, HasSubstr(R"("length":5.3,"views":5,"features":43,"confidence":0.97,)"
+                              R"("heading_deg":-2.9,"heading_measured":false)"));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace trailcast::tool {
 namespace {
 
@@ -19,12 +21,11 @@ TEST(KeysReport, ShowsEachMemberWithItsStateForPeopleAndPrograms) {
             "name    role      expires               state    keys  id\n"
             "robot1  scout     2026-11-22T16:00:00Z  valid       2  4f2a9c0d11223344\n"
             "x       server    2026-11-22T16:00:00Z  revoked     1  0011223344556677\n");
-  EXPECT_THAT(KeysJson(rows),
-              HasSubstr("{\"name\": \"x\", \"role\": \"server\", \"expires\": "
-                        "\"2026-11-22T16:00:00Z\", \"state\": \"revoked\", \"generation\": 1, "
-                        "\"id\": \"0011223344556677\"}"));
+  EXPECT_THAT(KeysJson(rows).dump(),
+              HasSubstr(R"({"name":"x","role":"server","expires":"2026-11-22T16:00:00Z",)"
+                        R"("state":"revoked","generation":1,"id":"0011223344556677"})"));
   EXPECT_EQ(KeysTable({}), "no members\n");
-  EXPECT_EQ(KeysJson({}), "[\n]\n");
+  EXPECT_EQ(KeysJson({}).dump(), "[]");
 }
 
 }  // namespace

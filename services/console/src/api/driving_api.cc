@@ -4,6 +4,7 @@
 
 #include "services/console/json.h"
 #include "services/console/src/api/answers.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 
@@ -16,7 +17,7 @@ void ServeDriving(http::Server& server, Desk& desk) {
                 using Verdict = mission::DriverSeat::Verdict;
                 switch (desk.Drive(AgentId(robot), *word)) {
                   case Verdict::kGood:
-                    return Answer(response, 200, "{\"passed_on\":true}");
+                    return Answer(response, 200, program::OneLine({{"passed_on", true}}));
                   case Verdict::kTaken:
                     return Refuse(response, 409,
                                   "somebody else drives " + robot +

@@ -1,7 +1,5 @@
 #include "services/console/src/api/history_api.h"
 
-#include <fmt/format.h>
-
 #include "services/base/unix_time.h"
 #include "services/console/network_watch.h"
 #include "services/console/parameters.h"
@@ -9,12 +7,14 @@
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
 #include "services/network/changes.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
 
 using httplib::Request;
 using httplib::Response;
+using program::OneLine;
 
 void Missions(Desk& desk, const Request& request, Response& response) {
   const auto query = ReadMissionQuery(request.params);
@@ -22,8 +22,7 @@ void Missions(Desk& desk, const Request& request, Response& response) {
   const auto reply = desk.Missions(*query);
   if (!reply) return Refuse(response, reply.error());
   Answer(response, 200,
-         fmt::format("{{\"missions\": {}, \"next\": {}}}", fleet::MissionsJson(reply->missions),
-                     reply->next));
+         OneLine({{"missions", fleet::MissionsJson(reply->missions)}, {"next", reply->next}}));
 }
 
 void Commands(Desk& desk, const Request& request, Response& response) {
@@ -32,8 +31,7 @@ void Commands(Desk& desk, const Request& request, Response& response) {
   const auto reply = desk.Commands(*query);
   if (!reply) return Refuse(response, reply.error());
   Answer(response, 200,
-         fmt::format("{{\"commands\": {}, \"next\": {}}}", fleet::CommandsJson(reply->commands),
-                     reply->next));
+         OneLine({{"commands", fleet::CommandsJson(reply->commands)}, {"next", reply->next}}));
 }
 
 // Of routes and of how they are joined.
@@ -47,8 +45,8 @@ void Changes(Desk& desk, const Request& request, Response& response) {
   }
   const network::History history = network::ParseHistory(answer->lines);
   Answer(response, 200,
-         fmt::format("{{\"since_unix_ms\": {}, \"history\": {}}}", query->since_unix_ms,
-                     fleet::ChangesJson(history, query->limit, query->routes)));
+         OneLine({{"since_unix_ms", query->since_unix_ms},
+                  {"history", fleet::ChangesJson(history, query->limit, query->routes)}}));
 }
 
 }  // namespace

@@ -8,14 +8,17 @@
 
 #include "services/base/text.h"
 #include "services/console/parameters.h"
-#include "services/console/src/api/values.h"
 #include "services/console/src/api/words.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
+
+using program::Json;
+using program::OneLine;
 
 constexpr std::uint32_t kLongestValid_s = 365U * 86400U;
 
@@ -207,10 +210,10 @@ Result<LogInBody> ReadLogIn(const std::string& body) {
 
 std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks) {
   const bool only = !only_looks.empty();
-  return Text({{"user", who.name.empty() ? Json(nullptr) : Json(who.name)},
-               {"role", users::NameOf(only ? users::Role::kLook : who.role)},
-               {"logs_in", asks},
-               {"only_looks", only ? Json(only_looks) : Json(nullptr)}});
+  return OneLine({{"user", who.name.empty() ? Json(nullptr) : Json(who.name)},
+                  {"role", users::NameOf(only ? users::Role::kLook : who.role)},
+                  {"logs_in", asks},
+                  {"only_looks", only ? Json(only_looks) : Json(nullptr)}});
 }
 
 Result<route::RouteKey> ReadFetch(const std::string& body) {
@@ -230,6 +233,6 @@ Result<route::RouteKey> ReadFetch(const std::string& body) {
   return route::RouteKey{RouteId(*route), *number};
 }
 
-std::string ErrorBody(const std::string& why) { return Text({{"error", why}}); }
+std::string ErrorBody(const std::string& why) { return OneLine({{"error", why}}); }
 
 }  // namespace trailcast::console

@@ -7,6 +7,7 @@
 
 #include "services/console/parameters.h"
 #include "services/console/src/api/answers.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -28,7 +29,7 @@ void Draw(Atlas& atlas, const Request& request, Response& response) {
   const auto found = atlas.Find(RouteId(request.matches[1]), teaching, kLook);
   if (!found) return Refuse(response, found.error());
   if (found->shape) return Answer(response, 200, *found->shape);
-  Answer(response, 202, fmt::format("{{\"fetched\":{:.2f}}}", found->fetched));
+  Answer(response, 202, program::OneLine({{"fetched", program::Rounded(found->fetched, 100.0)}}));
 }
 
 void Place(Site* site, const Request& request, Response& response,

@@ -1,6 +1,5 @@
 #include "services/console/src/api/network_api.h"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "services/console/json.h"
@@ -14,6 +13,7 @@ namespace {
 
 using httplib::Request;
 using httplib::Response;
+using program::OneLine;
 
 void List(NetworkWatch& watch, const Request& request, Response& response) {
   const auto query = ReadNetworkQuery(request.params);
@@ -30,9 +30,7 @@ void FindWay(Desk& desk, const Request& request, Response& response) {
   if (!answer) return Refuse(response, answer.error());
   const auto orders = fleet::OrdersAlong(answer->lines, request.get_param_value("to"));
   if (!orders) return Refuse(response, 409, orders.error().message);
-  Answer(response, 200,
-         fmt::format("{{\"way\": {}, \"orders\": {}}}", fleet::WayJson(answer->lines),
-                     program::JsonText(*orders)));
+  Answer(response, 200, OneLine({{"way", fleet::WayJson(answer->lines)}, {"orders", *orders}}));
 }
 
 void Change(Desk& desk, NetworkWatch& watch, const std::string& who, const Request& request,
@@ -43,9 +41,7 @@ void Change(Desk& desk, NetworkWatch& watch, const std::string& who, const Reque
   watch.Changed();  // an answer may have been lost
   if (!reply) return Refuse(response, reply.error());
   spdlog::info("console: {}{}{}", who, who.empty() ? "" : ": ", *words);
-  std::vector<std::string> lines;
-  for (const std::string& line : reply->lines) lines.push_back(program::JsonText(line));
-  Answer(response, 200, fmt::format("{{\"now\": {}}}", program::JsonList(lines)));
+  Answer(response, 200, OneLine({{"now", reply->lines}}));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "services/console/src/api/routes_api.h"
 
-#include <fmt/format.h>
+#include <utility>
 
 #include "services/console/json.h"
 #include "services/console/parameters.h"
@@ -14,12 +14,11 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-std::string PageJson(const exchange::CatalogReply& reply) {
-  std::vector<std::string> similar;
-  for (const std::string& name : reply.similar_names) similar.push_back(program::JsonText(name));
-  return fmt::format("{{\"routes\": {}, \"total\": {}, \"next\": {}, \"similar\": {}}}",
-                     fleet::RoutesJson(reply), reply.page.total, program::JsonText(reply.page.next),
-                     program::JsonList(similar));
+std::string PageBody(const exchange::CatalogReply& reply) {
+  return program::OneLine({{"routes", fleet::RoutesJson(reply)},
+                           {"total", reply.page.total},
+                           {"next", reply.page.next},
+                           {"similar", reply.similar_names}});
 }
 
 void Search(Desk& desk, const Request& request, Response& response) {
@@ -27,7 +26,7 @@ void Search(Desk& desk, const Request& request, Response& response) {
   if (!query) return Refuse(response, query.error());
   const auto reply = desk.Routes(*query);
   if (!reply) return Refuse(response, reply.error());
-  Answer(response, 200, PageJson(*reply));
+  Answer(response, 200, PageBody(*reply));
 }
 
 void Edit(Desk& desk, const Request& request, Response& response) {
@@ -35,9 +34,9 @@ void Edit(Desk& desk, const Request& request, Response& response) {
   if (!edit) return Refuse(response, edit.error());
   const auto reply = desk.Edit(*edit);
   if (!reply) return Refuse(response, reply.error());
-  std::vector<std::string> changed;
+  auto changed = program::Json::array();
   for (const route::RouteInfo& info : reply->page.routes) changed.push_back(fleet::RouteJson(info));
-  Answer(response, 200, fmt::format("{{\"changed\": {}}}", program::JsonList(changed)));
+  Answer(response, 200, program::OneLine({{"changed", std::move(changed)}}));
 }
 
 }  // namespace

@@ -17,32 +17,34 @@ using agent::FrameRow;
 using agent::Phase;
 using agent::RunEvent;
 using agent::RunLog;
-using program::JsonList;
-using program::JsonText;
+using program::Json;
+using program::OneLine;
 
 constexpr std::size_t kCells = 400;
 constexpr std::size_t kMostMarks = 300;
 constexpr double kLeastDriven_m = 0.2;
 constexpr double kStands_s = 1.0;
 
-std::string Number(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{:.6g}", *value) : "null";
-}
-// Of a second since the first frame, or the epoch.
-std::string Time(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{:.13g}", *value) : "null";
-}
+// Tenths of a millimetre, or of a pixel, are enough.
+Json Number(std::optional<double> value) { return program::RoundedOrNull(value, 1e4); }
 
-std::string SummaryFields(const RunFile& file, const RunSummary& summary, bool is_written) {
-  return fmt::format(
-      R"("run": {}, "file": {}, "bytes": {}, "written_unix_ms": {}, "robot": {}, "route": {}, )"
-      R"("revision": {}, "mission": {}, "method": {}, "began_unix_ms": {}, "lasted_s": {}, )"
-      R"("driven_m": {}, "progress": {}, "state": {}, "reason": {}, "under_way": {})",
-      JsonText(file.id), JsonText(file.name), file.bytes, file.written_unix_ms,
-      JsonText(summary.robot), JsonText(summary.route), JsonText(summary.revision),
-      JsonText(summary.mission), JsonText(summary.method), Time(summary.began_unix_ms),
-      Number(summary.lasted_s), Number(summary.driven_m), Number(summary.progress),
-      JsonText(summary.state), JsonText(summary.reason), is_written);
+Json SummaryJson(const RunFile& file, const RunSummary& summary, bool is_written) {
+  return {{"run", file.id},
+          {"file", file.name},
+          {"bytes", file.bytes},
+          {"written_unix_ms", file.written_unix_ms},
+          {"robot", summary.robot},
+          {"route", summary.route},
+          {"revision", summary.revision},
+          {"mission", summary.mission},
+          {"method", summary.method},
+          {"began_unix_ms", program::OrNull(summary.began_unix_ms)},
+          {"lasted_s", Number(summary.lasted_s)},
+          {"driven_m", Number(summary.driven_m)},
+          {"progress", Number(summary.progress)},
+          {"state", summary.state},
+          {"reason", summary.reason},
+          {"under_way", is_written}};
 }
 
 // How sure it was: 0 lost, 1 sees nothing to go by, 2 unsure, 3 sure; 4: it had nothing to do yet.
@@ -89,12 +91,12 @@ class Along {
 };
 
 // Of a cell the least sure row, and the place that is the furthest from the path.
-std::string CellsJson(const RunLog& log, const Along& along) {
-  std::vector<std::string> at;
-  std::vector<std::string> rows;
-  std::vector<std::string> sure;
-  std::vector<std::string> left;
-  std::vector<std::string> sigma;
+Json CellsJson(const RunLog& log, const Along& along) {
+  Json at = Json::array();
+  Json rows = Json::array();
+  Json sure = Json::array();
+  Json left = Json::array();
+  Json sigma = Json::array();
   for (std::size_t row = 0; row < log.frames.size();) {
     const double width = std::max(along.length() / kCells, 1e-9);
     const double begin = along.At(row);
@@ -102,7 +104,7 @@ std::string CellsJson(const RunLog& log, const Along& along) {
     int least = 4;
     const FrameRow* beside = nullptr;
     at.push_back(Number(begin));
-    rows.push_back(std::to_string(row));
+    rows.push_back(row);
     for (; row < log.frames.size() && along.At(row) < end; ++row) {
       const FrameRow& frame = log.frames[row];
       least = std::min(least, SurenessOf(frame.phase));
@@ -110,12 +112,15 @@ std::string CellsJson(const RunLog& log, const Along& along) {
           (beside == nullptr || std::abs(*frame.left_m) > std::abs(*beside->left_m)))
         beside = &frame;
     }
-    sure.push_back(std::to_string(least));
+    sure.push_back(least);
     left.push_back(Number(beside != nullptr ? beside->left_m : std::nullopt));
     sigma.push_back(Number(beside != nullptr ? beside->left_sigma_m : std::nullopt));
   }
-  return fmt::format(R"({{"at": {}, "row": {}, "sure": {}, "left_m": {}, "left_sigma_m": {}}})",
-                     JsonList(at), JsonList(rows), JsonList(sure), JsonList(left), JsonList(sigma));
+  return {{"at", std::move(at)},
+          {"row", std::move(rows)},
+          {"sure", std::move(sure)},
+          {"left_m", std::move(left)},
+          {"left_sigma_m", std::move(sigma)}};
 }
 
 struct Mark {
@@ -156,61 +161,59 @@ void AddStands(const RunLog& log, std::vector<Mark>& marks) {
 }
 
 // What is told of hand-overs may be left out, where there is more.
-std::string MarksJson(const RunLog& log, const Along& along) {
+Json MarksJson(const RunLog& log, const Along& along) {
   std::vector<Mark> marks;
   AddEvents(log, false, marks);
   AddStands(log, marks);
   AddEvents(log, true, marks);
   std::stable_sort(marks.begin(), marks.end(),
                    [](const Mark& one, const Mark& other) { return one.row < other.row; });
-  std::vector<std::string> all;
+  Json all = Json::array();
   for (const Mark& mark : marks) {
-    all.push_back(fmt::format(R"({{"row": {}, "at": {}, "what": {}, "text": {}}})", mark.row,
-                              Number(along.At(mark.row)), JsonText(mark.what),
-                              JsonText(mark.text)));
+    all.push_back({{"row", mark.row},
+                   {"at", Number(along.At(mark.row))},
+                   {"what", mark.what},
+                   {"text", mark.text}});
   }
-  return JsonList(all);
+  return all;
 }
 
-std::string StripJson(const RunLog& log, RunAxis axis) {
-  if (log.frames.empty()) return "null";
+Json StripJson(const RunLog& log, RunAxis axis) {
+  if (log.frames.empty()) return nullptr;
   const Along along(log, axis);
-  return fmt::format(R"({{"unit": "{}", "length": {}, "cells": {}, "marks": {}}})", along.unit(),
-                     Number(along.length()), CellsJson(log, along), MarksJson(log, along));
+  return {{"unit", along.unit()},
+          {"length", Number(along.length())},
+          {"cells", CellsJson(log, along)},
+          {"marks", MarksJson(log, along)}};
 }
 
-std::string LinesJson(const std::vector<std::string>& lines) {
-  std::vector<std::string> all;
-  for (const std::string& line : lines) all.push_back(JsonText(line));
-  return JsonList(all);
-}
-
-std::string StoryJson(const explain::Story& story) {
-  std::vector<std::string> happened;
+Json StoryJson(const explain::Story& story) {
+  Json happened = Json::array();
   for (const explain::Happening& each : story.happened) {
-    happened.push_back(fmt::format(R"({{"first": {}, "last": {}, "where": {}, "text": {}}})",
-                                   each.first, each.last, JsonText(each.where),
-                                   JsonText(each.text)));
+    happened.push_back(
+        {{"first", each.first}, {"last", each.last}, {"where", each.where}, {"text", each.text}});
   }
-  return fmt::format(
-      R"({{"who": {}, "outcome": {}, "how_far": {}, "missing": {}, "happened": {}, "lesser": {}, )"
-      R"("figures": {}}})",
-      JsonText(story.who), JsonText(story.outcome), JsonText(story.how_far),
-      LinesJson(story.missing), JsonList(happened), story.lesser, LinesJson(story.figures));
+  return {{"who", story.who},         {"outcome", story.outcome},        {"how_far", story.how_far},
+          {"missing", story.missing}, {"happened", std::move(happened)}, {"lesser", story.lesser},
+          {"figures", story.figures}};
 }
 
-std::string FrameJson(const RunLog& log, std::size_t row) {
+Json FrameJson(const RunLog& log, std::size_t row) {
   const FrameRow& frame = log.frames[row];
-  std::vector<std::string> says;
+  Json says = Json::array();
   for (const explain::Said& each : explain::TellFrame(log, row)) {
-    says.push_back(fmt::format("[{}, {}]", JsonText(each.about), JsonText(each.text)));
+    says.push_back(Json::array({each.about, each.text}));
   }
-  return fmt::format(
-      R"({{"row": {}, "frame": {}, "t_s": {}, "driven_m": {}, "phase": "{}", "sure": {}, )"
-      R"("turn_rad": {}, "left_m": {}, "left_sigma_m": {}, "says": {}}})",
-      row, frame.frame, Time(frame.t_s - log.frames.front().t_s), Number(frame.driven_m),
-      ToString(frame.phase), SurenessOf(frame.phase), Number(frame.turn_rad), Number(frame.left_m),
-      Number(frame.left_sigma_m), JsonList(says));
+  return {{"row", row},
+          {"frame", frame.frame},
+          {"t_s", Number(frame.t_s - log.frames.front().t_s)},
+          {"driven_m", Number(frame.driven_m)},
+          {"phase", ToString(frame.phase)},
+          {"sure", SurenessOf(frame.phase)},
+          {"turn_rad", Number(frame.turn_rad)},
+          {"left_m", Number(frame.left_m)},
+          {"left_sigma_m", Number(frame.left_sigma_m)},
+          {"says", std::move(says)}};
 }
 
 const char* WordOf(replay::FeatureVerdict verdict) {
@@ -230,47 +233,49 @@ const char* WordOf(replay::FeatureVerdict verdict) {
 }  // namespace
 
 std::string RunsBody(const Runs::Page& page) {
-  std::vector<std::string> runs;
+  Json runs = Json::array();
   for (const Runs::Listed& each : page.runs) {
-    runs.push_back(fmt::format("{{{}}}", SummaryFields(each.file, each.summary, each.is_written)));
+    runs.push_back(SummaryJson(each.file, each.summary, each.is_written));
   }
-  return fmt::format(R"({{"runs": {}, "next": {}, "unread": {}}})", JsonList(runs), page.next,
-                     page.unread);
+  return OneLine({{"runs", std::move(runs)}, {"next", page.next}, {"unread", page.unread}});
 }
 
 std::string RunBody(const OpenedRun& run, RunAxis axis) {
-  return fmt::format(R"({{{}, "rows": {}, "pictures": {}, "story": {}, "strip": {}}})",
-                     SummaryFields(run.file, run.summary, false), run.log.frames.size(),
-                     run.has_pictures(), StoryJson(run.story), StripJson(run.log, axis));
+  Json body = SummaryJson(run.file, run.summary, false);
+  body["rows"] = run.log.frames.size();
+  body["pictures"] = run.has_pictures();
+  body["story"] = StoryJson(run.story);
+  body["strip"] = StripJson(run.log, axis);
+  return OneLine(body);
 }
 
 std::string RunFramesBody(const OpenedRun& run, std::size_t first) {
-  std::vector<std::string> frames;
+  Json frames = Json::array();
   const std::size_t end = std::min(run.log.frames.size(), first + kMostFramesAtOnce);
   for (std::size_t row = first; row < end; ++row) frames.push_back(FrameJson(run.log, row));
-  return fmt::format(R"({{"frames": {}}})", JsonList(frames));
+  return OneLine({{"frames", std::move(frames)}});
 }
 
 std::string RunSeenBody(const OpenedRun& run, std::size_t row, const OpenedRun::Seen& seen) {
-  std::vector<std::string> features;
+  Json features = Json::array();
   for (const agent::SeenFeature& each : seen.features) {
-    features.push_back(fmt::format(R"([{}, {}, {}, {}, "{}"])", Number(each.u_px),
-                                   Number(each.v_px), Number(each.to_u_px), Number(each.to_v_px),
-                                   WordOf(each.verdict)));
+    features.push_back({Number(each.u_px), Number(each.v_px), Number(each.to_u_px),
+                        Number(each.to_v_px), WordOf(each.verdict)});
   }
   // The picture is that of an earlier row, perhaps.
-  std::string picture = "null";
-  std::string age = "null";
+  Json picture;
+  Json age;
   if (seen.picture) {
     const auto& frames = run.log.frames;
     const auto of = std::partition_point(
         frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(row),
         [&](const FrameRow& each) { return each.t_s < seen.picture->t_s - 0.001; });
-    picture = std::to_string(of - frames.begin());
+    picture = of - frames.begin();
     age = Number(std::max(0.0, frames[row].t_s - seen.picture->t_s));
   }
-  return fmt::format(R"({{"features": {}, "picture": {}, "picture_age_s": {}}})",
-                     JsonList(features), picture, age);
+  return OneLine({{"features", std::move(features)},
+                  {"picture", std::move(picture)},
+                  {"picture_age_s", std::move(age)}});
 }
 
 }  // namespace trailcast::console

@@ -10,6 +10,7 @@
 #include "services/console/src/api/answers.h"
 #include "services/console/src/api/incoming_file.h"
 #include "services/console/src/api/run_body.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -39,7 +40,7 @@ Opened Find(Runs& runs, const Request& request, Response& response) {
   if (!found) {
     Refuse(response, found.error());
   } else if (*found == nullptr) {
-    Answer(response, 202, "{\"reading\": true}");
+    Answer(response, 202, program::OneLine({{"reading", true}}));
   }
   return found.value_or(nullptr);
 }
@@ -92,7 +93,7 @@ void Upload(Desk& desk, Runs& runs, Response& response, const httplib::ContentRe
   const auto came = ReceiveInto(upload->path, "log", desk, read);
   runs.EndUpload(*upload, came.has_value());
   if (!came) return Refuse(response, came.error());
-  Answer(response, 202, fmt::format("{{\"run\": \"{}\"}}", upload->id));
+  Answer(response, 202, program::OneLine({{"run", upload->id}}));
 }
 
 }  // namespace

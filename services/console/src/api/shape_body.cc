@@ -6,11 +6,15 @@
 #include <string>
 #include <utility>
 
-#include "services/console/src/api/values.h"
 #include "services/console/src/shape.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
+
+using program::Json;
+using program::Rounded;
+using program::RoundedOrNull;
 
 Json CellsValue(const std::vector<ShapeCell>& cells) {
   Json begin = Json::array();
@@ -21,7 +25,7 @@ Json CellsValue(const std::vector<ShapeCell>& cells) {
     begin.push_back(Rounded(cell.begin, 100.0));
     features.push_back(cell.features);
     roughness.push_back(cell.roughness ? Json(route::NameOf(*cell.roughness)) : Json(nullptr));
-    slope_rad.push_back(cell.slope_rad ? Json(Rounded(*cell.slope_rad, 1000.0)) : Json(nullptr));
+    slope_rad.push_back(RoundedOrNull(cell.slope_rad, 1000.0));
   }
   return {{"begin", std::move(begin)},
           {"features", std::move(features)},
@@ -45,12 +49,9 @@ Json TerrainValue(const RouteShape& shape) {
     const double share = shape.length > 0.0 ? extent / shape.length : 1.0;
     rough[std::string(route::NameOf(roughness))] = Rounded(share, 1000.0);
   }
-  const auto steep = [](std::optional<double> slope_rad) {
-    return slope_rad ? Json(Rounded(*slope_rad, 1000.0)) : Json(nullptr);
-  };
   return {{"shares", extents.empty() ? Json(nullptr) : std::move(rough)},
-          {"up_rad", steep(up_rad)},
-          {"down_rad", steep(down_rad)}};
+          {"up_rad", RoundedOrNull(up_rad, 1000.0)},
+          {"down_rad", RoundedOrNull(down_rad, 1000.0)}};
 }
 
 Json PointsValue(const std::vector<ShapePoint>& points) {
@@ -80,17 +81,17 @@ std::string ShapeBody(const route::RouteKey& key, const RouteShape& shape) {
     closing = {{"gap_m", Rounded(shape.closing->gap_m, 100.0)},
                {"turn_rad", Rounded(shape.closing->turn_rad, 1000.0)}};
   }
-  return Text({{"route", key.route.value()},
-               {"teaching", fmt::format("{:x}", key.teaching.value())},
-               {"unit", shape.has_odometry ? "m" : "s"},
-               {"length", Rounded(shape.length, 100.0)},
-               {"segments", shape.segments},
-               {"segments_a_cell", shape.segments_a_cell},
-               {"cells", CellsValue(shape.cells)},
-               {"terrain", TerrainValue(shape)},
-               {"points", PointsValue(shape.points)},
-               {"closing", std::move(closing)},
-               {"weak_places", std::move(weak)}});
+  return program::OneLine({{"route", key.route.value()},
+                           {"teaching", fmt::format("{:x}", key.teaching.value())},
+                           {"unit", shape.has_odometry ? "m" : "s"},
+                           {"length", Rounded(shape.length, 100.0)},
+                           {"segments", shape.segments},
+                           {"segments_a_cell", shape.segments_a_cell},
+                           {"cells", CellsValue(shape.cells)},
+                           {"terrain", TerrainValue(shape)},
+                           {"points", PointsValue(shape.points)},
+                           {"closing", std::move(closing)},
+                           {"weak_places", std::move(weak)}});
 }
 
 }  // namespace trailcast::console

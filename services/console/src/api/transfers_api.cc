@@ -1,7 +1,5 @@
 #include "services/console/src/api/transfers_api.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -23,16 +21,18 @@ constexpr const char* kUploads = "/api/transfers/uploads";
 constexpr std::chrono::minutes kTransfersPatience{15};
 constexpr std::uint32_t kMostRevisions = 200;
 
-std::string ProgressJson(const Transfers::Progress& progress) {
-  using program::JsonText;
+std::string ProgressBody(const Transfers::Progress& progress) {
   const char* state = progress.state == Transfers::State::kUnderWay ? "under way"
                       : progress.state == Transfers::State::kDone   ? "done"
                                                                     : "failed";
-  return fmt::format(
-      "{{\"transfer\": {}, \"upload\": {}, \"state\": \"{}\", \"route\": {}, \"revision\": {}, "
-      "\"done_bytes\": {}, \"total_bytes\": {}, \"detail\": {}}}",
-      JsonText(progress.id), progress.is_upload, state, JsonText(progress.route), progress.revision,
-      progress.done_bytes, progress.total_bytes, JsonText(progress.detail));
+  return program::OneLine({{"transfer", progress.id},
+                           {"upload", progress.is_upload},
+                           {"state", state},
+                           {"route", progress.route},
+                           {"revision", progress.revision},
+                           {"done_bytes", progress.done_bytes},
+                           {"total_bytes", progress.total_bytes},
+                           {"detail", progress.detail}});
 }
 
 // The teaching of a route, by its id, that a server has whole.
@@ -56,7 +56,7 @@ void Fetch(Desk& desk, Transfers& transfers, const Request& request, Response& r
   if (!info) return Refuse(response, info.error());
   const auto progress = transfers.Fetch(*info);
   if (!progress) return Refuse(response, progress.error());
-  Answer(response, 202, ProgressJson(*progress));
+  Answer(response, 202, ProgressBody(*progress));
 }
 
 void Upload(Desk& desk, Transfers& transfers, const Request& request, Response& response,
@@ -68,7 +68,7 @@ void Upload(Desk& desk, Transfers& transfers, const Request& request, Response& 
     transfers.GiveUp(upload->id);
     return Refuse(response, came.error());
   }
-  Answer(response, 202, ProgressJson(transfers.Deliver(upload->id)));
+  Answer(response, 202, ProgressBody(transfers.Deliver(upload->id)));
 }
 
 void Download(Desk& desk, Transfers& transfers, const Request& request, Response& response) {
@@ -108,7 +108,7 @@ void ServeTransfers(http::Server& server, Desk& desk, Transfers& transfers) {
   server.Get("/api/transfers/([0-9a-f]{16})", [&](const Request& request, Response& response) {
     const auto progress = transfers.Find(request.matches[1]);
     if (!progress) return Refuse(response, progress.error());
-    Answer(response, 200, ProgressJson(*progress));
+    Answer(response, 200, ProgressBody(*progress));
   });
   server.Get("/api/transfers/([0-9a-f]{16})/file", [&](const Request& request, Response& response) {
     Download(desk, transfers, request, response);

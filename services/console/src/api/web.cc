@@ -25,6 +25,7 @@
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -33,6 +34,7 @@ using exchange::NowOrder;
 using exchange::NowWhom;
 using httplib::Request;
 using httplib::Response;
+using program::OneLine;
 
 // How soon a stream notices that its page is gone.
 constexpr std::chrono::milliseconds kLook{1000};
@@ -154,7 +156,7 @@ void Web::ServeState() {
   server_.Get("/api/state", [this](const Request&, Response& response) {
     const auto news = desk_.See(0, kLook);
     if (!news) return Refuse(response, 503, "nothing is known yet");
-    Answer(response, 200, WholeJson(news->state, NowUnixMs()));
+    Answer(response, 200, StateBody(*news->state, NowUnixMs()));
   });
   server_.Get("/api/events",
               [this](const Request& request, Response& response) { Stream(request, response); });
@@ -182,12 +184,12 @@ void Web::Stream(const Request& request, Response& response) {
         std::string text;
         if (news && told.news) {
           text = fmt::format("event: change\ndata: {}\n\n",
-                             ChangeJson(told.news->state, news->state, NowUnixMs()));
+                             ChangeBody(*told.news->state, *news->state, NowUnixMs()));
         } else if (news) {
-          text = fmt::format("event: state\ndata: {}\n\n", WholeJson(news->state, NowUnixMs()));
+          text = fmt::format("event: state\ndata: {}\n\n", StateBody(*news->state, NowUnixMs()));
         } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
           // Not a comment: of those a page is not told, and it is to notice that nothing comes.
-          text = fmt::format("event: alive\ndata: {{\"now_unix_ms\":{}}}\n\n", NowUnixMs());
+          text = fmt::format("event: alive\ndata: {}\n\n", OneLine({{"now_unix_ms", NowUnixMs()}}));
         } else {
           return true;
         }
@@ -218,8 +220,8 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
   if (!words) return Refuse(response, 503, words.error().message);
   commands_.Count(order, *words);
   if (target.whom == NowWhom::kAll)
-    return Answer(response, 200, fmt::format("{{\"robots\": {}}}", fleet::WordsJson(*words)));
-  Answer(response, StatusOf(words->front()), fleet::WordJson(words->front()));
+    return Answer(response, 200, OneLine({{"robots", fleet::WordsJson(*words)}}));
+  Answer(response, StatusOf(words->front()), OneLine(fleet::WordJson(words->front())));
 }
 
 void Web::ServeMissions() {
@@ -240,7 +242,7 @@ void Web::Send(const std::string& robot, const Request& request, Response& respo
                                   .goes_on = body->goes_on});
   if (!report) return Refuse(response, 504, report.error().message);
   const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
-  Answer(response, taken ? 200 : 409, fleet::ReportJson(*report));
+  Answer(response, taken ? 200 : 409, OneLine(fleet::ReportJson(*report)));
 }
 
 }  // namespace trailcast::console

@@ -11,6 +11,7 @@
 #include "services/fleet/routes/where_report.h"
 #include "services/image/files.h"
 #include "services/image/picture_check.h"
+#include "services/program/json.h"
 
 namespace trailcast::console {
 namespace {
@@ -54,7 +55,7 @@ void Find(Desk& desk, Turns& turns, const httplib::ContentReader& read, Response
   if (!query) return Refuse(response, query.error());
   const auto reply = desk.Routes(*query);
   if (!reply) return Refuse(response, reply.error());
-  Answer(response, 200, fleet::WhereJson(*reply));
+  Answer(response, 200, program::OneLine(fleet::WhereJson(*reply)));
 }
 
 }  // namespace

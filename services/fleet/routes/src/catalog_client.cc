@@ -47,18 +47,12 @@ std::string Remarks(const route::RouteInfo& info, const exchange::CatalogReply& 
   return remarks;
 }
 
-std::string JsonTexts(const std::vector<std::string>& texts) {
-  std::vector<std::string> quoted;
-  for (const std::string& text : texts) quoted.push_back(program::JsonText(text));
-  return program::JsonList(quoted);
-}
-
-std::string JsonPlace(const std::optional<route::Place>& place) {
-  if (!place) return "null";
+program::Json JsonPlace(const std::optional<route::Place>& place) {
+  if (!place) return nullptr;
   if (place->frame == route::Place::Frame::kWgs84) {
-    return fmt::format("{{\"latitude\": {}, \"longitude\": {}}}", place->y, place->x);
+    return {{"latitude", place->y}, {"longitude", place->x}};
   }
-  return fmt::format("{{\"site_x_m\": {}, \"site_y_m\": {}}}", place->x, place->y);
+  return {{"site_x_m", place->x}, {"site_y_m", place->y}};
 }
 
 }  // namespace
@@ -137,41 +131,44 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
   return text;
 }
 
-std::string RouteJson(const route::RouteInfo& info) {
-  return fmt::format(
-      "{{\"name\": {}, \"route\": {}, \"revision\": {}, \"state\": \"{}\", "
-      "\"segments\": {}, "
-      "\"length_m\": {:.3f}, \"bytes\": {}, \"bytes_per_m\": {:.1f}, \"scout\": {}, "
-      "\"camera\": {}, \"taught_unix_ms\": {}, \"manifest_sha256\": \"{}\", \"tags\": {}, "
-      "\"place\": {}, \"description\": {}, \"edition\": {}, "
-      "\"teaching\": \"{:x}\"}}",
-      program::JsonText(info.name), program::JsonText(info.key.route.value()),
-      info.revision.value(), route::StateText(info), info.segment_count, info.length_m, info.bytes,
-      BytesPerMeter(info), program::JsonText(info.scout.value()), program::JsonText(info.camera),
-      info.taught_unix_ms, route::ToHex(info.manifest_digest), JsonTexts(info.tags),
-      JsonPlace(info.place), program::JsonText(info.description), info.edition,
-      info.key.teaching.value());
+program::Json RouteJson(const route::RouteInfo& info) {
+  return {{"name", info.name},
+          {"route", info.key.route.value()},
+          {"revision", info.revision.value()},
+          {"state", route::StateText(info)},
+          {"segments", info.segment_count},
+          {"length_m", program::Rounded(info.length_m, 1000.0)},
+          {"bytes", info.bytes},
+          {"bytes_per_m", program::Rounded(BytesPerMeter(info), 10.0)},
+          {"scout", info.scout.value()},
+          {"camera", info.camera},
+          {"taught_unix_ms", info.taught_unix_ms},
+          {"manifest_sha256", route::ToHex(info.manifest_digest)},
+          {"tags", info.tags},
+          {"place", JsonPlace(info.place)},
+          {"description", info.description},
+          {"edition", info.edition},
+          {"teaching", fmt::format("{:x}", info.key.teaching.value())}};
 }
 
-std::string RouteJson(const route::RouteInfo& info, const exchange::CatalogReply& reply) {
-  std::string route = RouteJson(info);
-  route.pop_back();
-  return route + fmt::format(", \"held_by\": {}, \"segments_lost\": {}}}",
-                             JsonTexts(HoldersOf(info.key, reply)), LackingOf(info.key, reply));
+program::Json RouteJson(const route::RouteInfo& info, const exchange::CatalogReply& reply) {
+  program::Json route = RouteJson(info);
+  route["held_by"] = HoldersOf(info.key, reply);
+  route["segments_lost"] = LackingOf(info.key, reply);
+  return route;
 }
 
-std::string RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {
-  std::string text = "[";
+program::Json RoutesJson(const exchange::CatalogReply& reply, const RouteStudies& studies) {
+  auto routes = program::Json::array();
   for (const route::RouteInfo& info : reply.page.routes) {
-    std::string route = RouteJson(info, reply);
+    program::Json route = RouteJson(info, reply);
     if (const auto study = studies.find(info.key); study != studies.end()) {
-      route.pop_back();
-      route += fmt::format(", \"weak\": {}, \"terrain\": {}}}", WeakPlacesJson(info, study->second),
-                           GroundJson(info, study->second));
+      route["weak"] = WeakPlacesJson(info, study->second);
+      route["terrain"] = GroundJson(info, study->second);
     }
-    text += (text.size() > 1 ? ",\n  " : "\n  ") + route;
+    routes.push_back(std::move(route));
   }
-  return text + "\n]\n";
+  return routes;
 }
 
 }  // namespace trailcast::fleet

@@ -6,10 +6,14 @@
 
 #include "services/base/angles.h"
 #include "services/fleet/routes/route_export.h"
+#include "services/program/json.h"
 #include "services/route/codec.h"
 
 namespace trailcast::fleet {
 namespace {
+
+using program::Json;
+using program::Rounded;
 
 std::string Explain(const view::WeakPlace& place) {
   switch (place.why) {
@@ -27,6 +31,11 @@ std::string Explain(const view::WeakPlace& place) {
 }
 
 const char* UnitOf(const route::RouteInfo& info) { return info.length_m > 0.0 ? "m" : "s"; }
+
+Json ExtentJson(const route::RouteInfo& info, double begin, double end) {
+  const std::string unit = UnitOf(info);
+  return {{"begin_" + unit, Rounded(begin, 100.0)}, {"end_" + unit, Rounded(end, 100.0)}};
+}
 
 }  // namespace
 
@@ -57,15 +66,15 @@ std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study
   return text;
 }
 
-std::string WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study) {
-  std::string text = "[";
+Json WeakPlacesJson(const route::RouteInfo& info, const RouteStudy& study) {
+  Json places = Json::array();
   for (const view::WeakPlace& place : study.weak_places) {
-    text += fmt::format(
-        "{}{{\"begin_{}\": {:.2f}, \"end_{}\": {:.2f}, \"why\": \"{}\", \"features\": {}}}",
-        text.size() > 1 ? ", " : "", UnitOf(info), place.begin, UnitOf(info), place.end,
-        NameOf(place.why), place.features);
+    Json each = ExtentJson(info, place.begin, place.end);
+    each["why"] = NameOf(place.why);
+    each["features"] = place.features;
+    places.push_back(std::move(each));
   }
-  return text + "]";
+  return places;
 }
 
 std::string GroundText(const route::RouteInfo& info, const RouteStudy& study) {
@@ -82,23 +91,20 @@ std::string GroundText(const route::RouteInfo& info, const RouteStudy& study) {
   return text;
 }
 
-std::string GroundJson(const route::RouteInfo& info, const RouteStudy& study) {
-  std::string text = "[";
+Json GroundJson(const route::RouteInfo& info, const RouteStudy& study) {
+  Json stretches = Json::array();
   for (const route::TerrainStretch& stretch : study.terrain) {
     const route::Terrain& terrain = stretch.terrain;
-    text += fmt::format("{}{{\"begin_{}\": {:.2f}, \"end_{}\": {:.2f}", text.size() > 1 ? ", " : "",
-                        UnitOf(info), stretch.begin, UnitOf(info), stretch.end);
+    Json each = ExtentJson(info, stretch.begin, stretch.end);
     if (const auto roughness = route::RoughnessOf(terrain)) {
-      text += fmt::format(", \"roughness\": \"{}\"", route::NameOf(*roughness));
+      each["roughness"] = route::NameOf(*roughness);
     }
-    if (terrain.shake) text += fmt::format(", \"shake\": {:.4f}", *terrain.shake);
-    if (terrain.vertical_mps2)
-      text += fmt::format(", \"vertical_mps2\": {:.2f}", *terrain.vertical_mps2);
-    if (terrain.slope_rad)
-      text += fmt::format(", \"slope_deg\": {:.1f}", Degrees(*terrain.slope_rad));
-    text += "}";
+    if (terrain.shake) each["shake"] = Rounded(*terrain.shake, 1e4);
+    if (terrain.vertical_mps2) each["vertical_mps2"] = Rounded(*terrain.vertical_mps2, 100.0);
+    if (terrain.slope_rad) each["slope_deg"] = Rounded(Degrees(*terrain.slope_rad), 10.0);
+    stretches.push_back(std::move(each));
   }
-  return text + "]";
+  return stretches;
 }
 
 }  // namespace trailcast::fleet

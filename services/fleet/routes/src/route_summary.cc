@@ -40,13 +40,12 @@ std::string FileText(const std::string& path, const archive::RouteFile& file) {
   return text;
 }
 
-std::string FileJson(const std::string& path, const Result<archive::RouteFile>& file) {
-  if (!file) {
-    return fmt::format("{{\"file\": {}, \"whole\": false, \"error\": {}}}", program::JsonText(path),
-                       program::JsonText(file.error().message));
-  }
-  return fmt::format("{{\"file\": {}, \"whole\": true, \"file_bytes\": {}, \"route\": {}}}",
-                     program::JsonText(path), file->file_bytes(), RouteJson(file->info()));
+program::Json FileJson(const std::string& path, const Result<archive::RouteFile>& file) {
+  if (!file) return {{"file", path}, {"whole", false}, {"error", file.error().message}};
+  return {{"file", path},
+          {"whole", true},
+          {"file_bytes", file->file_bytes()},
+          {"route", RouteJson(file->info())}};
 }
 
 }  // namespace trailcast::fleet

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/program/json.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::fleet {
@@ -45,20 +46,21 @@ std::string WhereText(const exchange::CatalogReply& reply) {
   return text;
 }
 
-std::string WhereJson(const exchange::CatalogReply& reply) {
-  std::string places;
+program::Json WhereJson(const exchange::CatalogReply& reply) {
+  auto places = program::Json::array();
   for (const auto& [place, route] : PlacesIn(reply)) {
-    places += fmt::format(
-        "{}\n    {{\"name\": \"{}\", \"route\": \"{}\", \"revision\": {}, \"segment\": {}, "
-        "\"segments\": {}, \"score\": {:.3f}}}",
-        places.empty() ? "" : ",", route.name, place.key.route.value(), route.revision.value(),
-        place.segment.value(), route.segment_count, place.score);
+    places.push_back({{"name", route.name},
+                      {"route", place.key.route.value()},
+                      {"revision", route.revision.value()},
+                      {"segment", place.segment.value()},
+                      {"segments", route.segment_count},
+                      {"score", program::Rounded(place.score, 1000.0)}});
   }
   const route::ViewCoverage& searched = reply.coverage;
-  return fmt::format(
-      "{{\n  \"places\": [{}],\n  \"segments_indexed\": {}, \"segments_stored\": {}, "
-      "\"routes_unseen\": {}\n}}\n",
-      places, searched.segments_indexed, searched.segments_stored, searched.routes_unseen);
+  return {{"places", std::move(places)},
+          {"segments_indexed", searched.segments_indexed},
+          {"segments_stored", searched.segments_stored},
+          {"routes_unseen", searched.routes_unseen}};
 }
 
 }  // namespace trailcast::fleet
