@@ -1,12 +1,11 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <filesystem>
 #include <string>
 
 #include "services/base/result.h"
 #include "services/console/desk.h"
+#include "services/http/server.h"
 
 namespace trailcast::console {
 
