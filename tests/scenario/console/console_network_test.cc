@@ -78,6 +78,8 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.Type(Field("Is called"), "bay"));
   ASSERT_TRUE(browser.Click(Button("Name it")));
   ASSERT_TRUE(browser.WaitForText("Now: name bay office@")) << browser.Text();
+  // While the page asks anew, others are told what was so before.
+  ASSERT_TRUE(WaitUntil([&] { return !Network()["names"].empty(); })) << Network();
   const double bay_m = Network()["names"][0]["place"]["along_m"];
   ASSERT_GT(bay_m, 1.6);
   ASSERT_LT(bay_m, 3.0);
