@@ -39,7 +39,7 @@ class MissionDesk {
     std::uint32_t task = 0;  // which of these is to be done,
     std::uint32_t lap = 0;   // and what of its laps is done
     bool begun = false;      // an earlier run was at it
-    std::string because{};   // of another way than at first: why
+    mission::Going going{};  // to nowhere: it is sent along routes by hand
     [[nodiscard]] mission::Task::Kind kind() const { return tasks[task].kind; }
   };
   // What is to be done; none: the robot is free.
@@ -53,7 +53,8 @@ class MissionDesk {
   void BeginAt(double along_m) { current_->tasks[current_->task].from_m = along_m; }
 
   // Of the current one. What has ended is no longer current.
-  void Tell(mission::State state, const std::string& detail = {});
+  void Tell(mission::State state, const std::string& detail = {},
+            mission::WaitsFor waits_for = mission::WaitsFor::kNothing);
   // A lap of its task is done, or the task as a whole.
   void NoteDone();
 
@@ -76,7 +77,8 @@ class MissionDesk {
   void Confirm(const mission::Report& report);
   [[nodiscard]] Kept* Find(const std::string& id);
   [[nodiscard]] Kept& CurrentKept();
-  void Answer(Kept& kept, mission::State state, const std::string& detail);
+  void Answer(Kept& kept, mission::State state, const std::string& detail,
+              mission::WaitsFor waits_for = mission::WaitsFor::kNothing);
   void Begin(const Kept& kept, std::vector<mission::Task> tasks);
   [[nodiscard]] Result<void> Keep() const;
   void KeepOrSay();

@@ -19,6 +19,7 @@ using mission::Task;
 using network::Leg;
 using network::Stretch;
 using LaneSet = NetworkBoard::LaneSet;
+using Why = mission::Going::Why;
 
 LaneSet Without(const LaneSet& all, const LaneSet& those) {
   LaneSet left;
@@ -50,6 +51,14 @@ std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
     before_m += stretch.length_m();
   }
   return std::nullopt;
+}
+
+// It may wait where a place is no longer narrow.
+bool MayWait(const mission::Record* record) {
+  if (record == nullptr) return false;
+  const auto tasks = mission::ParseOrders(record->mission.orders);
+  return tasks && std::any_of(tasks->begin(), tasks->end(),
+                              [](const Task& task) { return task.kind == Task::Kind::kWaitLane; });
 }
 
 std::string Who(const mission::Record& record) {
@@ -97,10 +106,7 @@ LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
 
 LaneKeeper::Lines LaneKeeper::Look(const AgentId& agent, Time now) {
   Lines lines;
-  const mission::Record* record = missions_.CurrentOf(agent);
-  const bool may_wait =
-      record != nullptr && record->mission.orders.find("wait lane") != std::string::npos;
-  if (!network_.HasLanes() && !may_wait) return lines;
+  if (!network_.HasLanes() && !MayWait(missions_.CurrentOf(agent))) return lines;
   robots_.Touch(agent).heard_at = now;
   auto left = Settle(agent, robots_.Touch(agent), now, lines);
   std::vector<std::pair<Time, AgentId>> asking;
@@ -144,7 +150,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     if (!stretch) return tl::unexpected(stretch.error());
     (waits ? rest.later : rest.now).push_back(*std::move(stretch));
   }
-  rest.heard = mission::WayIn(last.detail) >= rest.going.way;
+  rest.heard = last.way >= rest.going.way;
   // Before it drives it may have said where it was before.
   const bool drives = last.state == State::kUnderWay || last.state == State::kPaused ||
                       (rest.heard && rest.going.way > 1);
@@ -262,7 +268,7 @@ Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Li
   const std::string because = network_.Called(*barred.begin()) + " is narrow";
   lines.push_back(
       fmt::format("{}is told to wait: {}: {}", Who(record), because, mission::ToText(tasks)));
-  return Amend(record, rest, tasks, because);
+  return Amend(record, rest, tasks, Why::kReplanned, because);
 }
 
 Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
@@ -281,7 +287,7 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   way.insert(way.end(), rest->later.begin(), rest->later.end());
   auto legs = network::LegsOf(way, *lanes, network_.HeldBy(agent));
   const bool stays = legs.size() > 1 && LengthOf(legs.front().stretches) <= kThere_m;
-  std::string why_not;
+  std::optional<WhyNot> why_not;
   std::string because = "enters what is no longer narrow";
   if (stays) {
     // What is left of the first leg is a part of the second.
@@ -290,15 +296,21 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
     leg.stretches.insert(leg.stretches.begin(), legs.front().stretches.begin(),
                          legs.front().stretches.end());
     legs.front().stretches.clear();
-    why_not = WhyNot(agent, leg, now);
-    because = std::string(mission::kEnters) + network_.Called(*leg.lanes.begin());
+    why_not = WhyNotInto(agent, leg, now);
+    because = "enters " + network_.Called(*leg.lanes.begin());
   }
-  if (!why_not.empty()) {
-    const bool is_told = rest->going.because == PlainText(why_not, exchange::kMaxLineBytes);
+  if (why_not) {
+    const bool is_queued = rest->going.why == Why::kQueued;
+    // After a start of the server: it is taken to have been told what is so now.
+    if (is_queued && !robot.told) robot.told = why_not;
+    const bool is_told = is_queued && robot.told == why_not;
     // While it still drives it may come to an end without a stop.
     if (is_told || !rest->stands) return {};
-    lines.push_back(Who(*record) + why_not);
-    return Amend(*record, *rest, network_.TasksOf(legs), why_not);
+    const std::string waits = ToText(*why_not);
+    lines.push_back(Who(*record) + waits);
+    const auto told = Amend(*record, *rest, network_.TasksOf(legs), Why::kQueued, waits);
+    if (told) robot.told = why_not;
+    return told;
   }
   if (stays) {
     if (auto holds = network_.Hold(legs[1].lanes, agent); !holds) return holds;
@@ -306,10 +318,11 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   }
   robot.waits_since.reset();
   lines.push_back(Who(*record) + because);
-  return Amend(*record, *rest, network_.TasksOf(legs), because);
+  return Amend(*record, *rest, network_.TasksOf(legs), Why::kAdmitted, because);
 }
 
-std::string LaneKeeper::WhyNot(const AgentId& agent, const Leg& leg, Time now) {
+std::optional<LaneKeeper::WhyNot> LaneKeeper::WhyNotInto(const AgentId& agent, const Leg& leg,
+                                                         Time now) {
   for (const std::size_t lane : leg.lanes) {
     for (const AgentId& other : network_.HoldersOf(lane)) {
       if (other == agent) continue;
@@ -317,13 +330,7 @@ std::string LaneKeeper::WhyNot(const AgentId& agent, const Leg& leg, Time now) {
       const Robot* robot = robots_.Find(other);
       const Time heard_at =
           robot == nullptr ? since_.value_or(now) : robot->heard_at.value_or(since_.value_or(now));
-      const bool is_silent = now - heard_at > kSilent;
-      const std::string called = network_.Called(lane);
-      return fmt::format("{}{} to leave {}{}", mission::kWaits, other.value(), called,
-                         is_silent ? "; it is not heard: once it is out of it, say 'trailcast "
-                                     "network vacate " +
-                                         called + "'"
-                                   : "");
+      return WhyNot{other, network_.Called(lane), now - heard_at > kSilent};
     }
   }
   // Beyond it there has to be room.
@@ -337,14 +344,28 @@ std::string LaneKeeper::WhyNot(const AgentId& agent, const Leg& leg, Time now) {
     if (!at_m) continue;
     const double ahead_m = *at_m - own_m.value_or(0.0);
     if (ahead_m < -kBeside_m || (ahead_m < kBeside_m && agent < other)) continue;
-    return fmt::format("{}{}, which is ahead of it, to go on", mission::kWaits, other.value());
+    return WhyNot{.other = other};
   }
-  return {};
+  return std::nullopt;
+}
+
+std::string LaneKeeper::ToText(const WhyNot& why_not) {
+  const auto& [other, lane, is_silent] = why_not;
+  if (lane.empty()) {
+    return fmt::format("waits for {}, which is ahead of it, to go on", other.value());
+  }
+  std::string text = fmt::format("waits for {} to leave {}", other.value(), lane);
+  if (is_silent) {
+    text += fmt::format(
+        "; it is not heard: once it is out of it, say 'trailcast network vacate {}'", lane);
+  }
+  return text;
 }
 
 Result<void> LaneKeeper::Amend(const mission::Record& record, const Rest& rest,
-                               const std::vector<Task>& tasks, const std::string& because) {
-  const std::string orders = NextWay(rest.going, tasks, because);
+                               const std::vector<Task>& tasks, Why why,
+                               const std::string& because) {
+  const std::string orders = NextWay(rest.going, tasks, why, because);
   if (orders.size() > exchange::kMaxLineBytes) {
     return Fail(ErrorCode::kInvalidArgument,
                 "its way has {} stretches, more than one mission holds: send it to a place on the "

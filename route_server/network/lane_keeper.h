@@ -10,6 +10,7 @@
 #include "route_server/fleet/mission_board.h"
 #include "route_server/network/network_board.h"
 #include "services/base/newest_map.h"
+#include "services/mission/orders.h"
 
 namespace trailcast::server {
 
@@ -45,6 +46,13 @@ class LaneKeeper {
   [[nodiscard]] Lines LookAtAll(Time now);
 
  private:
+  // For whom one waits that is not let in.
+  struct WhyNot {
+    AgentId other{};
+    std::string lane{};      // that it is to leave, as people call it; empty: it is ahead of it
+    bool is_silent = false;  // and is not heard
+    bool operator==(const WhyNot&) const = default;
+  };
   struct Robot {
     std::string mission{};
     std::string orders{};
@@ -54,7 +62,8 @@ class LaneKeeper {
     std::optional<Time> heard_at{};
     NetworkBoard::LaneSet out_of{};  // of what it has, and since when
     Time out_since{};
-    std::optional<Time> waits_since{};  // for one
+    std::optional<Time> waits_since{};  // for one,
+    std::optional<WhyNot> told{};       // and was told that last
   };
   struct Rest;
   [[nodiscard]] Result<Rest> RestOf(const mission::Record& record, Robot& robot);
@@ -62,9 +71,11 @@ class LaneKeeper {
   [[nodiscard]] Result<bool> Settle(const AgentId& agent, Robot& robot, Time now, Lines& lines);
   [[nodiscard]] Result<void> Bar(const mission::Record& record, const Rest& rest, Lines& lines);
   [[nodiscard]] Result<void> LetIn(const AgentId& agent, Robot& robot, Time now, Lines& lines);
-  [[nodiscard]] std::string WhyNot(const AgentId& agent, const network::Leg& leg, Time now);
+  [[nodiscard]] std::optional<WhyNot> WhyNotInto(const AgentId& agent, const network::Leg& leg,
+                                                 Time now);
+  [[nodiscard]] static std::string ToText(const WhyNot& why_not);
   [[nodiscard]] Result<void> Amend(const mission::Record& record, const Rest& rest,
-                                   const std::vector<mission::Task>& tasks,
+                                   const std::vector<mission::Task>& tasks, mission::Going::Why why,
                                    const std::string& because);
 
   MissionBoard& missions_;

@@ -31,8 +31,7 @@ void Append(std::vector<Stretch>& way, const Stretch& next) {
 bool AsksForWay(const mission::Record& record) {
   const auto going = mission::GoingIn(record.mission.orders);
   return going && record.last.state == mission::State::kFetching &&
-         record.last.detail.starts_with(mission::kAsksForWay) &&
-         mission::WayIn(record.last.detail) == going->way;
+         record.last.waits_for == mission::WaitsFor::kWay && record.last.way == going->way;
 }
 
 }  // namespace
@@ -231,12 +230,12 @@ Result<std::string> Replanning::Replan(const mission::Record& record, const Rest
   std::vector<Task>& tasks = *planned;
   if (!has_way) tasks.push_back({.kind = Task::Kind::kWaitWay});
   if (tasks.empty()) return std::string();  // it is there
-  std::string orders = NextWay(rest.going, tasks, because);
+  std::string orders = NextWay(rest.going, tasks, mission::Going::Why::kReplanned, because);
   if (orders.size() > exchange::kMaxLineBytes) {
     because +=
         fmt::format("; the other way has {} stretches, more than one mission holds", tasks.size());
     tasks = {{.kind = Task::Kind::kWaitWay}};
-    orders = NextWay(rest.going, tasks, because);
+    orders = NextWay(rest.going, tasks, mission::Going::Why::kReplanned, because);
   }
   if (auto amended = missions_.Amend(record.mission.agent, orders); !amended) {
     return tl::unexpected(amended.error());

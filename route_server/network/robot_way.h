@@ -24,9 +24,10 @@ inline constexpr double kOnWay_m = 0.5;
 // Longer than exchange::kMaxLineBytes: it has more stretches than one mission holds.
 [[nodiscard]] inline std::string NextWay(mission::Going going,
                                          const std::vector<mission::Task>& tasks,
-                                         const std::string& because) {
+                                         mission::Going::Why why, const std::string& because) {
   constexpr std::string_view kBecause = " because ";
   ++going.way;
+  going.why = why;
   going.because.clear();
   const std::size_t length = ToText(going, tasks).size() + kBecause.size();
   if (length < exchange::kMaxLineBytes) {

@@ -41,6 +41,13 @@ inline constexpr std::uint8_t kStates = 10;
 [[nodiscard]] const char* ToString(State state);  // "under way"
 [[nodiscard]] bool HasEnded(State state);
 
+// What a robot stands and waits for, by its own word, that cannot go on by itself.
+enum class WaitsFor : std::uint8_t {
+  kNothing = 0,
+  kWay = 1,   // off the way that it was sent last, or at its end: to be told another from there
+  kLane = 2,  // before a narrow place: to be let in
+};
+
 // trailcast/mission_states: from the robot, said again until a server has said the same (relayed):
 // then that is durable. From a server, too, that it keeps one, or has dropped it.
 struct Report {
@@ -50,8 +57,10 @@ struct Report {
       0;  // counts up from 1 at the robot: the higher is the newer. 0: by a server
   State state = State::kSent;
   std::uint32_t task = 0;  // which of its orders
-  std::string detail{};    // one line for people: why
-  bool relayed = false;    // by a server
+  std::uint32_t way = 1;   // which of the ways that it was sent to a place (Going) those are of
+  WaitsFor waits_for = WaitsFor::kNothing;
+  std::string detail{};  // one line for people: why
+  bool relayed = false;  // by a server
   bool operator==(const Report&) const = default;
 };
 

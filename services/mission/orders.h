@@ -25,12 +25,13 @@ namespace trailcast::mission {
 //   wait SECONDS
 // as in "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel". Of a robot that is sent to a
 // place they are the way there, of 'follow' and 'turn' alone:
-//   goto PLACE [way N] [TURN] FOLLOW ... [because WORDS ...]
+//   goto PLACE [way N [queued|admitted]] [TURN] FOLLOW ... [because WORDS ...]
 // A server that finds another way while it is going sends the same mission with a higher N, and
-// why. Where there is none, it ends in
+// why, for people. Where there is none, it ends in
 //   wait way                 for such a one
 // and before a narrow place it has
-//   wait lane                until a server has sent it without
+//   wait lane                until a server has sent it without: 'admitted'; 'queued' says for whom
+//                            it waits until then
 struct Task {
   enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
@@ -45,18 +46,18 @@ struct Task {
   std::vector<std::string> tags{};  // of what is taught, in any order
 };
 
-// What the reason of a way begins with that waits before a lane, or has been let in.
-inline constexpr std::string_view kWaits = "waits for ";
-inline constexpr std::string_view kEnters = "enters ";
-// What the detail of a robot begins with that stands and asks to be told another way from where it
-// is; or waits for one, as it was told to.
-inline constexpr std::string_view kAsksForWay = "waits for a way: ";
-
 // What a robot is going to, beside the way there.
 struct Going {
+  // Why it is sent another way than at first.
+  enum class Why : std::uint8_t {
+    kReplanned,  // the one before is closed, or the robot was off it, or is to wait on it
+    kQueued,     // it waits before a narrow place, and is told for whom
+    kAdmitted,   // it is let into it
+  };
   std::string to{};       // as its sender calls it: one word, up to 96 bytes
   std::uint32_t way = 1;  // which of the ways that it was sent
-  std::string because{};  // of the first none
+  Why why = Why::kReplanned;
+  std::string because{};  // for people; of the first none
 };
 
 // kInvalidArgument, with the word that was not understood and what was expected.
@@ -67,12 +68,6 @@ struct Going {
 
 // None: they are no way to a place, or not understood.
 [[nodiscard]] std::optional<Going> GoingIn(std::string_view orders);
-
-// A robot that is on another way than at first says which at the end of its reports' details,
-// "re-planned: hall 3..7 was closed (way 2)". 1: the first, or it has not said so.
-[[nodiscard]] std::string WithWay(const std::string& detail, std::uint32_t way);
-[[nodiscard]] std::uint32_t WayIn(std::string_view detail);
-inline constexpr std::size_t kMostOfWay = 20;  // bytes that it makes a detail longer, at most
 
 // Those that they name; none where they are not understood.
 [[nodiscard]] std::set<std::string> RoutesIn(std::string_view orders);

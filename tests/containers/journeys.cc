@@ -5,6 +5,7 @@
 //                                a line each on the standard input; status 1: not all did well
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -27,10 +28,24 @@ void Tell(const NetworkPlan& plan) {
   fmt::print("place {}\nclosed {}..{}\n", plan.goal_m, plan.closed_from_m, plan.closed_to_m);
 }
 
+// "robot-1: arrived", "robot-1: fetching: waits for a way: ..": as a person reads it.
+JourneyEnd EndOf(const std::string& said) {
+  JourneyEnd end{.said = said, .last = std::nullopt};
+  const std::string told = said.substr(std::min(said.size(), said.find(' ') + 1));
+  const bool asks = told.starts_with("fetching: waits for a way: ");
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const auto state = static_cast<mission::State>(i);
+    if (!told.starts_with(mission::ToString(state))) continue;
+    end.last = mission::Report{
+        .state = state, .waits_for = asks ? mission::WaitsFor::kWay : mission::WaitsFor::kNothing};
+  }
+  return end;
+}
+
 Result<bool> Judge(const NetworkPlan& plan) {
-  std::vector<std::string> said;
-  for (std::string line; std::getline(std::cin, line);) said.push_back(line);
-  const auto report = JudgeJourneys(plan, said);
+  std::vector<JourneyEnd> ends;
+  for (std::string line; std::getline(std::cin, line);) ends.push_back(EndOf(line));
+  const auto report = JudgeJourneys(plan, ends);
   if (!report) return tl::unexpected(report.error());
   fmt::print("{}", JourneyTable(*report));
   return report->AllWell();

@@ -208,6 +208,19 @@ TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
                   Topic::kGlances);
 }
 
+TEST_P(RouteExchangeContract, CarriesWhatBecameOfAMission) {
+  ExpectRoundTrip(mission::Report{.agent = AgentId("r"),
+                                  .mission = std::string(64, 'm'),
+                                  .change = ~0U,
+                                  .state = mission::State::kExpired,
+                                  .task = ~0U,
+                                  .way = ~0U,
+                                  .waits_for = mission::WaitsFor::kLane,
+                                  .detail = std::string(kMaxLineBytes, 'd'),
+                                  .relayed = true},
+                  Topic::kMissionStates);
+}
+
 TEST_P(RouteExchangeContract, CarriesWordsOfTheNetwork) {
   const std::string words(kMaxLineBytes, 'w');
   ExpectRoundTrip(exchange::NetworkEdit{AgentId("o"), ~0ULL, words}, Topic::kNetworkEdits);
@@ -381,6 +394,8 @@ TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
       SegmentBatch{AgentId("a"), {}},
       SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
       SegmentRequest{AgentId("a"), {RouteId("short"), TeachingId(1)}, {}},
+      mission::Report{
+          .agent = AgentId("a"), .mission = "m", .waits_for = static_cast<mission::WaitsFor>(3)},
       CatalogRequest{AgentId("not a name"), 0, {}}};
   for (const Message& message : refused) {
     const auto result = writer->Publish(message);

@@ -52,6 +52,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   ReadOrders(text);
   ReadKept(text);
-  ReadKept("trailcast-missions 1\n" + text);
+  ReadKept("trailcast-missions 2\n" + text);
   return 0;
 }

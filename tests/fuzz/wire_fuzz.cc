@@ -241,6 +241,8 @@ class Samples {
     wire.change = Number();
     wire.state = Octet();
     wire.task = Number();
+    wire.way = Number();
+    wire.waits_for = Octet();
     wire.detail = Text();
     wire.relayed = Octet();
   }

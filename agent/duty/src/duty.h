@@ -45,7 +45,8 @@ class Duty {
   void AddDuty(exchange::AgentStatus& status) const;
   void NoteAilment(Time now);
   void TellNews();
-  void TellState(State state, const std::string& why);
+  void TellState(State state, const std::string& why,
+                 mission::WaitsFor waits_for = mission::WaitsFor::kNothing);
   [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
 
   void Work();
@@ -93,6 +94,7 @@ class Duty {
   Time deliver_at_{};
   Hands* hands_ = nullptr;     // while it teaches
   std::optional<State> told_;  // of the mission under way
+  mission::WaitsFor told_waits_for_{};
   std::string told_why_;
   mission::Task driven_;  // what is followed
   // Of that: where it ends, and that it ends at once, since it goes another way.

@@ -103,11 +103,13 @@ void Duty::WaitForWay() {
                                            elsewhere_.Lost(), missed_, kToldWithin.count()));
   }
   if (missed_.empty() && current.kind() == mission::Task::Kind::kWaitLane) {
-    const bool told = current.because.starts_with(mission::kWaits);
-    return TellState(State::kFetching, told ? current.because : kWaitsForWord);
+    const bool told = current.going.why == mission::Going::Why::kQueued;
+    return TellState(State::kFetching, told ? current.going.because : kWaitsForWord,
+                     mission::WaitsFor::kLane);
   }
   TellState(State::kFetching,
-            fmt::format("{}{}", mission::kAsksForWay, missed_.empty() ? current.because : missed_));
+            "waits for a way: " + (missed_.empty() ? current.going.because : missed_),
+            mission::WaitsFor::kWay);
 }
 
 // In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.
@@ -181,7 +183,7 @@ std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& fo
 // Of a robot that goes to a place: the route that it is to drive along after this one.
 std::optional<mission::Task> Duty::TaskAfter() const {
   const auto& current = desk_.current();
-  if (!current || !mission::GoingIn(current->mission.orders)) return std::nullopt;
+  if (!current || current->going.to.empty()) return std::nullopt;
   const std::size_t after = current->task + 1;
   if (after >= current->tasks.size()) return std::nullopt;
   const mission::Task& task = current->tasks[after];
@@ -250,7 +252,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
 // True: it looks elsewhere from now on. Who is only to drive a route may not be led over others.
 bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
-  if (!mission::GoingIn(desk_.current()->mission.orders) || !elsewhere_.MayBegin()) return false;
+  if (desk_.current()->going.to.empty() || !elsewhere_.MayBegin()) return false;
   // It listens to the network while it asks what it sees, and may be sent another way meanwhile:
   // what it is to do is looked at afterwards.
   const std::vector<std::string> seen = RoutesInView();

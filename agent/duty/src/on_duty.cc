@@ -125,13 +125,14 @@ void Duty::NoteAilment(steady_clock::time_point now) {
   ailment_ = std::move(ailment);
 }
 
-void Duty::TellState(State state, const std::string& why) {
+void Duty::TellState(State state, const std::string& why, mission::WaitsFor waits_for) {
   // Why it stands may change, as from paused to stopped; how far a route is fetched is no news.
   const bool same_reason = state != State::kPaused || why == told_why_;
-  if (told_ == state && same_reason) return;
+  if (told_ == state && told_waits_for_ == waits_for && same_reason) return;
   told_ = state;
+  told_waits_for_ = waits_for;
   told_why_ = why;
-  desk_.Tell(state, why);
+  desk_.Tell(state, why, waits_for);
 }
 
 // What follower or scout tells of itself is what becomes of the mission.

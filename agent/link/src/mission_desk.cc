@@ -18,9 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using mission::State;
 
-constexpr const char* kMissionsFirstLine = "trailcast-missions 1";
+constexpr const char* kMissionsFirstLine = "trailcast-missions 2";
 constexpr std::chrono::milliseconds kAgain{1000};
-constexpr std::size_t kFields = 10;
+constexpr std::size_t kFields = 12;
+constexpr std::size_t kMostOfWay = 20;  // bytes that WithWay makes a detail longer, at most
 
 // Texts have no control characters (exchange::CheckBounds), and thus no tabs.
 std::vector<std::string> FieldsIn(const std::string& line) {
@@ -32,6 +33,11 @@ std::vector<std::string> FieldsIn(const std::string& line) {
     if (tab == std::string::npos) return fields;
     at = tab + 1;
   }
+}
+
+// For people: of one who is on another way than at first, which.
+std::string WithWay(const std::string& detail, std::uint32_t way) {
+  return way < 2 ? detail : fmt::format("{}{}(way {})", detail, detail.empty() ? "" : " ", way);
 }
 
 }  // namespace
@@ -52,25 +58,29 @@ Result<void> MissionDesk::Load() {
     const std::vector<std::string> fields = FieldsIn(line);
     if (fields.size() != kFields) return wrong();
     std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 2; i < 8; ++i) {
+    for (std::size_t i = 2; i < 10; ++i) {
       const auto number = ParseNumber<std::uint32_t>(fields[i]);
       if (!number) return wrong();
       numbers.push_back(*number);
     }
-    if (numbers[2] >= mission::kStates || Find(fields[0]) != nullptr) return wrong();
+    const bool known = numbers[2] < mission::kStates &&
+                       numbers[5] <= static_cast<std::uint32_t>(mission::WaitsFor::kLane);
+    if (!known || Find(fields[0]) != nullptr) return wrong();
     kept_.push_back({.mission = {.agent = self_,
                                  .id = fields[0],
                                  .client = AgentId(fields[1]),
-                                 .orders = fields[8],
+                                 .orders = fields[10],
                                  .goes_on = numbers[0] != 0},
                      .last = {.agent = self_,
                               .mission = fields[0],
                               .change = numbers[1],
                               .state = static_cast<State>(numbers[2]),
                               .task = numbers[3],
-                              .detail = fields[9]},
-                     .lap = numbers[4],
-                     .confirmed = numbers[5] != 0});
+                              .way = numbers[4],
+                              .waits_for = static_cast<mission::WaitsFor>(numbers[5]),
+                              .detail = fields[11]},
+                     .lap = numbers[6],
+                     .confirmed = numbers[7] != 0});
     const bool in_bounds =
         exchange::CheckBounds(kept_.back().mission) && exchange::CheckBounds(kept_.back().last);
     if (!in_bounds || kept_.size() > kMostKept) return wrong();
@@ -89,7 +99,7 @@ Result<void> MissionDesk::Load() {
 void MissionDesk::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
   current_ = Current{
       .mission = kept.mission, .tasks = std::move(tasks), .task = kept.last.task, .lap = kept.lap};
-  if (auto going = mission::GoingIn(kept.mission.orders)) current_->because = going->because;
+  if (auto going = mission::GoingIn(kept.mission.orders)) current_->going = *std::move(going);
 }
 
 Result<void> MissionDesk::Keep() const {
@@ -97,9 +107,10 @@ Result<void> MissionDesk::Keep() const {
   std::string text = std::string(kMissionsFirstLine) + "\n";
   for (const Kept& kept : kept_) {
     const mission::Report& last = kept.last;
-    text += fmt::format("{}\t{}\t{:d}\t{}\t{:d}\t{}\t{}\t{:d}\t{}\t{}\n", kept.mission.id,
+    text += fmt::format("{}\t{}\t{:d}\t{}\t{:d}\t{}\t{}\t{:d}\t{}\t{:d}\t{}\t{}\n", kept.mission.id,
                         kept.mission.client.value(), kept.mission.goes_on, last.change,
-                        static_cast<int>(last.state), last.task, kept.lap, kept.confirmed,
+                        static_cast<int>(last.state), last.task, last.way,
+                        static_cast<int>(last.waits_for), kept.lap, kept.confirmed,
                         kept.mission.orders, last.detail);
   }
   return ReplaceFile(file_, text);
@@ -127,14 +138,17 @@ void MissionDesk::Handle(const exchange::Message& message) {
   }
 }
 
-void MissionDesk::Answer(Kept& kept, State state, const std::string& detail) {
+void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
+                         mission::WaitsFor waits_for) {
   ++kept.last.change;
   kept.last.state = state;
+  kept.last.waits_for = waits_for;
   // Of what has ended nobody needs to know the way.
   const auto going =
       mission::HasEnded(state) ? std::nullopt : mission::GoingIn(kept.mission.orders);
-  kept.last.detail = mission::WithWay(
-      PlainText(detail, exchange::kMaxLineBytes - mission::kMostOfWay), going ? going->way : 1);
+  kept.last.way = going ? going->way : 1;
+  kept.last.detail =
+      WithWay(PlainText(detail, exchange::kMaxLineBytes - kMostOfWay), kept.last.way);
   kept.confirmed = false;
   kept.due = true;
   news_.push_back(fmt::format("mission {} of {}, {}: {}{}{}", kept.mission.id,
@@ -178,9 +192,9 @@ void MissionDesk::Take(const mission::Mission& mission) {
 
 // A way that comes late is an old one.
 void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
-  const auto before = mission::GoingIn(kept.mission.orders);
+  const mission::Going& before = current_->going;
   const auto going = mission::GoingIn(mission.orders);
-  if (!before || !going || going->to != before->to || going->way <= before->way) return;
+  if (!going || going->to != before.to || going->way <= before.way) return;
   const bool begun = current_->begun;
   kept.mission.orders = mission.orders;
   kept.last.task = 0;
@@ -188,9 +202,8 @@ void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
   Begin(kept, *mission::ParseOrders(mission.orders));
   current_->begun = begun;
   amended_ = true;
-  const bool of_lane =
-      going->because.starts_with(mission::kWaits) || going->because.starts_with(mission::kEnters);
-  Answer(kept, kept.last.state, (of_lane ? "" : "re-planned: ") + going->because);
+  const bool replanned = going->why == mission::Going::Why::kReplanned;
+  Answer(kept, kept.last.state, (replanned ? "re-planned: " : "") + going->because);
   KeepOrSay();
 }
 
@@ -206,11 +219,11 @@ void MissionDesk::Confirm(const mission::Report& report) {
   kept->confirmed = true;  // saying it once more after a restart does no harm: not on the disk
 }
 
-void MissionDesk::Tell(State state, const std::string& detail) {
+void MissionDesk::Tell(State state, const std::string& detail, mission::WaitsFor waits_for) {
   if (!current_) return;
   Kept& kept = CurrentKept();
   kept.last.task = current_->task;
-  Answer(kept, state, detail);
+  Answer(kept, state, detail, waits_for);
   if (mission::HasEnded(state)) current_.reset();
   KeepOrSay();
 }

@@ -283,6 +283,8 @@ mission::Report From(const trailcast_wire_MissionReport& wire) {
           .change = wire.change,
           .state = static_cast<mission::State>(wire.state),
           .task = wire.task,
+          .way = wire.way,
+          .waits_for = static_cast<mission::WaitsFor>(wire.waits_for),
           .detail = Text(wire.detail),
           .relayed = wire.relayed != 0};
 }

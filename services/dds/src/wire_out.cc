@@ -344,6 +344,8 @@ trailcast_wire_MissionReport ToWire(const mission::Report& message) {
           .change = message.change,
           .state = static_cast<std::uint8_t>(message.state),
           .task = message.task,
+          .way = message.way,
+          .waits_for = static_cast<std::uint8_t>(message.waits_for),
           .detail = Lend(message.detail),
           .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0)};
 }

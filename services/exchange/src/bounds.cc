@@ -238,6 +238,9 @@ Result<void> Check(const mission::Report& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("mission", message.mission); !ok) return ok;
   if (auto ok = CheckEnum("mission state", message.state, mission::State::kExpired); !ok) return ok;
+  if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kLane); !ok) {
+    return ok;
+  }
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
 

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/base/result.h"
 #include "services/lab/demo/demo_plan.h"
 #include "services/lab/trial/path_judge.h"
+#include "services/mission/mission.h"
 #include "services/plot/plan_plot.h"
 
 namespace trailcast::demo {
+
+// What became of a journey by its robot's own word.
+struct JourneyEnd {
+  std::string said;                     // what `send` said of it last, for people
+  std::optional<mission::Report> last;  // none was heard: it was not sent
+};
 
 // How a robot fared that was sent over the network of routes.
 struct JourneyRow {
@@ -36,10 +44,10 @@ struct JourneyReport {
   [[nodiscard]] bool AllWell() const;
 };
 
-// Reads what the processes left. `said`: of each journey. Errors: what a scout drove cannot be
+// Reads what the processes left. `ends`: of each journey. Errors: what a scout drove cannot be
 // read, or does not reach the goal.
 [[nodiscard]] Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan,
-                                                  const std::vector<std::string>& said);
+                                                  const std::vector<JourneyEnd>& ends);
 
 [[nodiscard]] std::string JourneyTable(const JourneyReport& report);
 // The taught paths first.

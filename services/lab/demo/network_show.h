@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "services/lab/demo/child_process.h"
 #include "services/lab/demo/demo_plan.h"
 #include "services/lab/demo/fleet_view.h"
+#include "services/lab/demo/journey_report.h"
 #include "services/program/command_line.h"
 
 namespace trailcast::demo {
@@ -23,6 +25,8 @@ class NetworkShow {
   NetworkShow(std::filesystem::path programs, std::filesystem::path folder,
               const program::CommonOptions& network, const NetworkPlan& plan);
 
+  // Whatever is heard; from the main thread, as all of this.
+  void Hear(const std::vector<exchange::Message>& messages);
   // As far as it can go now; from the main thread. An error: a command that failed, and what it
   // said.
   [[nodiscard]] Result<void> Step(const FleetView& view, Time now);
@@ -30,8 +34,8 @@ class NetworkShow {
   [[nodiscard]] bool over() const { return stage_ == Stage::kOver; }
   // What was typed, each with the line it was answered with last.
   [[nodiscard]] const std::vector<std::string>& typed() const { return typed_; }
-  // What each journey's `send` said last, in the plan's order.
-  [[nodiscard]] std::vector<std::string> LastWords() const;
+  // What became of each journey, in the plan's order.
+  [[nodiscard]] std::vector<JourneyEnd> Ends() const;
 
  private:
   enum class Stage { kTaught, kProposals, kJoin, kSend, kClose, kWait, kOver };
@@ -44,7 +48,8 @@ class NetworkShow {
   [[nodiscard]] Result<void> SendAll();
   [[nodiscard]] bool AllTaught(const FleetView& view) const;
   // Who was carried to where no way leads on may wait for one.
-  [[nodiscard]] bool AllEnded(const FleetView& view, Time now);
+  [[nodiscard]] bool AllEnded(Time now);
+  [[nodiscard]] std::optional<mission::Report> ReportOf(std::size_t journey) const;
 
   std::filesystem::path programs_;
   std::filesystem::path folder_;
@@ -54,6 +59,7 @@ class NetworkShow {
   std::vector<std::vector<std::string>> to_type_;  // one after the other
   std::optional<ChildProcess> running_;
   std::vector<ChildProcess> sends_;
+  std::map<AgentId, mission::Report> reports_;  // the last of each robot
   std::vector<std::string> typed_;
   Time proposals_until_{};
   std::optional<Time> waits_since_{};

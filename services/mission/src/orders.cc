@@ -22,7 +22,8 @@ constexpr const char* kGrammar =
     "...]', 'turn DEGREES' or 'wait SECONDS', one after the other";
 constexpr const char* kWay =
     "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone, and 'turn DEGREES' before one";
-constexpr std::string_view kWaySaid = " (way ";
+constexpr const char* kQueued = "queued";
+constexpr const char* kAdmitted = "admitted";
 constexpr std::size_t kLongestPlace = 96;
 constexpr std::uint32_t kMostWays = 1'000'000'000;
 constexpr std::uint32_t kMostLaps = 10'000;
@@ -82,6 +83,9 @@ class Parser {
     const auto way = ParseNumber<std::uint32_t>(word);
     if (!way || *way < 2 || *way > kMostWays) return Wrong(word, "which way it is, 2 or more");
     going_->way = *way;
+    if (Next() == kQueued || Next() == kAdmitted) {
+      going_->why = Take() == kQueued ? Going::Why::kQueued : Going::Why::kAdmitted;
+    }
     return {};
   }
 
@@ -225,19 +229,6 @@ std::optional<Going> GoingIn(std::string_view orders) {
   return parser.All() ? parser.going() : std::nullopt;
 }
 
-std::string WithWay(const std::string& detail, std::uint32_t way) {
-  if (way < 2) return detail;
-  return fmt::format("{}{}{})", detail, detail.empty() ? kWaySaid.substr(1) : kWaySaid, way);
-}
-
-std::uint32_t WayIn(std::string_view detail) {
-  const std::size_t at = detail.rfind(kWaySaid.substr(1));
-  if (at == std::string_view::npos || !detail.ends_with(')')) return 1;
-  detail.remove_prefix(at + kWaySaid.size() - 1);
-  detail.remove_suffix(1);
-  return ParseNumber<std::uint32_t>(detail).value_or(1);
-}
-
 std::set<std::string> RoutesIn(std::string_view orders) {
   std::set<std::string> routes;
   const auto tasks = ParseOrders(orders);
@@ -282,9 +273,13 @@ std::string ToText(std::span<const Task> tasks) {
 }
 
 std::string ToText(const Going& going, std::span<const Task> tasks) {
-  return fmt::format("goto {}{} {}{}{}", going.to,
-                     going.way > 1 ? fmt::format(" way {}", going.way) : "", ToText(tasks),
-                     going.because.empty() ? "" : " because ", going.because);
+  std::string text = "goto " + going.to;
+  if (going.way > 1) text += fmt::format(" way {}", going.way);
+  if (going.why == Going::Why::kQueued) text += fmt::format(" {}", kQueued);
+  if (going.why == Going::Why::kAdmitted) text += fmt::format(" {}", kAdmitted);
+  text += " " + ToText(tasks);
+  if (!going.because.empty()) text += " because " + going.because;
+  return text;
 }
 
 const char* ToString(State state) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 // `number` counts up in the order of arrival. A mission is found by each route that its orders
 // name.
 constexpr OwnFile kMissionFile{.id = 0x5452434D,  // "TRCM"
-                               .version = 1,
+                               .version = 2,
                                .tables = R"(
 CREATE TABLE mission (
   number INTEGER PRIMARY KEY,
@@ -33,6 +33,8 @@ CREATE TABLE mission (
   change INTEGER NOT NULL,
   state INTEGER NOT NULL,
   task INTEGER NOT NULL,
+  way INTEGER NOT NULL,
+  waits_for INTEGER NOT NULL,
   detail TEXT NOT NULL,
   changed_unix_ms INTEGER NOT NULL,
   UNIQUE (agent, id)
@@ -67,9 +69,9 @@ CREATE TABLE answer (
                                .called = "mission store"};
 
 constexpr const char* kColumns =
-    "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, detail, "
-    "changed_unix_ms, number";
-constexpr int kNumberColumn = 12;
+    "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, way, "
+    "waits_for, detail, changed_unix_ms, number";
+constexpr int kNumberColumn = 14;
 
 mission::Record RecordIn(SQLite::Statement& row) {
   const auto small = [&](int column) {
@@ -89,8 +91,11 @@ mission::Record RecordIn(SQLite::Statement& row) {
       .change = small(7),
       .state = static_cast<mission::State>(std::min<std::uint32_t>(small(8), mission::kStates - 1)),
       .task = small(9),
-      .detail = row.getColumn(10).getString()};
-  record.changed_unix_ms = row.getColumn(11).getInt64();
+      .way = small(10),
+      .waits_for = static_cast<mission::WaitsFor>(
+          std::min(small(11), static_cast<std::uint32_t>(mission::WaitsFor::kLane))),
+      .detail = row.getColumn(12).getString()};
+  record.changed_unix_ms = row.getColumn(13).getInt64();
   return record;
 }
 
@@ -148,8 +153,8 @@ struct MissionStore::Database : OwnDatabase {
   void Insert(const mission::Mission& mission, std::int64_t now_unix_ms) {
     auto insert = compiled.Take(
         "INSERT INTO mission (agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, "
-        "change, state, task, detail, changed_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, 0, 0, "
-        "0, '', ?7)");
+        "change, state, task, way, waits_for, detail, changed_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, "
+        "?6, ?7, 0, 0, 0, 1, 0, '', ?7)");
     insert->bind(1, mission.agent.value());
     insert->bind(2, mission.id);
     insert->bind(3, mission.client.value());
@@ -271,8 +276,8 @@ Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t no
                             [&]() -> Result<bool> {
                               // A server's own word (0) counts until the robot's does.
                               auto update = database_->compiled.Take(
-                                  "UPDATE mission SET change = ?3, state = ?4, task = ?5, detail = "
-                                  "?6, changed_unix_ms = ?7 "
+                                  "UPDATE mission SET change = ?3, state = ?4, task = ?5, way = "
+                                  "?6, waits_for = ?7, detail = ?8, changed_unix_ms = ?9 "
                                   "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
                                   "change = 0 AND state = 0))");
                               update->bind(1, report.agent.value());
@@ -280,8 +285,10 @@ Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t no
                               update->bind(3, static_cast<std::int64_t>(report.change));
                               update->bind(4, static_cast<int>(report.state));
                               update->bind(5, static_cast<std::int64_t>(report.task));
-                              update->bind(6, report.detail);
-                              update->bind(7, now_unix_ms);
+                              update->bind(6, static_cast<std::int64_t>(report.way));
+                              update->bind(7, static_cast<int>(report.waits_for));
+                              update->bind(8, report.detail);
+                              update->bind(9, now_unix_ms);
                               return update->exec() > 0;
                             });
 }

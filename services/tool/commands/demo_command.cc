@@ -113,7 +113,9 @@ Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& r
 Result<int> WatchToTheEnd(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
                           const program::CommonOptions& network, WatchOptions watch,
                           const std::function<Result<int>()>& report) {
-  const auto exchange = program::OpenExchange(network, exchange::ObserverTopics());
+  exchange::TopicUse use = exchange::ObserverTopics();
+  use.read.push_back(exchange::Topic::kMissionStates);
+  const auto exchange = program::OpenExchange(network, use);
   if (!exchange) return tl::unexpected(exchange.error());
   const double timeout_s = watch.timeout_s;
   switch (WatchFleet(fleet, robots, **exchange, std::move(watch))) {
@@ -150,7 +152,7 @@ Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan
   fleet.Stop();
   std::fputs("\nWhat the operator typed, and what was answered:\n", stdout);
   for (const std::string& line : show.typed()) fmt::print("  {}\n", line);
-  const auto report = demo::JudgeJourneys(plan, show.LastWords());
+  const auto report = demo::JudgeJourneys(plan, show.Ends());
   if (!report) return tl::unexpected(report.error());
   std::fputs(("\n" + demo::JourneyTable(*report)).c_str(), stdout);
   const std::filesystem::path picture = options.out / kPicture;
@@ -176,6 +178,7 @@ Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesy
     return fmt::format("{:.0f} s: {}", elapsed_s,
                        show.typed().empty() ? "three scouts teach" : show.typed().back());
   };
+  watch.hear = [&](const std::vector<exchange::Message>& messages) { show.Hear(messages); };
   watch.step = [&](const demo::FleetView& view) -> Result<bool> {
     if (auto stepped = show.Step(view, Clock::now()); !stepped) {
       return tl::unexpected(stepped.error());

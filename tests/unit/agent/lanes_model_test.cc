@@ -23,6 +23,7 @@ namespace {
 
 using mission::State;
 using mission::Task;
+using mission::WaitsFor;
 using std::chrono::milliseconds;
 using Time = std::chrono::steady_clock::time_point;
 
@@ -44,8 +45,7 @@ struct Walker {
   bool placed = true;  // it has found itself on its route
   Time finds_itself{};
   bool missed = false;
-  std::optional<State> told{};
-  std::string told_why{};
+  std::optional<std::pair<State, WaitsFor>> told{};
   bool arrived = false;
   Time says_at{};
   std::deque<std::pair<Time, exchange::Message>> in{};
@@ -257,11 +257,11 @@ class LanesModel {
     }
   }
 
-  void Tell(Walker& walker, State state, const std::string& why) {
-    if (walker.told == state && walker.told_why == why) return;
-    walker.told = state;
-    walker.told_why = why;
-    walker.desk.Tell(state, why);
+  // In words that say nothing.
+  void Tell(Walker& walker, State state, WaitsFor waits_for = WaitsFor::kNothing) {
+    if (walker.told == std::pair(state, waits_for)) return;
+    walker.told.emplace(state, waits_for);
+    walker.desk.Tell(state, "xyzzy", waits_for);
   }
   void GoOtherWay(Walker& walker) {
     walker.missed = false;
@@ -310,7 +310,10 @@ class LanesModel {
     const Task& task = current.tasks[current.task];
     if (walker.missed || task.kind != Task::Kind::kFollow) {
       walker.driven.reset();
-      return Tell(walker, State::kFetching, current.because);
+      return Tell(walker, State::kFetching,
+                  walker.missed || task.kind == Task::Kind::kWaitWay ? WaitsFor::kWay
+                  : task.kind == Task::Kind::kWaitLane               ? WaitsFor::kLane
+                                                                     : WaitsFor::kNothing);
     }
     if (!walker.driven) {
       walker.driven = task;
@@ -324,7 +327,7 @@ class LanesModel {
     }
     if (now_ < walker.finds_itself) return;
     walker.placed = true;
-    Tell(walker, State::kUnderWay, "");
+    Tell(walker, State::kUnderWay);
     const double sign = walker.driven->backwards ? -1.0 : 1.0;
     double room_m = std::min(walker.speed_mps * kStep_s,
                              std::max(0.0, sign * (walker.driven->to_m - walker.along_m)));

@@ -155,10 +155,11 @@ TEST_F(MissionDeskTest, AServerSendsItAnotherWayToTheSamePlace) {
   const Report amended = Answer(way(round));
   EXPECT_EQ(amended.state, State::kUnderWay);
   EXPECT_EQ(amended.detail, "re-planned: it was so (way 3)");
+  EXPECT_EQ(amended.way, 3U);
   EXPECT_EQ(amended.task, 0U);
   EXPECT_TRUE(desk_->TakeAmended());
   EXPECT_FALSE(desk_->TakeAmended());
-  EXPECT_EQ(desk_->current()->because, "it was so");
+  EXPECT_EQ(desk_->current()->going.because, "it was so");
   EXPECT_EQ(desk_->current()->tasks.at(1).route.route, "yard");
   desk_->GoOnAt(1);
   Restart();
@@ -178,6 +179,29 @@ TEST_F(MissionDeskTest, AServerSendsItAnotherWayToTheSamePlace) {
   desk_->Tell(State::kArrived);
   desk_->Handle(way("goto bay way 4 follow hall 0..1"));
   EXPECT_FALSE(desk_->current()) << "it is over";
+}
+
+TEST_F(MissionDeskTest, WhetherItIsQueuedOrAdmittedIsNotReadInWords) {
+  using Why = mission::Going::Why;
+  (void)Answer(For("m1", "goto bay follow hall 0..2"));
+  const auto why = [&](const std::string& way) {
+    Mission mission = For("m1", "goto bay " + way);
+    mission.relayed = true;
+    EXPECT_EQ(Answer(mission).waits_for, mission::WaitsFor::kNothing);
+    return desk_->current()->going.why;
+  };
+  EXPECT_EQ(why("way 2 queued wait lane follow hall 0..2 because xyzzy"), Why::kQueued);
+  desk_->Tell(State::kFetching, "xyzzy", mission::WaitsFor::kLane);
+  EXPECT_EQ(Due().back().waits_for, mission::WaitsFor::kLane);
+  Restart();
+  const Report remembered = Due().back();
+  EXPECT_EQ(remembered.waits_for, mission::WaitsFor::kLane);
+  EXPECT_EQ(remembered.way, 2U);
+  EXPECT_EQ(remembered.detail, "xyzzy (way 2)");
+  EXPECT_EQ(why("way 3 admitted follow hall 0..2 because xyzzy"), Why::kAdmitted);
+  EXPECT_EQ(why("way 4 follow hall 0..2 because waits for xyzzy"), Why::kReplanned);
+  desk_->Tell(State::kUnderWay);
+  EXPECT_EQ(Due().back().waits_for, mission::WaitsFor::kNothing);
 }
 
 TEST_F(MissionDeskTest, AnswersOthersNot) {
@@ -207,12 +231,14 @@ TEST_F(MissionDeskTest, ForgetsTheOldestThatHaveEnded) {
 }
 
 TEST_F(MissionDeskTest, AFileThatIsSomebodyElsesIsNotTaken) {
-  for (const char* text : {"nonsense\n", "trailcast-missions 1\nm1\tdesk\n",
-                           "trailcast-missions 1\nm1\tdesk\t0\t1\t99\t0\t0\t0\tfollow hall\t\n",
-                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t7\t0\t0\tfollow hall\t\n",
-                           "trailcast-missions 1\nm 1\tdesk\t0\t1\t6\t0\t0\t0\tfollow hall\t\n",
-                           "trailcast-missions 1\nm1\tdesk\t0\t1\t4\t0\t0\t0\twait 1\t\n"
-                           "m2\tdesk\t0\t1\t4\t0\t0\t0\twait 1\t\n"}) {
+  for (const char* text :
+       {"nonsense\n", "trailcast-missions 1\n", "trailcast-missions 2\nm1\tdesk\n",
+        "trailcast-missions 2\nm1\tdesk\t0\t1\t99\t0\t1\t0\t0\t0\twait 1\t\n",
+        "trailcast-missions 2\nm1\tdesk\t0\t1\t4\t7\t1\t0\t0\t0\twait 1\t\n",
+        "trailcast-missions 2\nm1\tdesk\t0\t1\t4\t0\t1\t9\t0\t0\twait 1\t\n",
+        "trailcast-missions 2\nm 1\tdesk\t0\t1\t6\t0\t1\t0\t0\t0\twait 1\t\n",
+        "trailcast-missions 2\nm1\tdesk\t0\t1\t4\t0\t1\t0\t0\t0\twait 1\t\n"
+        "m2\tdesk\t0\t1\t4\t0\t1\t0\t0\t0\twait 1\t\n"}) {
     std::ofstream(folder_ / "missions") << text;
     MissionDesk desk(AgentId("robot1"), folder_ / "missions");
     const auto loaded = desk.Load();

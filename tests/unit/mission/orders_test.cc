@@ -49,6 +49,8 @@ TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
        {"goto office@3 follow hall 0..1.5 follow office 1.5..3",
         "goto loading-bay way 2 follow hall 0.4..1.5 follow yard 0..3 because hall 3..7 was closed",
         "goto way way 3 wait way because every way there is closed",
+        "goto bay way 2 queued wait lane follow hall 0..3 because waits for robot1",
+        "goto bay way 3 admitted follow hall 0..3",
         "goto office@3 way 2 follow because 0..2 wait way",
         "goto office@3 wait lane follow hall 0..12 wait lane follow office 0..3",
         "goto bay follow hall 2..5 follow hall backwards 5..1 turn 180 follow office 0..3",
@@ -63,6 +65,10 @@ TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
   EXPECT_EQ(going->to, "bay");
   EXPECT_EQ(going->way, 7U);
   EXPECT_EQ(going->because, "it was so");
+  EXPECT_EQ(going->why, Going::Why::kReplanned);
+  EXPECT_EQ(GoingIn("goto bay way 2 queued wait lane")->why, Going::Why::kQueued);
+  EXPECT_EQ(GoingIn("goto bay way 2 admitted follow hall 0..1")->why, Going::Why::kAdmitted);
+  EXPECT_FALSE(GoingIn("goto bay queued follow hall 0..1")) << "of the first way there is none";
   EXPECT_FALSE(GoingIn("follow hall"));
   EXPECT_FALSE(GoingIn("goto bay teach yard"));
 }

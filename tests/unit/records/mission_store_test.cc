@@ -40,9 +40,15 @@ class MissionStoreTest : public testing::Test {
     ASSERT_TRUE(added) << added.error().message;
   }
   bool Change(const std::string& robot, const std::string& id, std::uint32_t change, State state) {
-    const auto news = store_->Change(
-        {.agent = AgentId(robot), .mission = id, .change = change, .state = state, .detail = "why"},
-        ++now_ms_);
+    const auto news = store_->Change({.agent = AgentId(robot),
+                                      .mission = id,
+                                      .change = change,
+                                      .state = state,
+                                      .task = 2,
+                                      .way = 3,
+                                      .waits_for = mission::WaitsFor::kLane,
+                                      .detail = "why"},
+                                     ++now_ms_);
     EXPECT_TRUE(news);
     return news.value_or(false);
   }
@@ -69,6 +75,9 @@ TEST_F(MissionStoreTest, KeepsAMissionAndWhatBecameOfItOverARestart) {
   const mission::Record& record = page->missions[0];
   EXPECT_EQ(record.mission, For("robot1", "m1"));
   EXPECT_EQ(record.last.state, State::kAccepted);
+  EXPECT_EQ(record.last.task, 2U);
+  EXPECT_EQ(record.last.way, 3U);
+  EXPECT_EQ(record.last.waits_for, mission::WaitsFor::kLane);
   EXPECT_EQ(record.last.detail, "why");
   EXPECT_EQ(record.sent_unix_ms, 1001);
   EXPECT_EQ(record.changed_unix_ms, 1002);

@@ -8,7 +8,6 @@
 
 #include "services/lab/demo/demo_report.h"
 #include "services/lab/sim/core/path.h"
-#include "services/mission/orders.h"
 
 namespace trailcast::demo {
 namespace {
@@ -86,7 +85,7 @@ bool JourneyReport::AllWell() const {
   return std::all_of(rows.begin(), rows.end(), [](const JourneyRow& row) { return row.well(); });
 }
 
-Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, const std::vector<std::string>& said) {
+Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, const std::vector<JourneyEnd>& ends) {
   JourneyReport report;
   for (const DemoRobot& robot : plan.robots) {
     if (!robot.is_scout()) continue;
@@ -102,18 +101,18 @@ Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan, const std::vector<s
   const Eigen::Vector2d goal = sim::PointAlong(to_goal.points_m(), plan.goal_m);
   for (std::size_t i = 0; i < plan.journeys.size(); ++i) {
     const NetworkPlan::Journey& journey = plan.journeys[i];
+    const auto last = i < ends.size() ? ends[i].last : std::nullopt;
     JourneyRow row{.robot = plan.robots[journey.robot],
                    .from = journey.from,
-                   .said = i < said.size() ? said[i] : "it was not sent"};
+                   .said = i < ends.size() ? ends[i].said : "it was not sent"};
     const auto driven = ReadTruth(row.robot.truth);
     if (driven && !driven->positions_m.empty()) {
       row.legs = LegsOf(*driven);
       row.goal_m = (row.legs.back().end_m() - goal).norm();
       row.beside_m = Beside_m(row.legs.front(), report.taught);
-      row.arrived = row.said == row.robot.name + ": arrived" && row.goal_m < kThere_m;
-      row.gave_up = row.said.starts_with(row.robot.name + ": failed: ") ||
-                    row.said.starts_with(
-                        fmt::format("{}: fetching: {}", row.robot.name, mission::kAsksForWay));
+      row.arrived = last && last->state == mission::State::kArrived && row.goal_m < kThere_m;
+      row.gave_up = last && (last->state == mission::State::kFailed ||
+                             last->waits_for == mission::WaitsFor::kWay);
       row.trespassed = Trespassed(row, plan, to_goal);
     }
     report.rows.push_back(std::move(row));

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "services/lab/demo/src/network_words.h"
-#include "services/mission/orders.h"
+#include "services/network/words.h"
 
 namespace trailcast::demo {
 namespace {
@@ -79,7 +80,7 @@ void NetworkShow::TakeAnswer(Time now) {
     return;
   }
   const auto proposed = std::count_if(answer.begin(), answer.end(), [](const std::string& line) {
-    return line.starts_with("proposed join");
+    return network::ParseListed(line).proposal.has_value();
   });
   if (proposed < kEnoughProposals && now <= proposals_until_) return;
   // What is too short to be found, the operator knows.
@@ -127,18 +128,31 @@ Result<void> NetworkShow::Step(const FleetView& view, Time now) {
     case Stage::kOver:
       break;
   }
-  if (AllEnded(view, now)) stage_ = Stage::kOver;
+  if (AllEnded(now)) stage_ = Stage::kOver;
   return {};
 }
 
-bool NetworkShow::AllEnded(const FleetView& view, Time now) {
+void NetworkShow::Hear(const std::vector<exchange::Message>& messages) {
+  for (const exchange::Message& message : messages) {
+    const auto* report = std::get_if<mission::Report>(&message);
+    if (report == nullptr) continue;
+    const auto [known, is_first] = reports_.try_emplace(report->agent, *report);
+    if (!is_first && mission::IsNewer(*report, known->second)) known->second = *report;
+  }
+}
+
+std::optional<mission::Report> NetworkShow::ReportOf(std::size_t journey) const {
+  const auto known = reports_.find(AgentId(plan_.robots[plan_.journeys[journey].robot].name));
+  return known == reports_.end() ? std::nullopt : std::optional(known->second);
+}
+
+bool NetworkShow::AllEnded(Time now) {
   bool one_waits = false;
   for (std::size_t i = 0; i < sends_.size(); ++i) {
     if (sends_[i].Poll()) continue;
     const DemoRobot& robot = plan_.robots[plan_.journeys[i].robot];
-    const auto* status = view.Find(AgentId(robot.name));
-    one_waits = !robot.carry.empty() && status != nullptr &&
-                status->detail.starts_with(mission::kAsksForWay);
+    const auto report = ReportOf(i);
+    one_waits = !robot.carry.empty() && report && report->waits_for == mission::WaitsFor::kWay;
     if (!one_waits) {
       waits_since_.reset();
       return false;
@@ -148,13 +162,13 @@ bool NetworkShow::AllEnded(const FleetView& view, Time now) {
   return !one_waits || now - *waits_since_ >= kWaitsFor;
 }
 
-std::vector<std::string> NetworkShow::LastWords() const {
-  std::vector<std::string> words;
-  for (const ChildProcess& send : sends_) {
-    const auto lines = LastLines(send.log(), 1);
-    words.push_back(lines.empty() ? "" : lines.front());
+std::vector<JourneyEnd> NetworkShow::Ends() const {
+  std::vector<JourneyEnd> ends;
+  for (std::size_t i = 0; i < sends_.size(); ++i) {
+    const auto lines = LastLines(sends_[i].log(), 1);
+    ends.push_back({lines.empty() ? "" : lines.front(), ReportOf(i)});
   }
-  return words;
+  return ends;
 }
 
 }  // namespace trailcast::demo

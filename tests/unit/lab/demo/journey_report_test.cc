@@ -10,6 +10,7 @@
 namespace trailcast::demo {
 namespace {
 
+using mission::State;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -28,8 +29,8 @@ class JourneyReportTest : public ::testing::Test {
       }
     }
   }
-  [[nodiscard]] Result<JourneyReport> Judge(const std::vector<std::string>& said) const {
-    return JudgeJourneys(plan_, said);
+  [[nodiscard]] Result<JourneyReport> Judge(const std::vector<JourneyEnd>& ends) const {
+    return JudgeJourneys(plan_, ends);
   }
   // Ten metres along x, from there.
   static void Drive(const DemoRobot& robot, double x_m, double y_m) {
@@ -56,22 +57,26 @@ class JourneyReportTest : public ::testing::Test {
   [[nodiscard]] const DemoRobot& Sent(std::size_t journey) const {
     return plan_.robots[plan_.journeys[journey].robot];
   }
-  [[nodiscard]] std::vector<std::string> AllSay(const std::string& what) const {
-    std::vector<std::string> said;
+  // In words that say nothing.
+  [[nodiscard]] static JourneyEnd In(mission::State state, const std::string& said = "xyzzy") {
+    return {.said = said, .last = mission::Report{.state = state}};
+  }
+  // But for who was carried off.
+  [[nodiscard]] std::vector<JourneyEnd> AllArrive() const {
+    std::vector<JourneyEnd> ends;
     for (std::size_t i = 0; i < plan_.journeys.size(); ++i) {
-      said.push_back(Sent(i).name + ": " + (Sent(i).carry.empty() ? what : kLost));
+      ends.push_back(In(Sent(i).carry.empty() ? State::kArrived : State::kFailed));
     }
-    return said;
+    return ends;
   }
   static constexpr double kBeside_m = 0.35;  // taught paths, and with it what is closed
-  static constexpr const char* kLost = "failed: LOST: nothing of it is in view";
 
   test::TempDir folder_;
   NetworkPlan plan_;
 };
 
 TEST_F(JourneyReportTest, WhoSaysSoAndStandsAtTheGoalHasArrived) {
-  const auto report = Judge(AllSay("arrived"));
+  const auto report = Judge(AllArrive());
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->AllWell());
   EXPECT_TRUE(report->rows[Other()].arrived);
@@ -87,9 +92,9 @@ TEST_F(JourneyReportTest, WhoSaysSoElsewhereHasNotArrivedNorWhoSaysWhyNot) {
     if (i != Carried()) others.push_back(i);
   }
   Drive(Sent(others[0]), 0.2, 0.6);
-  auto said = AllSay("arrived");
-  said[others[1]] = Sent(others[1]).name + ": failed: LOST: not where it is said to stand";
-  const auto report = Judge(said);
+  auto ends = AllArrive();
+  ends[others[1]] = In(State::kFailed, "LOST: not where it is said to stand");
+  const auto report = Judge(ends);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_FALSE(report->AllWell());
   EXPECT_FALSE(report->rows[others[0]].arrived);
@@ -108,7 +113,7 @@ TEST_F(JourneyReportTest, ARobotThatWasNeverSentHasNotArrived) {
 }
 
 TEST_F(JourneyReportTest, WhoWasCarriedOffMayGiveUpAndSayWhy) {
-  const auto report = Judge(AllSay("arrived"));
+  const auto report = Judge(AllArrive());
   ASSERT_TRUE(report) << report.error().message;
   const JourneyRow& row = report->rows[Carried()];
   EXPECT_TRUE(row.carried());
@@ -119,23 +124,32 @@ TEST_F(JourneyReportTest, WhoWasCarriedOffMayGiveUpAndSayWhy) {
       HasSubstr("was carried off after 2.0 m, to 9.0,5.0; it drove on for 1.0 m and said: "));
 }
 
+TEST_F(JourneyReportTest, WhoWasCarriedOffMayWaitForAWayAndForNothingElse) {
+  auto ends = AllArrive();
+  ends[Carried()] = In(State::kFetching, "waits for a way: ..");
+  EXPECT_FALSE(Judge(ends)->rows[Carried()].well());
+  ends[Carried()] = In(State::kFetching);
+  ends[Carried()].last->waits_for = mission::WaitsFor::kWay;
+  EXPECT_TRUE(Judge(ends)->rows[Carried()].well());
+}
+
 TEST_F(JourneyReportTest, WhoWasCarriedOffMayNotSayThatItHasArrivedElsewhere) {
-  auto said = AllSay("arrived");
-  said[Carried()] = Sent(Carried()).name + ": arrived";
-  auto report = Judge(said);
+  auto ends = AllArrive();
+  ends[Carried()] = In(State::kArrived);
+  auto report = Judge(ends);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_FALSE(report->rows[Carried()].well());
   DriveAndBeCarried(Sent(Carried()), {8.9, 0.1});
-  report = Judge(said);
+  report = Judge(ends);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->rows[Carried()].well()) << "it found itself";
 }
 
 TEST_F(JourneyReportTest, WhoWasToBeCarriedOffAndWasNotShowsNothing) {
   Drive(Sent(Carried()), 0.0, kBeside_m);
-  auto said = AllSay("arrived");
-  said[Carried()] = Sent(Carried()).name + ": arrived";
-  const auto report = Judge(said);
+  auto ends = AllArrive();
+  ends[Carried()] = In(State::kArrived);
+  const auto report = Judge(ends);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_FALSE(report->AllWell());
   EXPECT_THAT(JourneyTable(*report), HasSubstr("was to be carried off"));
@@ -143,7 +157,7 @@ TEST_F(JourneyReportTest, WhoWasToBeCarriedOffAndWasNotShowsNothing) {
 
 TEST_F(JourneyReportTest, NobodyDrivesOnWhatIsClosed) {
   Drive(Sent(Other()), 0.0, 0.25);
-  const auto report = Judge(AllSay("arrived"));
+  const auto report = Judge(AllArrive());
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->rows[Other()].arrived);
   EXPECT_FALSE(report->AllWell());
@@ -152,7 +166,7 @@ TEST_F(JourneyReportTest, NobodyDrivesOnWhatIsClosed) {
 
 TEST_F(JourneyReportTest, AScoutThatDidNotDriveSoFarIsToldOf) {
   plan_.goal_m = 10.5;
-  const auto report = Judge(AllSay("arrived"));
+  const auto report = Judge(AllArrive());
   ASSERT_FALSE(report);
   EXPECT_THAT(report.error().message, HasSubstr("scout-1"));
 }

@@ -64,14 +64,15 @@ class LaneKeeperTest : public testing::Test {
         now_, 1000);
     Say(robot, State::kAccepted);
   }
-  void Say(const std::string& robot, State state, const std::string& detail = "",
-           std::uint32_t task = 0) {
+  // In words that say nothing.
+  void Say(const std::string& robot, State state, std::uint32_t way = 1, std::uint32_t task = 0) {
     missions_->Handle(mission::Report{.agent = AgentId(robot),
                                       .mission = "m1",
                                       .change = ++change_,
                                       .state = state,
                                       .task = task,
-                                      .detail = detail},
+                                      .way = way,
+                                      .detail = "xyzzy"},
                       now_, 1000);
   }
   // What is said when it is heard, a second later.
@@ -96,16 +97,16 @@ class LaneKeeperTest : public testing::Test {
     EXPECT_THAT(IsAt("robot1", 1, 8.0), IsEmpty());
     EXPECT_THAT(IsAt("robot1", 1, 9.3), ElementsAre("robot1: mission m1 enters hall 10..14"));
     EXPECT_EQ(Orders("robot1"),
-              "goto hall@30 way 2 follow hall 9.3..30 because enters hall 10..14");
-    Say("robot1", State::kUnderWay, "(way 2)");
+              "goto hall@30 way 2 admitted follow hall 9.3..30 because enters hall 10..14");
+    Say("robot1", State::kUnderWay, 2);
     EXPECT_THAT(IsAt("robot2", 2, 25.3), IsEmpty()) << "it drives yet";
-    Say("robot2", State::kFetching, "waits", 1);
+    Say("robot2", State::kFetching, 1, 1);
     EXPECT_THAT(IsAt("robot2", 2, 25.5),
                 ElementsAre("robot2: mission m1 waits for robot1 to leave hall 10..14"));
     EXPECT_EQ(Orders("robot2"),
-              "goto back@38 way 2 wait lane follow back 25.5..38 because waits "
+              "goto back@38 way 2 queued wait lane follow back 25.5..38 because waits "
               "for robot1 to leave hall 10..14");
-    Say("robot2", State::kFetching, "waits for robot1 to leave hall 10..14 (way 2)");
+    Say("robot2", State::kFetching, 2);
   }
 
   test::TempDir folder_;
@@ -126,7 +127,7 @@ TEST_F(LaneKeeperTest, OneIsLetInAndTheOtherOnceThatIsSeenOutOfIt) {
   EXPECT_THAT(IsAt("robot1", 1, 15.0), IsEmpty()) << "it may be an old word";
   EXPECT_THAT(IsAt("robot1", 1, 16.0),
               ElementsAre("robot1 has left hall 10..14", "robot2: mission m1 enters hall 10..14"));
-  EXPECT_THAT(Orders("robot2"), HasSubstr("way 3 follow back 25.5..38 because enters"));
+  EXPECT_THAT(Orders("robot2"), HasSubstr("way 3 admitted follow back 25.5..38 because enters"));
 }
 
 TEST_F(LaneKeeperTest, ThereHasToBeRoomBeyondIt) {
@@ -136,11 +137,11 @@ TEST_F(LaneKeeperTest, ThereHasToBeRoomBeyondIt) {
   Send("robot1", "goto hall@30 follow hall 0..9.5 wait lane follow hall 9.5..30");
   Say("robot1", State::kUnderWay);
   EXPECT_THAT(IsAt("robot1", 1, 9.5), IsEmpty());
-  Say("robot1", State::kFetching, "waits", 1);
+  Say("robot1", State::kFetching, 1, 1);
   EXPECT_THAT(IsAt("robot1", 1, 9.5),
               ElementsAre(HasSubstr("waits for robot3, which is ahead of it, to go on")));
   EXPECT_THAT(IsAt("robot3", 1, 17.0), IsEmpty());
-  Say("robot1", State::kFetching, "(way 2)");
+  Say("robot1", State::kFetching, 2);
   EXPECT_THAT(IsAt("robot1", 1, 9.5), ElementsAre(HasSubstr("enters hall 10..14")));
 }
 
@@ -152,15 +153,30 @@ TEST_F(LaneKeeperTest, WhoseItIsStandsAlsoAfterARestart) {
   EXPECT_THAT(IsAt("robot2", 2, 25.5),
               ElementsAre(AllOf(HasSubstr("waits for robot1 to leave hall 10..14; it is not heard"),
                                 HasSubstr("'trailcast network vacate hall 10..14'"))));
-  Say("robot1", State::kUnderWay, "(way 2)");
+  Say("robot1", State::kUnderWay, 2);
   for (const double along_m : {12.0, 15.0}) EXPECT_THAT(IsAt("robot1", 1, along_m), IsEmpty());
   EXPECT_THAT(IsAt("robot1", 1, 16.0), Contains("robot1 has left hall 10..14"));
+}
+
+// What there is no room for in one line of orders is told short.
+TEST_F(LaneKeeperTest, AReasonThatIsToldShortIsToldOnce) {
+  Meet();
+  std::string way = "goto back@38 follow back 5..25.5 wait lane follow back 25.5..38";
+  for (int i = 0; i < 22; ++i) way += " follow back 34..35";
+  Send("robot3", way);
+  Say("robot3", State::kFetching, 1, 1);
+  EXPECT_THAT(IsAt("robot3", 2, 25.4), ElementsAre(HasSubstr("robot3: mission m1 waits for")));
+  const std::string told = Orders("robot3");
+  EXPECT_EQ(told.size(), exchange::kMaxLineBytes);
+  Say("robot3", State::kFetching, 2);
+  EXPECT_THAT(IsAt("robot3", 2, 25.4), IsEmpty());
+  EXPECT_EQ(Orders("robot3"), told);
 }
 
 TEST_F(LaneKeeperTest, OneThatFailsInItKeepsItUntilAnOperatorSaysOtherwise) {
   Meet();
   (void)IsAt("robot1", 1, 12.0);
-  Say("robot1", State::kFailed, "LOST");
+  Say("robot1", State::kFailed);
   for (int i = 0; i < 5; ++i) EXPECT_THAT(IsAt("robot1", 1, 12.0), IsEmpty());
   EXPECT_THAT(IsAt("robot2", 2, 25.5), IsEmpty());
   EXPECT_THAT(All(), Contains(HasSubstr("taken by robot1")));
@@ -190,9 +206,9 @@ TEST_F(LaneKeeperTest, ARobotThatIsSentByHandHasWhatItIsSentOver) {
   Say("robot3", State::kUnderWay);
   EXPECT_THAT(IsAt("robot3", 1, 2.0), IsEmpty());
   Send("robot2", "goto back@38 follow back 25..25.5 wait lane follow back 25.5..38");
-  Say("robot2", State::kFetching, "waits", 1);
+  Say("robot2", State::kFetching, 1, 1);
   (void)IsAt("robot2", 2, 25.5);
-  EXPECT_THAT(Orders("robot2"), HasSubstr("way 2 wait lane")) << Orders("robot2");
+  EXPECT_THAT(Orders("robot2"), HasSubstr("way 2 queued wait lane")) << Orders("robot2");
   EXPECT_THAT(Orders("robot2"), HasSubstr("waits for robot3 to leave hall 10..14"));
 }
 
@@ -212,7 +228,7 @@ TEST_F(LaneKeeperTest, WhatBecomesNarrowUnderWayIsItsOwnUntilItHasHeardThatItIsT
                           "2..9.5 wait lane follow yard 9.5..30"));
   EXPECT_THAT(All(), Contains("narrow yard 10..14, taken by robot1"));
   for (int i = 0; i < 3; ++i) EXPECT_THAT(IsAt("robot1", 3, 3.0), IsEmpty());
-  Say("robot1", State::kUnderWay, "re-planned: yard 10..14 is narrow (way 2)");
+  Say("robot1", State::kUnderWay, 2);
   (void)IsAt("robot1", 3, 4.0);
   EXPECT_THAT(IsAt("robot1", 3, 5.0), ElementsAre("robot1 has left yard 10..14"));
   EXPECT_THAT(All(), Contains("narrow yard 10..14"));

@@ -63,15 +63,21 @@ class ReplanningTest : public testing::Test {
                       now_, 1000);
     Say(State::kAccepted, 0);
   }
-  void Say(State state, std::uint32_t task, const std::string& detail = "") {
+  // In words that say nothing.
+  void Say(State state, std::uint32_t task, std::uint32_t way = 1,
+           mission::WaitsFor waits_for = mission::WaitsFor::kNothing,
+           const std::string& detail = "xyzzy") {
     missions_->Handle(mission::Report{.agent = robot_,
                                       .mission = "m1",
                                       .change = ++change_,
                                       .state = state,
                                       .task = task,
+                                      .way = way,
+                                      .waits_for = waits_for,
                                       .detail = detail},
                       now_, 1000);
   }
+  void AskForWay(std::uint32_t way = 1) { Say(State::kFetching, 0, way, mission::WaitsFor::kWay); }
   // What is said of it when it is heard.
   std::string IsAt(unsigned route, double along_m, double speed_mps = 0.0) {
     return Hear(exchange::PlaceOnRoute{test::KeyNumber(route, 1), along_m}, speed_mps);
@@ -190,10 +196,10 @@ TEST_F(ReplanningTest, OneThatHasMissedWhereItWasToLeaveIsPlannedAnew) {
 
 TEST_F(ReplanningTest, OneThatHasFoundItselfElsewhereIsLedOnFromThere) {
   Drives(direct_, 1, 3.0, 0.5);
-  Say(State::kFetching, 0, "LOST: no path; looks whether it is on yard");
+  Say(State::kFetching, 0);  // looks whether it is on yard
   EXPECT_EQ(Hear({}), "");
   now_ += seconds(5);
-  Say(State::kFetching, 0, "waits for a way: it finds itself on yard at 4.0 m");
+  AskForWay();
   EXPECT_EQ(Hear({}), "") << "not from where it was before";
   now_ += seconds(2);
   EXPECT_EQ(IsAt(3, 4.0),
@@ -202,20 +208,32 @@ TEST_F(ReplanningTest, OneThatHasFoundItselfElsewhereIsLedOnFromThere) {
   EXPECT_THAT(Orders(), HasSubstr("goto office@8 way 2 follow yard 4..30"));
   now_ += seconds(2);
   EXPECT_EQ(IsAt(3, 4.0), "") << "it may not have heard of that yet";
-  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 2.0 m (way 2)");
+  AskForWay(2);
   now_ += seconds(4);
   EXPECT_THAT(IsAt(1, 2.0), HasSubstr("found itself elsewhere: follow hall 2..12"));
 }
 
 TEST_F(ReplanningTest, OneThatHasFoundItselfWhereNoWayLeadsOnWaits) {
   Drives(direct_, 1, 3.0, 0.5);
-  Say(State::kFetching, 0, "waits for a way: it finds itself on office at 9.0 m");
+  AskForWay();
   now_ += seconds(2);
   EXPECT_THAT(IsAt(2, 9.0), AllOf(HasSubstr("waits for a way: it has found itself elsewhere"),
                                   HasSubstr("no way leads from office@9 to office@8")));
   EXPECT_THAT(Orders(), HasSubstr("way 2 wait way because"));
   Edit("join office@9.5 yard@2");
   EXPECT_THAT(Orders(), HasSubstr("way 3 follow office 9..9.5 follow yard 2..30"));
+}
+
+TEST_F(ReplanningTest, WordsForPeopleAskForNothing) {
+  Drives(direct_, 1, 3.0, 0.5);
+  Say(State::kFetching, 0, 1, mission::WaitsFor::kNothing,
+      "waits for a way: it finds itself on yard at 4.0 m");
+  now_ += seconds(5);
+  EXPECT_EQ(IsAt(3, 4.0), "");
+  EXPECT_EQ(Orders(), direct_);
+  AskForWay();
+  now_ += seconds(2);
+  EXPECT_THAT(IsAt(3, 4.0), HasSubstr("found itself elsewhere"));
 }
 
 // Beyond the joint, where both routes still run side by side.
@@ -228,10 +246,10 @@ TEST_F(ReplanningTest, OneThatHasFoundItselfOnOneOfTwoRoutesGoesOnByTheOther) {
                                  .confidence = 0.95},
                                 0.9, 1000));
   Drives(direct_, 1, 3.0, 0.5);
-  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 17.0 m");
+  AskForWay();
   now_ += seconds(2);
   EXPECT_THAT(IsAt(1, 17.0), HasSubstr(": follow office 5..8"));
-  Say(State::kFetching, 0, "waits for a way: it finds itself on hall at 19.5 m (way 2)");
+  AskForWay(2);
   now_ += seconds(4);
   EXPECT_THAT(IsAt(1, 19.5), HasSubstr("no way leads from hall@19.5")) << "they have parted";
 }
@@ -243,7 +261,7 @@ TEST_F(ReplanningTest, WhereItMayItBacksOutOfADeadEnd) {
   EXPECT_THAT(Edit("close office 7..8"),
               ElementsAre("robot1: mission m1 is re-planned: office 7..8 was closed: follow office "
                           "backwards 6..1 follow yard 2..10"));
-  Say(State::kUnderWay, 0, "(way 2)");
+  Say(State::kUnderWay, 0, 2);
   EXPECT_EQ(IsAt(2, 4.0), "");
   EXPECT_THAT(Edit("close office 2..3"),
               ElementsAre("robot1: mission m1 waits for a way: office 2..3 was closed; every way "
