@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -40,9 +41,23 @@ struct FollowerOptions {
   std::function<Next(const std::optional<OwnLens>&)> next = {};
 };
 
+// How following a route ended.
+enum class RunEnd : std::uint8_t {
+  kArrived,
+  kLost,
+  kStuck,      // it got no further
+  kRefused,    // the robot cannot drive the route
+  kWaiting,    // for more of the route, which did not come
+  kRecording,  // what there was to see is over, and the robot was under way
+  kStopped,    // by whoever runs it
+  kCancelled,  // by an operator
+  kFailed,     // ReplayOutcome::error
+};
+
 struct ReplayOutcome {
-  bool success = false;        // arrived; or a recording was replayed to its end and not lost there
-  std::string state;           // the last: ARRIVED, LOST, STUCK, REFUSED, WAITING, ...
+  bool success = false;  // arrived; or a recording was replayed to its end and not lost there
+  RunEnd end = RunEnd::kFailed;
+  std::string state;           // the same for people: ARRIVED, LOST, STUCK, REFUSED, WAITING, ...
   std::string reason;          // one line for people
   std::optional<Error> error;  // camera, base, store or network failed; what was done until then:
   Summary summary;

@@ -251,7 +251,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
 
 // True: it looks elsewhere from now on. Who is only to drive a route may not be led over others.
 bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
-  if (!outcome || outcome->state != ToString(ReplayState::kLost)) return false;
+  if (!outcome || outcome->end != RunEnd::kLost) return false;
   if (desk_.current()->going.to.empty() || !elsewhere_.MayBegin()) return false;
   // It listens to the network while it asks what it sees, and may be sent another way meanwhile:
   // what it is to do is looked at afterwards.
@@ -310,7 +310,7 @@ void Duty::LookElsewhere() {
     told_.reset();
     return spdlog::info("{}", missed_);
   }
-  if (*outcome && ((*outcome)->state == "STOPPED" || (*outcome)->state == "CANCELLED")) {
+  if (*outcome && ((*outcome)->end == RunEnd::kStopped || (*outcome)->end == RunEnd::kCancelled)) {
     elsewhere_.End();
     return Judge(*outcome);
   }
@@ -407,11 +407,11 @@ void Duty::Judge(const Result<ReplayOutcome>& outcome) {
   } else if (outcome->success) {
     spdlog::info("arrived: {}", outcome->reason);
     Done();
-  } else if (outcome->state == "STOPPED") {
+  } else if (outcome->end == RunEnd::kStopped) {
     spdlog::warn("stopped in the middle of a mission: the next run takes it up");
-  } else if (outcome->state == "CANCELLED") {
+  } else if (outcome->end == RunEnd::kCancelled) {
     End(State::kCancelled, outcome->reason);
-  } else if (outcome->state == "REFUSED" ||
+  } else if (outcome->end == RunEnd::kRefused ||
              (outcome->error && outcome->error->code == ErrorCode::kNotFound)) {
     End(State::kRefused, outcome->reason);
   } else {

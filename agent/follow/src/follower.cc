@@ -38,6 +38,38 @@ double CpuMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+// For people; `last`: the state of the last step.
+const char* StateText(RunEnd end, ReplayState last) {
+  switch (end) {
+    case RunEnd::kArrived:
+      return "ARRIVED";
+    case RunEnd::kLost:
+      return "LOST";
+    case RunEnd::kStuck:
+      return "STUCK";
+    case RunEnd::kRefused:
+      return "REFUSED";
+    case RunEnd::kWaiting:
+      return "WAITING";
+    case RunEnd::kRecording:
+      return ToString(last);
+    case RunEnd::kStopped:
+      return "STOPPED";
+    case RunEnd::kCancelled:
+      return "CANCELLED";
+    case RunEnd::kFailed:
+      return "FAILED";
+  }
+  return "UNKNOWN";
+}
+
+// Of a run that ends when the robot is so.
+RunEnd EndIn(ReplayState state) {
+  if (state == ReplayState::kArrived) return RunEnd::kArrived;
+  if (state == ReplayState::kLost) return RunEnd::kLost;
+  return state == ReplayState::kWaiting ? RunEnd::kWaiting : RunEnd::kRecording;
+}
+
 // The control loop and what it knows.
 class Loop {
  public:
@@ -82,7 +114,7 @@ class Loop {
   void ShowWaiting();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
-  bool End(std::string state, std::string reason);
+  bool End(RunEnd end, std::string reason);
 
   RobotDevice& device_;
   const FollowerOptions& options_;
@@ -104,7 +136,7 @@ class Loop {
   bool held_ = false;
   bool was_held_ = false;
   std::optional<ReplayStep> last_;
-  std::string state_ = "WAITING";
+  RunEnd end_ = RunEnd::kWaiting;
   std::string reason_;
   ReplayLog log_;
 };
@@ -150,13 +182,13 @@ bool Loop::NothingToFollow() const {
 // Where the ground is more than the robot can drive; it ends the run.
 bool Loop::Refuses() {
   const auto refusal = path_.Refusal();
-  if (refusal) End("REFUSED", *refusal);
+  if (refusal) End(RunEnd::kRefused, *refusal);
   return refusal.has_value();
 }
 
 bool Loop::TakeHold() {
   while (auto hold = link_.TryTakeHold()) hold_ = *std::move(hold);
-  return !hold_.cancelled || End("CANCELLED", "cancelled by an operator");
+  return !hold_.cancelled || End(RunEnd::kCancelled, "cancelled by an operator");
 }
 
 // False: the run is over.
@@ -165,12 +197,12 @@ Result<bool> Loop::WaitForFeed() {
   auto known = path_.taken();
   while (NothingToFollow()) {
     if (std::exchange(known, path_.taken()) != path_.taken()) began = steady_clock::now();
-    if (options_.link.stop()) return End("STOPPED", "stopped by a signal");
+    if (options_.link.stop()) return End(RunEnd::kStopped, "stopped by a signal");
     // Before the first segment the link has bounds of its own, and says more precisely what fails.
     const auto bound =
         options_.link.wait + (path_.session() ? milliseconds(0) : milliseconds(5000));
     if (steady_clock::now() - began > bound) {
-      return End("WAITING",
+      return End(RunEnd::kWaiting,
                  fmt::format("no further segment within {:.0f} s: only {} segments are known, and "
                              "nobody who holds the rest answers",
                              Seconds(options_.link.wait), path_.taken()));
@@ -187,7 +219,7 @@ Result<void> Loop::Run(Standstill& standstill) {
   const EarForTrouble ear(device_, [this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
   while (true) {
     if (options_.link.stop()) {
-      End("STOPPED", "stopped by a signal");
+      End(RunEnd::kStopped, "stopped by a signal");
       return {};
     }
     if (auto taken = TakeFeed(); !taken) return taken;
@@ -195,7 +227,7 @@ Result<void> Loop::Run(Standstill& standstill) {
     if (!ready) return tl::unexpected(ready.error());
     if (!*ready || Refuses()) return {};
     if (const std::string& why = path_.superseded(); !why.empty()) {
-      End(ToString(ReplayState::kLost), why);
+      End(RunEnd::kLost, why);
       return {};
     }
     const bool stands =
@@ -206,7 +238,7 @@ Result<void> Loop::Run(Standstill& standstill) {
     if (!TakeHold()) return {};
     if (!*observation && options_.link.stop()) continue;
     if (!*observation) {
-      End(last_ ? ToString(last_->state) : "WAITING",
+      End(last_ ? EndIn(last_->state) : RunEnd::kWaiting,
           last_ && !last_->reason.empty() ? last_->reason : "the recording ends");
       return {};
     }
@@ -275,10 +307,10 @@ Result<bool> Loop::Step(const Observation& observation) {
   PrepareNext();
   if (PassedEnd(*last_, end_m)) return EndAt(end_m);
   if (last_->state == ReplayState::kArrived || last_->state == ReplayState::kLost) {
-    return End(ToString(last_->state), last_->reason);
+    return End(EndIn(last_->state), last_->reason);
   }
   if (!stuck) return true;
-  return End("STUCK",
+  return End(RunEnd::kStuck,
              fmt::format("no progress for {} s in segment {}{}{}", options_.stuck_after.count(),
                          last_->segment.value(), last_->reason.empty() ? "" : ": ", last_->reason));
 }
@@ -317,7 +349,7 @@ std::optional<double> Loop::LeftToLookForNext_m(const ReplayStep& step, double e
 bool Loop::ChangesOver(const Observation& observation) {
   changes_over_ = next_->TakesOver(observation);
   if (changes_over_) {
-    End(ToString(ReplayState::kArrived),
+    End(RunEnd::kArrived,
         fmt::format("{:.1f} m along the route, where it changed over", *last_->along_m));
   }
   return changes_over_;
@@ -326,12 +358,12 @@ bool Loop::ChangesOver(const Observation& observation) {
 Result<bool> Loop::EndAt(double end_m) {
   if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
   if (PastEnd_m(*last_, end_m) > kDrivenPast_m) {
-    return End(ToString(ReplayState::kLost),
+    return End(RunEnd::kLost,
                fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "
                            "was it carried there? Send it on from where it stands",
                            end_m, *last_->along_m));
   }
-  return End(ToString(ReplayState::kArrived),
+  return End(RunEnd::kArrived,
              fmt::format("{:.1f} m along the route, where it was to end", *last_->along_m));
 }
 
@@ -395,8 +427,8 @@ void Loop::TellTrouble(const RobotDevice::Halt& halt) {
   link_.Report(step);
 }
 
-bool Loop::End(std::string state, std::string reason) {
-  state_ = std::move(state);
+bool Loop::End(RunEnd end, std::string reason) {
+  end_ = end;
   reason_ = std::move(reason);
   return false;
 }
@@ -405,26 +437,27 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
                             const std::optional<route::RouteInfo>& route) && {
   ReplayOutcome outcome;
   if (!ran) {
-    End("FAILED", ran.error().message);
+    End(RunEnd::kFailed, ran.error().message);
     outcome.error = ran.error();
   }
-  const bool arrived = state_ == ToString(ReplayState::kArrived);
-  const bool to_its_end = options_.open_loop && log_.frames() > 0 && state_ != "STOPPED" &&
-                          !outcome.error && state_ != ToString(ReplayState::kLost);
+  const bool arrived = end_ == RunEnd::kArrived;
+  const bool to_its_end = options_.open_loop && log_.frames() > 0 && end_ != RunEnd::kStopped &&
+                          !outcome.error && end_ != RunEnd::kLost;
   outcome.success = arrived || to_its_end;
-  outcome.state = state_;
+  outcome.end = end_;
+  const ReplayStep last = last_.value_or(ReplayStep{});
+  outcome.state = StateText(end_, last.state);
   outcome.reason = reason_;
-  outcome.diagnosed = diagnosis_.End(state_, reason_);
+  outcome.diagnosed = diagnosis_.End(outcome.state, reason_);
   if (path_.session()) outcome.lens = path_.session()->lens();
   if (changes_over_) outcome.next = std::move(next_);
   if (arrived && path_.complete() && route) {
     outcome.visit = path_.session()->TakeVisit();
     if (outcome.visit) outcome.followed = route;
   }
-  const ReplayStep last = last_.value_or(ReplayStep{});
   Summary& summary = outcome.summary;
   summary.Add("arrived", arrived ? "1" : "0");
-  summary.Add("state", state_);
+  summary.Add("state", outcome.state);
   summary.Add("reason", reason_);
   summary.Add("route", route ? route->name : options_.link.route);
   summary.Add("segments", std::to_string(path_.segments()));
@@ -448,9 +481,9 @@ ReplayOutcome Loop::Outcome(const Result<void>& ran,
 exchange::AgentMode LastMode(const ReplayOutcome& outcome, bool open_loop) {
   using exchange::AgentMode;
   if (outcome.error) return AgentMode::kFault;
-  if (outcome.state == ToString(ReplayState::kArrived)) return AgentMode::kArrived;
-  if (outcome.state == "STOPPED" || outcome.state == "CANCELLED" || (open_loop && outcome.success))
-    return AgentMode::kStopped;
+  if (outcome.end == RunEnd::kArrived) return AgentMode::kArrived;
+  const bool ended = outcome.end == RunEnd::kStopped || outcome.end == RunEnd::kCancelled;
+  if (ended || (open_loop && outcome.success)) return AgentMode::kStopped;
   return AgentMode::kFault;
 }
 

@@ -76,7 +76,7 @@ TEST_F(FollowerTest, ArrivesAtTheEndOfARouteFromItsOwnStore) {
   const auto outcome = swarm_.Replay(device_, swarm_.FollowerNamed("robot"), false);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_TRUE(outcome->success) << outcome->reason;
-  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_EQ(outcome->end, RunEnd::kArrived);
   EXPECT_EQ(*outcome->summary.Find("arrived"), "1");
   EXPECT_EQ(*outcome->summary.Find("frames"), std::to_string(outcome->log.frames()));
   ASSERT_GT(device_.told.size(), 100U);
@@ -158,7 +158,7 @@ TEST_F(SlopeTest, ARouteThatIsTooSteepIsRefusedBeforeTheRobotMoves) {
   const auto outcome = swarm_.Replay(device_, Limited(5.0), false);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_FALSE(outcome->success);
-  EXPECT_EQ(outcome->state, "REFUSED");
+  EXPECT_EQ(outcome->end, RunEnd::kRefused);
   EXPECT_THAT(outcome->reason, HasSubstr("in segment 0, 0.0 to "));
   EXPECT_THAT(outcome->reason, HasSubstr("it goes 5.7 degrees uphill, and this robot's limit is "
                                          "5.0 degrees"));
@@ -338,7 +338,7 @@ TEST_F(FollowerTest, StandsAndGivesUpWhenTheRestOfTheRouteDoesNotCome) {
   (void)teaching.get();
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_FALSE(outcome->success);
-  EXPECT_EQ(outcome->state, "WAITING") << outcome->reason;
+  EXPECT_EQ(outcome->end, RunEnd::kWaiting) << outcome->reason;
   EXPECT_THAT(outcome->reason, HasSubstr("no further segment"));
   EXPECT_GT(outcome->log.frames(), 0);
   ASSERT_FALSE(device_.told.empty());
@@ -369,7 +369,7 @@ TEST_F(FollowerTest, StopsTheRobotOnASignal) {
   };
   const auto outcome = swarm_.Replay(device_, options, false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "STOPPED");
+  EXPECT_EQ(outcome->end, RunEnd::kStopped);
   EXPECT_FALSE(outcome->success);
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
@@ -496,7 +496,7 @@ TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {
   options.stuck_after = std::chrono::seconds(5);
   const auto outcome = swarm_.Replay(device, options, false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "STUCK");
+  EXPECT_EQ(outcome->end, RunEnd::kStuck);
   EXPECT_THAT(outcome->reason, HasSubstr("no progress for 5 s"));
 }
 
@@ -523,7 +523,7 @@ TEST_F(FollowerTest, BacksFromTheEndOfARouteToItsBeginning) {
   back.next = 18;  // there
   const auto outcome = swarm_.Replay(back, options, false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "ARRIVED") << outcome->reason;
+  EXPECT_EQ(outcome->end, RunEnd::kArrived) << outcome->reason;
   EXPECT_EQ(*outcome->summary.Find("segment"), "0");
   EXPECT_LT(back.told[20].linear_mps, 0.0);
   for (const auto& told : back.told) EXPECT_LE(told.linear_mps, 0.0);
@@ -537,7 +537,7 @@ TEST_F(FollowerTest, BacksAsFarAsItIsTo) {
   options.end_m = [] { return 1.2; };
   const auto outcome = swarm_.Replay(back, options, false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_EQ(outcome->end, RunEnd::kArrived);
   EXPECT_THAT(outcome->reason, HasSubstr("1.2 m along the route, where it was to end"));
   // A wall that is only ever magnified tells the place roughly.
   EXPECT_NEAR(2.98 - 0.02 * back.next, 1.2, 0.4);

@@ -130,7 +130,7 @@ TEST_F(NextPathTest, WithoutItTheRobotStandsAtTheJoint) {
   waits_for_next_ = false;  // it will never be there
   const auto outcome = swarm_.Replay(device_, AlongHallThen("yard"), false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_EQ(outcome->end, RunEnd::kArrived);
   EXPECT_THAT(outcome->reason, HasSubstr("along the route, where it was to end"));
   EXPECT_EQ(outcome->next, nullptr);
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
@@ -144,7 +144,7 @@ TEST_F(NextPathTest, WhoDoesNotFindItStands) {
   ASSERT_TRUE(swarm_.Teach(elsewhere, options, false));
   const auto outcome = swarm_.Replay(device_, AlongHallThen("office"), false);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_EQ(outcome->state, "ARRIVED");
+  EXPECT_EQ(outcome->end, RunEnd::kArrived);
   EXPECT_EQ(outcome->next, nullptr);
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
