@@ -15,7 +15,8 @@ void RefreshWatch::Note(const route::RouteInfo& info) {
   const bool is_new = info.state == route::RouteState::kComplete &&
                       info.standing == route::Standing::kStaged && info.edition == 0;
   const bool asks_nobody = is_new && !info.held_back();
-  if (!asks_nobody || !refresh::RevisionRefreshed(info) || waiting_.size() >= kMostWaiting) return;
+  const bool refreshes = info.refreshes.value() > 0;
+  if (!asks_nobody || !refreshes || waiting_.size() >= kMostWaiting) return;
   const auto is_it = [&](const route::RouteInfo& other) { return other.key == info.key; };
   if (comparison_ && is_it(comparison_->refreshed)) return;
   if (std::none_of(waiting_.begin(), waiting_.end(), is_it)) waiting_.push_back(info);
@@ -32,7 +33,7 @@ Result<void> RefreshWatch::NoteStored() {
     for (const route::RouteInfo& info : page->routes) {
       const auto followed = FollowedOf(info.key);
       if (!followed) return tl::unexpected(followed.error());
-      if (*followed && refresh::RevisionRefreshed(info) == (*followed)->revision) Note(info);
+      if (*followed && info.refreshes == (*followed)->revision) Note(info);
     }
     query.cursor = page->next;
   } while (!query.cursor.empty());
@@ -85,7 +86,7 @@ Result<void> RefreshWatch::Begin(route::RouteInfo refreshed) {
   auto found = FollowedOf(refreshed.key);
   if (!found) return tl::unexpected(found.error());
   std::optional<route::RouteInfo>& followed = *found;
-  const RevisionNumber visited = *refresh::RevisionRefreshed(refreshed);
+  const RevisionNumber visited = refreshed.refreshes;
   if (!followed || followed->revision != visited) {
     Judge(std::move(refreshed),
           fmt::format("it refreshes revision {}, which robots do not follow", visited.value()));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,7 +8,8 @@
 
 namespace trailcast::refresh {
 
-// What a revision is tagged with that refreshes another one.
+// What a revision is tagged with that refreshes another one (RouteInfo::refreshes), so that it is
+// found.
 inline constexpr std::string_view kTag = "refreshed";
 
 // What has changed, and what such a revision says of itself: whose visit to which revision made it,
@@ -17,9 +17,6 @@ inline constexpr std::string_view kTag = "refreshed";
 [[nodiscard]] std::string Describe(const Refreshed& refreshed);
 [[nodiscard]] std::string DescribeRefreshed(RevisionNumber visited, const AgentId& by,
                                             const Refreshed& refreshed);
-
-// The revision that it says it refreshes; nothing: it is tagged, or described, as none.
-[[nodiscard]] std::optional<RevisionNumber> RevisionRefreshed(const route::RouteInfo& info);
 
 // Whether `segment` is `before` as one visit may leave it: as taught but for features and added key
 // views, of which no more have gone and come than a visit takes away and adds.

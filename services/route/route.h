@@ -146,7 +146,8 @@ struct RouteInfo {
   Standing standing = Standing::kStaged;
   // Its scout wants it looked at before robots follow it; no more once an operator activates it.
   bool to_review = false;
-  std::uint32_t edition = 0;  // how often the labels were changed since it was taught
+  std::uint32_t edition = 0;   // how often the labels were changed since it was taught
+  RevisionNumber refreshes{};  // the revision of which a follower's visit made it; 0: it was taught
 
   // No robot follows it, and no server activates it, unless an operator says so.
   [[nodiscard]] bool held_back() const { return cut_off || to_review; }

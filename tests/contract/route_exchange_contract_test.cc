@@ -67,6 +67,7 @@ route::RouteInfo ExtremeInfo() {
   info.standing = route::Standing::kRetired;
   info.to_review = true;
   info.edition = 0xFFFFFFFF;
+  info.refreshes = RevisionNumber(3);
   return info;
 }
 

@@ -44,6 +44,7 @@ class Stranger {
     if (Seldom()) info.tags = {"a", "b"};
     if (Seldom()) info.to_review = true;
     if (Seldom()) info.description = "past the greenhouse";
+    if (Seldom()) info.refreshes = RevisionNumber(input_.ConsumeIntegral<std::uint32_t>());
     if (Seldom()) info.edition = input_.ConsumeIntegralInRange<std::uint32_t>(0, 3);
     if (Seldom())
       info.standing = static_cast<route::Standing>(input_.ConsumeIntegralInRange<int>(0, 3));

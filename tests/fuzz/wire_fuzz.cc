@@ -326,6 +326,7 @@ class Samples {
     wire.standing = Octet();
     wire.to_review = Octet();
     wire.edition = Number();
+    wire.refreshes = Number();
   }
   void Fill(trailcast_wire_SegmentPiece& wire) {
     Fill(wire.key);

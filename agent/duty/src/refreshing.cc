@@ -57,6 +57,7 @@ route::RouteInfo InfoOf(const AgentId& self, const route::RouteInfo& followed,
   info.edition = 0;
   info.cut_off = false;
   info.to_review = how == Refreshing::kReview;
+  info.refreshes = followed.revision;
   info.description = refresh::DescribeRefreshed(followed.revision, self, refreshed);
   const auto place = std::lower_bound(info.tags.begin(), info.tags.end(), refresh::kTag);
   const bool tagged = place != info.tags.end() && *place == refresh::kTag;

@@ -91,7 +91,8 @@ RouteInfo From(const trailcast_wire_RouteKey& key, const trailcast_wire_RouteInf
           .description = Text(wire.description),
           .standing = static_cast<route::Standing>(wire.standing),
           .to_review = wire.to_review != 0,
-          .edition = wire.edition};
+          .edition = wire.edition,
+          .refreshes = RevisionNumber(wire.refreshes)};
 }
 
 Message From(const trailcast_wire_RouteAnnouncement& wire) {

@@ -74,6 +74,7 @@ trailcast_wire_RouteInfo ToWire(const RouteInfo& info, TextArrays& arrays) {
   wire.cut_off = info.cut_off ? 1 : 0;
   wire.revision = info.revision.value();
   wire.edition = info.edition;
+  wire.refreshes = info.refreshes.value();
   return wire;
 }
 

@@ -5,13 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/base/number.h"
-
 namespace trailcast::refresh {
 namespace {
-
-constexpr std::string_view kRevision = "revision ";
-constexpr std::string_view kBy = " refreshed by ";
 
 std::string WhatChanged(const RefreshCounts& counts, const char* what) {
   return fmt::format("{} {} new, {} gone; {} of {} were found", counts.added, what, counts.dropped,
@@ -52,18 +47,8 @@ std::string Describe(const Refreshed& refreshed) {
 
 std::string DescribeRefreshed(RevisionNumber visited, const AgentId& by,
                               const Refreshed& refreshed) {
-  return fmt::format("{}{}{}{}: {}", kRevision, visited.value(), kBy, by.value(),
+  return fmt::format("revision {} refreshed by {}: {}", visited.value(), by.value(),
                      Describe(refreshed));
-}
-
-std::optional<RevisionNumber> RevisionRefreshed(const route::RouteInfo& info) {
-  const bool tagged = std::find(info.tags.begin(), info.tags.end(), kTag) != info.tags.end();
-  std::string_view text = info.description;
-  const std::size_t by = text.find(kBy);
-  if (!tagged || !text.starts_with(kRevision) || by == std::string_view::npos) return std::nullopt;
-  text = text.substr(kRevision.size(), by - kRevision.size());
-  const auto number = ParseNumber<std::uint32_t>(text);
-  return number ? std::optional(RevisionNumber(*number)) : std::nullopt;
 }
 
 bool IsRefreshed(const route::Segment& segment, const route::Segment& before,

@@ -53,6 +53,7 @@ Bytes EncodeInfo(const RouteInfo& info) {
   out.set_standing(static_cast<std::uint32_t>(info.standing));
   out.set_edition(info.edition);
   out.set_to_review(info.to_review);
+  out.set_refreshes(info.refreshes.value());
   Bytes bytes(out.ByteSizeLong());
   [[maybe_unused]] const bool fits =
       out.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
@@ -95,6 +96,7 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
   info.standing = static_cast<Standing>(Narrowed<std::uint8_t>(in.standing()));
   info.edition = in.edition();
   info.to_review = in.to_review();
+  info.refreshes = RevisionNumber(in.refreshes());
   if (in.has_place()) info.place = ReadPlace(in.place());
   if (const auto possible = CheckInfo(info); !possible) {
     return Fail(ErrorCode::kCorrupt, "{}", possible.error().message);

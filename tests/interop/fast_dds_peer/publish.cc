@@ -32,6 +32,7 @@ wire::CatalogRoute Relabelled(wire::CatalogRoute route, const std::string& name)
   route.info().standing(0);
   route.info().to_review(0);
   route.info().edition(0);
+  route.info().refreshes(0);
   return route;
 }
 

@@ -17,6 +17,7 @@ RouteInfo EveryField() {
   info.standing = Standing::kRetired;
   info.to_review = true;
   info.edition = 4'000'000'000;
+  info.refreshes = RevisionNumber(12);
   return info;
 }
 

@@ -78,6 +78,7 @@ TEST_F(RefreshingTest, WhatIsRefreshedReachesTheServerToBeReviewedAndNobodyFollo
   EXPECT_EQ(refreshed->revision.value(), 2U);
   EXPECT_TRUE(refreshed->to_review);
   EXPECT_DOUBLE_EQ(refreshed->length_m, outcome.followed->length_m);
+  EXPECT_EQ(refreshed->refreshes.value(), 1U);
   EXPECT_THAT(refreshed->tags, Contains("refreshed"));
   EXPECT_THAT(refreshed->description, HasSubstr("revision 1 refreshed by keen"));
 

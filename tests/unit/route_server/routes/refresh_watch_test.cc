@@ -32,8 +32,7 @@ class RefreshWatchTest : public testing::Test {
   }
   // Of one route.
   route::RouteInfo Keep(unsigned revision, route::Standing standing,
-                        const std::vector<route::Segment>& segments,
-                        const std::string& refreshed = "") {
+                        const std::vector<route::Segment>& segments, unsigned refreshes = 0) {
     route::RouteKey key = test::KeyNumber(1);
     key.teaching = TeachingId(revision);
     for (const route::Segment& segment : segments) {
@@ -46,16 +45,16 @@ class RefreshWatchTest : public testing::Test {
     info.revision = RevisionNumber(revision);
     info.standing = standing;
     info.segment_count = static_cast<std::uint32_t>(segments.size());
-    info.description = refreshed;
-    if (!refreshed.empty()) info.tags = {std::string(refresh::kTag)};
+    info.refreshes = RevisionNumber(refreshes);
+    info.description = "xyzzy";
+    if (refreshes > 0) info.tags = {std::string(refresh::kTag)};
     EXPECT_TRUE(store_.PutRoute(info));
     return info;
   }
   // Which says that it refreshes that revision.
   route::RouteInfo Deliver(const std::vector<route::Segment>& segments, unsigned of = 1,
                            unsigned revision = 7) {
-    return Keep(revision, route::Standing::kStaged, segments,
-                refresh::DescribeRefreshed(RevisionNumber(of), AgentId("robot2"), {}));
+    return Keep(revision, route::Standing::kStaged, segments, of);
   }
   std::vector<RefreshWatch::Judged> Judge(const route::RouteInfo& info) {
     watch_.Note(info);
@@ -125,7 +124,7 @@ TEST_F(RefreshWatchTest, WhatAsksForALookOrIsNoRefreshIsNotCompared) {
   info.edition = 2;  // it was active, and somebody has rolled back
   EXPECT_THAT(Judge(info), IsEmpty());
   info.edition = 0;
-  info.tags.clear();
+  info.refreshes = {};
   EXPECT_THAT(Judge(info), IsEmpty());
   info = Deliver(Taught());
   info.standing = route::Standing::kActive;
