@@ -96,9 +96,8 @@ struct Listed {
   bool used = true;              // false: of a revision that robots do not follow
   std::optional<Route> route{};  // its name and length
   std::optional<Edit> edit{};
-  std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
-  // "lost ROUTE FROM..TO N of M times lately, a metre counts as F"
-  std::optional<LostStretch> lost{};
+  std::optional<Proposal> proposal{};   // "proposed join PLACE PLACE .. confidence F"
+  std::optional<LostStretch> lost{};    // "lost ROUTE FROM..TO N of M cost F"
   std::vector<std::string> taken_by{};  // of a narrow place, "narrow .., taken by robot1 robot2"
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
@@ -135,6 +134,8 @@ struct Question {
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
 [[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
+// For people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
+[[nodiscard]] std::string Describe(const LostStretch& lost);
 
 // What holds after such an edit: of one kind, a closed stretch, one that is driven backwards, too,
 // or a limit, one at each place.

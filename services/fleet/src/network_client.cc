@@ -168,6 +168,8 @@ std::string NetworkText(const Lines& lines) {
     const network::Listed listed = network::ParseListed(line);
     if (listed.route) {
       text += line + " m\n";
+    } else if (listed.lost) {
+      text += network::Describe(*listed.lost) + "\n";
     } else if (!listed.used) {
       text += line.substr(network::kUnused.size()) +
               "   (not used: robots follow another revision, or none)\n";

@@ -29,7 +29,6 @@ constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
-constexpr std::string_view kTimes = " times lately, a metre counts as ";
 
 // To the centimetre.
 std::string Metres(double metres) {
@@ -262,17 +261,16 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
   return Proposal{std::move(edit->joint), *confidence};
 }
 
-// ROUTE FROM..TO N of M times lately, a metre counts as F
+// ROUTE FROM..TO N of M cost F
 std::optional<LostStretch> ParseLost(std::string_view text) {
-  const std::size_t at = text.rfind(kTimes);
-  if (at == std::string_view::npos) return std::nullopt;
-  Words words(text.substr(0, at));
+  Words words(text);
   auto stretch = TakeStretch(words);
   const auto lost = ParseNumber<double>(words.Take());
   const bool of = words.TakeIf("of");
   const auto passed = ParseNumber<double>(words.Take());
-  const auto cost = ParseNumberWithin(text.substr(at + kTimes.size()), 1.0, kMostFactor);
-  if (!stretch || !lost || !of || !passed || !words.empty() || !cost) return std::nullopt;
+  const bool costs = words.TakeIf("cost");
+  const auto cost = ParseNumberWithin(words.Take(), 1.0, kMostFactor);
+  if (!stretch || !lost || !of || !passed || !costs || !cost || !words.empty()) return std::nullopt;
   return LostStretch{
       std::move(stretch->route), stretch->from_m, stretch->to_m, *passed, *lost, *cost};
 }
@@ -381,9 +379,21 @@ std::string ToText(const Lane& lane) {
   return text;
 }
 
+namespace {
+
+std::string LostTimes(const LostStretch& lost) {
+  return fmt::format("{}{} {}..{} {:g} of {:g}", kLost, lost.route, Metres(lost.from_m),
+                     Metres(lost.to_m), lost.lost, lost.passed);
+}
+
+}  // namespace
+
 std::string ToText(const LostStretch& lost) {
-  return fmt::format("{}{} {}..{} {:g} of {:g}{}{:g}", kLost, lost.route, Metres(lost.from_m),
-                     Metres(lost.to_m), lost.lost, lost.passed, kTimes, lost.cost);
+  return fmt::format("{} cost {:g}", LostTimes(lost), lost.cost);
+}
+
+std::string Describe(const LostStretch& lost) {
+  return fmt::format("{} times lately, a metre counts as {:g}", LostTimes(lost), lost.cost);
 }
 
 std::string ToText(const Proposal& proposal) {

@@ -149,7 +149,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
     if (!lines) return program::Complain(app, lines.error());
     if (AsksForProposals(options)) {
       std::erase_if(*lines,
-                    [](const std::string& line) { return !line.starts_with(network::kProposed); });
+                    [](const std::string& line) { return !network::ParseListed(line).proposal; });
       if (lines->empty() && !options.json) return Print("no joints are proposed\n");
     }
     if (!options.plot.empty()) {

@@ -30,8 +30,7 @@ const NetworkList& ThreeRoutes() {
        "join Office@8 yard@1", "unused join hall@2@1 Office@3", "join hall@10 hall@0",
        "join gone@1 hall@2", "close hall 3..7", "limit yard speed 0.5", "name loading-bay yard@28",
        "close gone 1..2", "dance hall", "proposed join hall@1 yard@1 confidence 0.82",
-       "proposed dance", "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9",
-       "lost gone 0..5 1 of 1 times lately, a metre counts as 2.3", ""},
+       "proposed dance", "lost hall 5..10 2 of 7 cost 1.9", "lost gone 0..5 1 of 1 cost 2.3", ""},
       true);
   return kList;
 }

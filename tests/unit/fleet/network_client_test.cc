@@ -84,16 +84,15 @@ TEST_F(NetworkClientTest, TellsWhyAChangeWasNotMade) {
 }
 
 TEST(NetworkTexts, AreForPeopleAndForPrograms) {
-  const std::vector<std::string> lines{
-      "route hall 20.00",
-      "unused join hall@1@12 office@0 both",
-      "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
-      "close hall 3..",
-      "back hall 1..2",
-      "limit hall 1..2 speed 0.5",
-      "narrow hall 1..2",
-      "lost hall 5..10 2 of 7.5 times lately, a metre counts as 1.8",
-      "proposed join hall@3 office@4 both confidence 0.93"};
+  const std::vector<std::string> lines{"route hall 20.00",
+                                       "unused join hall@1@12 office@0 both",
+                                       "join hall@13 office@0 offset 0.1,-0.2 heading 90.0",
+                                       "close hall 3..",
+                                       "back hall 1..2",
+                                       "limit hall 1..2 speed 0.5",
+                                       "narrow hall 1..2",
+                                       "lost hall 5..10 2 of 7.5 cost 1.8",
+                                       "proposed join hall@3 office@4 both confidence 0.93"};
   EXPECT_THAT(NetworkText(lines),
               AllOf(HasSubstr("route hall 20.00 m\n"),
                     HasSubstr("join hall@1@12 office@0 both   (not used:"),

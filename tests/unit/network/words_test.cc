@@ -127,15 +127,14 @@ TEST(NetworkWords, AProposalIsListedAsTheJointThatItWouldMakeAndNoSurerThanItIs)
 TEST(NetworkWords, WhereRobotsWereLostIsListedAndNoEdit) {
   const LostStretch lost{"hall", 5.0, 10.0, 7.0, 1.8, 1.8};
   const std::string line = ToText(lost);
-  EXPECT_EQ(line, "lost hall 5..10 1.8 of 7 times lately, a metre counts as 1.8");
+  EXPECT_EQ(line, "lost hall 5..10 1.8 of 7 cost 1.8");
+  EXPECT_EQ(Describe(lost), "lost hall 5..10 1.8 of 7 times lately, a metre counts as 1.8");
   const auto listed = ParseListed(line);
   EXPECT_EQ(listed.lost, lost);
   EXPECT_FALSE(listed.edit);
   for (const char* other :
-       {"lost hall 5..10", "lost hall 5..10 1 in 7 times lately, a metre counts as 2",
-        "lost hall 5..10 1 of 7 times lately, a metre counts as 0.5",
-        "lost hall 5..10 1 of 7 8 times lately, a metre counts as 2",
-        "lost  times lately, a metre counts as 2"}) {
+       {"lost hall 5..10", "lost hall 5..10 1 in 7 cost 2", "lost hall 5..10 1 of 7 cost 0.5",
+        "lost hall 5..10 1 of 7 8 cost 2", "lost  cost 2"}) {
     const auto not_one = ParseListed(other);
     EXPECT_FALSE(not_one.lost || not_one.edit || not_one.route) << other;
   }

@@ -439,7 +439,7 @@ TEST_F(NetworkBoardTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
   board_->followed().Hear({AgentId("robot1"), Key(2, 7), {{1, 1, 1}}}, 1000);  // not known
   ASSERT_TRUE(board_->KeepFollowed(1000));
   EXPECT_EQ(Asked("way hall@4 office@9"), round);
-  EXPECT_THAT(Asked(), Contains("lost hall 5..10 1 of 1 times lately, a metre counts as 2.3"));
+  EXPECT_THAT(Asked(), Contains("lost hall 5..10 1 of 1 cost 2.3"));
   EXPECT_EQ(board_->changes(), changes) << "who is under way goes on";
   Restart();
   ASSERT_TRUE(board_->KeepFollowed(1000));
@@ -457,7 +457,7 @@ TEST_F(NetworkBoardTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGo
   Done("join hall@14 office@8");
   board_->followed().Hear({AgentId("robot1"), Key(2), {{1, 1, 1}}}, 1000);
   ASSERT_TRUE(board_->KeepFollowed(1000));
-  EXPECT_THAT(Asked(), Contains("lost office 5..10 1 of 1 times lately, a metre counts as 2.3"));
+  EXPECT_THAT(Asked(), Contains("lost office 5..10 1 of 1 cost 2.3"));
   Put(2, "office", 10.0, 1, route::Standing::kRetired, 1);
   Put(2, "office", 10.0, 2, route::Standing::kActive, 1);
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
