@@ -16,6 +16,9 @@ struct GlanceFrame {
   int stored = 0;  // features that the segment has
   std::optional<double>
       turn_rad{};  // asked for, positive to the right; nothing: it does not follow
+
+  // It follows features of its segment, which are drawn.
+  [[nodiscard]] bool marked() const { return turn_rad && stored > 0; }
 };
 
 // The frame, at most 320 pixels wide, for those who are far away: each feature with a line to where

@@ -17,7 +17,8 @@ namespace trailcast::agent {
 // What a camera sees, for people.
 struct CameraPicture {
   std::vector<std::uint8_t> jpeg{};  // empty: there is none
-  std::string detail{};              // why, or what is drawn on it; one line
+  bool marked = false;               // the features that the robot follows are drawn on it
+  std::string detail{};              // why there is none, or what is drawn on it; one line
 };
 
 // Who wants to see through this robot's camera. Each request gets one picture, made for it, whoever

@@ -270,6 +270,7 @@ struct Glance {
   AgentId client{};  // who has asked, and which request it was
   std::uint64_t request = 0;
   std::vector<std::uint8_t> picture{};  // JPEG; empty: there is none, and `detail` says why
+  bool marked = false;                  // the features that the robot follows are drawn on it
   std::string detail{};                 // one line for people
   bool operator==(const Glance&) const = default;
 };

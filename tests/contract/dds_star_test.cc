@@ -154,8 +154,11 @@ TEST_F(DdsStarTest, WhoIsInAMeshDrivesARobotOfAStarAndSeesThroughItsCamera) {
         drivers.insert(word->client.value());
       } else if (const auto* request = std::get_if<exchange::GlanceRequest>(&message)) {
         lookers.insert(request->client.value());
-        (void)robot->Publish(exchange::Glance{
-            request->agent, request->client, request->request, {0xFF, 0xD8}, "seen"});
+        (void)robot->Publish(exchange::Glance{.agent = request->agent,
+                                              .client = request->client,
+                                              .request = request->request,
+                                              .picture = {0xFF, 0xD8},
+                                              .detail = "seen"});
       }
     }
     return !drivers.empty() && !seen_by.empty() && starred->hears() == Names{"server"};

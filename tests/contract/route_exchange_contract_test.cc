@@ -205,7 +205,8 @@ TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
                                    .client = AgentId("o"),
                                    .request = ~0ULL,
                                    .picture = std::vector<std::uint8_t>(exchange::kMaxGlanceBytes,
-                                                                        std::uint8_t{0xA5})},
+                                                                        std::uint8_t{0xA5}),
+                                   .marked = true},
                   Topic::kGlances);
 }
 

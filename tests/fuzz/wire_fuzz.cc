@@ -167,6 +167,7 @@ class Samples {
     picture_ = input_.ConsumeBytes<std::uint8_t>(Count());
     wire.picture._buffer = picture_.data();
     wire.picture._length = static_cast<std::uint32_t>(picture_.size());
+    wire.marked = Octet();
     wire.detail = Text();
   }
   void Fill(trailcast_wire_NetworkEdit& wire) {

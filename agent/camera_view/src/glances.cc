@@ -126,7 +126,7 @@ CameraPicture Glances::Encode(const GlanceFrame& frame) {
   }
   if (!jpeg) return {.detail = kNoPicture};
   if (jpeg->size() < kFewBytes) quality_ = std::min(kBestQuality, quality_ + kQualityStep);
-  return {.jpeg = *std::move(jpeg), .detail = GlanceText(frame)};
+  return {.jpeg = *std::move(jpeg), .marked = frame.marked(), .detail = GlanceText(frame)};
 }
 
 }  // namespace trailcast::agent

@@ -76,7 +76,7 @@ std::string GlanceText(const GlanceFrame& frame) {
   const auto count = [&](FeatureVerdict verdict) { return CountOf(frame.features, verdict); };
   std::string text = fmt::format("turns {:.1f} degrees {}", Degrees(std::abs(*frame.turn_rad)),
                                  *frame.turn_rad > 0.0 ? "right" : "left");
-  if (frame.stored == 0) return text;
+  if (!frame.marked()) return text;
   return text + fmt::format(
                     "; {} of {} features: {} in their funnel lanes, {} ask for left, "
                     "{} for right, {} rejected",

@@ -49,6 +49,7 @@ std::optional<exchange::Glance> GlanceDesk::Give(CameraPicture picture, Time now
                           .client = request.client,
                           .request = request.request,
                           .picture = std::move(picture.jpeg),
+                          .marked = picture.marked,
                           .detail = PlainText(picture.detail, exchange::kMaxLineBytes)};
 }
 

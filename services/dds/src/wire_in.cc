@@ -351,6 +351,7 @@ Message From(const trailcast_wire_Glance& wire) {
                 .client = AgentId(Text(wire.client)),
                 .request = wire.request,
                 .picture = {picture.begin(), picture.end()},
+                .marked = wire.marked != 0,
                 .detail = Text(wire.detail)};
 }
 

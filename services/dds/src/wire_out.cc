@@ -432,6 +432,7 @@ Result<void> With(const Glance& message, const UseSample& use) {
   sample.picture._buffer = const_cast<std::uint8_t*>(message.picture.data());
   sample.picture._length = sample.picture._maximum =
       static_cast<std::uint32_t>(message.picture.size());
+  sample.marked = message.marked ? 1 : 0;
   sample.detail = Lend(message.detail);
   return use(&sample);
 }

@@ -125,6 +125,7 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
         exchange::Glance glance{.agent = request->agent,
                                 .client = request->client,
                                 .request = request->request,
+                                .marked = true,
                                 .detail = "turns \xC3\xA9 left"};
         if (!blind) glance.picture = {0xFF, 0xD8, 0x00};
         blind = true;
@@ -142,6 +143,7 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
   EXPECT_EQ(picture->get_header_value("Content-Type"), "image/jpeg");
   EXPECT_EQ(picture->get_header_value("Cache-Control"), "no-store");
   EXPECT_EQ(picture->get_header_value("Trailcast-Seen"), "turns ?? left");
+  EXPECT_EQ(picture->get_header_value("Trailcast-Marked"), "1");
   EXPECT_EQ(picture->body, std::string("\xFF\xD8\0", 3));
   EXPECT_EQ(none->status, 404);
   EXPECT_THAT(json::parse(none->body)["error"].get<std::string>(), HasSubstr("turns"));

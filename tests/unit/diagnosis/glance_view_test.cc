@@ -62,12 +62,14 @@ TEST(GlanceText, SaysWhatIsDrawn) {
   frame.turn_rad = -0.0524;
   EXPECT_THAT(GlanceText(frame), HasSubstr("3.0 degrees left"));
   EXPECT_THAT(GlanceText(frame), Not(HasSubstr("features"))) << "it goes by none";
+  EXPECT_FALSE(frame.marked());
   frame.stored = 20;
   frame.features = {{{}, {}, {}, FeatureVerdict::kInside},
                     {{}, {}, {}, FeatureVerdict::kInside},
                     {{}, {}, {}, FeatureVerdict::kAsksLeft}};
   EXPECT_THAT(GlanceText(frame), HasSubstr("3 of 20 features: 2 in their funnel lanes, 1 ask for "
                                            "left, 0 for right, 0 rejected"));
+  EXPECT_TRUE(frame.marked());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ const kAgain_ms = 1000;  // after none came
 
 type Look = {
   text: string;        // what the robot says of the picture
+  marked: boolean;     // features are drawn on it
   why: string | null;  // there is no picture
 };
 
@@ -23,7 +24,7 @@ function pull(robot: string, canvas: HTMLCanvasElement, tell: (look: Look) => vo
     try {
       const reply = await fetch(`/api/robots/${robot}/glance`, { signal: giveUp.signal });
       if (!reply.ok) {
-        tell({ text: '', why: (await reply.json()).error });
+        tell({ text: '', marked: false, why: (await reply.json()).error });
         return kAgain_ms;
       }
       const bitmap = await createImageBitmap(await reply.blob());
@@ -31,10 +32,10 @@ function pull(robot: string, canvas: HTMLCanvasElement, tell: (look: Look) => vo
       canvas.height = bitmap.height;
       canvas.getContext('2d')!.drawImage(bitmap, 0, 0);
       bitmap.close();
-      tell({ text: reply.headers.get('Trailcast-Seen') ?? '', why: null });
+      tell({ text: reply.headers.get('Trailcast-Seen') ?? '', marked: reply.headers.get('Trailcast-Marked') === '1', why: null });
       return Math.max(0, kEvery_ms - (performance.now() - began));
     } catch {
-      if (!over) tell({ text: '', why: 'The console does not answer.' });
+      if (!over) tell({ text: '', marked: false, why: 'The console does not answer.' });
       return kAgain_ms;
     }
   };
@@ -94,7 +95,7 @@ function beside(robot: Robot): string | null {
 
 export function Glance({ robot }: { robot: Robot }) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const [look, setLook] = useState<Look>({ text: '', why: 'Waiting for a picture …' });
+  const [look, setLook] = useState<Look>({ text: '', marked: false, why: 'Waiting for a picture …' });
   useEffect(() => {
     // Whoever opens it wants to see it, and out of view it shows nothing.
     canvas.current!.scrollIntoView({ block: 'nearest' });
@@ -114,7 +115,7 @@ export function Glance({ robot }: { robot: Robot }) {
         )}
         {place !== null && <><dt>Beside</dt><dd>{place}</dd></>}
       </dl>
-      {look.text.includes('features') && <MarksLegend />}
+      {look.marked && <MarksLegend />}
     </figure>
   );
 }

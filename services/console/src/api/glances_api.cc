@@ -31,6 +31,7 @@ void Look(Desk& desk, const std::string& robot, Response& response) {
   if (glance.picture.empty()) return Refuse(response, 404, glance.detail);
   response.set_header("Cache-Control", "no-store");
   response.set_header("Trailcast-Seen", Printable(glance.detail));
+  response.set_header("Trailcast-Marked", glance.marked ? "1" : "0");
   response.set_content(reinterpret_cast<const char*>(glance.picture.data()), glance.picture.size(),
                        "image/jpeg");
 }
