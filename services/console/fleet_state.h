@@ -16,6 +16,8 @@
 
 namespace trailcast::console {
 
+enum class RobotState : std::uint8_t;
+
 // What openapi.yaml calls State, of what FleetState::Shown gives. Without line breaks.
 [[nodiscard]] std::string StateBody(const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
 // What openapi.yaml calls Change: what of `state` is not as in `from`.
@@ -80,7 +82,7 @@ class FleetState {
   };
   // How a robot is doing.
   struct Standing {
-    std::string_view state{};  // of kRobotStates
+    RobotState state{};
     bool needs_person = false;
     const mission::Record* mission = nullptr;  // that has not ended
   };

@@ -39,7 +39,7 @@ void FleetState::Measure(http::MetricsText& text) const {
     const Standing standing =
         StandingOf(agent, mission == latest.end() ? nullptr : mission->second);
     robots.emplace(name.value(), Robot{&agent, standing});
-    ++in_state[standing.state];
+    ++in_state[ToText(standing.state)];
   }
 
   text.Begin("robots", kGauge, "Robots that were heard, by what they do.");
@@ -62,7 +62,7 @@ void FleetState::Measure(http::MetricsText& text) const {
   });
   each("robot_state", "1 for what the robot does; of what it does not do there is none.",
        [&](std::string_view robot, const Robot& is) {
-         text.Add(1, {{"robot", robot}, {"state", is.standing.state}});
+         text.Add(1, {{"robot", robot}, {"state", ToText(is.standing.state)}});
        });
   each("robot_needs_person", "1 while a person should look after it, else 0.",
        [&](std::string_view robot, const Robot& is) {

@@ -22,19 +22,19 @@ using program::Json;
 using program::Rounded;
 
 // What an operator's word would change.
-Json OrdersFor(std::string_view state, const AgentStatus& status, bool has_mission) {
+Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission) {
   Json orders = Json::array();
   if (status.role != AgentRole::kFollower) return orders;
-  if (state == "stopped") {
+  if (state == RobotState::kStopped) {
     orders.push_back("release");
-  } else if (state == "paused") {
+  } else if (state == RobotState::kPaused) {
     orders.push_back("resume");
-  } else if (state != "ended") {
+  } else if (state != RobotState::kEnded) {
     orders.push_back("pause");
   }
   if (status.on_duty && status.mode == AgentMode::kTeaching) orders.push_back("end");
   if (has_mission) orders.push_back("cancel");
-  if (state != "ended") orders.push_back("stop");
+  if (state != RobotState::kEnded) orders.push_back("stop");
   return orders;
 }
 
@@ -175,10 +175,10 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   standing.mission = has_ended ? nullptr : latest;
   const bool on_mission = standing.mission != nullptr;
   const bool ended = agent.status.mode == AgentMode::kStopped;
-  standing.state = RobotState(agent.status, agent.silent && !ended, on_mission);
+  standing.state = RobotStateOf(agent.status, agent.silent && !ended, on_mission);
   const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
-  standing.needs_person =
-      failed || standing.state == "fault" || (standing.state == "silent" && on_mission);
+  standing.needs_person = failed || standing.state == RobotState::kFault ||
+                          (standing.state == RobotState::kSilent && on_mission);
   return standing;
 }
 
@@ -187,7 +187,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
   const auto [state, needs_person, mission] = StandingOf(agent, latest);
   Json robot{{"name", status.agent.value()},
              {"role", ToText(status.role)},
-             {"state", state},
+             {"state", ToText(state)},
              {"detail", status.detail},
              {"needs_person", needs_person},
              {"heard", !agent.silent},
@@ -210,7 +210,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
              {"software", status.software},
              {"teaches", status.mode == AgentMode::kTeaching},
              {"features", status.features},
-             {"orders", OrdersFor(RobotState(status, false, mission != nullptr), status,
+             {"orders", OrdersFor(RobotStateOf(status, false, mission != nullptr), status,
                                   mission != nullptr)}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();

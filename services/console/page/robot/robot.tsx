@@ -48,7 +48,7 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
       {robot.last_heard_unix_ms !== null && (
         <p className="last-heard">Last heard {age(now_ms - robot.last_heard_unix_ms)} ago; what follows is from then.</p>
       )}
-      {robot.detail && robot.detail !== 'free' && <p className="detail">{robot.detail}</p>}
+      {robot.detail && robot.detail !== robot.state && <p className="detail">{robot.detail}</p>}
       {robot.route && !robot.teaches && <Strip robot={robot} />}
       <Vitals robot={robot} />
       {mission && (

@@ -137,11 +137,11 @@ class Replaying {
     if (way_) row.scan = way_->figures();
     row.set_down = set_down_m_.has_value();
     row.found = found_;
-    row.arrived = state_ == (set_down_m_ ? "found" : "arrived");
+    row.arrived = arrived_;
   }
   [[nodiscard]] const TruePath& path() const { return judge_.replayed(); }
   [[nodiscard]] std::optional<refresh::Visit> TakeVisit() {
-    return state_ == "arrived" ? session_.TakeVisit() : std::nullopt;
+    return arrived_ && !set_down_m_ ? session_.TakeVisit() : std::nullopt;
   }
   [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
 
@@ -214,7 +214,7 @@ class Replaying {
       const double error_m = judge_.verdict().final_error_m;
       lap_ends_m_.push_back(error_m);
       if (error_m <= kArrivalRadius_m) {
-        return static_cast<int>(lap_ends_m_.size()) == laps_ && End("arrived", "");
+        return static_cast<int>(lap_ends_m_.size()) == laps_ && Arrive("arrived");
       }
       return End("misplaced", fmt::format("says it arrived {:.1f} m from the end", error_m));
     }
@@ -235,8 +235,12 @@ class Replaying {
     return false;
   }
   bool EndFound() {
-    if (off_m_ <= kBeside_m) return End("found", "");
+    if (off_m_ <= kBeside_m) return Arrive("found");
     return End("strayed", fmt::format("{}: {:.1f} m off the path", Where(), off_m_));
+  }
+  bool Arrive(const char* state) {
+    arrived_ = true;
+    return End(state, "");
   }
   bool End(const char* state, std::string reason) {
     state_ = state;
@@ -270,6 +274,7 @@ class Replaying {
   double off_m_ = 0.0;  // the taught path
   double cpu_ms_ = 0.0;
   int frames_ = 0;
+  bool arrived_ = false;  // or found itself, if that is what it was to do
   std::string state_;
   std::string reason_;
 };
