@@ -7,7 +7,7 @@
 #include <string>
 
 #include "agent/diagnosis/run_log.h"
-#include "agent/diagnosis/run_log_file.h"
+#include "agent/diagnosis/run_mcap.h"
 #include "agent/diagnosis/run_recorder.h"
 
 namespace trailcast::agent {
@@ -15,12 +15,12 @@ namespace trailcast::agent {
 class RunMcapFile;
 
 struct DiagnosisOptions {
-  std::filesystem::path log;   // a file, MCAP where its name ends in .mcap; empty: none
-  std::filesystem::path view;  // a folder for pictures of the frames; empty: none
-  int view_every = 1;          // frames
-  // Nothing drives: rather wait for a slow disk than leave frames out of a log as MCAP.
+  std::filesystem::path log{};   // an MCAP file; empty: none
+  std::filesystem::path view{};  // a folder for pictures of the frames; empty: none
+  int view_every = 1;            // frames
+  // Nothing drives: rather wait for a slow disk than leave frames out of the log.
   bool patient = false;
-  double picture_every_s = 0.0;  // of a log as MCAP; 0: each frame's
+  double picture_every_s = kEveryPicture_s;  // in the log; 0: none
   // Then a log has no more frames, and says so; 0: any number.
   std::uint64_t most_log_bytes = 0;
   Fields header{};  // of the log, besides what is known of the run
@@ -46,14 +46,12 @@ class Diagnosis {
 
  private:
   explicit Diagnosis(DiagnosisOptions options);
-  [[nodiscard]] Result<void> OpenLog();
   void Log(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
   [[nodiscard]] bool HasRoom();
   void Draw(const ReplaySession& session, const ReplayStep& step);
 
   DiagnosisOptions options_;
-  std::unique_ptr<RunLogFile> file_;   // the log as text, or
-  std::unique_ptr<RunMcapFile> mcap_;  // as MCAP
+  std::unique_ptr<RunMcapFile> log_;
   RunRecorder recorder_;
   bool begun_ = false;
   bool full_ = false;

@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-// A replay's log as values; run_log_format.h has the text.
+// A replay's log as values; idl/run_log.proto has the messages in its file.
 
 // What the robot was at in a frame: ReplayState and Trust in one word.
 enum class Phase {
@@ -89,24 +89,21 @@ struct FrameRow {
 struct RunEvent {
   int frame = 0;
   double t_s = 0.0;
-  std::string what;
-  Fields fields;
-  std::string text;  // for people; may be empty
+  std::string what{};
+  Fields fields{};
+  std::string text{};  // for people; may be empty
 };
 
-// A line that could not be read, counted from 1.
-struct Damage {
-  std::size_t line = 0;
-  std::string what;
-};
+// What happened, in a line: without the frame and the time.
+[[nodiscard]] std::string DescribeEvent(const RunEvent& event);
 
 struct RunLog {
   Fields header;
   std::vector<FrameRow> frames;
   std::vector<RunEvent> events;
-  std::vector<Damage> damage;      // the first of them
-  std::size_t damaged_lines = 0;   // all of them
-  std::optional<RunEvent> ending;  // nothing: the log breaks off
+  std::vector<std::string> damage;  // what could not be read: the first of it
+  std::size_t damaged = 0;          // all of it
+  std::optional<RunEvent> ending;   // nothing: the log breaks off
 };
 
 }  // namespace trailcast::agent

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <string>
 #include <thread>
 
+#include "services/bag/compression.h"
 #include "services/base/mailbox.h"
 #include "services/base/result.h"
 
@@ -20,12 +20,11 @@ namespace trailcast::agent {
 class RunLogFile {
  public:
   // What comes next into the file; called by its thread.
-  using Make = std::function<std::string()>;
+  using Make = std::function<bag::Bytes()>;
 
-  // Replaces the file; the error names it. `capacity`: how much may wait for the disk; for texts,
-  // minutes of frames.
+  // Replaces the file; the error names it. `capacity`: how much may wait for the disk.
   [[nodiscard]] static Result<std::unique_ptr<RunLogFile>> Create(const std::filesystem::path& file,
-                                                                  std::size_t capacity = 8192);
+                                                                  std::size_t capacity);
   ~RunLogFile();
   RunLogFile(const RunLogFile&) = delete;
   RunLogFile& operator=(const RunLogFile&) = delete;
@@ -36,23 +35,19 @@ class RunLogFile {
   void Hurry() { bell_.Ring(); }
   // Written so far.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_.load(); }
-  // A text; where the disk does not keep up, the file says how many were dropped.
-  void Put(std::string text);
   // Everything is written, `last` behind it; the error says what was not.
-  [[nodiscard]] Result<void> Close(const Make& last = [] { return std::string(); });
+  [[nodiscard]] Result<void> Close(const Make& last = [] { return bag::Bytes(); });
 
  private:
   RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_t capacity);
-  [[nodiscard]] std::string DroppedText() const;
   void Write();
   void WriteUntilItEnds();
-  void WriteText(const std::string& text);
+  void WriteBytes(const bag::Bytes& bytes);
   void WriteWaiting();
 
   std::filesystem::path file_;
   std::FILE* stream_;
   Mailbox<Make> waiting_;
-  std::size_t dropped_ = 0;  // since the last one that found room
   Bell bell_;
   std::atomic<bool> ending_{false};
   std::atomic<std::uint64_t> bytes_{0};

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <istream>
 
 #include "agent/diagnosis/run_log.h"
 #include "services/base/result.h"
@@ -10,19 +10,19 @@ namespace trailcast::agent {
 
 // What more a file holds is left out, and noted as damage.
 struct ReadLimits {
-  std::size_t lines = 5'000'000;  // a day at 30 frames a second fits
-  std::size_t events = 5'000'000;
-  std::size_t text_bytes = std::size_t{2} << 30U;  // of a log as MCAP
+  std::size_t messages = 5'000'000;  // that are frames, or events: a day at 30 frames a second fits
+  std::size_t events = 5'000'000;    // that are kept
+  std::size_t bytes = std::size_t{2} << 30U;  // of messages
 };
 
-// Reads what is whole and lists what is not: a robot that crashed, a disk that was full, a file
+// Reads what is whole and notes what is not: a robot that crashed, a disk that was full, a file
 // that was cut off still have a story to tell. An error is a file that cannot be opened, or that is
-// no replay's log of this version. As text or as MCAP.
+// no replay's log.
 [[nodiscard]] Result<RunLog> ReadRunLog(const std::filesystem::path& file,
                                         const ReadLimits& limits = {});
-[[nodiscard]] Result<RunLog> ReadRunLog(std::istream& stream, const ReadLimits& limits = {});
 
-// The same without what lies between a long log's first and last seconds, for those who list many.
+// The same without what lies between a long log's first frame and its last seconds, and without
+// what is damaged, for those who list many.
 [[nodiscard]] Result<RunLog> ReadRunEnds(const std::filesystem::path& file);
 
 }  // namespace trailcast::agent

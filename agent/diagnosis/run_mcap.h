@@ -15,7 +15,7 @@ namespace trailcast::agent {
 
 // What became of one frame, or a word between two.
 struct RunMoment {
-  std::string text;  // as in the log as text
+  std::optional<Fields> header{};  // of the run; again where another route begins
   std::vector<RunEvent> events{};
   std::optional<SensorTime> stamp{};  // of a frame; a word has that of the frame before
   std::optional<FrameRow> row{};
@@ -24,15 +24,19 @@ struct RunMoment {
   std::vector<replay::FeatureView> features{};
 };
 
-// A replay's log as MCAP, for viewers: README.md lists its topics, idl/viewers.proto and
-// idl/run_log.proto their messages. No disk, no clock, no thread.
+// Seconds between the pictures in a log; 0: it has none, and no features. Cameras are slower than
+// this: each frame has one.
+inline constexpr double kEveryPicture_s = 1e-6;
+
+// A replay's log, an MCAP file for readers and viewers: README.md lists its topics,
+// idl/viewers.proto and idl/run_log.proto their messages. No disk, no clock, no thread.
 class RunMcap {
  public:
-  // Seconds between the pictures that are kept; 0: all of them.
-  explicit RunMcap(double picture_every_s = 0.0);
+  explicit RunMcap(double picture_every_s = kEveryPicture_s);
   void Add(const RunMoment& moment);
   void End();
-  // What has been made since the last time: a second at once.
+  // What has been made since the last time: the first frame, and what is said between frames, at
+  // once, else a second of frames.
   [[nodiscard]] bag::Bytes TakeBytes() { return writer_.TakeBytes(); }
 
  private:
@@ -40,6 +44,7 @@ class RunMcap {
 
   [[nodiscard]] Channel AddTopic(const char* topic, const char* message);
   void Put(Channel channel, const std::string& message);
+  void PutWords(const RunMoment& moment);
   void PutPicture(const RunMoment& moment);
   void PutPose(const motion::Pose2& pose);
   void PutPath();
@@ -52,11 +57,12 @@ class RunMcap {
   Channel path_;
   Channel states_;
   Channel frame_;
-  Channel text_;
+  Channel header_;
+  Channel event_;
   SensorTime at_{0};
   std::optional<SensorTime> chunk_began_;
   std::optional<SensorTime> pictured_at_;
-  std::string early_text_;  // before the first frame
+  std::vector<RunMoment> early_;  // before the first frame, whose time they will have
   // The way so far: not a pose a frame, but one each spacing_m_, which grows with the way.
   std::vector<motion::Pose2> way_;
   double spacing_m_ = 0.05;

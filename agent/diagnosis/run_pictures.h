@@ -13,14 +13,14 @@
 
 namespace trailcast::agent {
 
-// What a replay's log as MCAP has of frames beside its text, found by their times. One thread at a
+// What a replay's log has of what its robot saw, found by the times of frames. One thread at a
 // time.
 class RunPictures {
  public:
   // The largest that is handed out.
   static constexpr std::size_t kMostPictureBytes = 4U << 20U;
 
-  // Errors: no MCAP, or one without pictures and features.
+  // Errors: no MCAP file, or one without pictures and features.
   [[nodiscard]] static Result<std::unique_ptr<RunPictures>> Open(const std::filesystem::path& file);
 
   // Of the frame of that time; none: the log has none of it.

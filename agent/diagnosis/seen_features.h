@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-// A feature as a log as MCAP has it, in pixels from the picture's upper left corner.
+// A feature as a log has it, in pixels from the picture's upper left corner.
 struct SeenFeature {
   double u_px = 0.0;
   double v_px = 0.0;

@@ -12,7 +12,7 @@ constexpr const char* kMainExamples =
     "  trailcast trial --trials 10            # ten times teach and follow, measured\n"
     "  trailcast align drive1/ drive2/ --out truth.csv   # where drive2's frames were taken\n"
     "  trailcast judge drive1/ drive2/        # recordings taught and replayed, measured\n"
-    "  trailcast explain run.log              # what happened in a replay, and why\n"
+    "  trailcast explain run.mcap             # what happened in a replay, and why\n"
     "  trailcast routes                       # what the route server keeps\n"
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"

@@ -105,6 +105,18 @@ TEST_F(BadInputTest, WhoIsOnDutyIsOfferedNoRecording) {
   EXPECT_THAT(run.output, AllOf(HasSubstr("--sim or --ros2"), Not(HasSubstr("--frames"))));
 }
 
+TEST_F(BadInputTest, ALogThatIsNoMcapFile) {
+  const auto run = RunAgent(With(ReplayWords(Path("walk"), "a.db"), {"--log", Path("run.log")}));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, AllOf(HasSubstr("--log"), HasSubstr("run.log"),
+                                HasSubstr("expected a name that ends in .mcap")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run.log"));
+  Write("run.log", "# trailcast replay log 1\n");
+  const auto told = End(*Start("trailcast", {"explain", Path("run.log")}, "explain"));
+  EXPECT_EQ(told.status, 1);
+  EXPECT_THAT(told.output, HasSubstr("not a replay's log: it is no MCAP file"));
+}
+
 TEST_F(BadInputTest, ANameThatIsNone) {
   const auto run = RunAgent(With(TeachWords("x", "a.db"), {"--name", "Dr. Who?"}));
   EXPECT_EQ(run.status, 2);

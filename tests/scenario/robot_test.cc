@@ -54,7 +54,7 @@ TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
                                         "--obstacle", "3,1.5,0.2@0+12", "--lockstep"});
     ASSERT_TRUE(robot->WaitForOutput("in lockstep")) << robot->output();
     const auto follower =
-        Follow(With(sensor, {"--robot-width", "0.4", "--log", Path("run.log"), "--sensor-patience",
+        Follow(With(sensor, {"--robot-width", "0.4", "--log", Path("run.mcap"), "--sensor-patience",
                              "1", "--base-patience", "1", "--lockstep"}));
     ASSERT_TRUE(follower->WaitForOutput("WAITING: something stands")) << follower->output();
     EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
@@ -82,7 +82,7 @@ TEST_F(RobotTest, AFollowerThatMayGoesRoundWhatStandsOnItsPath) {
                                       "2.8,1.75,0.15@0", "--lockstep"});
   ASSERT_TRUE(robot->WaitForOutput("in lockstep")) << robot->output();
   const auto follower = Follow({"--scan-topic", "scan", "--pass-obstacles", "0.8", "--robot-width",
-                                "0.4", "--lockstep", "--log", Path("run.log")});
+                                "0.4", "--lockstep", "--log", Path("run.mcap")});
   EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
   EXPECT_THAT(follower->output(),
               AllOf(HasSubstr("passes what stands on the path"), HasSubstr("state=ARRIVED")));

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "agent/diagnosis/run_log_format.h"
-#include "agent/diagnosis/run_log_reader.h"
+#include "agent/diagnosis/run_log.h"
+#include "agent/diagnosis/run_mcap.h"
+#include "services/base/time.h"
 
 namespace trailcast::test {
 
@@ -13,7 +15,7 @@ namespace trailcast::test {
 class SampleRun {
  public:
   SampleRun() {
-    agent::Fields header;
+    agent::Fields& header = log_.header;
     header.Add("route", "hall");
     header.Add("segments", "5");
     header.Add("length_m", "10.00");
@@ -22,7 +24,7 @@ class SampleRun {
     header.Add("robot", "robot2");
     header.Add("camera", "wide 320x240");
     header.Add("method", "default");
-    text_ = agent::FirstLine() + agent::HeaderText(header);
+    moments_.push_back({.header = header});
     row_.stored = 30;
     row_.tracked = row_.agreeing = 25;
     row_.linear_mps = 0.4;
@@ -47,11 +49,11 @@ class SampleRun {
     event.fields.Add("search", search);
     event.fields.Add("length_m", std::to_string(length_m));
     event.fields.Add("speed_mps", "0.4");
-    text_ += agent::EventText(event);
-    return *this;
+    return Add(std::move(event));
   }
   SampleRun& Frame() {
-    text_ += agent::RowText(row_);
+    log_.frames.push_back(row_);
+    moments_.push_back({.stamp = FromSeconds(row_.t_s), .row = row_});
     ++row_.frame;
     row_.t_s += 0.1;
     if (row_.driven_m) row_.driven_m = *row_.driven_m + 0.1 * row_.linear_mps;
@@ -68,31 +70,40 @@ class SampleRun {
     row_.phase = phase;
     agent::RunEvent event{row_.frame, row_.t_s, "phase", {}, reason};
     event.fields.Add("to", ToString(phase));
-    text_ += agent::EventText(event);
-    return *this;
+    return Add(std::move(event));
   }
   SampleRun& CarriedOff(double left_m) {
     agent::RunEvent event{row_.frame - 1, row_.t_s, "carried", {}, ""};
     event.fields.Add("left_m", std::to_string(left_m));
-    text_ += agent::EventText(event);
-    return *this;
+    return Add(std::move(event));
   }
   SampleRun& End(const std::string& state, const std::string& reason) {
-    agent::RunEvent event{row_.frame, row_.t_s, "end", {}, reason};
-    event.fields.Add("state", state);
-    text_ += agent::EventText(event);
+    log_.ending = {row_.frame, row_.t_s, "end", {}, reason};
+    log_.ending->fields.Add("state", state);
+    moments_.push_back({.events = {*log_.ending}});
     return *this;
   }
 
-  [[nodiscard]] const std::string& text() const { return text_; }
-  [[nodiscard]] agent::RunLog Log() const {
-    std::istringstream stream(text_);
-    return agent::ReadRunLog(stream).value();
+  [[nodiscard]] const agent::RunLog& Log() const { return log_; }
+  // As an agent writes it; unless `whole`, as far as it has by now.
+  [[nodiscard]] std::string Mcap(bool whole = true) const {
+    agent::RunMcap mcap(0.0);
+    for (const agent::RunMoment& moment : moments_) mcap.Add(moment);
+    if (whole) mcap.End();
+    const bag::Bytes bytes = mcap.TakeBytes();
+    return {bytes.begin(), bytes.end()};
   }
 
  private:
+  SampleRun& Add(agent::RunEvent event) {
+    moments_.push_back({.events = {event}});
+    log_.events.push_back(std::move(event));
+    return *this;
+  }
+
   agent::FrameRow row_;
-  std::string text_;
+  agent::RunLog log_;
+  std::vector<agent::RunMoment> moments_;
 };
 
 }  // namespace trailcast::test

@@ -1,4 +1,6 @@
 // The flags of the program and of its commands.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "agent/cli/src/commands.h"
@@ -12,6 +14,15 @@ namespace {
 constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
 constexpr const char* kHowItFollows = "How it follows";
+
+CLI::Validator IsMcapName() {
+  return {[](std::string& file) -> std::string {
+            if (std::filesystem::path(file).extension() == ".mcap") return "";
+            return fmt::format("'{}': a log is an MCAP file: expected a name that ends in .mcap",
+                               file);
+          },
+          "FILE.mcap"};
+}
 
 void AddRoute(CLI::App& command, std::string& route) {
   command
@@ -149,10 +160,11 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
   AddRouteRef(command, replay.route);
   AddRevision(command, replay.revision, "Default: the active one");
   AddScout(command, replay.scout);
-  command.add_option("--log", replay.diagnosis.log,
-                     "Writes what the robot saw and why it did what it did here, while it runs; "
-                     "'trailcast explain FILE' tells its story; where FILE ends in .mcap, with "
-                     "pictures, for viewers as roboticists have them, too");
+  command
+      .add_option("--log", replay.diagnosis.log,
+                  "Writes what the robot saw and why it did what it did here, while it runs, for "
+                  "'trailcast explain FILE.mcap' and for viewers of MCAP files")
+      ->check(IsMcapName());
   command.add_flag("--wait-for-route", replay.wait_for_route,
                    "With --server: also wait for a route that no server knows yet");
   command
@@ -199,8 +211,8 @@ void AddServeOptions(CLI::App& command, ServeCommand& serve) {
       ->needs(logs);
   command
       .add_option("--logs-pictures", serve.logs.picture_every_s,
-                  "Seconds from picture to picture in them; 0: logs as text, with no pictures and "
-                  "not where features are")
+                  "Seconds from picture to picture in them; 0: no pictures, and not where "
+                  "features are")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str()
       ->needs(logs);

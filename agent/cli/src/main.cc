@@ -10,8 +10,8 @@ namespace agent = trailcast::agent;
 
 constexpr const char* kFooter = R"(Examples:
   trailcast-agent teach  --frames drive1/ --odometry drive1.csv --route hall --store scout.db
-  trailcast-agent replay --frames drive2/ --route hall --store scout.db --log run.log
-                         # then: trailcast explain run.log
+  trailcast-agent replay --frames drive2/ --route hall --store scout.db --log run.mcap
+                         # then: trailcast explain run.mcap
   trailcast-agent teach  --sim shop.obj --path path.csv --route shop --store scout.db --server
   trailcast-agent replay --sim shop.obj --path path.csv --camera wide --seed 7 --name robot2
                          --route shop --store robot2.db --server --wait-for-route

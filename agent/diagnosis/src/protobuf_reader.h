@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,17 +15,19 @@ class ProtobufReader {
   struct Field {
     std::uint64_t number = 0;
     std::span<const std::uint8_t> bytes;  // of a message, a text; else none
-    double real = 0.0;                    // of a double
+    double real = NAN;                    // of a double; else no number
+    std::uint64_t integer = 0;            // of an integer; else 0
   };
 
   explicit ProtobufReader(std::span<const std::uint8_t> message) : left_(message) {}
 
   [[nodiscard]] std::optional<Field> Next() {
-    const std::uint64_t tag = left_.empty() ? 0 : Varint();
+    if (failed_ || left_.empty()) return std::nullopt;
+    const std::uint64_t tag = Varint();
     Field field{.number = tag >> 3U, .bytes = {}};
     switch (tag & 7U) {
       case 0:
-        (void)Varint();
+        field.integer = Varint();
         break;
       case 1:
         field.real = std::bit_cast<double>(Fixed(8));
@@ -38,9 +41,12 @@ class ProtobufReader {
       default:
         failed_ = true;
     }
-    if (failed_ || field.number == 0) return std::nullopt;
+    failed_ = failed_ || field.number == 0;
+    if (failed_) return std::nullopt;
     return field;
   }
+  // Once there is no next field: whether that was the message's end.
+  [[nodiscard]] bool whole() const { return !failed_; }
 
  private:
   std::span<const std::uint8_t> Take(std::uint64_t count) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "services/base/number.h"
+#include "services/base/text.h"
 
 namespace trailcast::agent {
 namespace {
@@ -18,6 +19,14 @@ constexpr std::array kPhases = {
     NamedPhase{"distant", Phase::kDistant}, NamedPhase{"blind", Phase::kBlind},
     NamedPhase{"covered", Phase::kCovered}, NamedPhase{"arrived", Phase::kArrived},
     NamedPhase{"lost", Phase::kLost},       NamedPhase{"looking", Phase::kLooking}};
+
+constexpr std::size_t kLongestText = 1000;
+
+std::string OneWord(const std::string& text) {
+  std::string word = PlainText(text, kLongestText);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
 
 }  // namespace
 
@@ -45,6 +54,15 @@ std::optional<double> Fields::Number(const std::string& key) const {
   const auto text = Find(key);
   if (!text) return std::nullopt;
   return ParseNumber<double>(*text);
+}
+
+std::string DescribeEvent(const RunEvent& event) {
+  std::string text = OneWord(event.what);
+  for (const auto& [key, value] : event.fields.all()) {
+    text += ' ' + OneWord(key) + '=' + OneWord(value);
+  }
+  if (!event.text.empty()) text += " : " + PlainText(event.text, kLongestText);
+  return text;
 }
 
 }  // namespace trailcast::agent

@@ -1,7 +1,5 @@
 #include "agent/diagnosis/run_log_file.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "services/base/guarded.h"
@@ -29,24 +27,13 @@ RunLogFile::RunLogFile(std::FILE* stream, std::filesystem::path file, std::size_
 
 RunLogFile::~RunLogFile() { std::ignore = Close(); }
 
-void RunLogFile::Put(std::string text) {
-  text = DroppedText() + text;
-  const bool put = TryPut([text = std::move(text)] { return text; });
-  dropped_ = put ? 0 : dropped_ + 1;
-}
-
-std::string RunLogFile::DroppedText() const {
-  if (dropped_ == 0) return "";
-  return fmt::format("# dropped {} lines: the disk did not keep up\n", dropped_);
-}
-
-void RunLogFile::WriteText(const std::string& text) {
-  bytes_ += text.size();
-  failed_ = failed_ || std::fwrite(text.data(), 1, text.size(), stream_) != text.size();
+void RunLogFile::WriteBytes(const bag::Bytes& bytes) {
+  bytes_ += bytes.size();
+  failed_ = failed_ || std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size();
 }
 
 void RunLogFile::WriteWaiting() {
-  while (const auto make = waiting_.TryGet()) WriteText((*make)());
+  while (const auto make = waiting_.TryGet()) WriteBytes((*make)());
   failed_ = std::fflush(stream_) != 0 || failed_;
 }
 
@@ -68,7 +55,7 @@ Result<void> RunLogFile::Close(const Make& last) {
     ending_.store(true);
     bell_.Ring();
     thread_.join();
-    WriteText(DroppedText() + last());
+    WriteBytes(last());
     failed_ = std::fclose(stream_) != 0 || failed_;
   }
   if (!failed_) return {};

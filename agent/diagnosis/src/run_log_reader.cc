@@ -1,68 +1,99 @@
 #include "agent/diagnosis/run_log_reader.h"
 
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
 #include <string>
 
-#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/src/run_log_messages.h"
+#include "services/bag/bag.h"
 
 namespace trailcast::agent {
 namespace {
 
+using std::chrono::nanoseconds;
+
 constexpr std::size_t kDamageKept = 20;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+// Of a log that is read for a list.
+constexpr std::chrono::seconds kEnd{2};
+constexpr std::size_t kMostAtTheEnd = 10'000;
 
-struct Line {
-  std::string text;
-  bool whole = false;     // ends in a line end
-  bool too_long = false;  // `text` is its beginning
-};
+// A log whose program was killed before its first frame has no topics yet.
+bool IsLog(const bag::Bag& bag) {
+  const auto& topics = bag.topics();
+  const bool begun = std::any_of(topics.begin(), topics.end(), [](const bag::Topic& topic) {
+    return topic.name == kHeaderTopic;
+  });
+  return begun || (topics.empty() && !bag.damage().empty());
+}
 
-// Never holds more of a line than a line may have.
-std::optional<Line> NextLine(std::istream& stream) {
-  Line line;
-  std::streambuf& bytes = *stream.rdbuf();
-  for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
-    if (c == '\n') {
-      line.whole = true;
-      return line;
-    }
-    if (line.text.size() < kLongestLogLine) {
-      line.text += static_cast<char>(c);
-    } else {
-      line.too_long = true;
-    }
-  }
-  if (line.text.empty()) return std::nullopt;
-  return line;
+Result<std::unique_ptr<bag::Bag>> OpenLog(const std::filesystem::path& file) {
+  auto bag = OpenMcap(file);
+  if (!bag && bag.error().code != ErrorCode::kCorrupt) return bag;
+  if (bag && IsLog(**bag)) return bag;
+  return Fail(ErrorCode::kCorrupt,
+              "not a replay's log: {}; 'trailcast-agent replay --log FILE.mcap' writes one",
+              bag ? fmt::format("it has no topic {}", kHeaderTopic) : bag.error().message);
 }
 
 class Reader {
  public:
-  explicit Reader(const ReadLimits& limits) : limits_(limits) {}
+  Reader(bag::Bag& bag, const ReadLimits& limits) : bag_(bag), limits_(limits) {}
 
-  void Take(std::size_t number, const Line& line) {
-    Result<void> taken;
-    if (line.too_long) {
-      taken = Fail(ErrorCode::kCorrupt, "longer than {} characters", kLongestLogLine);
-    } else if (!line.whole) {
-      taken = Fail(ErrorCode::kCorrupt, "cut off: the file ends within this line");
-    } else {
-      taken = Take(line.text);
+  Result<void> Header() { return Read(kHeaderTopic, &Reader::TakeHeader, {}, 1); }
+  // From then on, at most so many.
+  Result<void> Frames(nanoseconds from = {}, std::size_t most = kAll) {
+    return Read(kFrameTopic, &Reader::TakeFrame, from, most);
+  }
+  Result<void> Events(nanoseconds from = {}, std::size_t most = kAll) {
+    return Read(kEventTopic, &Reader::TakeEvent, from, most);
+  }
+  // `name`: the file's, with which what is damaged of it begins.
+  [[nodiscard]] RunLog Finish(const std::string& name) && {
+    for (std::string what : bag_.damage()) {
+      if (what.starts_with(name + ": ")) what.erase(0, name.size() + 2);
+      Note(std::move(what));
     }
-    if (!taken) Note(number, taken.error().message);
+    return std::move(log_);
   }
-  void Note(std::size_t number, std::string what) {
-    ++log_.damaged_lines;
-    if (log_.damage.size() < kDamageKept) log_.damage.push_back({number, std::move(what)});
-  }
-  [[nodiscard]] RunLog Finish() && { return std::move(log_); }
 
  private:
-  Result<void> Take(const std::string& line) {
-    if (line.rfind("# ", 0) == 0) return TakeHeader(line);
-    if (line.rfind("! ", 0) == 0) return TakeEvent(line);
-    if (columns_.empty()) {
-      return Fail(ErrorCode::kCorrupt, "a row before the header has listed its columns");
+  using Message = std::span<const std::uint8_t>;
+  using Take = Result<void> (Reader::*)(Message);
+
+  Result<void> Read(const char* name, Take take, nanoseconds from, std::size_t most) {
+    const auto& topics = bag_.topics();
+    const auto topic = std::find_if(topics.begin(), topics.end(),
+                                    [&](const bag::Topic& each) { return each.name == name; });
+    if (topic == topics.end()) return {};
+    bag_.Begin(*topic, std::max(from, nanoseconds(0)));
+    for (std::size_t count = 0; count < most; ++count) {
+      const auto message = bag_.Next();
+      if (!message) return tl::unexpected(message.error());
+      if (!*message) break;
+      bytes_ += (*message)->bytes.size();
+      if (count == limits_.messages || bytes_ > limits_.bytes) {
+        Note(fmt::format("{} has more than is read: the rest is left out", name));
+        break;
+      }
+      if (const auto taken = (this->*take)((*message)->bytes); !taken) {
+        Note(fmt::format("message {} of {}: {}", count + 1, name, taken.error().message));
+      }
     }
-    auto row = ParseRow(line, columns_);
+    return {};
+  }
+  void Note(std::string what) {
+    ++log_.damaged;
+    if (log_.damage.size() < kDamageKept) log_.damage.push_back(std::move(what));
+  }
+
+  Result<void> TakeHeader(Message message) {
+    return ReadHeader(message).map([this](Fields header) { log_.header = std::move(header); });
+  }
+  Result<void> TakeFrame(Message message) {
+    const auto row = ReadFrame(message);
     if (!row) return tl::unexpected(row.error());
     if (!log_.frames.empty() && row->frame <= log_.frames.back().frame) {
       return Fail(ErrorCode::kCorrupt, "frame {} after frame {}", row->frame,
@@ -71,21 +102,8 @@ class Reader {
     log_.frames.push_back(*row);
     return {};
   }
-  Result<void> TakeHeader(const std::string& line) {
-    const std::size_t key_end = std::min(line.find(' ', 2), line.size());
-    const std::string key = line.substr(2, key_end - 2);
-    const std::string value = line.substr(std::min(key_end + 1, line.size()));
-    if (key != "columns") {
-      log_.header.Add(key, value);
-      return {};
-    }
-    auto columns = ParseColumns(value);
-    if (!columns) return tl::unexpected(columns.error());
-    columns_ = std::move(*columns);
-    return {};
-  }
-  Result<void> TakeEvent(const std::string& line) {
-    auto event = ParseEvent(line);
+  Result<void> TakeEvent(Message message) {
+    auto event = ReadEvent(message);
     if (!event) return tl::unexpected(event.error());
     if (event->what == "end") {
       log_.ending = std::move(*event);
@@ -97,29 +115,39 @@ class Reader {
     return {};
   }
 
+  bag::Bag& bag_;
   const ReadLimits& limits_;
   RunLog log_;
-  std::vector<std::string> columns_;
+  std::size_t bytes_ = 0;
 };
+
+Result<RunLog> ReadAs(const std::filesystem::path& file, const ReadLimits& limits, bool ends) {
+  const auto bag = OpenLog(file);
+  if (!bag) return Wrap(bag.error(), file.string());
+  Reader reader(**bag, limits);
+  auto read = reader.Header();
+  if (read && ends) read = reader.Frames({}, 1);
+  const nanoseconds from = ends ? (*bag)->last_at() - kEnd : nanoseconds(0);
+  const std::size_t most = ends ? kMostAtTheEnd : kAll;
+  if (read) read = reader.Frames(from, most);
+  if (read) read = reader.Events(from, most);
+  if (!read) return Wrap(read.error(), file.string());
+  return std::move(reader).Finish(file.filename().string());
+}
 
 }  // namespace
 
-Result<RunLog> ReadRunLog(std::istream& stream, const ReadLimits& limits) {
-  const auto first = NextLine(stream);
-  if (auto checked = CheckFirstLine(first ? first->text : ""); !checked) {
-    return tl::unexpected(checked.error());
-  }
-  Reader reader(limits);
-  std::size_t number = 1;
-  while (const auto line = NextLine(stream)) {
-    ++number;
-    if (number > limits.lines) {
-      reader.Note(number, "more lines than are read: the rest is left out");
-      break;
-    }
-    reader.Take(number, *line);
-  }
-  return std::move(reader).Finish();
+Result<RunLog> ReadRunLog(const std::filesystem::path& file, const ReadLimits& limits) {
+  return ReadAs(file, limits, false);
+}
+
+Result<RunLog> ReadRunEnds(const std::filesystem::path& file) {
+  return ReadAs(file, {}, true).map([](RunLog log) {
+    // The first frame of a short log is one of its last, too, and came again.
+    log.damage.clear();
+    log.damaged = 0;
+    return log;
+  });
 }
 
 }  // namespace trailcast::agent

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/src/run_log_messages.h"
 #include "agent/diagnosis/src/viewer_messages.h"
 #include "idl/run_log_description.h"
 #include "services/image/files.h"
@@ -28,8 +29,9 @@ RunMcap::RunMcap(double picture_every_s)
       pose_(AddTopic("/odometry/pose", "foxglove.PoseInFrame")),
       path_(AddTopic("/odometry/path", "foxglove.PosesInFrame")),
       states_(AddTopic("/replay/states", "foxglove.Log")),
-      frame_(AddTopic("/replay/frame", "trailcast.log.Frame")),
-      text_(AddTopic(kRunLogTopic, "trailcast.log.Text")) {}
+      frame_(AddTopic(kFrameTopic, "trailcast.log.Frame")),
+      header_(AddTopic(kHeaderTopic, "trailcast.log.Header")),
+      event_(AddTopic(kEventTopic, "trailcast.log.Event")) {}
 
 RunMcap::Channel RunMcap::AddTopic(const char* topic, const char* message) {
   const auto schema = writer_.AddSchema(message, "protobuf", RunLogDescription());
@@ -75,27 +77,36 @@ void RunMcap::PutPath() {
   Put(path_, PathMessage(at_, way_));
 }
 
+void RunMcap::PutWords(const RunMoment& moment) {
+  if (moment.header) Put(header_, HeaderMessage(*moment.header));
+  for (const RunEvent& event : moment.events) {
+    Put(states_, StateMessage(at_, event));
+    Put(event_, EventMessage(event));
+  }
+}
+
 void RunMcap::Add(const RunMoment& moment) {
   if (!moment.stamp && !chunk_began_) {
-    early_text_ += moment.text;
+    early_.push_back(moment);
     return;
   }
   if (moment.stamp) at_ = std::max(*moment.stamp, SensorTime(0));
-  if (chunk_began_ && std::chrono::abs(at_ - *chunk_began_) >= kChunk) {
+  const bool first = !chunk_began_;
+  if (first || std::chrono::abs(at_ - *chunk_began_) >= kChunk) {
     writer_.EndChunk();
-    chunk_began_.reset();
+    chunk_began_ = at_;
   }
-  if (!chunk_began_) chunk_began_ = at_;
-  if (!moment.picture.empty()) PutPicture(moment);
+  for (const RunMoment& early : std::exchange(early_, {})) PutWords(early);
+  if (picture_every_s_ > 0.0 && !moment.picture.empty()) PutPicture(moment);
   if (moment.odometry) PutPose(*moment.odometry);
   if (moment.row) Put(frame_, FrameMessage(*moment.row));
-  for (const RunEvent& event : moment.events) Put(states_, StateMessage(at_, event));
-  Put(text_, TextMessage(std::exchange(early_text_, {}) + moment.text));
+  PutWords(moment);
+  if (first || !moment.stamp) writer_.EndChunk();
 }
 
 void RunMcap::End() {
   PutPath();
-  if (!early_text_.empty()) Put(text_, TextMessage(early_text_));
+  for (const RunMoment& early : std::exchange(early_, {})) PutWords(early);
   writer_.End();
 }
 

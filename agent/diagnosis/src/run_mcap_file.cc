@@ -11,8 +11,6 @@ namespace {
 constexpr std::size_t kMostWaiting = 128;
 constexpr std::chrono::milliseconds kRoomComes{1};
 
-std::string AsText(const bag::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
 }  // namespace
 
 Result<std::unique_ptr<RunMcapFile>> RunMcapFile::Create(const std::filesystem::path& file,
@@ -22,14 +20,25 @@ Result<std::unique_ptr<RunMcapFile>> RunMcapFile::Create(const std::filesystem::
   return std::unique_ptr<RunMcapFile>(new RunMcapFile(std::move(*opened), picture_every_s));
 }
 
-void RunMcapFile::Put(RunMoment moment, bool patient) {
-  if (dropped_ > 0) {
-    moment.text =
-        fmt::format("# dropped {} frames: writing did not keep up\n", dropped_) + moment.text;
+void RunMcapFile::TellDropped(RunMoment& next) const {
+  if (dropped_ == 0) return;
+  RunEvent dropped{.what = "dropped",
+                   .text = fmt::format("{} frames: writing did not keep up", dropped_)};
+  if (!next.events.empty()) {
+    dropped.frame = next.events.front().frame;
+    dropped.t_s = next.events.front().t_s;
+  } else if (next.row) {
+    dropped.frame = next.row->frame;
+    dropped.t_s = next.row->t_s;
   }
+  next.events.insert(next.events.begin(), std::move(dropped));
+}
+
+void RunMcapFile::Put(RunMoment moment, bool patient) {
+  TellDropped(moment);
   RunLogFile::Make make = [this, moment = std::move(moment)] {
     mcap_.Add(moment);
-    return AsText(mcap_.TakeBytes());
+    return mcap_.TakeBytes();
   };
   bool put = file_->TryPut(std::move(make));
   file_->Hurry();
@@ -40,11 +49,12 @@ void RunMcapFile::Put(RunMoment moment, bool patient) {
   dropped_ = put ? 0 : dropped_ + 1;
 }
 
-Result<void> RunMcapFile::Close(const RunMoment& last) {
+Result<void> RunMcapFile::Close(RunMoment last) {
+  TellDropped(last);
   return file_->Close([&] {
     mcap_.Add(last);
     mcap_.End();
-    return AsText(mcap_.TakeBytes());
+    return mcap_.TakeBytes();
   });
 }
 

@@ -7,7 +7,7 @@
 
 namespace trailcast::agent {
 
-// A replay's log as MCAP in a file, made and written by a thread of its own.
+// A replay's log in its file, made and written by a thread of its own.
 class RunMcapFile {
  public:
   // The error: the file cannot be made.
@@ -19,15 +19,17 @@ class RunMcapFile {
   // the log says how many.
   void Put(RunMoment moment, bool patient);
   // `last` is never dropped.
-  [[nodiscard]] Result<void> Close(const RunMoment& last);
+  [[nodiscard]] Result<void> Close(RunMoment last);
 
  private:
   RunMcapFile(std::unique_ptr<RunLogFile> file, double picture_every_s)
       : mcap_(picture_every_s), file_(std::move(file)) {}
 
+  void TellDropped(RunMoment& next) const;
+
   RunMcap mcap_;  // the file's thread's
   std::unique_ptr<RunLogFile> file_;
-  std::size_t dropped_ = 0;
+  std::size_t dropped_ = 0;  // since the last one that found room
 };
 
 }  // namespace trailcast::agent

@@ -1,9 +1,9 @@
 #include "agent/diagnosis/run_pictures.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "agent/diagnosis/src/protobuf_reader.h"
+#include "agent/diagnosis/src/run_log_messages.h"
 #include "agent/diagnosis/src/viewer_messages.h"
 #include "services/base/time.h"
 
@@ -12,8 +12,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A log's text has milliseconds.
-constexpr nanoseconds kRounded = std::chrono::microseconds(501);
+// A row has seconds since 1970, perhaps, in a double.
+constexpr nanoseconds kRounded = std::chrono::microseconds(1);
 // An older picture shows another place.
 constexpr std::chrono::seconds kOldest{3};
 
@@ -26,18 +26,14 @@ nanoseconds At(double t_s) {
 
 RunPictures::RunPictures(std::unique_ptr<bag::Bag> bag) : bag_(std::move(bag)) {
   for (const bag::Topic& topic : bag_->topics()) {
+    if (topic.messages == 0) continue;
     if (topic.name == kPicturesTopic) pictures_ = &topic;
     if (topic.name == kFeaturesTopic) features_ = &topic;
   }
 }
 
 Result<std::unique_ptr<RunPictures>> RunPictures::Open(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!IsMcap(stream)) {
-    return Fail(ErrorCode::kInvalidArgument, "a log as text has no pictures");
-  }
-  auto bag = bag::Bag::Open(
-      file, [](const std::string&) {}, kMostGrowth);
+  auto bag = OpenMcap(file);
   if (!bag) return tl::unexpected(bag.error());
   std::unique_ptr<RunPictures> pictures(new RunPictures(std::move(*bag)));
   if (pictures->pictures_ == nullptr && pictures->features_ == nullptr) {

@@ -5,7 +5,7 @@
 
 namespace trailcast::agent {
 
-// Of its feature, in pictures and in logs as MCAP.
+// Of its feature, in pictures and in logs.
 [[nodiscard]] image::Color VerdictColor(replay::FeatureVerdict verdict);
 
 }  // namespace trailcast::agent

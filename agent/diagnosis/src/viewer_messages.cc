@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/src/frame_view.h"
-#include "agent/diagnosis/src/protobuf_reader.h"
 #include "agent/diagnosis/src/protobuf_writer.h"
 
 namespace trailcast::agent {
@@ -16,7 +14,6 @@ constexpr std::uint64_t kDebug = 1;
 constexpr std::uint64_t kInfo = 2;
 constexpr std::uint64_t kWarning = 3;
 constexpr std::uint64_t kError = 4;
-constexpr std::uint32_t kTextField = 1;
 
 // google.protobuf.Timestamp, in field 1 of all of them. `at` is not negative.
 ProtobufWriter Stamped(SensorTime at) {
@@ -27,7 +24,7 @@ ProtobufWriter Stamped(SensorTime at) {
   return ProtobufWriter().Message(1, timestamp);
 }
 
-ProtobufWriter Point(double x, double y) { return ProtobufWriter().Double(1, x).Double(2, y); }
+ProtobufWriter PointAt(double x, double y) { return ProtobufWriter().Double(1, x).Double(2, y); }
 
 ProtobufWriter ColorOf(replay::FeatureVerdict verdict) {
   const image::Color color = VerdictColor(verdict);
@@ -41,12 +38,12 @@ ProtobufWriter ColorOf(replay::FeatureVerdict verdict) {
 ProtobufWriter PoseOf(const motion::Pose2& pose) {
   ProtobufWriter orientation;
   orientation.Double(3, std::sin(pose.heading_rad / 2)).Double(4, std::cos(pose.heading_rad / 2));
-  return ProtobufWriter().Message(1, Point(pose.x_m, pose.y_m)).Message(2, orientation);
+  return ProtobufWriter().Message(1, PointAt(pose.x_m, pose.y_m)).Message(2, orientation);
 }
 
 std::uint64_t LevelOf(const RunEvent& event) {
   if (event.what == "end") return event.fields.Find("state") == "ARRIVED" ? kInfo : kError;
-  if (event.what == "carried") return kWarning;
+  if (event.what == "carried" || event.what == "dropped") return kWarning;
   if (event.what != "phase") return event.text.empty() ? kDebug : kInfo;
   const auto phase = ParsePhase(event.fields.Find("to").value_or(""));
   if (phase == Phase::kLost) return kError;
@@ -67,7 +64,7 @@ std::string PictureMessage(SensorTime at, std::span<const std::uint8_t> jpeg) {
 std::string FeaturesMessage(SensorTime at, std::span<const replay::FeatureView> features, int width,
                             int height) {
   const auto place = [&](const route::TrackedFeature& feature) {
-    return Point(feature.u_px + 0.5 * width, feature.v_px + 0.5 * height);
+    return PointAt(feature.u_px + 0.5 * width, feature.v_px + 0.5 * height);
   };
   ProtobufWriter annotations;
   ProtobufWriter lines = Stamped(at);
@@ -102,45 +99,6 @@ std::string StateMessage(SensorTime at, const RunEvent& event) {
       .Bytes(3, DescribeEvent(event))
       .Bytes(4, "trailcast")
       .bytes();
-}
-
-// The columns' order gives the fields their numbers.
-std::string FrameMessage(const FrameRow& row) {
-  ProtobufWriter frame;
-  std::uint32_t field = 0;
-  for (const auto& cell : CellsOf(row)) {
-    ++field;
-    if (!cell) continue;
-    if (const auto* number = std::get_if<double>(&*cell)) {
-      frame.Double(field, *number);
-    } else {
-      // Protobuf has negative numbers in 64 bits.
-      frame.Number(field, static_cast<std::uint64_t>(std::int64_t{std::get<int>(*cell)}));
-    }
-  }
-  return frame.bytes();
-}
-
-std::string TextMessage(std::string_view text) {
-  return ProtobufWriter().Bytes(kTextField, text).bytes();
-}
-
-std::optional<std::string_view> ReadTextMessage(std::span<const std::uint8_t> bytes) {
-  ProtobufReader reader(bytes);
-  const auto text = reader.Next();
-  if (!text || text->number != kTextField || text->bytes.data() == nullptr) return std::nullopt;
-  if (text->bytes.data() + text->bytes.size() != bytes.data() + bytes.size()) return std::nullopt;
-  return std::string_view(reinterpret_cast<const char*>(text->bytes.data()), text->bytes.size());
-}
-
-bool IsMcap(std::istream& stream) {
-  constexpr std::string_view kBegins = "\x89MCAP";
-  std::string beginning(kBegins.size(), '\0');
-  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  const bool is = stream && beginning == kBegins;
-  stream.clear();
-  stream.seekg(0);
-  return is;
 }
 
 }  // namespace trailcast::agent

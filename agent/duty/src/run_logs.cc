@@ -25,7 +25,7 @@ struct OldLog {
 
 // The oldest first.
 std::vector<OldLog> OldLogs(const fs::path& folder) {
-  static const std::regex name(".+-[0-9]+-[0-9]+(-[0-9]+)?\\.(mcap|log)");
+  static const std::regex name(".+-[0-9]+-[0-9]+(-[0-9]+)?\\.mcap");
   std::vector<OldLog> logs;
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
@@ -52,12 +52,11 @@ void MakeRoom(const fs::path& folder, std::uint64_t most_bytes) {
 }
 
 fs::path NewFile(const RunLogsOptions& options, const RunOfMission& run) {
-  const char* ending = options.picture_every_s > 0.0 ? "mcap" : "log";
   const std::string name = fmt::format("{}-{}-{}", run.mission, run.task + 1, run.lap + 1);
-  fs::path file = options.folder / fmt::format("{}.{}", name, ending);
+  fs::path file = options.folder / (name + ".mcap");
   std::error_code unknown;
   for (int again = 2; fs::exists(file, unknown); ++again) {
-    file = options.folder / fmt::format("{}-{}.{}", name, again, ending);
+    file = options.folder / fmt::format("{}-{}.mcap", name, again);
   }
   return file;
 }

@@ -26,10 +26,6 @@ std::string IdOf(const std::string& name) {
   return id;
 }
 
-bool MayBeLog(const fs::path& file) {
-  return file.extension() == ".mcap" || file.extension() == ".log";
-}
-
 }  // namespace
 
 OpenFile::OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -53,7 +49,7 @@ Result<std::vector<RunFile>> RunFolder::Scan() const {
   for (const fs::recursive_directory_iterator end; entry != end && seen < kMostEntries; ++seen) {
     struct stat found {};
     const bool there = ::lstat(entry->path().c_str(), &found) == 0;
-    if (there && S_ISREG(found.st_mode) && MayBeLog(entry->path())) {
+    if (there && S_ISREG(found.st_mode) && entry->path().extension() == ".mcap") {
       const std::string name = entry->path().lexically_relative(folder_).string();
       files.push_back({IdOf(name), name, static_cast<std::uint64_t>(found.st_size),
                        std::int64_t{found.st_mtim.tv_sec} * 1000 +

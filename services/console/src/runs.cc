@@ -25,7 +25,7 @@ constexpr seconds kReadAgain{10};
 constexpr std::int64_t kStillWritten_ms = 15'000;
 constexpr std::size_t kMostOpened = 8;
 constexpr std::size_t kMostHappenings = 100;
-constexpr std::size_t kMostTextBytes = 64U << 20U;
+constexpr std::size_t kMostLogBytes = 128U << 20U;
 constexpr milliseconds kOthersLook{2000};
 constexpr const char* kUploaded = "the uploaded log";
 
@@ -192,7 +192,7 @@ void Runs::Read(std::unique_lock<std::mutex>& lock, const std::string& id) {
   Opened read{file, Fail(ErrorCode::kNotFound, "this log is there no more"), Clock::now()};
   if (const auto opened = OpenLog(*kept)) {
     auto log = agent::ReadRunLog(
-        opened->path(), {.lines = kMostRows, .events = kMostEvents, .text_bytes = kMostTextBytes});
+        opened->path(), {.messages = kMostRows, .events = kMostEvents, .bytes = kMostLogBytes});
     if (log) {
       // A log without them is one all the same.
       auto pictures = agent::RunPictures::Open(opened->path());

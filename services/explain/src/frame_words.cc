@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agent/diagnosis/run_log_format.h"
 #include "services/base/angles.h"
 #include "services/explain/src/run_index.h"
 #include "services/explain/story.h"

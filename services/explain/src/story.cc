@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <vector>
 
-#include "agent/diagnosis/run_log_format.h"
 #include "services/explain/src/incidents.h"
 #include "services/explain/src/run_figures.h"
 #include "services/explain/src/run_index.h"
@@ -51,7 +51,8 @@ std::vector<Incident> Shortened(std::vector<Incident> incidents, std::size_t mos
 std::string Wrapped(const std::string& place, const std::string& text) {
   std::string lines = place;
   std::size_t width = place.size();
-  for (const std::string_view word : agent::Words(text)) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
     if (width + 1 + word.size() > kWidth) {
       lines += fmt::format("\n{:{}}", "", place.size());
       width = place.size();
@@ -78,14 +79,16 @@ std::vector<std::string> WhatIsMissing(const RunLog& log, std::size_t most) {
   if (!log.ending) {
     lines.emplace_back("The log breaks off: the program was killed, or is still running.");
   }
-  if (const auto dropped = log.header.Find("dropped")) {
-    lines.push_back(fmt::format("The log has gaps: dropped {}.", *dropped));
+  const auto dropped =
+      std::find_if(log.events.begin(), log.events.end(),
+                   [](const agent::RunEvent& event) { return event.what == "dropped"; });
+  if (dropped != log.events.end()) {
+    lines.push_back(fmt::format("The log has gaps: dropped {}.", dropped->text));
   }
-  if (log.damaged_lines == 0) return lines;
-  lines.push_back(
-      fmt::format("{} of the log's lines cannot be read and are left out:", log.damaged_lines));
+  if (log.damaged == 0) return lines;
+  lines.push_back(fmt::format("{} parts of the log cannot be read and are left out:", log.damaged));
   for (std::size_t i = 0; i < std::min(most, log.damage.size()); ++i) {
-    lines.push_back(fmt::format("  line {}: {}", log.damage[i].line, log.damage[i].what));
+    lines.push_back("  " + log.damage[i]);
   }
   return lines;
 }
@@ -98,7 +101,7 @@ std::string WhatHappened(const Story& story) {
   return text;
 }
 
-// Every line of the log that is not a frame.
+// All that is in the log beside frames.
 std::string Events(const RunLog& log) {
   std::string text = "Events\n";
   for (const agent::RunEvent& event : log.events) {

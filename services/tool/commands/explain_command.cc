@@ -21,11 +21,11 @@ struct ExplainOptions {
 
 constexpr const char* kExplainExamples =
     "Examples:\n"
-    "  trailcast-agent replay --frames drive2/ --route hall --store scout.db --log run.log\n"
-    "  trailcast explain run.log                  # the story, and run.png beside it\n"
-    "  trailcast explain run.log --all --no-plot  # everything, in words only\n"
+    "  trailcast-agent replay --frames drive2/ --route hall --store scout.db --log run.mcap\n"
+    "  trailcast explain run.mcap                  # the story, and run.png beside it\n"
+    "  trailcast explain run.mcap --all --no-plot  # everything, in words only\n"
     "  trailcast trial --trials 3 --log logs/ && trailcast explain "
-    "logs/indoor-default-*-trial2.log\n"
+    "logs/indoor-default-*-trial2.mcap\n"
     "The story says where (metres driven, share of the route, segment) the robot was unsure, "
     "blind\n"
     "or covered and why, which hand-overs found little, which milestones it missed. The picture\n"
@@ -54,7 +54,7 @@ Command AddExplainCommand(CLI::App& parent) {
       "explain", "Tell in plain words, and draw, what happened in a replay that wrote a log");
   app->footer(kExplainExamples);
   app->add_option("log", options->log,
-                  "What 'trailcast-agent replay --log', as text or as MCAP, or 'trial --log' wrote")
+                  "What 'trailcast-agent replay --log', 'serve --logs' or 'trial --log' wrote")
       ->required();
   CLI::Option* plot =
       app->add_option("--plot", options->plot,

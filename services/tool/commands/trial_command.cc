@@ -38,7 +38,7 @@ constexpr const char* kTrialExamples =
     "  trailcast trial --scenario seasons --visits 10 --refresh --trials 3\n"
     "  trailcast trial --flaw upside-down,late,all --trials 3   # as real robots are\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
-    "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.log\n"
+    "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.mcap\n"
     "  trailcast trial --trials 1 --seed 4      # the fourth of ten trials from seed 1, alone";
 
 std::string ScenarioHelp() {

@@ -53,9 +53,9 @@ TEST_F(ReviewTest, IsFollowedOnceAnOperatorHasLookedAtIt) {
       << "only by its number";
   EXPECT_EQ(Tool({"export", id, "--out", Path("hall.trailcast")}).status, 0);
   EXPECT_EQ(Tool({"routes", "--name", "hall", "--long"}).status, 0);
-  const auto tried = Follow({"--revision", "1", "--log", Path("run.log")});
+  const auto tried = Follow({"--revision", "1", "--log", Path("run.mcap")});
   EXPECT_EQ(tried.status, 0) << tried.output;
-  EXPECT_EQ(Tool({"explain", Path("run.log")}).status, 0);
+  EXPECT_EQ(Tool({"explain", Path("run.mcap")}).status, 0);
 
   const auto activated = Tool({"routes", "activate", id});
   EXPECT_EQ(activated.status, 0) << activated.output;

@@ -29,7 +29,7 @@ using testing::StartsWith;
 std::string Drive(int frames) {
   test::SampleRun run;
   run.HandOver(0, 8).Frames(frames).Phase(agent::Phase::kBlind, "nothing in view").Frames(10);
-  return run.End("ARRIVED", "at its end").text();
+  return run.End("ARRIVED", "at its end").Mcap();
 }
 
 class RunsTest : public testing::Test {
@@ -94,13 +94,13 @@ class RunsTest : public testing::Test {
 };
 
 TEST_F(RunsTest, WhatLiesInTheFolderIsListed) {
-  Write("old.log", Drive(30), 90);
-  Write("robot2/new.log", Drive(50), 60);
-  Write("of-others.log", "2026-11-26 a line of something else\n");
+  Write("old.mcap", Drive(30), 90);
+  Write("robot2/new.mcap", Drive(50), 60);
+  Write("of-others.mcap", "2026-11-26 a line of something else\n");
   Write("picture.png", Drive(30));
   const json runs = List();
   ASSERT_EQ(runs.size(), 2U) << runs;
-  EXPECT_EQ(runs[0]["file"], "robot2/new.log");
+  EXPECT_EQ(runs[0]["file"], "robot2/new.mcap");
   EXPECT_EQ(runs[0]["robot"], "robot2");
   EXPECT_EQ(runs[0]["route"], "hall");
   EXPECT_EQ(runs[0]["state"], "ARRIVED");
@@ -116,7 +116,7 @@ TEST_F(RunsTest, WhatLiesInTheFolderIsListed) {
 }
 
 TEST_F(RunsTest, APageEndsWhereTheNextBegins) {
-  for (int i = 0; i < 60; ++i) Write("run" + std::to_string(i) + ".log", Drive(1), 60 + i);
+  for (int i = 0; i < 60; ++i) Write("run" + std::to_string(i) + ".mcap", Drive(1), 60 + i);
   (void)List();
   const json first = Get("/api/runs").body;
   EXPECT_EQ(first["runs"].size(), Runs::kMostAPage);
@@ -127,8 +127,8 @@ TEST_F(RunsTest, APageEndsWhereTheNextBegins) {
 }
 
 TEST_F(RunsTest, ARunIsOpenedWithWhatExplainSays) {
-  Write("run.log", Drive(300));
-  const std::string path = "/api/runs/" + IdOf("run.log");
+  Write("run.mcap", Drive(300));
+  const std::string path = "/api/runs/" + IdOf("run.mcap");
   const Replied run = Read(path);
   ASSERT_EQ(run.status, 200) << run.body;
   EXPECT_EQ(run.body["rows"], 311);
@@ -167,7 +167,7 @@ std::string DriveWithPictures() {
   header.Add("robot", "robot2");
   header.Add("mission", "m1");
   agent::RunMcap mcap(0.5);
-  mcap.Add({.text = agent::FirstLine() + agent::HeaderText(header)});
+  mcap.Add({.header = header});
   for (int i = 0; i < 20; ++i) {
     agent::FrameRow row;
     row.frame = i;
@@ -175,8 +175,7 @@ std::string DriveWithPictures() {
     replay::FeatureView feature;
     feature.at = {.u_px = 10.0F, .v_px = -20.0F};
     feature.verdict = replay::FeatureVerdict::kAsksLeft;
-    mcap.Add({.text = agent::RowText(row),
-              .stamp = milliseconds(100 * i),
+    mcap.Add({.stamp = milliseconds(100 * i),
               .row = row,
               .picture = test::WalkFrame(i),
               .features = {feature}});
@@ -202,16 +201,16 @@ TEST_F(RunsTest, PicturesAndFeaturesAreSeenFrameByFrame) {
 }
 
 TEST_F(RunsTest, NothingOutsideOfTheFolderIsOpened) {
-  std::ofstream(folder_ / "secret.log") << Drive(30);
+  std::ofstream(folder_ / "secret.mcap") << Drive(30);
   fs::create_directory(folder_ / "elsewhere");
-  std::ofstream(folder_ / "elsewhere/run.log") << Drive(30);
-  fs::create_symlink(folder_ / "secret.log", folder_ / "logs/link.log");
+  std::ofstream(folder_ / "elsewhere/run.mcap") << Drive(30);
+  fs::create_symlink(folder_ / "secret.mcap", folder_ / "logs/link.mcap");
   fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "logs/there");
-  ASSERT_EQ(mkfifo((folder_ / "logs/pipe.log").c_str(), 0600), 0);
-  Write("robot2/run.log", Drive(30));
+  ASSERT_EQ(mkfifo((folder_ / "logs/pipe.mcap").c_str(), 0600), 0);
+  Write("robot2/run.mcap", Drive(30));
   const json runs = List();
   ASSERT_EQ(runs.size(), 1U) << runs;
-  for (const char* wish : {"..%2fsecret.log", "../secret.log", "link.log", "/etc/passwd"}) {
+  for (const char* wish : {"..%2fsecret.mcap", "../secret.mcap", "link.mcap", "/etc/passwd"}) {
     EXPECT_GE(Get(std::string("/api/runs/") + wish).status, 400) << wish;
   }
 
@@ -227,23 +226,27 @@ TEST_F(RunsTest, NothingOutsideOfTheFolderIsOpened) {
   EXPECT_FALSE(folder.Open(found->front()));
   fs::remove(folder_ / "logs/robot2");
   fs::create_directory(folder_ / "logs/robot2");
-  fs::create_symlink(folder_ / "secret.log", folder_ / "logs/robot2/run.log");
+  fs::create_symlink(folder_ / "secret.mcap", folder_ / "logs/robot2/run.mcap");
   EXPECT_FALSE(folder.Open(found->front()));
   const std::string id = runs[0]["run"];
   EXPECT_EQ(Read("/api/runs/" + id).status, 404);
 }
 
 TEST_F(RunsTest, ALogThatIsCutOffOrDamagedSaysSo) {
-  const std::string whole = Drive(50);
-  Write("cut.log", whole.substr(0, whole.size() / 2));
-  Write("bytes.log", whole.substr(0, 1500) + "\xff\x00\xfe\n" + whole.substr(1500));
-  const json cut = Read("/api/runs/" + IdOf("cut.log")).body;
+  const std::string begun = test::SampleRun().HandOver(0, 8).Frames(50).Mcap(false);
+  Write("cut.mcap", begun.substr(0, begun.size() - 10));
+  std::string damaged = Drive(50);
+  const std::size_t second_chunk = damaged.find("zstd", damaged.find("zstd") + 1);
+  damaged[second_chunk + 30] = static_cast<char>(damaged[second_chunk + 30] ^ 0x55);
+  Write("bytes.mcap", damaged);
+  const json cut = Read("/api/runs/" + IdOf("cut.mcap")).body;
   EXPECT_EQ(cut["state"], "");
   EXPECT_THAT(cut["story"]["missing"].dump(), HasSubstr("breaks off"));
-  const Replied bytes = Read("/api/runs/" + IdOf("bytes.log"));
+  EXPECT_THAT(cut["story"]["missing"].dump(), HasSubstr("\"  at byte "));
+  const Replied bytes = Read("/api/runs/" + IdOf("bytes.mcap"));
   ASSERT_EQ(bytes.status, 200);
   EXPECT_THAT(bytes.body["story"]["missing"].dump(), HasSubstr("cannot be read"));
-  Write("fresh.log", whole.substr(0, whole.size() / 2), 0);
+  Write("fresh.mcap", begun, 0);
   (void)List();
   Open(folder_ / "logs");
   EXPECT_TRUE(List()[0]["under_way"]) << "it may be written to, still";
@@ -277,17 +280,23 @@ TEST_F(RunsTest, ALogOfOnesOwnOpensTheSameWay) {
 }
 
 TEST_F(RunsTest, StrangeLogsHoldUpNobody) {
-  std::string text = test::SampleRun().text();
-  for (int i = 0; i < 30'000; ++i) text += "! 0 0.0 hand-over segment=7 a=b c=d e=f\n";
+  agent::RunMcap mcap(0.0);
+  agent::RunEvent event{.what = "hand-over"};
+  event.fields.Add("segment", "7");
+  mcap.Add({.header = agent::Fields(),
+            .events = std::vector<agent::RunEvent>(30'000, event),
+            .stamp = SensorTime(0)});
   agent::FrameRow row;
   for (row.frame = 0; row.frame < 30'000; ++row.frame) {
     row.segment = row.frame % 2;
     row.phase = row.frame % 3 == 0 ? agent::Phase::kLost : agent::Phase::kSure;
-    text += agent::RowText(row);
+    mcap.Add({.stamp = SensorTime(0), .row = row});
   }
-  Write("strange.log", text);
+  mcap.End();
+  const auto bytes = mcap.TakeBytes();
+  Write("strange.mcap", {bytes.begin(), bytes.end()});
   const auto began = std::chrono::steady_clock::now();
-  const Replied run = Read("/api/runs/" + IdOf("strange.log"));
+  const Replied run = Read("/api/runs/" + IdOf("strange.mcap"));
   ASSERT_EQ(run.status, 200);
   EXPECT_LE(run.body["strip"]["marks"].size(), 300U);
   EXPECT_LT(run.body.dump().size(), 200'000U);

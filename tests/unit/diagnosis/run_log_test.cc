@@ -1,228 +1,255 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <limits>
-#include <sstream>
+#include <span>
+#include <string>
 
-#include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/run_log_reader.h"
+#include "agent/diagnosis/src/protobuf_writer.h"
+#include "agent/diagnosis/src/run_log_messages.h"
+#include "services/bag/mcap_writer.h"
 #include "tests/support/sample_run.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::agent {
 namespace {
 
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
-Result<RunLog> Read(const std::string& text) {
-  std::istringstream stream(text);
-  return ReadRunLog(stream);
+std::span<const std::uint8_t> BytesOf(const std::string& message) {
+  return {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()};
 }
 
-FrameRow FullRow() {
+FrameRow RowNumber(int frame) {
   FrameRow row;
-  row.frame = 12345;
-  row.t_s = 411.503;
-  row.segment = 117;
-  row.fraction = 0.125;
-  row.progress = 0.9876;
-  row.phase = Phase::kCovered;
-  row.stored = 29;
-  row.tracked = 21;
-  row.agreeing = 18;
-  row.rejected = 3;
-  row.rejected_by_px = 17.0;
-  row.left_picture = 2;
-  row.not_returned = 1;
-  row.turn_rad = -0.131;
-  row.vision_turn_rad = -0.25;
-  row.odometry_turn_rad = 0.012;
-  row.delta = 0.75;
-  row.delta_minus = 0.5;
-  row.left_m = -0.043;
-  row.left_sigma_m = 0.008;
-  row.heading_rad = -0.019;
-  row.along_m = 1.713;
-  row.mount_yaw_rad = 0.035;
-  row.magnification = 0.524;
-  row.driven_m = 151.25;
-  row.x_m = -103.5;
-  row.y_m = 42.125;
-  row.linear_mps = 0.386;
-  row.angular_radps = -0.058;
-  row.cpu_ms = 12.25;
-  row.true_off_m = 0.062;
-  row.place = 0.25;
-  row.place_sigma = 0.0125;
-  row.off_route = 0.125;
+  row.frame = frame;
   return row;
 }
 
-TEST(RunLog, ARowComesBackAsItWasWritten) {
-  const std::string text = FirstLine() + HeaderText({}) + RowText(FullRow());
-  const auto log = Read(text);
-  ASSERT_TRUE(log) << log.error().message;
-  ASSERT_EQ(log->frames.size(), 1U);
-  // Every column's text is the same again: none is lost, none in another's place.
-  EXPECT_EQ(RowText(log->frames.front()), RowText(FullRow()));
-  EXPECT_EQ(log->frames.front().phase, Phase::kCovered);
-  EXPECT_DOUBLE_EQ(*log->frames.front().left_m, -0.043);
-}
+// A log of messages as they are given, whatever they hold.
+class Messages {
+ public:
+  Messages& Put(const char* topic, const std::string& message) {
+    const bool header = std::string(topic) == kHeaderTopic;
+    const auto channel = header ? header_ : std::string(topic) == kFrameTopic ? frame_ : event_;
+    writer_.Put(channel, std::chrono::seconds(1), BytesOf(message));
+    return *this;
+  }
+  Messages& Frames(int first, int count) {
+    for (int i = first; i < first + count; ++i) Put(kFrameTopic, FrameMessage(RowNumber(i)));
+    return *this;
+  }
+  [[nodiscard]] std::string Mcap() {
+    writer_.End();
+    const bag::Bytes bytes = writer_.TakeBytes();
+    return {bytes.begin(), bytes.end()};
+  }
 
-TEST(RunLog, WhatARobotDoesNotHaveStaysEmpty) {
+ private:
+  bag::McapWriter writer_{bag::Compression::kZstd, ""};
+  bag::McapWriter::Id header_ = writer_.AddChannel(0, kHeaderTopic, "protobuf");
+  bag::McapWriter::Id frame_ = writer_.AddChannel(0, kFrameTopic, "protobuf");
+  bag::McapWriter::Id event_ = writer_.AddChannel(0, kEventTopic, "protobuf");
+};
+
+class RunLogTest : public testing::Test {
+ protected:
+  Result<RunLog> Read(const std::string& bytes, const ReadLimits& limits = {}) {
+    std::ofstream(folder_ / "run.mcap", std::ios::binary) << bytes;
+    return ReadRunLog(folder_ / "run.mcap", limits);
+  }
+  test::TempDir folder_;
+};
+
+TEST(RunLogMessages, WhatARobotDoesNotHaveStaysEmpty) {
   FrameRow row;
   row.turn_rad = std::numeric_limits<double>::quiet_NaN();
-  const auto log = Read(FirstLine() + HeaderText({}) + RowText(row));
-  ASSERT_EQ(log->frames.size(), 1U);
-  EXPECT_FALSE(log->frames.front().left_m);
-  EXPECT_FALSE(log->frames.front().driven_m);
-  EXPECT_EQ(log->frames.front().turn_rad, 0.0);
+  row.left_sigma_m = std::numeric_limits<double>::infinity();
+  row.left_m = 0.0;
+  row.segment = -1;
+  const auto read = ReadFrame(BytesOf(FrameMessage(row)));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->segment, -1);
+  EXPECT_EQ(read->left_m, 0.0);
+  EXPECT_FALSE(read->left_sigma_m);
+  EXPECT_FALSE(read->driven_m);
+  EXPECT_EQ(read->turn_rad, 0.0);
+  EXPECT_EQ(read->magnification, 1.0);
 }
 
-TEST(RunLog, AFrameTakesLessThanTwoHundredBytes) { EXPECT_LT(RowText(FullRow()).size(), 200U); }
+TEST(RunLogMessages, AFrameTakesLessThanThreeHundredAndFiftyBytes) {
+  FrameRow row;
+  row.vision_turn_rad = row.odometry_turn_rad = row.delta = row.delta_minus = 0.1;
+  row.left_m = row.left_sigma_m = row.heading_rad = row.along_m = row.mount_yaw_rad = 0.1;
+  row.driven_m = row.x_m = row.y_m = row.true_off_m = 0.1;
+  row.place = row.place_sigma = row.off_route = 0.1;
+  EXPECT_LT(FrameMessage(row).size(), 350U);
+}
 
-TEST(RunLog, EventsAndHeaderComeBack) {
+TEST(RunLogMessages, EventsAndHeaderComeBack) {
   RunEvent event{7, 0.233, "hand-over", {}, "one line: with = and : in it\nand no second"};
   event.fields.Add("segment", "3");
   event.fields.Add("search", "near by");
+  const auto read = ReadEvent(BytesOf(EventMessage(event)));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frame, 7);
+  EXPECT_EQ(read->t_s, 0.233);
+  EXPECT_EQ(read->what, "hand-over");
+  EXPECT_EQ(read->fields.all(), event.fields.all());
+  EXPECT_EQ(read->text, "one line: with = and : in it and no second");
+  EXPECT_EQ(DescribeEvent(*read),
+            "hand-over segment=3 search=near_by : one line: with = and : in it and no second");
+
   Fields header;
   header.Add("scout_camera", "webcam 320x240");
-  const auto log = Read(FirstLine() + HeaderText(header) + EventText(event));
-  ASSERT_TRUE(log);
-  EXPECT_EQ(log->header.Find("scout_camera"), "webcam 320x240");
-  ASSERT_EQ(log->events.size(), 1U);
-  const RunEvent& read = log->events.front();
-  EXPECT_EQ(read.frame, 7);
-  EXPECT_EQ(read.what, "hand-over");
-  EXPECT_EQ(read.fields.Number("segment"), 3.0);
-  EXPECT_EQ(read.fields.Find("search"), "near_by");
-  EXPECT_EQ(read.text, "one line: with = and : in it and no second");
-  EXPECT_EQ(log->damaged_lines, 0U);
+  EXPECT_EQ(ReadHeader(BytesOf(HeaderMessage(header)))->all(), header.all());
 }
 
-TEST(RunLog, CutOffAnywhereItIsReadAsFarAsItIsWhole) {
+TEST(RunLogMessages, WhatALaterWriterAddsIsPassedOver) {
+  const std::string more = ProtobufWriter().Double(90, 1.0).Bytes(91, "cheerful").bytes();
+  EXPECT_EQ(ReadFrame(BytesOf(FrameMessage(RowNumber(3)) + more))->frame, 3);
+  EXPECT_EQ(ReadEvent(BytesOf(EventMessage({.frame = 3, .what = "phase"}) + more))->what, "phase");
+  EXPECT_TRUE(ReadHeader(BytesOf(HeaderMessage({}) + more)));
+}
+
+TEST(RunLogMessages, StrangersBytesAreRefusedOrPlain) {
+  const std::string whole = FrameMessage(RowNumber(3));
+  EXPECT_FALSE(ReadFrame(BytesOf(whole.substr(0, whole.size() - 1))));
+  EXPECT_FALSE(ReadFrame(BytesOf(ProtobufWriter().Number(6, 10).bytes()))) << "no such phase";
+  EXPECT_FALSE(ReadEvent(BytesOf(ProtobufWriter().Bytes(4, "x").bytes()))) << "no pair";
+  EXPECT_FALSE(ReadEvent(BytesOf(std::string(kLongestMessage + 1, '\0'))));
+  ProtobufWriter many;
+  for (std::size_t i = 0; i <= kMostFields; ++i) many.Bytes(1, "");
+  EXPECT_FALSE(ReadHeader(BytesOf(many.bytes())));
+  EXPECT_EQ(ReadEvent(BytesOf(ProtobufWriter().Bytes(5, "a\x1b[2J\xff").bytes()))->text, "a [2J ");
+}
+
+TEST_F(RunLogTest, CutOffAnywhereItIsReadAsFarAsItIsWhole) {
   test::SampleRun run;
-  const std::size_t header = run.text().size();
-  run.HandOver(0, 25).Frames(3).End("ARRIVED", "at the end");
-  for (std::size_t size = header; size <= run.text().size(); ++size) {
-    const std::string text = run.text().substr(0, size);
-    const auto log = Read(text);
-    ASSERT_TRUE(log) << size;
-    const auto lines =
-        static_cast<std::size_t>(std::count(text.begin() + header, text.end(), '\n'));
-    const std::size_t whole = log->frames.size() + log->events.size() + (log->ending ? 1 : 0);
-    EXPECT_EQ(whole, lines) << size;
-    EXPECT_EQ(log->damaged_lines, text.back() == '\n' ? 0U : 1U) << size;
-    EXPECT_EQ(log->ending.has_value(), size == run.text().size());
+  run.HandOver(0, 25).Frames(30).HandOver(1, 20).Frames(5).End("ARRIVED", "at the end");
+  const std::string whole = run.Mcap();
+  const std::string data = run.Mcap(false);
+  constexpr std::size_t kMagic = 8;
+  std::size_t last = 0;
+  constexpr std::size_t kStep = 13;
+  const std::size_t first = kMagic + (data.size() - kMagic) % kStep;
+  for (std::size_t size = first; size <= data.size(); size += kStep) {
+    const auto log = Read(whole.substr(0, size));
+    ASSERT_TRUE(log) << size << log.error().message;
+    const std::size_t read = log->frames.size() + log->events.size() + (log->ending ? 1 : 0);
+    EXPECT_GE(read, last) << size;
+    EXPECT_GE(log->damaged, 1U) << size;
+    last = read;
+    if (!log->frames.empty()) {
+      EXPECT_EQ(log->header.Find("route"), "hall") << size;
+    }
   }
+  EXPECT_EQ(last, run.Log().frames.size() + run.Log().events.size() + 1);
+  EXPECT_EQ(Read(whole)->damaged, 0U);
 }
 
-TEST(RunLog, DamagedLinesAreNamedAndTheOthersKept) {
-  test::SampleRun run;
-  run.Frames(6);
-  std::vector<std::string> lines;
-  std::istringstream stream(run.text());
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  const std::size_t first = lines.size() - 6;  // the first row
-  lines[first + 1][0] = 'x';                   // no number
-  lines[first + 2].resize(40);                 // values are missing
-  lines[first + 3] = std::string("\0\x01\xff", 3);
-  lines[first + 4] = std::string(kLongestLogLine + 1, '7');
-  std::string text;
-  for (const std::string& line : lines) text.append(line).append(1, '\n');
-  const auto log = Read(text);
-  ASSERT_TRUE(log);
+TEST_F(RunLogTest, DamagedMessagesAreNamedAndTheOthersKept) {
+  const auto log = Read(Messages()
+                            .Frames(0, 1)
+                            .Put(kFrameTopic, "\xff")
+                            .Put(kFrameTopic, std::string(kLongestMessage + 1, '\0'))
+                            .Frames(5, 1)
+                            .Put(kEventTopic, "x")
+                            .Put(kEventTopic, EventMessage({.what = "found"}))
+                            .Mcap());
+  ASSERT_TRUE(log) << log.error().message;
   EXPECT_EQ(log->frames.size(), 2U);
-  EXPECT_EQ(log->damaged_lines, 4U);
-  ASSERT_EQ(log->damage.size(), 4U);
-  EXPECT_EQ(log->damage[0].line, first + 2);
-  EXPECT_THAT(log->damage[0].what, HasSubstr("is no frame"));
-  EXPECT_THAT(log->damage[1].what, HasSubstr("columns"));
-  EXPECT_THAT(log->damage[3].what, HasSubstr("longer than"));
+  EXPECT_EQ(log->events.size(), 1U);
+  EXPECT_EQ(log->damaged, 3U);
+  EXPECT_THAT(log->damage, ElementsAre("message 2 of /replay/frame: its bytes are no message",
+                                       HasSubstr("message 3 of /replay/frame: longer than"),
+                                       HasSubstr("message 1 of /replay/event")));
 }
 
-TEST(RunLog, FramesThatGoBackAreDamage) {
-  test::SampleRun run;
-  run.Frames(3);
-  run.row().frame = 1;
-  run.Frame();
-  EXPECT_EQ(run.Log().frames.size(), 3U);
-  EXPECT_THAT(run.Log().damage.at(0).what, HasSubstr("frame 1 after frame 2"));
+TEST_F(RunLogTest, FramesThatGoBackAreDamage) {
+  const auto log = Read(Messages().Frames(0, 3).Frames(1, 1).Mcap());
+  EXPECT_EQ(log->frames.size(), 3U);
+  EXPECT_THAT(log->damage.at(0), HasSubstr("frame 1 after frame 2"));
 }
 
-TEST(RunLog, EndlessDamageIsCountedAndNotKept) {
-  std::string text = test::SampleRun().text();
-  for (int i = 0; i < 1000; ++i) text += "?\n";
-  const auto log = Read(text);
-  EXPECT_EQ(log->damaged_lines, 1000U);
+TEST_F(RunLogTest, EndlessDamageIsCountedAndNotKept) {
+  Messages messages;
+  for (int i = 0; i < 1000; ++i) messages.Put(kFrameTopic, "?");
+  const auto log = Read(messages.Mcap());
+  EXPECT_EQ(log->damaged, 1000U);
   EXPECT_LT(log->damage.size(), 100U);
 }
 
-TEST(RunLog, NoMoreIsReadThanTheLimitsSay) {
+TEST_F(RunLogTest, NoMoreIsReadThanTheLimitsSay) {
   test::SampleRun run;
-  run.HandOver(0, 20).HandOver(1, 20).HandOver(2, 20).Frames(50);
-  std::istringstream stream(run.text());
-  const auto log = ReadRunLog(stream, {.lines = 40, .events = 2});
+  run.HandOver(0, 20).HandOver(1, 20).HandOver(2, 20).Frames(50).End("ARRIVED", "there");
+  const auto log = Read(run.Mcap(), {.messages = 40, .events = 2});
   ASSERT_TRUE(log);
-  EXPECT_LT(log->frames.size(), 40U);
+  EXPECT_EQ(log->frames.size(), 40U);
   EXPECT_EQ(log->events.size(), 2U);
-  EXPECT_THAT(log->damage.back().what, HasSubstr("more lines than are read"));
+  EXPECT_TRUE(log->ending);
+  EXPECT_THAT(log->damage,
+              ElementsAre(HasSubstr("/replay/frame has more than is read"),
+                          HasSubstr("message 3 of /replay/event: more events than are read")));
+  const auto little = Read(run.Mcap(), {.bytes = 2000});
+  EXPECT_LT(little->frames.size(), 20U);
+  EXPECT_THAT(little->damage, Contains(HasSubstr("more than is read")));
 }
 
-TEST(RunLog, ItsEndsAreReadByThemselves) {
-  const test::TempDir folder;
+TEST_F(RunLogTest, WhatUnpacksToFarTooMuchIsLeftOut) {
+  Messages messages;
+  const std::string large(std::size_t{1} << 20U, '\0');
+  for (int i = 0; i < 100; ++i) messages.Put(kFrameTopic, large);
+  const auto log = Read(messages.Mcap());
+  ASSERT_TRUE(log);
+  EXPECT_LT(log->damaged, 90U) << "of a hundred messages, the rest was not unpacked";
+}
+
+TEST_F(RunLogTest, ItsEndsAreReadByThemselves) {
   test::SampleRun run;
   run.HandOver(0, 20).Frames(3000).End("ARRIVED", "there");
-  std::ofstream(folder / "run.log") << run.text();
-  const auto ends = ReadRunEnds(folder / "run.log");
+  std::ofstream(folder_ / "run.mcap", std::ios::binary) << run.Mcap();
+  const auto ends = ReadRunEnds(folder_ / "run.mcap");
   ASSERT_TRUE(ends) << ends.error().message;
   EXPECT_EQ(ends->header.Find("route"), "hall");
   EXPECT_EQ(ends->frames.front().frame, 0);
   EXPECT_EQ(ends->frames.back().frame, 3000);
-  EXPECT_LT(ends->frames.size(), 2000U) << "of a longer log";
+  EXPECT_LT(ends->frames.size(), 100U) << "of a longer log";
   ASSERT_TRUE(ends->ending);
   EXPECT_EQ(ends->ending->text, "there");
 
   run = test::SampleRun();
-  run.HandOver(0, 20).Frames(30);
-  std::ofstream(folder / "short.log") << run.text();
-  const auto brief = ReadRunEnds(folder / "short.log");
+  run.HandOver(0, 20).Frames(10);
+  std::ofstream(folder_ / "short.mcap", std::ios::binary) << run.Mcap();
+  const auto brief = ReadRunEnds(folder_ / "short.mcap");
   ASSERT_TRUE(brief);
-  EXPECT_EQ(brief->frames.size(), 31U);
+  EXPECT_EQ(brief->frames.size(), 11U);
+  EXPECT_EQ(brief->damaged, 0U);
   EXPECT_FALSE(brief->ending);
-  std::ofstream(folder / "other.log") << "2026 something else";
-  EXPECT_FALSE(ReadRunEnds(folder / "other.log"));
+  std::ofstream(folder_ / "other.mcap") << "2026 something else";
+  EXPECT_FALSE(ReadRunEnds(folder_ / "other.mcap"));
 }
 
-TEST(RunLog, ANewerVersionsExtraColumnIsPassedOver) {
-  std::string header = HeaderText({});
-  header.insert(header.size() - 1, " mood");
-  std::string row = RowText(FullRow());
-  row.insert(row.size() - 1, " cheerful");
-  const auto log = Read(FirstLine() + header + row);
-  ASSERT_EQ(log->frames.size(), 1U);
-  EXPECT_EQ(RowText(log->frames.front()), RowText(FullRow()));
-}
-
-TEST(RunLog, SaysWhichColumnIsMissing) {
-  const auto log = Read(FirstLine() + "# columns frame t_s\n0 0.0\n");
-  ASSERT_TRUE(log);
-  EXPECT_TRUE(log->frames.empty());
-  EXPECT_THAT(log->damage.at(0).what, HasSubstr("no column 'segment'"));
-}
-
-TEST(RunLog, OtherFilesAndOtherVersionsAreRefused) {
-  for (const std::string text : {"", "frame,segment,progress\n0,0,0\n", "\x89PNG\r\n"}) {
+TEST_F(RunLogTest, OtherFilesAreRefused) {
+  for (const std::string text : {"", "# trailcast replay log 1\n", "\x89PNG\r\n"}) {
     const auto log = Read(text);
     ASSERT_FALSE(log);
     EXPECT_EQ(log.error().code, ErrorCode::kCorrupt);
-    EXPECT_THAT(log.error().message, HasSubstr("not a replay's log"));
+    EXPECT_THAT(log.error().message, HasSubstr("not a replay's log: it is no MCAP file"));
+    EXPECT_THAT(log.error().message, HasSubstr("--log FILE.mcap"));
   }
-  const auto newer = Read("# trailcast replay log 2\n");
-  ASSERT_FALSE(newer);
-  EXPECT_THAT(newer.error().message, HasSubstr("version '2'; this program reads 1"));
+  bag::McapWriter writer(bag::Compression::kNone, "");
+  writer.Put(writer.AddChannel(0, "/chatter", "cdr"), std::chrono::seconds(0), {});
+  writer.End();
+  const bag::Bytes bytes = writer.TakeBytes();
+  const auto log = Read({bytes.begin(), bytes.end()});
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().message, HasSubstr("it has no topic /replay/header"));
+  EXPECT_EQ(ReadRunLog(folder_ / "none.mcap").error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace

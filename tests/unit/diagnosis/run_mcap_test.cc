@@ -1,4 +1,4 @@
-// A replay's log as MCAP, read as a viewer does: by the description that the file carries.
+// A replay's log, read as a viewer does: by the description that the file carries.
 #include "agent/diagnosis/run_mcap.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 
-#include "agent/diagnosis/run_log_format.h"
 #include "agent/diagnosis/run_log_reader.h"
 #include "agent/diagnosis/run_pictures.h"
 #include "idl/run_log_description.h"
@@ -42,8 +41,7 @@ RunMoment FrameAt(milliseconds at, int number) {
   feature.verdict = replay::FeatureVerdict::kAsksRight;
   RunEvent event{number, 0.0, "phase", {}, "words"};
   event.fields.Add("to", "unsure");
-  return {.text = RowText(row) + EventText(event),
-          .events = {event},
+  return {.events = {event},
           .stamp = kBegan + at,
           .row = row,
           .odometry = motion::Pose2{0.1 * number, 0.0, 0.5},
@@ -109,7 +107,7 @@ TEST_F(RunMcapTest, ViewersSeePicturesFeaturesPathAndStates) {
   mcap.End();
   Write(mcap.TakeBytes());
   Viewer viewer(File());
-  EXPECT_EQ(viewer.topics(), 7U);
+  EXPECT_EQ(viewer.topics(), 8U);
   const std::string stamp = "timestamp { seconds: 1700000000 nanos: 100000000 }";
   ASSERT_EQ(viewer.Read("/camera/image").size(), 2U);
   EXPECT_THAT(viewer.Read("/camera/image")[1],
@@ -131,20 +129,89 @@ TEST_F(RunMcapTest, ViewersSeePicturesFeaturesPathAndStates) {
                      HasSubstr("left_m: 0.125"), testing::Not(HasSubstr("delta"))));
 }
 
-TEST_F(RunMcapTest, TheColumnsOfTheLogAreTheFieldsOfItsFrames) {
+TEST_F(RunMcapTest, ViewersFindEachValueUnderItsName) {
+  FrameRow row;
+  row.frame = 12345;
+  row.t_s = 411.5;
+  row.segment = 117;
+  row.fraction = 0.125;
+  row.progress = 0.875;
+  row.phase = Phase::kCovered;
+  row.stored = 29;
+  row.tracked = 21;
+  row.agreeing = 18;
+  row.rejected = 3;
+  row.rejected_by_px = 17.5;
+  row.left_picture = 2;
+  row.not_returned = 1;
+  row.turn_rad = -0.5;
+  row.vision_turn_rad = -0.25;
+  row.odometry_turn_rad = 0.0625;
+  row.delta = 0.75;
+  row.delta_minus = 1.5;
+  row.left_m = -0.75;
+  row.left_sigma_m = 0.25;
+  row.heading_rad = -1.25;
+  row.along_m = 1.75;
+  row.mount_yaw_rad = 2.25;
+  row.magnification = 0.5;
+  row.driven_m = 151.25;
+  row.x_m = -103.5;
+  row.y_m = 42.125;
+  row.linear_mps = 0.375;
+  row.angular_radps = -0.0625;
+  row.cpu_ms = 12.25;
+  row.true_off_m = 0.5625;
+  row.place = 0.3125;
+  row.place_sigma = 0.015625;
+  row.off_route = 0.03125;
+  Fields header;
+  header.Add("route", "hall");
+  RunEvent event{7, 0.25, "hand-over", {}, "words"};
+  event.fields.Add("segment", "3");
+  event.fields.Add("search", "near");
+  RunMcap mcap;
+  mcap.Add({.header = header, .events = {event}, .stamp = kBegan, .row = row});
+  mcap.End();
+  Write(mcap.TakeBytes());
+  Viewer viewer(File());
+  EXPECT_THAT(
+      viewer.Read("/replay/frame"),
+      ElementsAre("frame: 12345 t_s: 411.5 segment: 117 fraction: 0.125 progress: 0.875 "
+                  "phase: COVERED stored: 29 tracked: 21 agreeing: 18 rejected: 3 "
+                  "rejected_by_px: 17.5 left_picture: 2 not_returned: 1 turn_rad: -0.5 "
+                  "vision_turn_rad: -0.25 odometry_turn_rad: 0.0625 delta: 0.75 delta_minus: 1.5 "
+                  "left_m: -0.75 left_sigma_m: 0.25 heading_rad: -1.25 along_m: 1.75 "
+                  "mount_yaw_rad: 2.25 magnification: 0.5 driven_m: 151.25 x_m: -103.5 "
+                  "y_m: 42.125 linear_mps: 0.375 angular_radps: -0.0625 cpu_ms: 12.25 "
+                  "true_off_m: 0.5625 place: 0.3125 place_sigma: 0.015625 off_route: 0.03125"));
+  EXPECT_THAT(viewer.Read("/replay/header"),
+              ElementsAre("fields { key: \"route\" value: \"hall\" }"));
+  EXPECT_THAT(viewer.Read("/replay/event"),
+              ElementsAre("frame: 7 t_s: 0.25 what: \"hand-over\" fields { key: \"segment\" value: "
+                          "\"3\" } fields { key: \"search\" value: \"near\" } text: \"words\""));
+  // And our own reader the same.
+  const auto log = ReadRunLog(File());
+  ASSERT_TRUE(log) << log.error().message;
+  RunMcap again;
+  again.Add(
+      {.header = log->header, .events = log->events, .stamp = kBegan, .row = log->frames.at(0)});
+  again.End();
+  std::filesystem::remove(File());
+  Write(again.TakeBytes());
+  Viewer reread(File());
+  for (const char* topic : {"/replay/frame", "/replay/header", "/replay/event"}) {
+    EXPECT_EQ(reread.Read(topic), viewer.Read(topic));
+  }
+}
+
+TEST_F(RunMcapTest, ViewersNameThePhasesAsWeDo) {
   RunMcap mcap;
   mcap.End();
   Write(mcap.TakeBytes());
   Viewer viewer(File());
   const auto* frame = viewer.Find("trailcast.log.Frame");
   ASSERT_NE(frame, nullptr);
-  const auto columns = ColumnNames();
-  ASSERT_EQ(static_cast<std::size_t>(frame->field_count()), columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto* field = frame->FindFieldByNumber(static_cast<int>(i) + 1);
-    ASSERT_NE(field, nullptr) << columns[i];
-    EXPECT_EQ(field->name(), columns[i]);
-  }
   const auto* phases = frame->FindFieldByName("phase")->enum_type();
   for (int i = 0; i < phases->value_count(); ++i) {
     std::string name = phases->FindValueByNumber(i)->name();
@@ -156,13 +223,59 @@ TEST_F(RunMcapTest, TheColumnsOfTheLogAreTheFieldsOfItsFrames) {
 
 TEST_F(RunMcapTest, OfARunThatWasKilledAllButTheLastSecondIsThere) {
   RunMcap mcap;
-  mcap.Add({.text = FirstLine() + HeaderText({})});
+  mcap.Add({.header = Fields()});
   for (int i = 0; i < 50; ++i) mcap.Add(FrameAt(milliseconds(100 * i), i));
   Write(mcap.TakeBytes());
   const auto log = ReadRunLog(File());
   ASSERT_TRUE(log) << log.error().message;
   EXPECT_GE(log->frames.size(), 40U);
   EXPECT_FALSE(log->ending);
+}
+
+TEST_F(RunMcapTest, OfARunThatWasKilledEarlyThereIsWhatItWasAndItsFirstFrame) {
+  Fields header;
+  header.Add("route", "hall");
+  RunMcap mcap;
+  mcap.Add({.header = header});
+  Write(mcap.TakeBytes());
+  const auto nothing = ReadRunLog(File());
+  ASSERT_TRUE(nothing) << nothing.error().message;
+  EXPECT_TRUE(nothing->frames.empty());
+  mcap.Add({.events = {{.what = "complete", .text = "all 3 segments are known"}}});
+  mcap.Add(FrameAt(milliseconds(0), 0));
+  Write(mcap.TakeBytes());
+  const auto first = ReadRunLog(File());
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_EQ(first->header.Find("route"), "hall");
+  EXPECT_EQ(first->frames.size(), 1U);
+  EXPECT_EQ(first->events.size(), 2U);
+  EXPECT_FALSE(first->ending);
+}
+
+TEST_F(RunMcapTest, WhatIsSaidWhenNoFrameComesAnyMoreIsThereAtOnce) {
+  RunMcap mcap;
+  for (int i = 0; i < 5; ++i) mcap.Add(FrameAt(milliseconds(100 * i), i));
+  mcap.Add({.events = {{.frame = 4, .what = "robot", .text = "no picture for 0.3 s"}}});
+  Write(mcap.TakeBytes());
+  const auto log = ReadRunLog(File());
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_EQ(log->frames.size(), 5U);
+  EXPECT_EQ(log->events.back().what, "robot");
+}
+
+TEST_F(RunMcapTest, WithoutPicturesThereAreNoFeaturesEither) {
+  RunMcap mcap(0.0);
+  for (int i = 0; i < 20; ++i) mcap.Add(FrameAt(milliseconds(100 * i), i));
+  mcap.End();
+  const auto bytes = mcap.TakeBytes();
+  Write(bytes);
+  EXPECT_EQ(ReadRunLog(File())->frames.size(), 20U);
+  Viewer viewer(File());
+  EXPECT_TRUE(viewer.Read("/camera/image").empty());
+  EXPECT_TRUE(viewer.Read("/camera/features").empty());
+  const auto pictures = RunPictures::Open(File());
+  ASSERT_FALSE(pictures);
+  EXPECT_THAT(pictures.error().message, HasSubstr("no pictures"));
 }
 
 TEST_F(RunMcapTest, WhatWasSeenInAFrameIsFoundByItsTime) {
@@ -190,43 +303,11 @@ TEST_F(RunMcapTest, WhatWasSeenInAFrameIsFoundByItsTime) {
   EXPECT_FALSE(*(*pictures)->PictureUntil(-1e300));
 }
 
-TEST_F(RunMcapTest, WhatHasNoPicturesSaysSo) {
-  Write({'#', ' ', 't', 'e', 'x', 't'});
-  const auto pictures = RunPictures::Open(File());
-  ASSERT_FALSE(pictures);
-  EXPECT_THAT(pictures.error().message, HasSubstr("no pictures"));
-}
-
-TEST_F(RunMcapTest, OfALongLogOnlyTheEndsAreReadForAList) {
-  Fields header;
-  header.Add("route", "hall");
-  RunMcap mcap;
-  mcap.Add({.text = FirstLine() + HeaderText(header)});
-  for (int i = 0; i < 5000; ++i) {
-    RunMoment moment = FrameAt(milliseconds(100 * i), i);
-    moment.picture = {};
-    mcap.Add(moment);
-  }
-  const RunEvent end{4999, 0.0, "end", {}, "there"};
-  mcap.Add({.text = EventText(end), .events = {end}});
-  mcap.End();
-  Write(mcap.TakeBytes());
-  const auto ends = ReadRunEnds(File());
-  ASSERT_TRUE(ends) << ends.error().message;
-  EXPECT_EQ(ends->header.Find("route"), "hall");
-  EXPECT_EQ(ends->frames.front().frame, 0);
-  EXPECT_EQ(ends->frames.back().frame, 4999);
-  EXPECT_LT(ends->frames.size(), 1000U);
-  ASSERT_TRUE(ends->ending);
-  EXPECT_EQ(ends->ending->text, "there");
-}
-
 TEST_F(RunMcapTest, TheWayOfALongDriveStaysShort) {
   RunMcap mcap;
   for (int i = 0; i < 5000; ++i) {
-    mcap.Add({.text = "",
-              .stamp = kBegan + milliseconds(100 * i),
-              .odometry = motion::Pose2{0.1 * i, 0.0, 0.0}});
+    mcap.Add(
+        {.stamp = kBegan + milliseconds(100 * i), .odometry = motion::Pose2{0.1 * i, 0.0, 0.0}});
   }
   mcap.End();
   Write(mcap.TakeBytes());
@@ -234,16 +315,6 @@ TEST_F(RunMcapTest, TheWayOfALongDriveStaysShort) {
   const std::string last = viewer.Read("/odometry/path").back();
   EXPECT_LT(last.size(), 60'000U);
   EXPECT_THAT(last, HasSubstr("position { x: 499"));
-}
-
-TEST_F(RunMcapTest, ARecordingThatIsNoLogIsToldApart) {
-  bag::McapWriter writer(bag::Compression::kNone, "");
-  writer.Put(writer.AddChannel(0, "/chatter", "cdr"), milliseconds(0), {});
-  writer.End();
-  Write(writer.TakeBytes());
-  const auto log = ReadRunLog(File());
-  ASSERT_FALSE(log);
-  EXPECT_THAT(log.error().message, HasSubstr("--log FILE.mcap"));
 }
 
 }  // namespace

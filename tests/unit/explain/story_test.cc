@@ -162,11 +162,22 @@ TEST(Story, RobotsWithoutOdometryAreToldByFrame) {
 TEST(Story, ALogThatBreaksOffSaysSoAndIsToldAsFarAsItGoes) {
   SampleRun run;
   run.HandOver(0, 8).Frames(9);
-  std::istringstream stream(run.text() + "10 1.0 broken");
-  const auto log = agent::ReadRunLog(stream);
-  const std::string story = TellStory(*log, false);
-  EXPECT_THAT(story, AllOf(HasSubstr("breaks off"), HasSubstr("1 of the log's lines"),
-                           HasSubstr("cut off"), HasSubstr("found only 8 of 30")));
+  agent::RunLog log = run.Log();
+  log.damage = {"at byte 912: the file is cut off here"};
+  log.damaged = 1;
+  EXPECT_THAT(
+      TellStory(log, false),
+      AllOf(HasSubstr("breaks off"), HasSubstr("1 parts of the log cannot be read"),
+            HasSubstr("  at byte 912: the file is cut off"), HasSubstr("found only 8 of 30")));
+}
+
+TEST(Story, ALogWithGapsSaysSo) {
+  agent::RunLog log = SampleRun().Frames(9).Log();
+  EXPECT_THAT(TellStory(log, false), Not(HasSubstr("gaps")));
+  log.events.push_back(
+      {.frame = 5, .what = "dropped", .text = "3 frames: writing did not keep up"});
+  EXPECT_THAT(TellStory(log, false),
+              HasSubstr("The log has gaps: dropped 3 frames: writing did not keep up."));
 }
 
 TEST(Story, ARunWithoutAFrameHasOnlyItsEnd) {

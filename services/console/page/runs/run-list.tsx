@@ -58,7 +58,7 @@ function Drop() {
       <div className="orders">
         <label className="button">
           Open log …
-          <input type="file" accept=".log,.mcap" className="hidden" onChange={(event) => { void take(event.target.files); event.target.value = ''; }} />
+          <input type="file" accept=".mcap" className="hidden" onChange={(event) => { void take(event.target.files); event.target.value = ''; }} />
         </label>
       </div>
       {told && <p role="status" className={told.startsWith('⚠') ? 'answer bad' : 'note'}>{told}</p>}

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "agent/diagnosis/run_log_format.h"
+#include "agent/diagnosis/run_log.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {

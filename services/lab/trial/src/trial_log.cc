@@ -16,7 +16,7 @@ std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& tri
   const std::string visited = visit > 0 ? fmt::format("-visit{}", visit) : "";
   const char* const served = trial_case.through_server ? "-served" : "";
   const char* const same = setup.same_robot ? "-same" : "";
-  return fmt::format("{}-{}-{}-{}{}{}{}{}-trial{}{}{}.log", ForFileName(setup.scenario),
+  return fmt::format("{}-{}-{}-{}{}{}{}{}-trial{}{}{}.mcap", ForFileName(setup.scenario),
                      agent::ToString(trial_case.method), ForFileName(trial_case.scout_camera.name),
                      ForFileName(trial_case.follower_camera.name), push, served, same, flaw, trial,
                      start, visited);
@@ -25,7 +25,8 @@ std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& tri
 Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup, const TrialCase& trial_case,
                                       const TrialOptions& options, int trial, int visit,
                                       const route::RouteInfo& route) {
-  agent::DiagnosisOptions files;
+  // Nobody waits for a simulated robot.
+  agent::DiagnosisOptions files{.patient = true, .picture_every_s = 0.0};
   const std::filesystem::path folder = options.log_folder;
   if (!folder.empty()) {
     std::error_code failed;

@@ -10,7 +10,7 @@
 
 namespace trailcast::trial {
 
-// "indoor-default-webcam-wide-trial3.log", with the push where there is one.
+// "indoor-default-webcam-wide-trial3.mcap", with the push where there is one.
 [[nodiscard]] std::filesystem::path TrialLogName(const TrialSetup& setup,
                                                  const TrialCase& trial_case, int trial,
                                                  int visit = 0);

@@ -36,24 +36,31 @@ class RunLogsTest : public testing::Test {
 
 TEST_F(RunLogsTest, TheOldestMakeRoomAndOtherFilesStay) {
   Write("m1-1-1.mcap", 1500, 30);
-  Write("m1-1-2.log", 1500, 20);
+  Write("m1-1-2-3.mcap", 1500, 20);
   Write("m2-1-1.mcap", 1400, 10);
-  Write("notes.log", 9000, 60);
-  fs::create_symlink("notes.log", folder_ / "m0-1-1.log");
+  Write("notes.mcap", 9000, 60);
+  Write("m0-1-2.log", 9000, 60);
+  fs::create_symlink("notes.mcap", folder_ / "m0-1-1.mcap");
   const auto log = LogFor(options_, {.mission = "m3", .task = 0, .lap = 1});
   ASSERT_TRUE(log) << log.error().message;
   EXPECT_EQ(log->log, folder_ / "m3-1-2.mcap");
   EXPECT_EQ(log->most_log_bytes, 1000U);
   EXPECT_EQ(log->header.Find("mission"), "m3");
   EXPECT_TRUE(log->header.Number("began_unix_ms"));
-  EXPECT_THAT(Files(), ElementsAre("m0-1-1.log", "m1-1-2.log", "m2-1-1.mcap", "notes.log"));
+  EXPECT_THAT(Files(), ElementsAre("m0-1-1.mcap", "m0-1-2.log", "m1-1-2-3.mcap", "m2-1-1.mcap",
+                                   "notes.mcap"));
 }
 
 TEST_F(RunLogsTest, ARunThatGoesOnHasALogOfItsOwn) {
   Write("m1-1-1.mcap", 10, 3);
   EXPECT_EQ(LogFor(options_, {.mission = "m1"})->log, folder_ / "m1-1-1-2.mcap");
+}
+
+TEST_F(RunLogsTest, ALogWithoutPicturesIsOneAllTheSame) {
   options_.picture_every_s = 0.0;
-  EXPECT_EQ(LogFor(options_, {.mission = "m1"})->log, folder_ / "m1-1-1.log");
+  const auto log = LogFor(options_, {.mission = "m1"});
+  EXPECT_EQ(log->log, folder_ / "m1-1-1.mcap");
+  EXPECT_EQ(log->picture_every_s, 0.0);
 }
 
 TEST_F(RunLogsTest, TheFolderIsMadeAndOneThatCannotBeIsNamed) {

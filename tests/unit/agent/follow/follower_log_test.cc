@@ -16,6 +16,7 @@ namespace trailcast::agent {
 namespace {
 
 using test::WalkDevice;
+using testing::AllOf;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
@@ -29,21 +30,20 @@ class FollowerLogTest : public testing::Test {
     EXPECT_TRUE(taught) << taught.error().message;
     FollowerOptions options = swarm_.FollowerNamed("robot");
     options.diagnosis = diagnosis_;
-    options.diagnosis.log = folder_ / name_;
+    options.diagnosis.log = folder_ / "run.mcap";
     options.link.now_desk = hold_;
     options.how.session.intake.roll_deg = roll_deg_;
     const auto outcome = swarm_.Replay(device, options, false);
     EXPECT_TRUE(outcome && outcome->diagnosed);
     frames_ = outcome->log.frames();
-    auto log = ReadRunLog(folder_ / name_);
+    auto log = ReadRunLog(folder_ / "run.mcap");
     EXPECT_TRUE(log) << log.error().message;
     return *log;
   }
-  std::string name_ = "run.log";
   NowDesk* hold_ = nullptr;
   double roll_deg_ = 0.0;
   std::size_t frames_ = 0;
-  DiagnosisOptions diagnosis_;
+  DiagnosisOptions diagnosis_{.patient = true};  // fewer frames may wait than it has
   test::TempDir folder_;
   test::Swarm swarm_;
 };
@@ -61,7 +61,7 @@ TEST_F(FollowerLogTest, TellsEveryFrameAndEverySegmentOfARunThatArrives) {
   EXPECT_EQ(log.header.Find("camera"), "walk 160x120");
   EXPECT_EQ(log.header.Find("method"), "default");
   EXPECT_EQ(log.frames.size(), frames_);
-  EXPECT_EQ(log.damaged_lines, 0U);
+  EXPECT_EQ(log.damaged, 0U);
   ASSERT_TRUE(log.ending);
   EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
   const FrameRow& last = log.frames.back();
@@ -72,29 +72,15 @@ TEST_F(FollowerLogTest, TellsEveryFrameAndEverySegmentOfARunThatArrives) {
   EXPECT_FALSE(log.frames[50].delta) << "and has no delta";
 }
 
-TEST_F(FollowerLogTest, AsMcapItTellsTheSame) {
-  name_ = "run.mcap";
-  diagnosis_.patient = true;
-  WalkDevice device(220);
-  const RunLog log = Follow(device);
-  EXPECT_EQ(log.header.Find("route"), "hall");
-  EXPECT_EQ(log.damaged_lines, 0U);
-  EXPECT_EQ(log.frames.size(), frames_);
-  EXPECT_EQ(log.frames.back().phase, Phase::kArrived);
-  ASSERT_TRUE(log.ending);
-  EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
-}
-
 TEST_F(FollowerLogTest, ALogThatIsFullSaysSoAndHowItEnded) {
-  name_ = "run.mcap";
-  diagnosis_.patient = true;  // fewer frames may wait to be written than it has
   diagnosis_.most_log_bytes = 1;
   diagnosis_.header.Add("mission", "m1");
   WalkDevice device(220);
   const RunLog log = Follow(device);
   EXPECT_EQ(log.header.Find("mission"), "m1");
   EXPECT_LT(log.frames.size(), frames_);
-  EXPECT_THAT(log.header.Find("dropped").value_or(""), HasSubstr("all later frames"));
+  EXPECT_THAT(log.events, Contains(AllOf(Field(&RunEvent::what, "dropped"),
+                                         Field(&RunEvent::text, HasSubstr("all later frames")))));
   ASSERT_TRUE(log.ending);
   EXPECT_EQ(log.ending->fields.Find("state"), "ARRIVED");
 }
@@ -183,11 +169,11 @@ TEST_F(FollowerLogTest, OfARobotThatIsHeldItDrawsTheFramesThatNobodyLooksAt) {
 
 TEST_F(FollowerLogTest, ARobotThatFindsNoRouteLeavesALogThatSaysWhy) {
   FollowerOptions options = swarm_.FollowerNamed("robot");
-  options.diagnosis.log = folder_ / "run.log";
+  options.diagnosis.log = folder_ / "run.mcap";
   options.link.wait = std::chrono::milliseconds(50);
   WalkDevice device(10);
   ASSERT_TRUE(swarm_.Replay(device, options, false));
-  const auto log = ReadRunLog(folder_ / "run.log");
+  const auto log = ReadRunLog(folder_ / "run.mcap");
   ASSERT_TRUE(log) << log.error().message;
   EXPECT_TRUE(log->frames.empty());
   ASSERT_TRUE(log->ending);
@@ -196,11 +182,11 @@ TEST_F(FollowerLogTest, ARobotThatFindsNoRouteLeavesALogThatSaysWhy) {
 
 TEST_F(FollowerLogTest, ALogThatCannotBeMadeIsSaidBeforeTheRobotMoves) {
   FollowerOptions options = swarm_.FollowerNamed("robot");
-  options.diagnosis.log = folder_ / "missing" / "run.log";
+  options.diagnosis.log = folder_ / "missing" / "run.mcap";
   WalkDevice device(10);
   const auto outcome = swarm_.Replay(device, options, false);
   ASSERT_FALSE(outcome);
-  EXPECT_THAT(outcome.error().message, HasSubstr("run.log"));
+  EXPECT_THAT(outcome.error().message, HasSubstr("run.mcap"));
   EXPECT_EQ(device.next, 0);
 }
 

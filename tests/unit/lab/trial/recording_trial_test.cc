@@ -165,7 +165,7 @@ TEST_F(RecordingTrialTest, IsDrawnLoggedAndWrittenFrameByFrame) {
   pair.reference = Truth();
   const auto outcomes = Run({pair}, 1, options);
   ASSERT_THAT(outcomes, SizeIs(1));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "logs" / "second-on-first-none-default.log"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "logs" / "second-on-first-none-default.mcap"));
   EXPECT_FALSE(DrawRecordings(outcomes).Render().empty());
   EXPECT_LT(DrawRecordings({outcomes[0], outcomes[0]}).height(),
             3 * DrawRecordings(outcomes).height());

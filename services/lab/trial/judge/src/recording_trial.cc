@@ -51,11 +51,11 @@ Result<Steering> SteeringOf(const RecordingPair& pair, const Disturbance& distur
 
 Result<agent::Diagnosis> OpenLog(const RecordingRow& row, const route::RouteInfo& route,
                                  const RecordingOptions& options) {
-  agent::DiagnosisOptions files;
+  agent::DiagnosisOptions files{.patient = true, .picture_every_s = 0.0};
   if (!options.logs.empty()) {
     std::error_code failed;
     std::filesystem::create_directories(options.logs, failed);
-    files.log = options.logs / (FileStem(row) + ".log");
+    files.log = options.logs / (FileStem(row) + ".mcap");
   }
   auto diagnosis = agent::Diagnosis::Open(files);
   if (diagnosis) diagnosis->Begin({route, "judged", row.replay, row.method});

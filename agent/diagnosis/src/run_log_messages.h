@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "agent/diagnosis/run_log.h"
+#include "services/bag/bag.h"
+#include "services/base/result.h"
+
+namespace trailcast::agent {
+
+// Where in its MCAP file a log has its messages of idl/run_log.proto, which are what readers of it
+// go by.
+inline constexpr const char* kHeaderTopic = "/replay/header";
+inline constexpr const char* kFrameTopic = "/replay/frame";
+inline constexpr const char* kEventTopic = "/replay/event";
+// Longer ones are damage.
+inline constexpr std::size_t kLongestMessage = std::size_t{16} << 10U;
+inline constexpr std::size_t kMostFields = 64;
+
+[[nodiscard]] std::string HeaderMessage(const Fields& header);
+[[nodiscard]] std::string FrameMessage(const FrameRow& row);
+[[nodiscard]] std::string EventMessage(const RunEvent& event);
+
+// Of bytes that may be anybody's. Texts are plain, numbers finite; fields that are not known are
+// passed over. Errors are kCorrupt and say what is wrong with the message.
+[[nodiscard]] Result<Fields> ReadHeader(std::span<const std::uint8_t> message);
+[[nodiscard]] Result<FrameRow> ReadFrame(std::span<const std::uint8_t> message);
+[[nodiscard]] Result<RunEvent> ReadEvent(std::span<const std::uint8_t> message);
+
+// An MCAP file, bounded in what it unpacks to. Errors: kNotFound, or that it is none.
+[[nodiscard]] Result<std::unique_ptr<bag::Bag>> OpenMcap(const std::filesystem::path& file);
+
+}  // namespace trailcast::agent
