@@ -86,7 +86,8 @@ std::vector<std::string> WhatIsMissing(const RunLog& log, std::size_t most) {
     lines.push_back(fmt::format("The log has gaps: dropped {}.", dropped->text));
   }
   if (log.damaged == 0) return lines;
-  lines.push_back(fmt::format("{} parts of the log cannot be read and are left out:", log.damaged));
+  lines.push_back(
+      fmt::format("Places of the log that cannot be read and are left out: {}", log.damaged));
   for (std::size_t i = 0; i < std::min(most, log.damage.size()); ++i) {
     lines.push_back("  " + log.damage[i]);
   }

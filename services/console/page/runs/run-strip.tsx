@@ -30,6 +30,7 @@ const otherGlyph = 'M0 -5 5 4h-10z';
 
 export const markWords: Record<string, string> = {
   lost: 'lost', stands: 'stands', recovered: 'found itself again', 'looked-again': 'looked again', carried: 'carried off',
+  dropped: 'frames left out',
 };
 
 function useWidth() {
