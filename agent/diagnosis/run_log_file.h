@@ -15,8 +15,7 @@
 namespace trailcast::agent {
 
 // A file that grows while the control loop drives: a thread of its own writes it, so that a slow
-// disk holds up nobody, and hands it to the system several times a second, so that a crash loses
-// less than a second. All calls from one thread.
+// disk holds up nobody, and hands it to the system at once. All calls from one thread.
 class RunLogFile {
  public:
   // What comes next into the file; called by its thread.
@@ -30,9 +29,11 @@ class RunLogFile {
   RunLogFile& operator=(const RunLogFile&) = delete;
 
   // Never waits. False, with `make` untouched: there is no room, since the disk does not keep up.
-  [[nodiscard]] bool TryPut(Make&& make) { return waiting_.TryPut(std::move(make)); }
-  // What was put is not to wait for its quarter of a second.
-  void Hurry() { bell_.Ring(); }
+  [[nodiscard]] bool TryPut(Make&& make) {
+    const bool put = waiting_.TryPut(std::move(make));
+    bell_.Ring();
+    return put;
+  }
   // Written so far.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_.load(); }
   // Everything is written, `last` behind it; the error says what was not.

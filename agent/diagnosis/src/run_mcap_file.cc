@@ -41,7 +41,6 @@ void RunMcapFile::Put(RunMoment moment, bool patient) {
     return mcap_.TakeBytes();
   };
   bool put = file_->TryPut(std::move(make));
-  file_->Hurry();
   while (!put && patient) {
     std::this_thread::sleep_for(kRoomComes);
     put = file_->TryPut(std::move(make));
