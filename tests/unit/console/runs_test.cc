@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -295,12 +296,12 @@ TEST_F(RunsTest, StrangeLogsHoldUpNobody) {
   mcap.End();
   const auto bytes = mcap.TakeBytes();
   Write("strange.mcap", {bytes.begin(), bytes.end()});
-  const auto began = std::chrono::steady_clock::now();
+  const std::clock_t began = std::clock();
   const Replied run = Read("/api/runs/" + IdOf("strange.mcap"));
   ASSERT_EQ(run.status, 200);
   EXPECT_LE(run.body["strip"]["marks"].size(), 300U);
   EXPECT_LT(run.body.dump().size(), 200'000U);
-  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(30));
+  EXPECT_LT(std::clock() - began, 30 * CLOCKS_PER_SEC) << "of CPU, on a busy machine, too";
 }
 
 }  // namespace
