@@ -110,8 +110,8 @@ void AddQuotaOptions(CLI::App& app, trailcast::server::QuotaOptions& options,
                  "How many routes of one scout are kept here, revisions counted; 0: any number")
       ->envname("TRAILCAST_QUOTA_ROUTES");
   app.add_option("--quota-requests-per-s", options.requests_per_s,
-                 "How many questions and edits a second are taken from a client; the others are "
-                 "answered with an error; 0: any number")
+                 "How many questions, edits and missions a second are taken from a member; the "
+                 "others are answered with an error, or put off; 0: any number")
       ->envname("TRAILCAST_QUOTA_REQUESTS_PER_S");
   app.option_defaults()->group(trailcast::program::kFirstGroup);
 }

@@ -133,22 +133,18 @@ void Server::Replan(const AgentId& agent) {
 }
 
 void Server::Receive(exchange::Message message) {
-  if (std::holds_alternative<exchange::CatalogRequest>(message) ||
-      std::holds_alternative<exchange::RouteEditRequest>(message) ||
-      std::holds_alternative<exchange::NetworkRequest>(message) ||
-      std::holds_alternative<exchange::NetworkEdit>(message)) {
+  if (IsRequest(message)) {
     ReceiveRequest(message);
     return;
   }
   const bool passed_on = PassOn(message);
   if (missions_) {
-    missions_->Handle(message, steady_clock::now(), NowUnixMs());
-  } else if (const auto* request = std::get_if<exchange::MissionRequest>(&message)) {
-    (void)exchange_->Publish(exchange::MissionReply{
-        .server = presence_.status().agent,
-        .client = request->client,
-        .request = request->request,
-        .error = "keeps no missions: its log says why, or it was given no --missions"});
+    const auto now = steady_clock::now();
+    // A stop voids the missions that were sent before it, also those that wait for their turn.
+    if (std::holds_alternative<exchange::NowCommand>(message)) {
+      missions_->Take(requests_.TakeMissions(), now, NowUnixMs());
+    }
+    missions_->Handle(message, now, NowUnixMs());
   }
   if (passed_on) return;
   presence_.Handle(message);

@@ -64,6 +64,8 @@ class Server {
          std::unique_ptr<exchange::RouteExchange> exchange);
 
   void Receive(exchange::Message message);
+  // Whether it waits for its turn, and counts among what its member may ask.
+  [[nodiscard]] bool IsRequest(const exchange::Message& message) const;
   void ReceiveRequest(const exchange::Message& request);
   // What operators tell robots, and these answer, who may not hear each other.
   [[nodiscard]] bool PassOn(const exchange::Message& message);

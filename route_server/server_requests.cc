@@ -1,6 +1,5 @@
-// What clients ask of the catalog, or want edited.
+// What members of the fleet ask of the server, want changed, and send robots to do.
 #include "route_server/server.h"
-#include "services/base/process_name.h"
 #include "services/base/unix_time.h"
 #include "services/catalog/catalog.h"
 #include "services/exchange/bounds.h"
@@ -13,6 +12,8 @@ using std::chrono::steady_clock;
 
 // All else waits for so long, and for the request that is being answered then.
 constexpr milliseconds kRequestsASlice{20};
+// One commit holds so many missions at most, so that it is no longer than a slice either.
+constexpr std::size_t kMostMissionsACommit = 64;
 
 exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
                           const std::string& why) {
@@ -23,6 +24,10 @@ exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
     reply.error = why;
     return exchange::Message(std::move(reply));
   };
+  if (const auto* mission = std::get_if<mission::Mission>(&request)) return PutOff(*mission, why);
+  if (const auto* query = std::get_if<exchange::MissionRequest>(&request)) {
+    return refusal(*query, exchange::MissionReply{});
+  }
   if (const auto* query = std::get_if<exchange::CatalogRequest>(&request)) {
     return refusal(*query, exchange::CatalogReply{});
   }
@@ -37,8 +42,23 @@ exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
 
 }  // namespace
 
+// Missions that another server passes on are kept by that one, and one that keeps none leaves them
+// to the others.
+bool Server::IsRequest(const exchange::Message& message) const {
+  if (const auto* mission = std::get_if<mission::Mission>(&message)) {
+    return missions_ && !mission->relayed;
+  }
+  return std::holds_alternative<exchange::CatalogRequest>(message) ||
+         std::holds_alternative<exchange::RouteEditRequest>(message) ||
+         std::holds_alternative<exchange::NetworkRequest>(message) ||
+         std::holds_alternative<exchange::NetworkEdit>(message) ||
+         std::holds_alternative<exchange::MissionRequest>(message);
+}
+
 // Who asks wrongly is told so at once: it costs nothing, and what waits is small.
 void Server::ReceiveRequest(const exchange::Message& request) {
+  const auto* mission = std::get_if<mission::Mission>(&request);
+  if (mission != nullptr && missions_->Refuses(*mission)) return;
   Result<void> possible;
   if (const auto* query = std::get_if<exchange::CatalogRequest>(&request)) {
     possible = exchange::CheckQuery(query->query);
@@ -54,7 +74,7 @@ void Server::ReceiveRequest(const exchange::Message& request) {
 
 Result<void> Server::Enqueue(const exchange::Message& request) {
   if (quotas_) {
-    const auto allowed = quotas_->TakeRequest(ClientOf(request), steady_clock::now());
+    auto allowed = quotas_->TakeRequest(MemberOf(request), steady_clock::now());
     if (!allowed) {
       ++metrics_.over_quota.requests;
       return allowed;
@@ -65,13 +85,19 @@ Result<void> Server::Enqueue(const exchange::Message& request) {
   return added;
 }
 
-// At least one, and no more than fit into the slice.
+// At least one, and no more than fit into the slice. Missions are stored with one commit.
 void Server::ServeRequests() {
   const auto until = steady_clock::now() + kRequestsASlice;
-  while (const auto request = requests_.Next()) {
-    Serve(*request);
-    if (steady_clock::now() >= until) break;
+  std::vector<mission::Mission> missions;
+  while (auto request = requests_.Next()) {
+    if (auto* mission = std::get_if<mission::Mission>(&*request)) {
+      missions.push_back(std::move(*mission));
+    } else {
+      Serve(*request);
+    }
+    if (missions.size() == kMostMissionsACommit || steady_clock::now() >= until) break;
   }
+  if (missions_) missions_->Take(missions, steady_clock::now(), NowUnixMs());
 }
 
 void Server::Serve(const exchange::Message& request) {
@@ -79,9 +105,17 @@ void Server::Serve(const exchange::Message& request) {
   const auto* edit = std::get_if<exchange::NetworkEdit>(&request);
   const auto since_unix_ms =
       question == nullptr ? std::nullopt : network::ParseChangesSince(question->words);
-  if (question == nullptr && edit == nullptr) {
+  if (std::holds_alternative<exchange::MissionRequest>(request)) {
+    if (missions_) {
+      missions_->Handle(request, steady_clock::now(), NowUnixMs());
+    } else {
+      replies_.push_back(
+          Refusal(request, presence_.status().agent,
+                  "keeps no missions: its log says why, or it was given no --missions"));
+    }
+  } else if (question == nullptr && edit == nullptr) {
     keeper_->Handle(request, steady_clock::now());
-    NoteDone(WithoutProcess(ClientOf(request).value()));
+    NoteDone(MemberOf(request).value());
   } else if (since_unix_ms) {
     AnswerHistory(*question, *since_unix_ms);
   } else if (!network_) {

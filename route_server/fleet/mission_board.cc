@@ -45,6 +45,16 @@ bool AreSame(const std::string& orders, const std::string& others) {
   return going && other && going->to == other->to && (going->way > 1 || other->way > 1);
 }
 
+// A server's own word.
+mission::Report OwnReport(const mission::Mission& mission, mission::State state,
+                          const std::string& why) {
+  return {.agent = mission.agent,
+          .mission = mission.id,
+          .state = state,
+          .detail = PlainText(why, exchange::kMaxLineBytes),
+          .relayed = true};
+}
+
 bool IsMeant(const exchange::NowCommand& command, const mission::Mission& mission) {
   switch (command.whom) {
     case exchange::NowWhom::kRobot:
@@ -58,6 +68,10 @@ bool IsMeant(const exchange::NowCommand& command, const mission::Mission& missio
 }
 
 }  // namespace
+
+mission::Report PutOff(const mission::Mission& mission, const std::string& why) {
+  return OwnReport(mission, mission::State::kPutOff, why);
+}
 
 Result<std::unique_ptr<MissionBoard>> MissionBoard::Open(
     AgentId server, std::unique_ptr<store::MissionStore> store) {
@@ -98,7 +112,7 @@ std::size_t MissionBoard::unanswered() const {
 
 void MissionBoard::Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms) {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
-    if (!mission->relayed) On(*mission, now_unix_ms);
+    if (!mission->relayed) Take({mission, 1}, now, now_unix_ms);
   } else if (const auto* report = std::get_if<mission::Report>(&message)) {
     if (!report->relayed) On(*report, now_unix_ms);
   } else if (const auto* request = std::get_if<exchange::MissionRequest>(&message)) {
@@ -119,37 +133,46 @@ void MissionBoard::Say(mission::Report report) {
   outgoing_.emplace_back(std::move(report));
 }
 
-void MissionBoard::Refuse(const mission::Mission& mission, const std::string& why) {
-  Say({.agent = mission.agent,
-       .mission = mission.id,
-       .state = mission::State::kRefused,
-       .detail = PlainText(why, exchange::kMaxLineBytes)});
+bool MissionBoard::Refuses(const mission::Mission& mission) {
+  const auto tasks = mission::ParseOrders(mission.orders);
+  if (!tasks) Say(OwnReport(mission, mission::State::kRefused, tasks.error().message));
+  return !tasks;
 }
 
-void MissionBoard::On(const mission::Mission& mission, std::int64_t now_unix_ms) {
-  if (const auto tasks = mission::ParseOrders(mission.orders); !tasks) {
-    Refuse(mission, tasks.error().message);
+void MissionBoard::Take(std::span<const mission::Mission> missions, Time now,
+                        std::int64_t now_unix_ms) {
+  std::vector<mission::Mission> readable;
+  for (const mission::Mission& mission : missions) {
+    if (!Refuses(mission)) readable.push_back(mission);
+  }
+  if (readable.empty()) return;
+  std::vector<Result<mission::Record>> stored = store_->Add(readable, now_unix_ms);
+  for (std::size_t i = 0; i < readable.size(); ++i) {
+    if (stored[i]) {
+      Keep(readable[i], *std::move(stored[i]));
+      continue;
+    }
+    const Error& error = stored[i].error();
+    if (told_.IsDue(error.message, now)) Warn(error);
+    Say(PutOff(readable[i], error.message));
+  }
+}
+
+void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored) {
+  if (!AreSame(stored.mission.orders, mission.orders)) {
+    Say(OwnReport(mission, mission::State::kRefused,
+                  fmt::format("the robot's mission {} is another one: {}", mission.id,
+                              stored.mission.orders)));
     return;
   }
-  auto stored = store_->Add(mission, now_unix_ms);
-  if (!stored) {
-    Warn(stored.error());
-    Refuse(mission, stored.error().message);
-    return;
-  }
-  if (!AreSame(stored->mission.orders, mission.orders)) {
-    Refuse(mission, fmt::format("the robot's mission {} is another one: {}", mission.id,
-                                stored->mission.orders));
-    return;
-  }
-  Say(stored->last);
+  Say(stored.last);
   std::deque<mission::Record>& pending = unanswered_[mission.agent];
   const bool is_known = std::any_of(pending.begin(), pending.end(), [&](const auto& record) {
     return record.mission.id == mission.id;
   });
-  if (!is_known && stored->last.state == mission::State::kSent) {
+  if (!is_known && stored.last.state == mission::State::kSent) {
     notes_.push_back({fmt::format("'{}' sends {}", mission.client.value(), Describe(mission))});
-    pending.push_back(*std::move(stored));
+    pending.push_back(std::move(stored));
     if (Heard* heard = heard_.Find(mission.agent)) heard->tell_at = {};
   }
   if (pending.empty()) unanswered_.erase(mission.agent);
@@ -157,9 +180,9 @@ void MissionBoard::On(const mission::Mission& mission, std::int64_t now_unix_ms)
 
 // The robot's own word, which is durable when it is said again.
 void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
-  const auto is_news = store_->Change(report, now_unix_ms);
-  if (!is_news) {
-    Warn(is_news.error());
+  const auto are_news = store_->Change({&report, 1}, now_unix_ms);
+  if (!are_news) {
+    Warn(are_news.error());
     return;
   }
   Say(report);
@@ -170,7 +193,7 @@ void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
     });
     if (pending->second.empty()) unanswered_.erase(pending);
   }
-  if (!*is_news) return;
+  if (!are_news->front()) return;
   NoteCurrent(report);
   notes_.push_back({fmt::format("mission {} of '{}': {}{}{}", report.mission, report.agent.value(),
                                 mission::ToString(report.state), report.detail.empty() ? "" : ": ",
@@ -251,18 +274,15 @@ void MissionBoard::On(const exchange::NowCommand& command, std::int64_t now_unix
   const bool voids =
       command.order == exchange::NowOrder::kCancel || command.order == exchange::NowOrder::kStop;
   if (!voids) return;
-  std::vector<mission::Mission> meant;
-  for (const auto& [agent, missions] : unanswered_) {
-    for (const mission::Record& record : missions) {
-      if (IsMeant(command, record.mission)) meant.push_back(record.mission);
-    }
-  }
-  for (const mission::Mission& mission : meant) {
-    Drop(mission, mission::State::kCancelled,
-         fmt::format("{} told it to {} before it had this mission",
-                     WithoutProcess(command.client.value()), exchange::ToString(command.order)),
-         now_unix_ms);
-  }
+  const std::string why =
+      fmt::format("{} told it to {} before it had this mission",
+                  WithoutProcess(command.client.value()), exchange::ToString(command.order));
+  Drop(
+      mission::State::kCancelled,
+      [&](const mission::Record& record) {
+        return IsMeant(command, record.mission) ? std::optional(why) : std::nullopt;
+      },
+      now_unix_ms);
 }
 
 void MissionBoard::On(const exchange::NowAnswer& answer) {
@@ -271,21 +291,32 @@ void MissionBoard::On(const exchange::NowAnswer& answer) {
   if (const auto added = store_->Add(answer); !added) Warn(added.error());
 }
 
-void MissionBoard::Drop(const mission::Mission& mission, mission::State state,
-                        const std::string& why, std::int64_t now_unix_ms) {
-  mission::Report report{.agent = mission.agent,
-                         .mission = mission.id,
-                         .state = state,
-                         .detail = PlainText(why, exchange::kMaxLineBytes)};
-  if (const auto stored = store_->Change(report, now_unix_ms); !stored) {
+void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {
+  std::vector<mission::Report> reports;
+  for (const auto& [agent, missions] : unanswered_) {
+    for (const mission::Record& record : missions) {
+      if (const auto reason = why(record)) {
+        reports.push_back(OwnReport(record.mission, state, *reason));
+      }
+    }
+  }
+  if (reports.empty()) return;
+  if (const auto stored = store_->Change(reports, now_unix_ms); !stored) {
     Warn(stored.error());
     return;
   }
-  notes_.push_back({fmt::format("{}: {}: {}", Describe(mission), mission::ToString(state), why)});
-  std::deque<mission::Record>& pending = unanswered_[mission.agent];
-  std::erase_if(pending, [&](const auto& record) { return record.mission.id == mission.id; });
-  if (pending.empty()) unanswered_.erase(mission.agent);
-  Say(std::move(report));
+  for (auto& [agent, missions] : unanswered_) {
+    std::erase_if(missions, [&](const mission::Record& record) {
+      const auto reason = why(record);
+      if (reason) {
+        notes_.push_back({fmt::format("{}: {}: {}", Describe(record.mission),
+                                      mission::ToString(state), *reason)});
+      }
+      return reason.has_value();
+    });
+  }
+  std::erase_if(unanswered_, [](const auto& waiting) { return waiting.second.empty(); });
+  for (mission::Report& report : reports) outgoing_.emplace_back(std::move(report));
 }
 
 void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
@@ -306,19 +337,14 @@ void MissionBoard::On(const exchange::AgentGone& gone) {
 }
 
 void MissionBoard::Expire(std::int64_t now_unix_ms) {
-  std::vector<mission::Mission> over;
-  for (const auto& [agent, missions] : unanswered_) {
-    for (const mission::Record& record : missions) {
-      const std::int64_t valid_ms = std::int64_t{ValidFor_s(record.mission)} * 1000;
-      if (now_unix_ms - record.sent_unix_ms >= valid_ms) {
-        over.push_back(record.mission);
-      }
-    }
-  }
-  for (const mission::Mission& mission : over) {
-    Drop(mission, mission::State::kExpired,
-         fmt::format("the robot did not answer within {} s", ValidFor_s(mission)), now_unix_ms);
-  }
+  Drop(
+      mission::State::kExpired,
+      [&](const mission::Record& record) -> std::optional<std::string> {
+        const std::uint32_t valid_s = ValidFor_s(record.mission);
+        if (now_unix_ms - record.sent_unix_ms < std::int64_t{valid_s} * 1000) return std::nullopt;
+        return fmt::format("the robot did not answer within {} s", valid_s);
+      },
+      now_unix_ms);
 }
 
 std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_unix_ms) {

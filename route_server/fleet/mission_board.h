@@ -3,17 +3,24 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/base/newest_map.h"
+#include "services/base/told_lately.h"
 #include "services/exchange/messages.h"
 #include "services/records/mission_store.h"
 
 namespace trailcast::server {
+
+// What a server says of a mission that it does not take now.
+[[nodiscard]] mission::Report PutOff(const mission::Mission& mission, const std::string& why);
 
 // Keeps what operators send robots to do: stores it before it says so, hands it over once the robot
 // is heard, and remembers what became of it; also what they tell robots to do now, and what these
@@ -29,6 +36,10 @@ class MissionBoard {
       AgentId server, std::unique_ptr<store::MissionStore> store);
 
   void Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms);
+  // Whether nobody understands a mission's orders, which it then says.
+  [[nodiscard]] bool Refuses(const mission::Mission& mission);
+  // Missions that operators have sent, stored with one commit.
+  void Take(std::span<const mission::Mission> missions, Time now, std::int64_t now_unix_ms);
   // What is to be published.
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now, std::int64_t now_unix_ms);
   // What is new since the last call, a line each for the log; a trouble is a warning.
@@ -50,7 +61,6 @@ class MissionBoard {
   MissionBoard(AgentId server, std::unique_ptr<store::MissionStore> store)
       : server_(std::move(server)), store_(std::move(store)) {}
 
-  void On(const mission::Mission& mission, std::int64_t now_unix_ms);
   void On(const mission::Report& report, std::int64_t now_unix_ms);
   void On(const exchange::MissionRequest& request);
   [[nodiscard]] Result<void> LookUp(const exchange::MissionRequest& request,
@@ -61,9 +71,10 @@ class MissionBoard {
   void On(const exchange::AgentGone& gone);
   [[nodiscard]] Result<void> LoadCurrent();
   void NoteCurrent(const mission::Report& report);
-  void Refuse(const mission::Mission& mission, const std::string& why);
-  void Drop(const mission::Mission& mission, mission::State state, const std::string& why,
-            std::int64_t now_unix_ms);
+  void Keep(const mission::Mission& mission, mission::Record stored);
+  // Those that no robot has answered and that it gives a reason for, with one commit.
+  using Why = std::function<std::optional<std::string>(const mission::Record&)>;
+  void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms);
   void Expire(std::int64_t now_unix_ms);
   void Say(mission::Report report);
   void Warn(const Error& error) { notes_.push_back({error.message, true}); }
@@ -88,6 +99,8 @@ class MissionBoard {
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, bool> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
+  // Missions that cannot be stored are said again, too.
+  ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<exchange::Message> outgoing_;
   std::vector<Note> notes_;
 };

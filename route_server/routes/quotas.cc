@@ -26,11 +26,11 @@ Error Quotas::TooManySegments(const AgentId& agent) const {
                       agent.value(), options_.segments_per_s)};
 }
 
-Result<void> Quotas::TakeRequest(const AgentId& client, Time now) {
+Result<void> Quotas::TakeRequest(const AgentId& member, Time now) {
   if (options_.requests_per_s == 0) return {};
-  if (accounts_.Touch(client).requests.Take(1, options_.requests_per_s, now) == 1) return {};
+  if (accounts_.Touch(member).requests.Take(1, options_.requests_per_s, now) == 1) return {};
   return Fail(ErrorCode::kUnavailable, "over quota: '{}' may ask {} times a second; again later",
-              client.value(), options_.requests_per_s);
+              member.value(), options_.requests_per_s);
 }
 
 Result<Quotas::Account*> Quotas::LookedAt(const AgentId& scout, Time now) {

@@ -17,7 +17,7 @@ namespace trailcast::server {
 // 0: as much as there is.
 struct QuotaOptions {
   std::uint32_t segments_per_s = 0;  // that an agent may have stored, or be sent
-  std::uint32_t requests_per_s = 0;  // of a client: questions and edits
+  std::uint32_t requests_per_s = 0;  // of a member: questions, edits, missions
   std::uint64_t stored_bytes = 0;    // of the routes that a scout taught
   std::uint32_t routes = 0;          // that a scout taught, all revisions
 
@@ -47,7 +47,7 @@ class Quotas {
   // How many of so many segments may be taken from `agent`, or sent to it, now.
   [[nodiscard]] std::size_t TakeSegments(const AgentId& agent, std::size_t wanted, Time now);
   [[nodiscard]] Error TooManySegments(const AgentId& agent) const;
-  [[nodiscard]] Result<void> TakeRequest(const AgentId& client, Time now);
+  [[nodiscard]] Result<void> TakeRequest(const AgentId& member, Time now);
   [[nodiscard]] Result<void> TakeBytes(const AgentId& scout, std::size_t bytes, Time now);
   [[nodiscard]] bool limits_routes() const { return options_.routes > 0; }
   // Of a route that is not stored yet.

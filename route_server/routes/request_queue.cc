@@ -3,36 +3,40 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/base/process_name.h"
+
 namespace trailcast::server {
 namespace {
 
 using exchange::CatalogRequest;
 using exchange::Message;
-using exchange::NetworkEdit;
-using exchange::NetworkRequest;
-using exchange::RouteEditRequest;
 
-// A client that heard no answer asks the same again, of the catalog under a new number; an edit has
-// the number that it had.
+// A client that heard no answer asks the same again, of the catalog under a new number; anything
+// else has the number that it had.
 bool IsSameAgain(const Message& request, const Message& before) {
   const auto* query = std::get_if<CatalogRequest>(&request);
   const auto* query_before = std::get_if<CatalogRequest>(&before);
   if (query == nullptr || query_before == nullptr) return request == before;
-  return query->query == query_before->query;
+  return query->client == query_before->client && query->query == query_before->query;
 }
 
 }  // namespace
 
-const AgentId& ClientOf(const Message& request) {
-  if (const auto* query = std::get_if<CatalogRequest>(&request)) return query->client;
-  if (const auto* edit = std::get_if<RouteEditRequest>(&request)) return edit->client;
-  if (const auto* edit = std::get_if<NetworkEdit>(&request)) return edit->client;
-  return std::get<NetworkRequest>(request).client;
+AgentId MemberOf(const Message& request) {
+  const auto client = [&]() -> const AgentId& {
+    if (const auto* query = std::get_if<CatalogRequest>(&request)) return query->client;
+    if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&request)) return edit->client;
+    if (const auto* edit = std::get_if<exchange::NetworkEdit>(&request)) return edit->client;
+    if (const auto* query = std::get_if<exchange::NetworkRequest>(&request)) return query->client;
+    if (const auto* query = std::get_if<exchange::MissionRequest>(&request)) return query->client;
+    return std::get<mission::Mission>(request).client;
+  };
+  return AgentId(WithoutProcess(client().value()));
 }
 
 Result<void> RequestQueue::Add(const Message& request) {
-  const AgentId& client = ClientOf(request);
-  if (const auto found = waiting_.find(client); found != waiting_.end()) {
+  const AgentId member = MemberOf(request);
+  if (const auto found = waiting_.find(member); found != waiting_.end()) {
     std::deque<Message>& its = found->second;
     const auto same = std::find_if(its.begin(), its.end(), [&](const Message& before) {
       return IsSameAgain(request, before);
@@ -41,16 +45,16 @@ Result<void> RequestQueue::Add(const Message& request) {
       *same = request;
       return {};
     }
-    if (its.size() >= kMostOfAClient) {
+    if (its.size() >= kMostOfAMember) {
       return Fail(ErrorCode::kUnavailable,
                   "{} requests of '{}' wait here already: ask again when they are answered",
-                  its.size(), client.value());
+                  its.size(), member.value());
     }
   }
   if (size_ >= kMost) {
     return Fail(ErrorCode::kUnavailable, "busy: {} requests wait here; ask again later", size_);
   }
-  waiting_[client].push_back(request);
+  waiting_[member].push_back(request);
   ++size_;
   return {};
 }
@@ -65,6 +69,19 @@ std::optional<Message> RequestQueue::Next() {
   --size_;
   if (next->second.empty()) waiting_.erase(next);
   return request;
+}
+
+std::vector<mission::Mission> RequestQueue::TakeMissions() {
+  std::vector<mission::Mission> missions;
+  for (auto& [member, its] : waiting_) {
+    size_ -= std::erase_if(its, [&](const Message& request) {
+      const auto* mission = std::get_if<mission::Mission>(&request);
+      if (mission != nullptr) missions.push_back(*mission);
+      return mission != nullptr;
+    });
+  }
+  std::erase_if(waiting_, [](const auto& each) { return each.second.empty(); });
+  return missions;
 }
 
 }  // namespace trailcast::server

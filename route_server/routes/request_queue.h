@@ -4,27 +4,32 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::server {
 
-// Of one of those that wait here.
-[[nodiscard]] const AgentId& ClientOf(const exchange::Message& request);
+// Who asks, of one of those that wait here: all processes of a member together.
+[[nodiscard]] AgentId MemberOf(const exchange::Message& request);
 
-// What clients ask of the catalog or the network of routes, or want changed, waits here for its
-// turn: the clients are served one after the other, each in the order in which it asked, so that
-// one who asks for much, or slowly, holds up neither the others nor the segments. Bounded.
+// What members of the fleet ask of the catalog, the network of routes or the missions, what they
+// want changed, and the missions that they send, waits here for its turn: the members are served
+// one after the other, each in the order in which it asked, so that one who asks for much, or
+// slowly, holds up neither the others nor the segments. Bounded.
 class RequestQueue {
  public:
-  static constexpr std::size_t kMostOfAClient = 16;
+  static constexpr std::size_t kMostOfAMember = 16;
   static constexpr std::size_t kMost = 2048;  // 20 MB, if all of them have a view
 
-  // A CatalogRequest, RouteEditRequest, NetworkRequest or NetworkEdit. The same that waits already,
-  // asked again, takes its place. kUnavailable, in words for the reply: too many wait.
+  // A CatalogRequest, RouteEditRequest, NetworkRequest, NetworkEdit, MissionRequest or Mission. The
+  // same that waits already, asked again, takes its place. kUnavailable, in words for the reply:
+  // too many wait.
   [[nodiscard]] Result<void> Add(const exchange::Message& request);
   [[nodiscard]] std::optional<exchange::Message> Next();
+  // All that wait, before their turn: what is told to robots now is about them, too.
+  [[nodiscard]] std::vector<mission::Mission> TakeMissions();
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
 

@@ -22,7 +22,7 @@ struct SendWatch {
 };
 
 // Says it again until the robot has answered, or, as long as that is out of reach, a server keeps
-// it; returns what is known of it then. kUnavailable where neither is heard.
+// it; returns what is known of it then. kUnavailable where neither is heard, or servers put it off.
 [[nodiscard]] Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
                                                   const mission::Mission& mission,
                                                   const SendWatch& watch);

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "services/base/result.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::fleet {
@@ -21,13 +23,20 @@ class Sending {
   // keeps it, or neither within `timeout`.
   [[nodiscard]] bool Answered(std::chrono::milliseconds since,
                               std::chrono::milliseconds timeout) const;
+  // How long to wait before it is said again: what was lost is said soon, and while it is watched a
+  // server or agent that has started again hears it anew.
+  [[nodiscard]] std::chrono::milliseconds SayAgain() const;
   // By the robot's word, or a server's, which may not have what the robot heard itself, and which
   // the robot has not contradicted meanwhile.
   [[nodiscard]] bool Ended(std::chrono::milliseconds since) const;
   [[nodiscard]] const std::optional<mission::Report>& last() const { return last_; }
+  // `last`; where there is none, kUnavailable: why a server has put it off, or that nobody answered
+  // within `timeout`.
+  [[nodiscard]] Result<mission::Report> Outcome(std::chrono::milliseconds timeout) const;
 
  private:
   mission::Mission mission_;
+  std::string put_off_;  // why; empty: no server has said so
   std::optional<mission::Report> last_;
 };
 

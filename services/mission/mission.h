@@ -35,8 +35,11 @@ enum class State : std::uint8_t {
   kFailed = 7,
   kCancelled = 8,
   kExpired = 9,
+  // No server takes the mission now, and none keeps it: whoever sends it says it again. This is
+  // said in reports alone; no mission is kept in this state.
+  kPutOff = 10,
 };
-inline constexpr std::uint8_t kStates = 10;
+inline constexpr std::uint8_t kStates = 10;  // those that a mission is kept in
 
 [[nodiscard]] const char* ToString(State state);  // "under way"
 [[nodiscard]] bool HasEnded(State state);
@@ -49,7 +52,7 @@ enum class WaitsFor : std::uint8_t {
 };
 
 // trailcast/mission_states: from the robot, said again until a server has said the same (relayed):
-// then that is durable. From a server, too, that it keeps one, or has dropped it.
+// then that is durable. From a server, too, that it keeps one, has dropped it, or has put it off.
 struct Report {
   AgentId agent{};
   std::string mission{};  // its id

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,15 @@ class MissionStore {
   MissionStore(const MissionStore&) = delete;
   MissionStore& operator=(const MissionStore&) = delete;
 
-  // Times are in milliseconds since 1970, by the caller's clock. A mission that is there already
-  // (agent and id) stays as it is. Returns what is stored then. kUnavailable: too many wait, all
-  // told or of its client.
-  [[nodiscard]] Result<mission::Record> Add(const mission::Mission& mission,
-                                            std::int64_t now_unix_ms);
-  // False: it was no news (Report::change), or the mission is not there.
-  [[nodiscard]] Result<bool> Change(const mission::Report& report, std::int64_t now_unix_ms);
+  // Times are in milliseconds since 1970, by the caller's clock. All in one commit. A mission that
+  // is there already (agent and id) stays as it is. Returns what is stored then, of each.
+  // kUnavailable: too many wait, all told or of its client.
+  [[nodiscard]] std::vector<Result<mission::Record>> Add(std::span<const mission::Mission> missions,
+                                                         std::int64_t now_unix_ms);
+  // All in one commit. Of each, false: it was no news (Report::change), or the mission is not
+  // there.
+  [[nodiscard]] Result<std::vector<bool>> Change(std::span<const mission::Report> reports,
+                                                 std::int64_t now_unix_ms);
 
   // A mission that is there gets other orders. False: it is not there.
   [[nodiscard]] Result<bool> Amend(const AgentId& agent, const std::string& id,

@@ -62,6 +62,7 @@ class SendErrand final : public ErrandFor<mission::Report> {
   [[nodiscard]] std::vector<exchange::Message> Words() const override {
     return {sending_.mission()};
   }
+  [[nodiscard]] milliseconds SayAgain() const override { return sending_.SayAgain(); }
   void Hear(const exchange::Message& message) override { (void)sending_.Hear(message); }
   [[nodiscard]] bool IsOver(milliseconds since) const override {
     return sending_.Answered(since, timeout_);
@@ -69,11 +70,7 @@ class SendErrand final : public ErrandFor<mission::Report> {
 
  private:
   [[nodiscard]] Result<mission::Report> Outcome() const override {
-    if (sending_.last()) return *sending_.last();
-    return Fail(ErrorCode::kUnavailable,
-                "neither {} nor a route server answered: robots take missions while "
-                "'trailcast-agent serve' runs",
-                sending_.mission().agent.value());
+    return sending_.Outcome(timeout_);
   }
 
   fleet::Sending sending_;

@@ -77,6 +77,7 @@ void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t
 }
 
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
+  if (report.state == mission::State::kPutOff) return;  // nothing has become of it
   const MissionName name{report.agent, report.mission};
   mission::Record* known = missions_.Find(name);
   const bool is_new = known == nullptr;
@@ -97,8 +98,9 @@ void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
 }
 
 void FleetState::On(const exchange::MissionReply& reply) {
+  if (!reply.error.empty()) return;
   lacks_orders_ = false;
-  if (reply.request == asked_for_missions_ && reply.error.empty()) missions_told_ = true;
+  if (reply.request == asked_for_missions_) missions_told_ = true;
   // The newest first, and the newest is to stay longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
     const MissionName name{record->mission.agent, record->mission.id};

@@ -237,7 +237,9 @@ Result<void> Check(const mission::Mission& message) {
 Result<void> Check(const mission::Report& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("mission", message.mission); !ok) return ok;
-  if (auto ok = CheckEnum("mission state", message.state, mission::State::kExpired); !ok) return ok;
+  // A robot takes a mission or refuses it: only servers put one off.
+  const auto last = message.change == 0 ? mission::State::kPutOff : mission::State::kExpired;
+  if (auto ok = CheckEnum("mission state", message.state, last); !ok) return ok;
   if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kLane); !ok) {
     return ok;
   }

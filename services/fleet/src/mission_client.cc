@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "services/base/process_name.h"
-#include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
@@ -21,9 +20,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kAgain{200};
-// While it is watched: what was lost, and a server or agent that has started again, say it anew.
-constexpr milliseconds kAgainWatched{2000};
 constexpr milliseconds kWait{50};
 
 // Page after page, until there are `limit` or no more.
@@ -67,7 +63,7 @@ Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
     const auto now = steady_clock::now();
     if (over(std::chrono::duration_cast<milliseconds>(now - began))) break;
     if (now >= say_at) {
-      say_at = now + (sending.last() ? kAgainWatched : kAgain);
+      say_at = now + sending.SayAgain();
       const auto said = exchange.Publish(mission);
       if (!said && said.error().code != ErrorCode::kUnavailable) {
         return tl::unexpected(said.error());
@@ -77,11 +73,7 @@ Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
       if (sending.Hear(message)) watch.news(*sending.last());
     }
   }
-  if (sending.last()) return *sending.last();
-  return Fail(ErrorCode::kUnavailable,
-              "neither {} nor a route server answered within {:.1f} s: have they the same --domain "
-              "and --dds-tag? (Robots take missions while 'trailcast-agent serve' runs.)",
-              mission.agent.value(), Seconds(watch.timeout));
+  return sending.Outcome(watch.timeout);
 }
 
 Result<std::vector<mission::Record>> AskForMissions(exchange::RouteExchange& exchange,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "services/base/time.h"
+
 namespace trailcast::fleet {
 namespace {
 
@@ -10,12 +12,18 @@ using std::chrono::milliseconds;
 
 // A robot that is there has answered by then.
 constexpr milliseconds kRobotAnswers{3000};
+constexpr milliseconds kAgain{200};
+constexpr milliseconds kAgainWatched{2000};
 
 }  // namespace
 
 bool Sending::Hear(const exchange::Message& message) {
   const auto* report = std::get_if<mission::Report>(&message);
   if (report == nullptr || report->agent != mission_.agent || report->mission != mission_.id) {
+    return false;
+  }
+  if (report->state == mission::State::kPutOff) {
+    put_off_ = report->detail;
     return false;
   }
   if (last_ && !mission::IsNewer(*report, *last_)) return false;
@@ -28,6 +36,20 @@ bool Sending::Answered(milliseconds since, milliseconds timeout) const {
   if (!last_) return since > timeout;
   if (last_->state != mission::State::kSent) return true;
   return since > std::min(kRobotAnswers, timeout);
+}
+
+milliseconds Sending::SayAgain() const { return last_ ? kAgainWatched : kAgain; }
+
+Result<mission::Report> Sending::Outcome(milliseconds timeout) const {
+  if (last_) return *last_;
+  if (!put_off_.empty()) {
+    return Fail(ErrorCode::kUnavailable, "the mission for {} was put off: {}",
+                mission_.agent.value(), put_off_);
+  }
+  return Fail(ErrorCode::kUnavailable,
+              "neither {} nor a route server answered within {:.1f} s: have they the same --domain "
+              "and --dds-tag? (Robots take missions while 'trailcast-agent serve' runs.)",
+              mission_.agent.value(), Seconds(timeout));
 }
 
 bool Sending::Ended(milliseconds since) const {

@@ -304,6 +304,8 @@ const char* ToString(State state) {
       return "cancelled";
     case State::kExpired:
       return "expired";
+    case State::kPutOff:
+      return "put off";
   }
   return "unknown";
 }

@@ -166,6 +166,40 @@ struct MissionStore::Database : OwnDatabase {
     NameRoutes(db.getLastInsertRowid(), mission.orders);
   }
 
+  Result<mission::Record> Add(const mission::Mission& mission, std::int64_t now_unix_ms) {
+    if (auto known = Get(mission.agent, mission.id)) return *std::move(known);
+    if (Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
+      return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already", kMostUnanswered);
+    }
+    if (UnansweredOf(mission.client) >= kMostUnansweredOfClient) {
+      return Fail(ErrorCode::kUnavailable,
+                  "{} missions of '{}' wait for robots already, which is as many as one sender may "
+                  "have: cancel some, or send it when robots have answered",
+                  kMostUnansweredOfClient, mission.client.value());
+    }
+    Insert(mission, now_unix_ms);
+    Thin();
+    return Get(mission.agent, mission.id).value();
+  }
+
+  // A server's own word (0) counts until the robot's does.
+  bool Change(const mission::Report& report, std::int64_t now_unix_ms) {
+    auto update = compiled.Take(
+        "UPDATE mission SET change = ?3, state = ?4, task = ?5, way = ?6, waits_for = ?7, detail = "
+        "?8, changed_unix_ms = ?9 WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
+        "change = 0 AND state = 0))");
+    update->bind(1, report.agent.value());
+    update->bind(2, report.mission);
+    update->bind(3, static_cast<std::int64_t>(report.change));
+    update->bind(4, static_cast<int>(report.state));
+    update->bind(5, static_cast<std::int64_t>(report.task));
+    update->bind(6, static_cast<std::int64_t>(report.way));
+    update->bind(7, static_cast<int>(report.waits_for));
+    update->bind(8, report.detail);
+    update->bind(9, now_unix_ms);
+    return update->exec() > 0;
+  }
+
   // A member's processes are counted together: each `trailcast send` has a name of its own.
   std::int64_t UnansweredOf(const AgentId& client) {
     auto count = compiled.Take("SELECT count(*) FROM mission WHERE state = 0 AND " + IsOrIsOf(1));
@@ -232,25 +266,20 @@ Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
   });
 }
 
-Result<mission::Record> MissionStore::Add(const mission::Mission& mission,
-                                          std::int64_t now_unix_ms) {
-  return database_->Guarded("storing mission " + mission.id, [&]() -> Result<mission::Record> {
+std::vector<Result<mission::Record>> MissionStore::Add(std::span<const mission::Mission> missions,
+                                                       std::int64_t now_unix_ms) {
+  using Stored = std::vector<Result<mission::Record>>;
+  auto stored = database_->Guarded("storing missions", [&]() -> Result<Stored> {
     SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-    if (auto known = database_->Get(mission.agent, mission.id)) return *std::move(known);
-    if (database_->Count("SELECT count(*) FROM mission WHERE state = 0") >= kMostUnanswered) {
-      return Fail(ErrorCode::kUnavailable, "{} missions wait for robots already", kMostUnanswered);
+    Stored each;
+    for (const mission::Mission& mission : missions) {
+      each.push_back(database_->Add(mission, now_unix_ms));
     }
-    if (database_->UnansweredOf(mission.client) >= kMostUnansweredOfClient) {
-      return Fail(ErrorCode::kUnavailable,
-                  "{} missions of '{}' wait for robots already, which is as many as one sender may "
-                  "have: cancel some, or send it when robots have answered",
-                  kMostUnansweredOfClient, mission.client.value());
-    }
-    database_->Insert(mission, now_unix_ms);
-    database_->Thin();
     transaction.commit();
-    return database_->Get(mission.agent, mission.id).value();
+    return each;
   });
+  if (stored) return *std::move(stored);
+  return Stored(missions.size(), tl::unexpected(stored.error()));
 }
 
 Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
@@ -271,26 +300,17 @@ Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
   });
 }
 
-Result<bool> MissionStore::Change(const mission::Report& report, std::int64_t now_unix_ms) {
-  return database_->Guarded("storing what became of mission " + report.mission,
-                            [&]() -> Result<bool> {
-                              // A server's own word (0) counts until the robot's does.
-                              auto update = database_->compiled.Take(
-                                  "UPDATE mission SET change = ?3, state = ?4, task = ?5, way = "
-                                  "?6, waits_for = ?7, detail = ?8, changed_unix_ms = ?9 "
-                                  "WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
-                                  "change = 0 AND state = 0))");
-                              update->bind(1, report.agent.value());
-                              update->bind(2, report.mission);
-                              update->bind(3, static_cast<std::int64_t>(report.change));
-                              update->bind(4, static_cast<int>(report.state));
-                              update->bind(5, static_cast<std::int64_t>(report.task));
-                              update->bind(6, static_cast<std::int64_t>(report.way));
-                              update->bind(7, static_cast<int>(report.waits_for));
-                              update->bind(8, report.detail);
-                              update->bind(9, now_unix_ms);
-                              return update->exec() > 0;
-                            });
+Result<std::vector<bool>> MissionStore::Change(std::span<const mission::Report> reports,
+                                               std::int64_t now_unix_ms) {
+  return database_->Guarded("storing what became of missions", [&]() -> Result<std::vector<bool>> {
+    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    std::vector<bool> are_news;
+    for (const mission::Report& report : reports) {
+      are_news.push_back(database_->Change(report, now_unix_ms));
+    }
+    transaction.commit();
+    return are_news;
+  });
 }
 
 Result<std::vector<mission::Record>> MissionStore::Unanswered() {

@@ -72,8 +72,8 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 goto loading-bay\n"
     "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
     "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
-    "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, or nobody "
-    "answered\n(with --wait: not arrived); 2 wrong usage.";
+    "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, put off "
+    "by servers, or nobody\nanswered (with --wait: not arrived); 2 wrong usage.";
 
 // Where it is to go, if that is what it is sent to.
 Result<std::optional<std::string>> GoalOf(const SendOptions& options) {

@@ -11,6 +11,7 @@
 
 #include "services/exchange/in_process_exchange.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 
 namespace trailcast::console {
 namespace {
@@ -73,6 +74,32 @@ TEST_F(DeskTest, WhoDoesNotAnswerIsNamed) {
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message, HasSubstr("neither robot1 nor a route server"));
   EXPECT_FALSE(hasty_.Missions({}));
+}
+
+TEST_F(DeskTest, AMissionThatAServerPutsOffIsSentAgain) {
+  const auto server = bus_.Open(exchange::ServerTopics());
+  auto sent = std::async(std::launch::async, [&] {
+    return desk_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"});
+  });
+  int times = 0;
+  test::Await(
+      [&] {
+        for (const exchange::Message& message : server->Take(milliseconds(10))) {
+          const auto* mission = std::get_if<mission::Mission>(&message);
+          if (mission == nullptr) continue;
+          const auto state = ++times < 3 ? mission::State::kPutOff : mission::State::kSent;
+          EXPECT_TRUE(server->Publish(mission::Report{.agent = mission->agent,
+                                                      .mission = mission->id,
+                                                      .state = state,
+                                                      .detail = "over quota",
+                                                      .relayed = true}));
+        }
+        return sent.wait_for(milliseconds(0)) == std::future_status::ready;
+      },
+      "an answer to the mission");
+  const auto report = sent.get();
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->state, mission::State::kSent);
 }
 
 TEST_F(DeskTest, AStopGoesOutWhileAllElseThatMayBeAskedWaits) {

@@ -199,6 +199,17 @@ TEST_F(FleetStateTest, ThatThereAreNoMissionsIsKnownOnlyFromAServer) {
   EXPECT_EQ(Shown()["missions"], json::array());
 }
 
+TEST_F(FleetStateTest, WhatAServerPutsOffOrDoesNotTellIsNothingNew) {
+  state_.AskedForMissions(17);
+  Hear(exchange::MissionReply{.client = AgentId("desk"), .request = 17});
+  Hear(Report("of-another", 0, State::kPutOff, "over quota"));
+  EXPECT_FALSE(state_.lacks_missions());
+  EXPECT_EQ(Shown()["missions"], json::array());
+  Hear(Report("trip", 3, State::kUnderWay));
+  Hear(exchange::MissionReply{.client = AgentId("desk"), .request = 17, .error = "over quota"});
+  EXPECT_TRUE(state_.lacks_missions()) << "nobody has told its orders";
+}
+
 TEST_F(FleetStateTest, SilentInTheMiddleOfAMissionNeedsAPerson) {
   Hear(Status("robot1", AgentMode::kReplaying));
   state_.Sent({.agent = AgentId("robot1"), .id = "trip", .orders = "follow hall"}, 500);

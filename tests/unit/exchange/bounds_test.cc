@@ -93,6 +93,10 @@ TEST(CheckBounds, RefusesEnumeratorsThatDoNotExist) {
   status.mode = AgentMode::kFault;
   status.role = static_cast<AgentRole>(4);
   ExpectRefused(status, "role");
+  mission::Report report{.agent = AgentId("a"), .mission = "m", .state = mission::State::kPutOff};
+  EXPECT_TRUE(CheckBounds(report)) << "a server's word";
+  report.change = 1;
+  ExpectRefused(report, "mission state");
 }
 
 TEST(CheckBounds, RefusesPlacesThatAreNowhereOnARoute) {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
+#include "tests/support/await.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -91,6 +92,20 @@ TEST_F(MissionClientTest, WatchesItToItsEnd) {
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->state, State::kArrived);
   EXPECT_THAT(news, ElementsAre("sent", "under way", "arrived"));
+}
+
+TEST_F(MissionClientTest, WhatAServerPutsOffIsSentAgain) {
+  Answering(exchange::ServerTopics(),
+            {Of(0, State::kPutOff, "over quota"), Of(0, State::kPutOff, "over quota"),
+             Of(0, State::kSent), Of(0, State::kPutOff, "over quota"), Of(1, State::kArrived)});
+  std::vector<std::string> news;
+  const auto report =
+      Send({.timeout = test::kLongEnough, .to_its_end = true, .news = [&](const Report& each) {
+              news.emplace_back(mission::ToString(each.state));
+            }});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->state, State::kArrived);
+  EXPECT_THAT(news, ElementsAre("sent", "arrived"));
 }
 
 TEST_F(MissionClientTest, WhereNobodyAnswersThatIsSaid) {

@@ -158,6 +158,8 @@ TEST(State, HasANameEach) {
   for (std::uint8_t i = 0; i < kStates; ++i) {
     EXPECT_STRNE(ToString(static_cast<State>(i)), "unknown");
   }
+  EXPECT_STREQ(ToString(State::kPutOff), "put off");
+  EXPECT_FALSE(HasEnded(State::kPutOff));
   EXPECT_TRUE(HasEnded(State::kExpired));
   EXPECT_FALSE(HasEnded(State::kPaused));
 }

@@ -35,22 +35,25 @@ class MissionStoreTest : public testing::Test {
             .valid_for_s = 600,
             .goes_on = true};
   }
+  Result<mission::Record> Stored(const Mission& mission) {
+    return store_->Add({&mission, 1}, ++now_ms_).front();
+  }
   void Add(const Mission& mission) {
-    const auto added = store_->Add(mission, ++now_ms_);
+    const auto added = Stored(mission);
     ASSERT_TRUE(added) << added.error().message;
   }
   bool Change(const std::string& robot, const std::string& id, std::uint32_t change, State state) {
-    const auto news = store_->Change({.agent = AgentId(robot),
-                                      .mission = id,
-                                      .change = change,
-                                      .state = state,
-                                      .task = 2,
-                                      .way = 3,
-                                      .waits_for = mission::WaitsFor::kLane,
-                                      .detail = "why"},
-                                     ++now_ms_);
+    const Report report{.agent = AgentId(robot),
+                        .mission = id,
+                        .change = change,
+                        .state = state,
+                        .task = 2,
+                        .way = 3,
+                        .waits_for = mission::WaitsFor::kLane,
+                        .detail = "why"};
+    const auto news = store_->Change({&report, 1}, ++now_ms_);
     EXPECT_TRUE(news);
-    return news.value_or(false);
+    return news && news->front();
   }
   std::vector<std::string> Found(const mission::Query& query) {
     const auto page = store_->Find(query);
@@ -85,7 +88,7 @@ TEST_F(MissionStoreTest, KeepsAMissionAndWhatBecameOfItOverARestart) {
 
 TEST_F(MissionStoreTest, OneThatIsThereStaysAsItIs) {
   Add(For("robot1", "m1"));
-  const auto again = store_->Add(For("robot1", "m1", "follow yard"), 5000);
+  const auto again = Stored(For("robot1", "m1", "follow yard"));
   ASSERT_TRUE(again);
   EXPECT_EQ(again->mission.orders, "follow hall");
   Add(For("robot2", "m1", "follow yard"));
@@ -133,6 +136,48 @@ TEST_F(MissionStoreTest, FindsByWhateverIsAskedFor) {
   EXPECT_THAT(Found({.states = 1U << 0U}), ElementsAre("m3", "m1"));
   EXPECT_THAT(Found({.states = 1U << static_cast<unsigned>(State::kFailed)}), ElementsAre("m2"));
   EXPECT_THAT(Found({.from_unix_ms = 1002, .until_unix_ms = 1003}), ElementsAre("m2"));
+}
+
+TEST_F(MissionStoreTest, OfWhomIsAskedForAreAllProcessesAndNobodyWhoseNameOnlyBeginsAlike) {
+  const std::vector<std::string> clients{"desk", "desk-p7", "desk-pump", "desk-p7x", "desk-p"};
+  std::uint64_t number = 0;
+  for (const std::string& client : clients) {
+    Mission mission = For("robot1", "of-" + client);
+    mission.client = AgentId(client);
+    Add(mission);
+    ASSERT_TRUE(store_->Add(
+        mission::NowCommand{.client = AgentId(client), .number = ++number, .reason = client},
+        ++now_ms_));
+  }
+  EXPECT_THAT(Found({.client = "desk"}), ElementsAre("of-desk-p7", "of-desk"));
+  EXPECT_THAT(Found({.client = "desk-p7"}), ElementsAre("of-desk-p7"));
+  EXPECT_THAT(Found({.client = "desk-pump"}), ElementsAre("of-desk-pump"));
+  const auto commands = store_->FindCommands({.client = "desk"});
+  ASSERT_TRUE(commands) << commands.error().message;
+  std::vector<std::string> given_by;
+  for (const mission::GivenCommand& given : commands->commands) {
+    given_by.push_back(given.command.client.value());
+  }
+  EXPECT_THAT(given_by, ElementsAre("desk-p7", "desk"));
+}
+
+TEST_F(MissionStoreTest, OfThoseThatComeTogetherEachIsAnsweredForItself) {
+  std::vector<Mission> missions;
+  for (int i = 0; i <= MissionStore::kMostUnansweredOfClient; ++i) {
+    missions.push_back(For("robot1", "m" + std::to_string(i)));
+  }
+  missions.push_back(For("robot1", "m7", "follow yard"));
+  missions.push_back(For("robot1", "of-another"));
+  missions.back().client = AgentId("lab");
+  const auto stored = store_->Add(missions, ++now_ms_);
+  ASSERT_EQ(stored.size(), missions.size());
+  EXPECT_TRUE(stored[MissionStore::kMostUnansweredOfClient - 1]);
+  EXPECT_FALSE(stored[MissionStore::kMostUnansweredOfClient]) << "one too many of its sender";
+  ASSERT_TRUE(stored[MissionStore::kMostUnansweredOfClient + 1]);
+  EXPECT_EQ(stored[MissionStore::kMostUnansweredOfClient + 1]->mission.orders, "follow hall");
+  EXPECT_TRUE(stored.back());
+  Reopen();
+  EXPECT_EQ(store_->Unanswered()->size(), MissionStore::kMostUnansweredOfClient + 1U);
 }
 
 TEST_F(MissionStoreTest, GivesPagesOneAfterTheOther) {
@@ -216,7 +261,7 @@ TEST_F(MissionStoreTest, NobodyShutsOutTheOthers) {
     mission.client = AgentId("desk-p" + std::to_string(i));  // a process each
     Add(mission);
   }
-  const auto more = store_->Add(For("robot1", "more"), ++now_ms_);
+  const auto more = Stored(For("robot1", "more"));
   ASSERT_FALSE(more);
   EXPECT_THAT(more.error().message, HasSubstr("missions of 'desk-p7' wait"));
   Mission of_another = For("robot1", "other");

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
@@ -36,13 +37,17 @@ class SlowStore : public test::MemoryStore {
 
 class ServerTest : public testing::Test {
  protected:
-  void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& joints = {}) {
+  void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& joints = {},
+             const std::filesystem::path& missions = {}) {
     auto server = Server::Open(AgentId("server"), std::make_unique<SlowStore>(),
                                bus_.Open(program::WithAgents(exchange::ServerTopics())));
     server_ = std::move(*server);
     if (quotas.any()) server_->Limit(quotas);
     if (!joints.empty()) {
       ASSERT_TRUE(server_->KeepNetwork(store::NetworkStore::Open(joints).value()));
+    }
+    if (!missions.empty()) {
+      ASSERT_TRUE(server_->KeepMissions(store::MissionStore::Open(missions).value()));
     }
     running_ = std::thread([this] { (void)server_->Run([this] { return stopping_.load(); }); });
   }
@@ -255,6 +260,115 @@ TEST_F(ServerTest, AClientOverItsQuotaIsAnsweredWithTheReason) {
   EXPECT_GT(refused, 0);
   EXPECT_GT(answered, 0);
   EXPECT_EQ(refused + answered, static_cast<int>(asked)) << "each has its reply";
+}
+
+class MissionsTest : public ServerTest {
+ protected:
+  static exchange::TopicUse SendingTopics() {
+    exchange::TopicUse use = exchange::DispatcherTopics();
+    use.write.push_back(exchange::Topic::kMissions);
+    use.write.push_back(exchange::Topic::kMissionRequests);
+    use.write.push_back(exchange::Topic::kCatalogRequests);
+    use.read.push_back(exchange::Topic::kMissionStates);
+    use.read.push_back(exchange::Topic::kMissionReplies);
+    return use;
+  }
+  static mission::Mission Of(const std::string& client, const std::string& id,
+                             const std::string& orders = "follow hall") {
+    return {.agent = AgentId("robot1"), .id = id, .client = AgentId(client), .orders = orders};
+  }
+  // The server's answer to a mission that is sent.
+  mission::Report Answered(const mission::Mission& mission) {
+    EXPECT_TRUE(desk_->Publish(mission));
+    mission::Report answer;
+    EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [&](const exchange::Message& message) {
+      const auto* report = std::get_if<mission::Report>(&message);
+      if (report == nullptr || report->mission != mission.id) return false;
+      answer = *report;
+      return true;
+    }));
+    return answer;
+  }
+
+  const test::TempDir folder_;
+  std::unique_ptr<exchange::RouteExchange> desk_ = bus_.Open(SendingTopics());
+};
+
+TEST_F(MissionsTest, OfAMemberOverItsQuotaArePutOffAndAStopIsNot) {
+  Start({.requests_per_s = 1}, {}, folder_ / "missions");
+  const auto robot = bus_.Open(program::WithAgents(exchange::FollowerTopics()));
+  // A server that is slow has room for one more each second.
+  std::optional<mission::Mission> put_off;
+  test::Await(
+      [&, sent = 0]() mutable {
+        const std::string process = std::to_string(++sent);
+        const mission::Mission mission = Of("desk-p" + process, "m" + process);
+        const mission::Report answer = Answered(mission);
+        if (answer.state == mission::State::kPutOff) {
+          EXPECT_THAT(answer.detail, testing::HasSubstr("over quota: 'desk' may ask 1 times"));
+          put_off = mission;
+        }
+        return put_off.has_value();
+      },
+      "a mission that is put off");
+  ASSERT_TRUE(put_off);
+  EXPECT_EQ(Answered(Of("desk-p1", "wrong", "dance")).state, mission::State::kRefused)
+      << "what nobody understands costs nothing and is refused for good";
+  ASSERT_TRUE(desk_->Publish(exchange::NowCommand{.client = AgentId("desk"), .number = 1}));
+  EXPECT_TRUE(Hears(*robot, test::kLongEnough, [](const exchange::Message& message) {
+    const auto* command = std::get_if<exchange::NowCommand>(&message);
+    return command != nullptr && command->relayed;
+  }));
+  test::Await([&] { return Answered(*put_off).state == mission::State::kSent; },
+              "the mission that was put off, sent again");
+}
+
+TEST_F(MissionsTest, QuestionsAboutThemCountAsOthersDo) {
+  Start({.requests_per_s = 1}, {}, folder_ / "missions");
+  bool refused = false;
+  test::Await(
+      [&, request = std::uint64_t{0}]() mutable {
+        ++request;
+        EXPECT_TRUE(desk_->Publish(exchange::MissionRequest{
+            .client = AgentId("desk-p" + std::to_string(request)), .request = request}));
+        EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [&](const exchange::Message& message) {
+          const auto* reply = std::get_if<exchange::MissionReply>(&message);
+          if (reply == nullptr || reply->request != request) return false;
+          refused = reply->error.find("over quota: 'desk'") != std::string::npos;
+          return true;
+        }));
+        return refused;
+      },
+      "a question over the quota");
+}
+
+TEST_F(MissionsTest, AServerThatKeepsNoneSaysSo) {
+  Start();
+  ASSERT_TRUE(desk_->Publish(exchange::MissionRequest{.client = AgentId("desk"), .request = 1}));
+  EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+    const auto* reply = std::get_if<exchange::MissionReply>(&message);
+    return reply != nullptr && reply->error.find("keeps no missions") != std::string::npos;
+  }));
+}
+
+TEST_F(MissionsTest, ThatWaitForTheirTurnAreVoidedByAStopToo) {
+  Start({}, {}, folder_ / "missions");
+  // These are slow, and before it.
+  for (std::uint64_t i = 1; i < RequestQueue::kMostOfAMember; ++i) {
+    ASSERT_TRUE(desk_->Publish(
+        exchange::CatalogRequest{AgentId("desk"), i, {.name = fmt::format("r{}", i)}}));
+  }
+  ASSERT_TRUE(desk_->Publish(Of("desk", "m1")));
+  // What is told on another topic may come first: the server has the mission once this is answered.
+  ASSERT_TRUE(desk_->Publish(exchange::MissionRequest{.client = AgentId("lab"), .request = 1}));
+  ASSERT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+    return std::holds_alternative<exchange::MissionReply>(message);
+  }));
+  ASSERT_TRUE(desk_->Publish(exchange::NowCommand{.client = AgentId("lab"), .number = 1}));
+  EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+    const auto* report = std::get_if<mission::Report>(&message);
+    return report != nullptr && report->state == mission::State::kCancelled;
+  }));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "tests/support/temp_dir.h"
@@ -238,6 +239,46 @@ TEST_F(MissionBoardTest, RefusesOrdersThatNobodyUnderstands) {
   ASSERT_TRUE(said);
   EXPECT_EQ(said->state, State::kRefused);
   EXPECT_THAT(said->detail, HasSubstr("'dance'"));
+  EXPECT_EQ(board_->unanswered(), 0U);
+}
+
+TEST_F(MissionBoardTest, PutsOffWhatItCannotStoreAndKeepsItOnceItCan) {
+  std::vector<Mission> missions;
+  for (int i = 0; i < store::MissionStore::kMostUnansweredOfClient; ++i) {
+    missions.push_back(For("m" + std::to_string(i)));
+  }
+  board_->Take(missions, now_, unix_ms_);
+  (void)Say();
+  (void)board_->TakeNotes();
+  for (int i = 0; i < 3; ++i) {
+    Hear(For("more"));
+    const auto said = Said();
+    ASSERT_TRUE(said);
+    EXPECT_EQ(said->state, State::kPutOff) << "it is not refused for good";
+    EXPECT_TRUE(said->relayed);
+    EXPECT_THAT(said->detail, HasSubstr("missions of 'desk-p7' wait"));
+  }
+  EXPECT_THAT(board_->TakeNotes(), SizeIs(1)) << "the log has it once";
+  RobotSays("m0", 1, State::kAccepted);
+  (void)Say();
+  Hear(For("more"));
+  EXPECT_EQ(Said()->state, State::kSent);
+}
+
+TEST_F(MissionBoardTest, MissionsThatComeTogetherAreOneCommitAndSoIsTheirEnd) {
+  const std::filesystem::path log = folder_ / "missions-wal";
+  constexpr std::uintmax_t kPage = 4096;
+  constexpr std::uintmax_t kMissions = 200;  // a commit writes three pages, each once
+  std::vector<Mission> missions;
+  for (std::uintmax_t i = 0; i < kMissions; ++i) missions.push_back(For("m" + std::to_string(i)));
+  const auto before = std::filesystem::file_size(log);
+  board_->Take(missions, now_, unix_ms_);
+  EXPECT_THAT(Say(), SizeIs(kMissions));
+  const auto stored = std::filesystem::file_size(log);
+  EXPECT_LT(stored - before, kMissions * kPage / 2);
+  Hear(exchange::NowCommand{.client = AgentId("desk"), .number = 1});
+  EXPECT_THAT(Say(), SizeIs(kMissions)) << "cancelled, each";
+  EXPECT_LT(std::filesystem::file_size(log) - stored, kMissions * kPage / 2);
   EXPECT_EQ(board_->unanswered(), 0U);
 }
 

@@ -65,13 +65,43 @@ TEST_F(RequestQueueTest, TheSameAskedAgainTakesItsPlace) {
 }
 
 TEST_F(RequestQueueTest, WhoAsksTooMuchIsToldSoAndOthersAreNot) {
-  for (std::uint64_t i = 0; i < RequestQueue::kMostOfAClient; ++i) {
+  for (std::uint64_t i = 0; i < RequestQueue::kMostOfAMember; ++i) {
     Add(Query("a", i, fmt::format("r{}", i)));
   }
   const auto refused = queue_.Add(Query("a", 99, "one-more"));
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("16 requests of 'a' wait here already"));
   Add(Query("b", 1, "x"));
+}
+
+TEST_F(RequestQueueTest, TheProcessesOfAMemberAreOne) {
+  Add(Query("desk-p1", 1, "hall"));
+  Add(Query("desk-p2", 2, "hall"));
+  EXPECT_EQ(queue_.size(), 2U) << "each waits for an answer of its own";
+  Add(Query("lab", 3, "hall"));
+  EXPECT_THAT(Served(3), ElementsAre(1, 3, 2)) << "in turn with others";
+  for (std::uint64_t i = 0; i < RequestQueue::kMostOfAMember; ++i) {
+    Add(Query(fmt::format("desk-p{}", i), i, "hall"));
+  }
+  EXPECT_FALSE(queue_.Add(Query("desk-p99", 1, "hall")));
+  Add(Query("desk-pump", 1, "hall"));
+}
+
+TEST_F(RequestQueueTest, MissionsWaitTheirTurnAndAreTakenBeforeItTogether) {
+  const auto mission = [](const std::string& client, const std::string& id) {
+    return mission::Mission{.agent = AgentId("robot1"), .id = id, .client = AgentId(client)};
+  };
+  const exchange::MissionRequest history{.client = AgentId("desk-p2"), .request = 4};
+  Add(mission("desk-p1", "m1"));
+  Add(mission("desk-p1", "m1"));
+  Add(history);
+  Add(mission("desk-p1", "m2"));
+  Add(mission("lab", "m3"));
+  EXPECT_EQ(queue_.size(), 4U);
+  EXPECT_EQ(queue_.Next(), exchange::Message(mission("desk-p1", "m1")));
+  EXPECT_THAT(queue_.TakeMissions(), ElementsAre(mission("desk-p1", "m2"), mission("lab", "m3")));
+  EXPECT_EQ(queue_.Next(), exchange::Message(history));
+  EXPECT_TRUE(queue_.empty());
 }
 
 TEST_F(RequestQueueTest, IsBoundedWhateverNamesAreMadeUp) {
