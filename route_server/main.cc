@@ -186,7 +186,9 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   quotas.stored_bytes = options.quota_mb * 1'000'000;
   if (quotas.any()) (*server)->Limit(quotas);
   if (http.port != 0) {
-    auto page = trailcast::server::HttpPage::Open(http.host, http.port);
+    auto page = trailcast::server::HttpPage::Open(
+        http.host, http.port,
+        [](const trailcast::Error& error) { spdlog::error("http: {}", error.message); });
     if (!page) return program::Complain(app, page.error());
     (*server)->ShowOn(std::move(*page));
     spdlog::info("health and metrics: http://{}:{}/health and /metrics", http.host, http.port);

@@ -15,7 +15,9 @@ void Server::NoteOfNetwork(const route::RouteInfo& info) {
 void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
   if (!joints_ || !upkeep_->store_trouble().empty()) return;
   if (const auto turned = joints_->Turn(now); !turned) {
-    spdlog::debug("looking for joints: {}", turned.error().message);
+    const bool is_fault = turned.error().code == ErrorCode::kInternal;
+    spdlog::log(is_fault ? spdlog::level::err : spdlog::level::debug, "looking for joints: {}",
+                turned.error().message);
   }
   for (const Crossing& crossing : joints_->TakeCrossings()) Tell(crossing, now);
   for (const Meeting& meeting : joints_->TakeMeetings()) Propose(meeting);

@@ -154,12 +154,12 @@ void CrossingWatch::Handle(const JointComparer::Done& done) {
   doubts_.erase(doubts_.begin());
   const auto* teaching = teachings_.Find(doubt.teaching);
   // The surest is the first.
-  if (done.joints.empty() || done.joints.front().confidence < kSure) return;
+  if (!done.joints || done.joints->empty() || done.joints->front().confidence < kSure) return;
   if (teaching == nullptr || !*teaching) return;
   const auto known = store_.FindRoute(doubt.place.key);
   if (!known || !*known) return;
   (*teaching)->there[doubt.place.key] = doubt.place.last.value();
-  crossings_.push_back({(*teaching)->info, (*known)->name, done.joints.front().at_b});
+  crossings_.push_back({(*teaching)->info, (*known)->name, done.joints->front().at_b});
 }
 
 }  // namespace trailcast::server

@@ -5,10 +5,16 @@
 
 #include "services/base/cpu_time.h"
 #include "services/base/give_way.h"
+#include "services/base/guarded.h"
 
 namespace trailcast::server {
 
-JointComparer::JointComparer() : thread_([this] { Run(); }) {}
+std::vector<joints::Joint> JointComparer::FindAll(const Views& a, const Views& b, bool same_camera,
+                                                  const joints::JointOptions& options) {
+  return b ? joints::FindJoints(*a, *b, same_camera, options) : joints::FindLoops(*a, options);
+}
+
+JointComparer::JointComparer(Find find) : find_(std::move(find)), thread_([this] { Run(); }) {}
 
 JointComparer::~JointComparer() {
   ending_ = true;
@@ -40,16 +46,13 @@ void JointComparer::Run() {
 }
 
 JointComparer::Done JointComparer::Compare(const Job& job) const {
-  Done done{.number = job.number};
   const double until_ms = ThreadCpuMs() + kMost_ms;
   joints::JointOptions options;
-  options.give_up = [&] {
-    done.gave_up = ending_ || ThreadCpuMs() > until_ms;
-    return done.gave_up;
-  };
-  done.joints = job.b ? joints::FindJoints(*job.a, *job.b, job.same_camera, options)
-                      : joints::FindLoops(*job.a, options);
-  return done;
+  options.give_up = [&] { return ending_ || ThreadCpuMs() > until_ms; };
+  return {job.number,
+          Guarded("the thread that looks for joints", [&]() -> Result<std::vector<joints::Joint>> {
+            return find_(job.a, job.b, job.same_camera, options);
+          })};
 }
 
 }  // namespace trailcast::server

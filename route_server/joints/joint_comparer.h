@@ -2,12 +2,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "services/base/mailbox.h"
+#include "services/base/result.h"
 #include "services/joints/find_joints.h"
 
 namespace trailcast::server {
@@ -21,17 +23,21 @@ class JointComparer {
   using Views = std::shared_ptr<const joints::RouteViews>;
   struct Done {
     std::uint64_t number = 0;
-    std::vector<joints::Joint> joints{};
-    bool gave_up = false;
+    Result<std::vector<joints::Joint>> joints{};  // an error: a fault of the program
   };
+  // `b` may be null: a with itself.
+  using Find = std::function<std::vector<joints::Joint>(
+      const Views& a, const Views& b, bool same_camera, const joints::JointOptions& options)>;
+  [[nodiscard]] static std::vector<joints::Joint> FindAll(const Views& a, const Views& b,
+                                                          bool same_camera,
+                                                          const joints::JointOptions& options);
 
-  JointComparer();
+  explicit JointComparer(Find find = FindAll);
   ~JointComparer();  // what is being compared is given up
   JointComparer(const JointComparer&) = delete;
   JointComparer& operator=(const JointComparer&) = delete;
 
-  // `b` may be null: a with itself. The number that the answer will have; nothing while too many
-  // wait.
+  // The number that the answer will have; nothing while too many wait.
   [[nodiscard]] std::optional<std::uint64_t> TryPut(Views a, Views b, bool same_camera);
   [[nodiscard]] std::optional<Done> TryGet() { return done_.TryGet(); }
 
@@ -45,6 +51,7 @@ class JointComparer {
   void Run();
   [[nodiscard]] Done Compare(const Job& job) const;
 
+  const Find find_;
   std::uint64_t jobs_put_ = 0;
   Mailbox<Job> jobs_{4};
   Mailbox<Done> done_{8};

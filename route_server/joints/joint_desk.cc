@@ -23,9 +23,11 @@ JointDesk::JointDesk(store::RouteStore& store, catalog::ViewCatalog& views,
 
 Result<void> JointDesk::Turn(Time now) {
   if (now < due_) return {};
+  Result<void> compared;
   while (const auto done = comparer_.TryGet()) {
     search_.Handle(*done);
     crossings_.Handle(*done);
+    if (!done->joints) compared = tl::unexpected(done->joints.error());
   }
   const auto began = steady_clock::now();
   Result<bool> stepped = true;
@@ -33,7 +35,7 @@ Result<void> JointDesk::Turn(Time now) {
   const auto ended = steady_clock::now();
   busy_ = !stepped || *stepped;
   due_ = ended + kRestsATurn * (ended - began);
-  if (stepped) return {};
+  if (stepped) return compared;
   if (stepped.error().code == ErrorCode::kUnavailable) due_ = ended + kAfterTrouble;
   return tl::unexpected(stepped.error());
 }

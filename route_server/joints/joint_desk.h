@@ -26,7 +26,8 @@ class JointDesk {
   void NoteStored(const route::RouteKey& key, SegmentIndex segment) {
     crossings_.NoteStored(key, segment);
   }
-  // A turn, if one is due: of four milliseconds one is worked. An error is the store's.
+  // A turn, if one is due: of four milliseconds one is worked. An error is the store's, or
+  // kInternal: what was compared has no joints for a fault of the program.
   [[nodiscard]] Result<void> Turn(Time now);
   // When the next turn is due; nothing while there is nothing to do in it.
   [[nodiscard]] std::optional<Time> due() const {

@@ -176,7 +176,8 @@ void JointSearch::Compare(Search& search, JointComparer::Views other, const rout
 void JointSearch::Handle(const JointComparer::Done& done) {
   if (!search_ || search_->compared != done.number) return;
   search_->compared.reset();
-  for (const joints::Joint& joint : done.joints) {
+  if (!done.joints) return;
+  for (const joints::Joint& joint : *done.joints) {
     meetings_.push_back(MeetingOf(search_->info.key, search_->with, joint));
   }
 }

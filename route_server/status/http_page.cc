@@ -15,7 +15,9 @@ struct HttpPage::State {
   Shown shown;
   Clock::time_point shown_at = Clock::now();
   // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
-  http::Server server{{.threads = 2}};
+  http::Server server;
+
+  explicit State(http::Server::Complain complain) : server({.threads = 2}, std::move(complain)) {}
 
   void Answer() {
     server.Get("/metrics", [this](const httplib::Request&, httplib::Response& response) {
@@ -36,8 +38,9 @@ struct HttpPage::State {
 };
 
 Result<std::unique_ptr<HttpPage>> HttpPage::Open(const std::string& host, int port,
+                                                 std::function<void(const Error&)> complain,
                                                  std::chrono::milliseconds stale_after) {
-  auto state = std::make_unique<State>();
+  auto state = std::make_unique<State>(std::move(complain));
   state->stale_after = stale_after;
   state->Answer();
   if (auto listens = state->server.Listen(host, port); !listens) {

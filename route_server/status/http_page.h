@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,9 +14,10 @@ namespace trailcast::server {
 // is not well, nor is one that can serve nobody.
 class HttpPage {
  public:
-  // Port 0: any that is free. kUnavailable when it cannot be listened on.
+  // Port 0: any that is free; `complain`: as http::Server has it. kUnavailable when it cannot be
+  // listened on.
   [[nodiscard]] static Result<std::unique_ptr<HttpPage>> Open(
-      const std::string& host, int port,
+      const std::string& host, int port, std::function<void(const Error&)> complain,
       std::chrono::milliseconds stale_after = std::chrono::seconds(5));
   ~HttpPage();
   HttpPage(const HttpPage&) = delete;

@@ -54,9 +54,10 @@ class Atlas {
  private:
   using Clock = std::chrono::steady_clock;
   using Wanted = std::pair<RouteId, std::optional<TeachingId>>;
+  using Shape = Result<std::shared_ptr<const std::string>>;
   struct Sheet {
     bool done = false;
-    Result<std::shared_ptr<const std::string>> shape{};
+    Shape shape{};
     double fetched = 0.0;
     Clock::time_point done_at{};
   };
@@ -64,8 +65,9 @@ class Atlas {
   void Run();
   [[nodiscard]] std::optional<Wanted> Next(std::chrono::milliseconds most);
   [[nodiscard]] Result<route::RouteInfo> Ask(fleet::OperatorPeer& peer, const Wanted& wanted);
-  [[nodiscard]] Result<std::shared_ptr<const std::string>> Survey(fleet::OperatorPeer& peer,
-                                                                  const Wanted& wanted);
+  // `peer`: joins if there is none.
+  [[nodiscard]] Shape Draw(std::optional<fleet::OperatorPeer>& peer, const Wanted& wanted);
+  [[nodiscard]] Shape Survey(fleet::OperatorPeer& peer, const Wanted& wanted);
   // Null: it is not there, or no longer true.
   [[nodiscard]] const Sheet* Held(const Wanted& wanted) const;
   [[nodiscard]] bool closed();

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -101,6 +102,8 @@ class Desk {
   // Nothing is taken on any more, and whoever waits is let go.
   void Close();
   [[nodiscard]] bool closed();
+  // Why its thread has ended by itself, which closes it; nothing: it has not.
+  [[nodiscard]] std::optional<Error> failed();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -108,6 +111,7 @@ class Desk {
 
   [[nodiscard]] Result<exchange::MissionReply> AskHistory(exchange::MissionRequest request);
   void Run();
+  void ServeUntilClosed();
   template <typename AnErrand>
   [[nodiscard]] auto CarryOut(std::shared_ptr<AnErrand> errand, bool is_stop,
                               std::chrono::milliseconds timeout);
@@ -137,6 +141,7 @@ class Desk {
 
   std::mutex mutex_;  // guards what follows
   bool closed_ = false;
+  std::optional<Error> failed_;
   std::deque<std::shared_ptr<Errand>> stops_;
   std::deque<std::shared_ptr<Errand>> others_;
   std::size_t under_way_ = 0;  // of the others, those that wait included

@@ -135,12 +135,13 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   if (!web) return program::Complain(app, web.error());
   spdlog::info("console: {}://{}:{}", scheme, IsLoopback(options.host) ? "localhost" : options.host,
                (*web)->port());
-  while (!program::StopSignal::requested()) {
+  while (!program::StopSignal::requested() && !desk.closed()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   desk.Close();
   atlas.Close();
   runs.Close();
+  if (const auto failed = desk.failed()) return program::Complain(app, *failed);
   return program::kExitOk;
 }
 

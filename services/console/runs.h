@@ -140,6 +140,7 @@ class Runs {
   [[nodiscard]] std::optional<Kept> FileOf(const std::string& id) const;
   [[nodiscard]] const Opened* Held(const RunFile& file);
   [[nodiscard]] Result<OpenFile> OpenLog(const Kept& kept) const;
+  [[nodiscard]] Result<std::shared_ptr<const OpenedRun>> Open(const Kept& kept) const;
   void Keep(Opened opened);
 
   const std::optional<RunFolder> folder_;

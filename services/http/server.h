@@ -46,10 +46,12 @@ struct Refusal {
 // told to it before it listens.
 class Server final : public httplib::Server {
  public:
+  // Of what was thrown on its threads: whoever asked was answered with 500, or hung up on.
+  using Complain = std::function<void(const Error&)>;
   using Judge = std::function<std::optional<Refusal>(const httplib::Request&)>;
   using Refuse = std::function<void(const Refusal&, httplib::Response&)>;
 
-  explicit Server(const Limits& limits);
+  Server(const Limits& limits, Complain complain);
   ~Server() override;
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -67,13 +69,17 @@ class Server final : public httplib::Server {
   [[nodiscard]] int port() const { return port_; }
 
  private:
+  // Until it is over, whatever is thrown meanwhile.
+  void AcceptAll();
   void Accept();
+  [[nodiscard]] bool Failed(const Result<void>& done) const;  // and complains of it
   void Answer(int socket, const std::function<void()>& on_request);
   void Answer(Stream& stream, const std::function<void()>& on_request);
   [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;
   [[nodiscard]] std::optional<Refusal> JudgeBody(const httplib::Request& request) const;
 
   const Limits limits_;
+  const Complain complain_;
   std::vector<Allowance> allowances_;
   Judge judge_;
   Refuse refuse_;

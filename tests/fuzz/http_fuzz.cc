@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "services/http/server.h"
@@ -61,7 +63,11 @@ class Echo {
   }
 
  private:
-  http::Server server_{{.threads = 2, .waiting = 8, .body_bytes = kBody_bytes}};
+  http::Server server_{{.threads = 2, .waiting = 8, .body_bytes = kBody_bytes},
+                       [](const Error& error) {
+                         std::fprintf(stderr, "%s\n", error.message.c_str());
+                         std::abort();
+                       }};
 };
 
 }  // namespace

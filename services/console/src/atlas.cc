@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "services/console/src/guarded_in_log.h"
 #include "services/console/src/shape.h"
 #include "services/exchange/bounds.h"
 #include "services/exchange/route_finder.h"
@@ -98,16 +99,7 @@ void Atlas::Run() {
       if (peer && Clock::now() > used_at + kLeaveAfter) peer.reset();
       continue;
     }
-    Result<std::shared_ptr<const std::string>> shape;
-    if (!peer) {
-      auto joined = join_();
-      if (joined) {
-        peer = std::move(*joined);
-      } else {
-        shape = Fail(ErrorCode::kUnavailable, "{}", joined.error().message);
-      }
-    }
-    if (peer) shape = Survey(*peer, *wanted);
+    auto shape = GuardedInLog("the thread that draws routes", [&] { return Draw(peer, *wanted); });
     used_at = Clock::now();
     {
       const std::scoped_lock lock(mutex_);
@@ -116,6 +108,15 @@ void Atlas::Run() {
     }
     changed_.notify_all();
   }
+}
+
+Atlas::Shape Atlas::Draw(std::optional<fleet::OperatorPeer>& peer, const Wanted& wanted) {
+  if (!peer) {
+    auto joined = join_();
+    if (!joined) return Fail(ErrorCode::kUnavailable, "{}", joined.error().message);
+    peer = std::move(*joined);
+  }
+  return Survey(*peer, wanted);
 }
 
 Result<route::RouteInfo> Atlas::Ask(fleet::OperatorPeer& peer, const Wanted& wanted) {
@@ -140,8 +141,7 @@ Result<route::RouteInfo> Atlas::Ask(fleet::OperatorPeer& peer, const Wanted& wan
               route::Describe(*info));
 }
 
-Result<std::shared_ptr<const std::string>> Atlas::Survey(fleet::OperatorPeer& peer,
-                                                         const Wanted& wanted) {
+Atlas::Shape Atlas::Survey(fleet::OperatorPeer& peer, const Wanted& wanted) {
   const auto info = Ask(peer, wanted);
   if (!info) return tl::unexpected(info.error());
   {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/base/guarded.h"
 #include "services/base/unix_time.h"
 #include "services/console/src/api/errand.h"
 #include "services/console/src/api/look_errand.h"
@@ -311,7 +312,25 @@ bool Desk::closed() {
   return closed_;
 }
 
+std::optional<Error> Desk::failed() {
+  const std::scoped_lock lock(mutex_);
+  return failed_;
+}
+
 void Desk::Run() {
+  const auto served = Guarded("the console's link to the fleet", [this] { ServeUntilClosed(); });
+  if (!served) {
+    const std::scoped_lock lock(mutex_);
+    failed_ = served.error();
+  }
+  Close();
+  Begin();
+  for (const auto& errand : errands_) {
+    errand->GiveUp(served ? Error{ErrorCode::kUnavailable, "the console ends"} : served.error());
+  }
+}
+
+void Desk::ServeUntilClosed() {
   while (!closed()) {
     Begin();
     Say(Clock::now());
@@ -319,10 +338,6 @@ void Desk::Run() {
     const auto now = Clock::now();
     for (const exchange::Message& message : heard) Hear(message, now);
     ShowNews(now);
-  }
-  Begin();
-  for (const auto& errand : errands_) {
-    errand->GiveUp({ErrorCode::kUnavailable, "the console ends"});
   }
 }
 

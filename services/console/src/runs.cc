@@ -10,6 +10,7 @@
 #include "agent/diagnosis/run_log_reader.h"
 #include "services/base/give_way.h"
 #include "services/base/unix_time.h"
+#include "services/console/src/guarded_in_log.h"
 #include "services/fleet/draw.h"
 
 namespace trailcast::console {
@@ -27,6 +28,7 @@ constexpr std::size_t kMostOpened = 8;
 constexpr std::size_t kMostHappenings = 100;
 constexpr std::size_t kMostLogBytes = 128U << 20U;
 constexpr milliseconds kOthersLook{2000};
+constexpr const char* kReader = "the thread that reads logs";
 constexpr const char* kUploaded = "the uploaded log";
 
 // What people are told has the log's own name, and no other of this machine.
@@ -132,7 +134,7 @@ void Runs::Scan(std::unique_lock<std::mutex>& lock) {
   asked_ = false;
   if (!folder_ || (scanned_at_ && Clock::now() < *scanned_at_ + kScanAgain)) return;
   lock.unlock();
-  auto files = folder_->Scan();
+  auto files = GuardedInLog(kReader, [this] { return folder_->Scan(); });
   lock.lock();
   scanned_at_ = Clock::now();
   scan_failed_ = files ? std::nullopt : std::optional(files.error());
@@ -161,16 +163,18 @@ std::string Runs::NextToLookAt() const {
 void Runs::LookAt(std::unique_lock<std::mutex>& lock, const std::string& id) {
   const RunFile file = entries_.at(id).file;
   lock.unlock();
-  const auto opened = OpenLog({file});
-  std::optional<RunSummary> summary;
-  if (opened) {
-    if (const auto log = agent::ReadRunEnds(opened->path())) summary = Summarise(*log);
-  }
+  auto looked = GuardedInLog(kReader, [&]() -> Result<std::optional<RunSummary>> {
+    const auto opened = OpenLog({file});
+    if (!opened) return std::nullopt;
+    const auto log = agent::ReadRunEnds(opened->path());
+    return log ? std::optional(Summarise(*log)) : std::nullopt;
+  });
   lock.lock();
   const auto entry = entries_.find(id);
   if (entry == entries_.end()) return;
   entry->second.looked_at = file;
-  entry->second.summary = std::move(summary);
+  entry->second.summary =
+      looked ? *std::move(looked) : RunSummary{.reason = looked.error().message};
 }
 
 // An uploaded one may have made room for others meanwhile.
@@ -188,23 +192,23 @@ void Runs::Read(std::unique_lock<std::mutex>& lock, const std::string& id) {
     return;
   }
   lock.unlock();
-  const RunFile& file = kept->file;
-  Opened read{file, Fail(ErrorCode::kNotFound, "this log is there no more"), Clock::now()};
-  if (const auto opened = OpenLog(*kept)) {
-    auto log = agent::ReadRunLog(
-        opened->path(), {.messages = kMostRows, .events = kMostEvents, .bytes = kMostLogBytes});
-    if (log) {
-      // A log without them is one all the same.
-      auto pictures = agent::RunPictures::Open(opened->path());
-      read.run = std::make_shared<const OpenedRun>(file, *std::move(log),
-                                                   pictures ? *std::move(pictures) : nullptr);
-    } else {
-      read.run = tl::unexpected(InWords(log.error(), opened->path(), file.name));
-    }
-  }
+  const auto began = Clock::now();
+  auto run = GuardedInLog(kReader, [&] { return Open(*kept); });
   lock.lock();
   wanted_.pop_front();
-  Keep(std::move(read));
+  Keep({kept->file, std::move(run), began});
+}
+
+Result<std::shared_ptr<const OpenedRun>> Runs::Open(const Kept& kept) const {
+  const auto opened = OpenLog(kept);
+  if (!opened) return Fail(ErrorCode::kNotFound, "this log is there no more");
+  auto log = agent::ReadRunLog(
+      opened->path(), {.messages = kMostRows, .events = kMostEvents, .bytes = kMostLogBytes});
+  if (!log) return tl::unexpected(InWords(log.error(), opened->path(), kept.file.name));
+  // A log without them is one all the same.
+  auto pictures = agent::RunPictures::Open(opened->path());
+  return std::make_shared<const OpenedRun>(kept.file, *std::move(log),
+                                           pictures ? *std::move(pictures) : nullptr);
 }
 
 void Runs::Keep(Opened opened) {

@@ -7,7 +7,7 @@
 
 #include "services/archive/route_file.h"
 #include "services/archive/route_file_writer.h"
-#include "services/base/guarded.h"
+#include "services/console/src/guarded_in_log.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/routes/route_export.h"
@@ -64,7 +64,7 @@ void Transfers::Start(Job& job, Work work) try {
       const std::scoped_lock lock(mutex_);
       job.progress.done_bytes = done_bytes;
     };
-    End(job, Guarded("the transfer", [&] { return work(job, watch); }));
+    End(job, GuardedInLog("the transfer", [&] { return work(job, watch); }));
   });
 } catch (const std::system_error& refused) {
   job.progress.state = State::kFailed;

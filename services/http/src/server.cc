@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <exception>
 #include <utility>
 
+#include "services/base/guarded.h"
 #include "services/base/number.h"
 #include "services/http/address.h"
 #include "services/http/src/guests.h"
@@ -20,6 +22,7 @@ namespace trailcast::http {
 namespace {
 
 constexpr int kBacklog = 512;
+constexpr int kLook_ms = 100;
 
 std::string AddressOf(int socket) {
   std::string address;
@@ -35,7 +38,8 @@ void RefuseInText(const Refusal& refusal, httplib::Response& response) {
 
 }  // namespace
 
-Server::Server(const Limits& limits) : limits_(limits), refuse_(RefuseInText) {
+Server::Server(const Limits& limits, Complain complain)
+    : limits_(limits), complain_(std::move(complain)), refuse_(RefuseInText) {
   set_payload_max_length(limits_.body_bytes);
   // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
   set_socket_options([](socket_t socket) {
@@ -49,6 +53,16 @@ Server::Server(const Limits& limits) : limits_(limits), refuse_(RefuseInText) {
     refuse_(*refusal, response);
     return HandlerResponse::Handled;
   });
+  set_exception_handler([this](const httplib::Request& request, httplib::Response& response,
+                               const std::exception_ptr& thrown) {
+    (void)Failed(Guarded("answering " + request.path, [&] { std::rethrow_exception(thrown); }));
+    refuse_({500, "this is a fault of the program: its log says what has failed"}, response);
+  });
+}
+
+bool Server::Failed(const Result<void>& done) const {
+  if (!done) complain_(done.error());
+  return !done;
 }
 
 Server::~Server() {
@@ -111,25 +125,30 @@ Result<void> Server::Listen(const std::string& host, int port) {
   (void)::listen(svr_sock_, kBacklog);
   (void)fcntl(svr_sock_, F_SETFL, fcntl(svr_sock_, F_GETFL) | O_NONBLOCK);
   guests_ = std::make_unique<Guests>(limits_, [this](Guests::Guest& guest) {
-    Answer(guest.socket, [&] { guests_->LetStay(guest); });
+    (void)Failed(Guarded("a thread that answers requests",
+                         [&] { Answer(guest.socket, [&] { guests_->LetStay(guest); }); }));
   });
-  thread_ = std::thread([this] { Accept(); });
+  thread_ = std::thread([this] { AcceptAll(); });
   return {};
 }
 
-void Server::Accept() {
-  constexpr int kLook_ms = 100;
+void Server::AcceptAll() {
   while (!over_) {
-    pollfd waited{.fd = svr_sock_, .events = POLLIN, .revents = 0};
-    const bool comes = poll(&waited, 1, kLook_ms) > 0;
-    guests_->MakeRoom();
-    if (!comes) continue;
-    const int socket = accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
-    if (socket >= 0) {
-      guests_->Take(socket, AddressOf(socket));
-    } else if (errno == EMFILE || errno == ENFILE) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(kLook_ms));
-    }
+    const bool failed = Failed(Guarded("the thread that takes connections", [this] { Accept(); }));
+    if (failed) std::this_thread::sleep_for(std::chrono::milliseconds(kLook_ms));
+  }
+}
+
+void Server::Accept() {
+  pollfd waited{.fd = svr_sock_, .events = POLLIN, .revents = 0};
+  const bool comes = poll(&waited, 1, kLook_ms) > 0;
+  guests_->MakeRoom();
+  if (!comes) return;
+  const int socket = accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
+  if (socket >= 0) {
+    guests_->Take(socket, AddressOf(socket));
+  } else if (errno == EMFILE || errno == ENFILE) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(kLook_ms));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <thread>
 
 #include "services/catalog/catalog.h"
@@ -124,6 +125,21 @@ TEST(Atlas, WhoDoesNotWaitIsToldHowFarItIsAndOnlySoManyAreAskedFor) {
   const auto first = atlas.Find(RouteId(fmt::format("{:032x}", 0)), {}, test::kLongEnough);
   ASSERT_FALSE(first);
   EXPECT_EQ(first.error().message, "no network");
+}
+
+TEST(Atlas, WhatItsThreadThrowsIsTheAnswerAndItGoesOn) {
+  int joins = 0;
+  Atlas atlas([&]() -> Result<fleet::OperatorPeer> {
+    if (++joins == 1) throw std::runtime_error("no room for so long a route");
+    return Fail(ErrorCode::kUnavailable, "no network");
+  });
+  const auto first = atlas.Find(RouteId(std::string(32, 'a')), std::nullopt, test::kLongEnough);
+  ASSERT_FALSE(first);
+  EXPECT_EQ(first.error().code, ErrorCode::kInternal);
+  EXPECT_THAT(first.error().message, HasSubstr("no room for so long a route"));
+  const auto next = atlas.Find(RouteId(std::string(32, 'b')), std::nullopt, test::kLongEnough);
+  ASSERT_FALSE(next);
+  EXPECT_EQ(next.error().message, "no network");
 }
 
 TEST(Atlas, ClosedItLetsGoWhoWaits) {

@@ -7,6 +7,7 @@
 #include <future>
 #include <latch>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
@@ -20,6 +21,40 @@ using exchange::NowOrder;
 using exchange::NowWhom;
 using std::chrono::milliseconds;
 using testing::HasSubstr;
+
+// Throws once a command was told.
+class ThrowingExchange final : public exchange::RouteExchange {
+ public:
+  Result<void> Publish(const exchange::Message& message) override {
+    told_ |= std::holds_alternative<exchange::NowCommand>(message);
+    return {};
+  }
+  std::vector<exchange::Message> Take(milliseconds /*max_wait*/) override {
+    if (told_) throw std::runtime_error("out of memory");
+    std::this_thread::sleep_for(milliseconds(1));
+    return {};
+  }
+  Result<void> Listen(exchange::Topic /*topic*/,
+                      const std::set<route::RouteKey>& /*routes*/) override {
+    return {};
+  }
+  [[nodiscard]] std::uint64_t dropped() const override { return 0; }
+
+ private:
+  bool told_ = false;
+};
+
+TEST(Desk, WhoseThreadThrowsEndsAndSaysWhy) {
+  Desk desk(AgentId("desk"), std::make_unique<ThrowingExchange>());
+  EXPECT_FALSE(desk.failed());
+  const auto told = desk.Tell(NowOrder::kStop, {NowWhom::kRobot, "robot1"}, "");
+  ASSERT_FALSE(told) << "nobody knows whether the robot stands";
+  EXPECT_THAT(told.error().message, HasSubstr("out of memory"));
+  EXPECT_TRUE(desk.closed());
+  ASSERT_TRUE(desk.failed());
+  EXPECT_THAT(desk.failed()->message, HasSubstr("the console's link to the fleet has failed"));
+  EXPECT_FALSE(desk.Tell(NowOrder::kStop, {NowWhom::kRobot, "robot1"}, ""));
+}
 
 class DeskTest : public testing::Test {
  protected:

@@ -5,6 +5,9 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,8 @@ namespace {
 
 using test::RawConnection;
 using testing::HasSubstr;
+
+void Complain(const Error& error) { ADD_FAILURE() << error.message; }
 
 class HttpServerTest : public testing::Test {
  protected:
@@ -35,7 +40,7 @@ class HttpServerTest : public testing::Test {
     return got ? got->status : 0;
   }
 
-  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U}};
+  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U}, Complain};
 };
 
 TEST_F(HttpServerTest, TakesBodiesUpToItsBound) {
@@ -50,7 +55,7 @@ TEST_F(HttpServerTest, TakesBodiesUpToItsBound) {
 }
 
 TEST(HttpServer, SomeRequestsMayBringMoreThanOthers) {
-  Server server({.threads = 2, .body_bytes = 1000});
+  Server server({.threads = 2, .body_bytes = 1000}, Complain);
   const auto tell_length = [](const httplib::Request& request, httplib::Response& response) {
     response.set_content(std::to_string(request.body.size()), "text/plain");
   };
@@ -81,8 +86,46 @@ TEST(HttpServer, SomeRequestsMayBringMoreThanOthers) {
               HasSubstr("411"));
 }
 
+TEST(HttpServer, WhatItsThreadsThrowIsToldAndEndsThatAnswerAlone) {
+  std::mutex mutex;
+  std::vector<std::string> complaints;
+  Server server({.threads = 2}, [&](const Error& error) {
+    const std::scoped_lock lock(mutex);
+    complaints.push_back(error.message);
+  });
+  server.Get("/throws", [](const httplib::Request&, httplib::Response&) {
+    throw std::runtime_error("no such robot");
+  });
+  server.Get("/breaks-off", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content_provider(
+        1000, "text/plain",
+        [](std::size_t, std::size_t, httplib::DataSink&) -> bool { throw std::bad_alloc(); });
+  });
+  server.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content("hello", "text/plain");
+  });
+  ASSERT_TRUE(server.Listen("127.0.0.1", 0));
+  const auto told = [&](std::size_t count, const std::string& what) {
+    const std::scoped_lock lock(mutex);
+    return complaints.size() == count && complaints.back().find(what) != std::string::npos;
+  };
+  httplib::Client client("127.0.0.1", server.port());
+  const auto thrown = client.Get("/throws");
+  ASSERT_TRUE(thrown);
+  EXPECT_EQ(thrown->status, 500);
+  EXPECT_THAT(thrown->body, HasSubstr("its log says"));
+  EXPECT_TRUE(told(1, "no such robot"));
+  EXPECT_FALSE(client.Get("/breaks-off")) << "it has begun already";
+  test::Await([&] { return told(2, "bad_alloc"); }, "word of what was thrown");
+  for (int i = 0; i < 4; ++i) {
+    const auto hello = client.Get("/hello");
+    ASSERT_TRUE(hello);
+    EXPECT_EQ(hello->status, 200) << "no thread is lost";
+  }
+}
+
 TEST_F(HttpServerTest, WhatIsJudgedIsRefusedBeforeItsBodyIsRead) {
-  Server judged({.body_bytes = 1000});
+  Server judged({.body_bytes = 1000}, Complain);
   judged.Post("/length", [](const httplib::Request&, httplib::Response&) { FAIL(); });
   judged.JudgeBy(
       [](const httplib::Request&) {
@@ -135,7 +178,7 @@ TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
 }
 
 TEST_F(HttpServerTest, OneAddressDoesNotTakeAllThreads) {
-  Server shared({.threads = 4, .waiting = 8, .of_one_address = 3});
+  Server shared({.threads = 4, .waiting = 8, .of_one_address = 3}, Complain);
   shared.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
     response.set_content("hello", "text/plain");
   });
@@ -162,7 +205,7 @@ TEST_F(HttpServerTest, OneAddressDoesNotTakeAllThreads) {
 }
 
 TEST(HttpServer, WhoSaysWhatTheyWantIsAnsweredBesideManyAddressesThatSayNothing) {
-  Server shared({.threads = 4, .waiting = 2, .of_one_address = 3});
+  Server shared({.threads = 4, .waiting = 2, .of_one_address = 3}, Complain);
   shared.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
     response.set_content("hello", "text/plain");
   });
@@ -181,7 +224,7 @@ TEST(HttpServer, WhoSaysWhatTheyWantIsAnsweredBesideManyAddressesThatSayNothing)
 }
 
 TEST_F(HttpServerTest, APortThatIsTakenIsRefused) {
-  Server second{Limits{}};
+  Server second{Limits{}, Complain};
   const auto listens = second.Listen("127.0.0.1", server_.port());
   ASSERT_FALSE(listens);
   EXPECT_EQ(listens.error().code, ErrorCode::kUnavailable);

@@ -50,7 +50,8 @@ class TlsTest : public testing::Test {
   static constexpr std::size_t kLong = 8U << 20U;
   test::TempDir folder_;
   test::SelfSigned files_ = test::MakeSelfSigned(folder_ / "");
-  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U}};
+  Server server_{{.threads = 3, .waiting = 8, .body_bytes = 64U << 10U},
+                 [](const Error& error) { ADD_FAILURE() << error.message; }};
 };
 
 TEST_F(TlsTest, ServesWhoTrustsItsCertificate) {

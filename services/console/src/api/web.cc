@@ -1,6 +1,7 @@
 #include "services/console/web.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -70,7 +71,11 @@ http::Limits LimitsFor(const Access& access) {
 }  // namespace
 
 Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
-    : desk_(desk), access_(std::move(entry)), network_(desk), server_(LimitsFor(access_)) {
+    : desk_(desk),
+      access_(std::move(entry)),
+      network_(desk),
+      server_(LimitsFor(access_),
+              [](const Error& error) { spdlog::error("console: {}", error.message); }) {
   httplib::Headers headers{
       {"Content-Security-Policy",
        "default-src 'self'; base-uri 'none'; form-action 'none'; "

@@ -7,6 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include "services/base/guarded.h"
+
 namespace trailcast::trial {
 namespace {
 
@@ -27,12 +29,13 @@ class Batch {
       const std::size_t index = next_.fetch_add(1);
       if (index >= outcomes_.size()) return;
       const auto trials = static_cast<std::size_t>(options_.trials);
-      Result<std::vector<TrialOutcome>> outcome =
-          RunTrial(setup_, setup_.cases[index / trials], options_,
-                   static_cast<int>(index % trials) + 1, teachings_, [&](double share) {
-                     Note(index, share, nullptr);
-                     return !broken_;
-                   });
+      Result<std::vector<TrialOutcome>> outcome = Guarded("a trial", [&] {
+        return RunTrial(setup_, setup_.cases[index / trials], options_,
+                        static_cast<int>(index % trials) + 1, teachings_, [&](double share) {
+                          Note(index, share, nullptr);
+                          return !broken_;
+                        });
+      });
       if (!outcome) broken_ = true;
       Note(index, 1.0, &outcome);
     }

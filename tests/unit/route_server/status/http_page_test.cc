@@ -16,8 +16,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
+void Complain(const Error& error) { ADD_FAILURE() << error.message; }
+
 TEST(HttpPage, ShowsTheLatestMetrics) {
-  const auto page = HttpPage::Open("127.0.0.1", 0).value();
+  const auto page = HttpPage::Open("127.0.0.1", 0, Complain).value();
   httplib::Client client("127.0.0.1", page->port());
   page->Show({"a 1\n"});
   page->Show({"a 2\n"});
@@ -30,7 +32,7 @@ TEST(HttpPage, ShowsTheLatestMetrics) {
 }
 
 TEST(HttpPage, IsNotWellOnceNothingIsShownAnyMore) {
-  const auto page = HttpPage::Open("127.0.0.1", 0, milliseconds(200)).value();
+  const auto page = HttpPage::Open("127.0.0.1", 0, Complain, milliseconds(200)).value();
   httplib::Client client("127.0.0.1", page->port());
   const auto status = [&] {
     const auto got = client.Get("/health");
@@ -55,7 +57,7 @@ TEST(HttpPage, IsNotWellOnceNothingIsShownAnyMore) {
 }
 
 TEST(HttpPage, SaysWhyNobodyCanBeServedAndWhatIsServedInPart) {
-  const auto page = HttpPage::Open("127.0.0.1", 0).value();
+  const auto page = HttpPage::Open("127.0.0.1", 0, Complain).value();
   httplib::Client client("127.0.0.1", page->port());
   page->Show({"", "no database", "1 route"});
   EXPECT_EQ(client.Get("/health")->status, 503);
@@ -68,15 +70,15 @@ TEST(HttpPage, SaysWhyNobodyCanBeServedAndWhatIsServedInPart) {
 }
 
 TEST(HttpPage, APortThatIsTakenIsRefused) {
-  const auto first = HttpPage::Open("127.0.0.1", 0).value();
-  const auto second = HttpPage::Open("127.0.0.1", first->port());
+  const auto first = HttpPage::Open("127.0.0.1", 0, Complain).value();
+  const auto second = HttpPage::Open("127.0.0.1", first->port(), Complain);
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, ErrorCode::kUnavailable);
   EXPECT_THAT(second.error().message, testing::HasSubstr("is the port taken"));
 }
 
 TEST(HttpPage, RequestsWithoutEndAreCutOff) {
-  const auto page = HttpPage::Open("127.0.0.1", 0).value();
+  const auto page = HttpPage::Open("127.0.0.1", 0, Complain).value();
   page->Show({""});
   const std::string chunk = "1000\r\n" + std::string(0x1000, 'x') + "\r\n";
   const std::string post = "POST /metrics HTTP/1.1\r\nHost: x\r\n";

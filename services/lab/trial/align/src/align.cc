@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "services/base/guarded.h"
 #include "services/image/files.h"
 #include "services/lab/trial/align/src/alignment_path.h"
 #include "services/lab/trial/align/src/camera_mask.h"
@@ -133,23 +135,28 @@ class Aligner {
   Result<std::vector<Candidate>> Match(const SceneFeatures& scene, const std::vector<int>& with) {
     std::vector<Candidate> candidates(with.size());
     std::atomic<std::size_t> next{0};
-    std::atomic<bool> failed{false};
-    const auto work = [&] {
-      for (std::size_t i = next++; i < with.size() && !failed; i = next++) {
-        const auto taught_scene = teach_.Read(static_cast<std::size_t>(with[i]));
-        if (!taught_scene) {
-          failed = true;
-          return;
+    std::vector<Result<void>> ended(static_cast<std::size_t>(std::max(1, options_.jobs)));
+    const auto work = [&](Result<void>& end) {
+      end = Guarded("a thread that compares pictures", [&]() -> Result<void> {
+        for (std::size_t i = next++; i < with.size(); i = next++) {
+          const auto taught_scene = teach_.Read(static_cast<std::size_t>(with[i]));
+          if (!taught_scene) {
+            return Fail(ErrorCode::kUnavailable, "cannot read the temporary file of features");
+          }
+          candidates[i] = {with[i], MatchScenes(*taught_scene, scene).inliers};
         }
-        candidates[i] = {with[i], MatchScenes(*taught_scene, scene).inliers};
-      }
+        return {};
+      });
+      if (!end) next = with.size();  // the others end, too
     };
     {
       std::vector<std::jthread> threads;
-      for (int i = 1; i < options_.jobs; ++i) threads.emplace_back(work);
-      work();
+      for (std::size_t i = 1; i < ended.size(); ++i) threads.emplace_back(work, std::ref(ended[i]));
+      work(ended.front());
     }
-    if (failed) return Fail(ErrorCode::kUnavailable, "cannot read the temporary file of features");
+    for (const Result<void>& end : ended) {
+      if (!end) return tl::unexpected(end.error());
+    }
     return candidates;
   }
 
