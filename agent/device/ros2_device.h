@@ -45,6 +45,8 @@ struct Ros2Run {
 class Ros2Device final : public RobotDevice {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Device>> Open(const Ros2Run& run);
+  // The same over a driver that is open; what Open refuses is not looked at.
+  Ros2Device(const Ros2Run& run, std::unique_ptr<dds::Ros2Driver> driver);
   ~Ros2Device() override;
 
   [[nodiscard]] Result<std::optional<Observation>> Next() override;
@@ -60,7 +62,6 @@ class Ros2Device final : public RobotDevice {
 
  private:
   struct State;
-  explicit Ros2Device(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

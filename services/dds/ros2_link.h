@@ -115,14 +115,14 @@ using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ro
 class Ros2Driver {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Driver>> Open(const Ros2Options& options);
-  ~Ros2Driver();
+  virtual ~Ros2Driver() = default;
   Ros2Driver(const Ros2Driver&) = delete;
   Ros2Driver& operator=(const Ros2Driver&) = delete;
 
   // What came since, after waiting for something at most so long. Samples whose numbers are none
   // (NaN, a quaternion of length 0) are left out, and scans and ranges that can be no sensor's.
-  [[nodiscard]] std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait);
-  [[nodiscard]] Result<void> Publish(const Ros2Command& command);
+  [[nodiscard]] virtual std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) = 0;
+  [[nodiscard]] virtual Result<void> Publish(const Ros2Command& command) = 0;
 
   struct Peers {
     int cameras = 0;    // who publishes the image topic
@@ -137,12 +137,10 @@ class Ros2Driver {
     int imus = 0;                // who publishes the IMU topic
     int batteries = 0;           // who publishes the battery topic
   };
-  [[nodiscard]] Peers peers() const;
+  [[nodiscard]] virtual Peers peers() const = 0;
 
- private:
-  struct State;
-  explicit Ros2Driver(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+ protected:
+  Ros2Driver() = default;
 };
 
 // The robot's end, for a virtual one: publishes what it senses, hears what it shall do.

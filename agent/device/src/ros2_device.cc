@@ -103,6 +103,7 @@ std::string Ros2Device::State::Missing() const {
 }
 
 std::string Ros2Device::State::Ailment() const {
+  if (deaf) return deaf->message;
   // Who stands in the way is no failure.
   if (trouble && trouble->part != RobotWatch::Trouble::Part::kObstacle) {
     return Failure(*trouble).message;
@@ -157,12 +158,15 @@ std::vector<motion::ImuSample> Ros2Device::State::TakeImu() {
   return std::exchange(imu, {});
 }
 
-Ros2Device::Ros2Device(std::unique_ptr<State> state) : state_(std::move(state)) {
+Ros2Device::Ros2Device(const Ros2Run& run, std::unique_ptr<dds::Ros2Driver> driver)
+    : state_(std::make_unique<State>(run, std::move(driver))) {
   state_->hearing = std::thread([s = state_.get()] {
     auto heard = Guarded("the thread that hears the robot", [s] { s->Hear(); });
     if (heard) return;
     const std::lock_guard guard(s->lock);
     s->deaf = std::move(heard.error());
+    // Nobody else stops it before the loop that drives comes back. That does it again.
+    (void)Guarded("stopping the robot", [s] { return s->Tell({}); });
     s->news.notify_one();
   });
 }
@@ -185,8 +189,7 @@ Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
   }
   auto driver = dds::Ros2Driver::Open(run.topics);
   if (!driver) return Wrap(driver.error(), "the robot's topics");
-  return std::unique_ptr<Ros2Device>(
-      new Ros2Device(std::make_unique<State>(run, std::move(*driver))));
+  return std::make_unique<Ros2Device>(run, *std::move(driver));
 }
 
 // The next frame, with odometry if there is any; nothing when it is over.
@@ -255,7 +258,7 @@ Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
   s.answered = true;
   // What an old picture led to is no more to be done.
   const bool old = !s.run.lockstep && steady_clock::now() - s.given_came_at > s.run.sensor_timeout;
-  return s.Tell(s.trouble || old ? motion::VelocityCommand{} : s.Within(command));
+  return s.Tell(s.deaf || s.trouble || old ? motion::VelocityCommand{} : s.Within(command));
 }
 
 std::string Ros2Device::camera() const {

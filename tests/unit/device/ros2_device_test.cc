@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <limits>
+#include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/support/await.h"
@@ -782,6 +785,68 @@ TEST_F(Ros2DeviceTest, RefusesNamesThatAreNoTopics) {
   }
   run_.topics.robot = "/";
   EXPECT_TRUE(Ros2Device::Open(run_));
+}
+
+// Hears a robot that goes ahead and takes a picture whenever it is asked, until its hearing fails.
+class FailingDriver final : public dds::Ros2Driver {
+ public:
+  struct Base {
+    std::atomic<bool> fails{false};
+    std::mutex lock;
+    motion::VelocityCommand told{};
+    [[nodiscard]] motion::VelocityCommand Told() {
+      const std::lock_guard guard(lock);
+      return told;
+    }
+  };
+  explicit FailingDriver(Base& base) : base_(base) {}
+
+  std::vector<dds::Ros2Sensed> Take(milliseconds /*max_wait*/) override {
+    if (base_.fails) throw std::runtime_error("a message of no known kind");
+    std::this_thread::sleep_for(milliseconds(5));
+    const SensorTime stamp = steady_clock::now() - began_;
+    const image::GrayImage picture = test::WalkFrame(++frame_);
+    return {dds::Ros2Odometry{stamp, {.x_m = kRos2Ahead.linear_mps * Seconds(stamp)}},
+            dds::Ros2Image{.stamp = stamp,
+                           .width_px = static_cast<std::uint32_t>(picture.width),
+                           .height_px = static_cast<std::uint32_t>(picture.height),
+                           .encoding = "mono8",
+                           .step = static_cast<std::uint32_t>(picture.width),
+                           .data = picture.pixels}};
+  }
+  Result<void> Publish(const dds::Ros2Command& command) override {
+    const std::lock_guard guard(base_.lock);
+    base_.told = command.velocity;
+    return {};
+  }
+  [[nodiscard]] Peers peers() const override { return {.cameras = 1, .odometers = 1, .bases = 1}; }
+
+ private:
+  Base& base_;
+  const steady_clock::time_point began_ = steady_clock::now();
+  int frame_ = 0;
+};
+
+TEST(Ros2Device, ThatHearsTheRobotNoMoreForAFaultStopsItAtOnceAndSaysWhy) {
+  FailingDriver::Base base;
+  Ros2Run run;
+  run.limits.acceleration_mps2 = 1000.0;
+  // The loop that drives is not what stops it, nor is silence.
+  run.sensor_timeout = run.patience = test::kLongEnough;
+  Ros2Device device(run, std::make_unique<FailingDriver>(base));
+  ASSERT_TRUE(device.Next());
+  ASSERT_TRUE(device.Drive(kRos2Ahead));
+  EXPECT_EQ(base.Told(), kRos2Ahead);
+  base.fails = true;
+  ASSERT_TRUE(test::Await([&] { return base.Told() == kStand; }, "a stop"));
+  ASSERT_TRUE(device.Drive(kRos2Ahead));
+  EXPECT_EQ(base.Told(), kStand) << "for good";
+  const auto next = device.Next();
+  ASSERT_FALSE(next);
+  EXPECT_EQ(next.error().code, ErrorCode::kInternal);
+  EXPECT_THAT(next.error().message, AllOf(HasSubstr("the thread that hears the robot has failed"),
+                                          HasSubstr("a message of no known kind")));
+  EXPECT_EQ(device.Ailment(), next.error().message);
 }
 
 }  // namespace

@@ -152,7 +152,9 @@ Result<void> Ros2Options::Validate() const {
   return {};
 }
 
-struct Ros2Driver::State {
+namespace {
+
+struct DriverState {
   Ros2Options options;
   Ros2Network network;
   Node node;
@@ -165,8 +167,18 @@ struct Ros2Driver::State {
   Writer command;
 };
 
-Ros2Driver::Ros2Driver(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Ros2Driver::~Ros2Driver() = default;
+class Ros2DdsDriver final : public Ros2Driver {
+ public:
+  explicit Ros2DdsDriver(DriverState state) : state_(std::move(state)) {}
+  std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) override;
+  Result<void> Publish(const Ros2Command& command) override;
+  [[nodiscard]] Peers peers() const override;
+
+ private:
+  DriverState state_;
+};
+
+}  // namespace
 
 Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options) {
   Ros2Network network = MeetRos2(options.network_interface, UriXml(CycloneUri()));
@@ -208,15 +220,14 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
-  return std::unique_ptr<Ros2Driver>(new Ros2Driver(std::unique_ptr<State>(
-      new State{options, std::move(network), *std::move(node), *std::move(image),
-                std::move(odometry), std::move(scan), std::move(ranges), std::move(imu),
-                std::move(battery), *std::move(command)})));
+  return std::make_unique<Ros2DdsDriver>(DriverState{
+      options, std::move(network), *std::move(node), *std::move(image), std::move(odometry),
+      std::move(scan), std::move(ranges), std::move(imu), std::move(battery), *std::move(command)});
 }
 
-std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
+std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) {
   std::vector<Ros2Sensed> sensed;
-  State& s = *state_;
+  DriverState& s = state_;
   // A failed wait or take leaves what is there to the next call.
   if (!s.node.wait_set.Wait(max_wait)) return sensed;
   if (s.odometry) {
@@ -259,13 +270,13 @@ std::vector<Ros2Sensed> Ros2Driver::Take(std::chrono::milliseconds max_wait) {
   return sensed;
 }
 
-Result<void> Ros2Driver::Publish(const Ros2Command& command) {
-  return WithRos2Wire(command, state_->options.command_type,
-                      [&](const void* sample) { return state_->command.Write(sample); });
+Result<void> Ros2DdsDriver::Publish(const Ros2Command& command) {
+  return WithRos2Wire(command, state_.options.command_type,
+                      [&](const void* sample) { return state_.command.Write(sample); });
 }
 
-Ros2Driver::Peers Ros2Driver::peers() const {
-  const State& s = *state_;
+Ros2Driver::Peers Ros2DdsDriver::peers() const {
+  const DriverState& s = state_;
   Peers peers;
   peers.tried = s.network.tried;
   peers.cameras = s.image.matched();
