@@ -46,7 +46,12 @@ TEST(ContinuedTeaching, ARobotThatStandsElsewhereGoesOnNowhere) {
   DrivenRobot robot(test::Open("indoor"));
   agent::TeachSession session;
   std::optional<route::Segment> last;
-  while (robot.along_m() < 6.0) {
+  int steps = 0;
+  const auto drives_to = [&](double along_m) {
+    EXPECT_LT(++steps, 10'000) << "it stands at " << robot.along_m();
+    return robot.along_m() < along_m && steps < 10'000;
+  };
+  while (drives_to(6.0)) {
     auto step = session.Observe(robot.Step());
     ASSERT_TRUE(step) << step.error().message;
     if (step->finished) last = std::move(step->finished);
@@ -54,8 +59,9 @@ TEST(ContinuedTeaching, ARobotThatStandsElsewhereGoesOnNowhere) {
   ASSERT_TRUE(last);
   const agent::Observation seen = robot.Step();
   agent::EndFinder finder(*last, seen.image.width);
-  while (robot.along_m() < 7.0) (void)robot.Step();
-  while (!robot.arrived()) EXPECT_FALSE(finder.Look(robot.Step().image)) << robot.along_m();
+  while (drives_to(7.0)) (void)robot.Step();
+  while (!robot.arrived() && drives_to(1000.0))
+    EXPECT_FALSE(finder.Look(robot.Step().image)) << robot.along_m();
 }
 
 }  // namespace

@@ -74,11 +74,17 @@ class DeskTest : public testing::Test {
   // The first of this kind that the robot hears.
   template <typename Message>
   Message Heard() {
-    while (true) {
-      for (exchange::Message& message : robot_->Take(milliseconds(100))) {
-        if (auto* wanted = std::get_if<Message>(&message)) return *wanted;
-      }
-    }
+    std::optional<Message> heard;
+    test::Await(
+        [&] {
+          for (exchange::Message& message : robot_->Take(milliseconds(100))) {
+            auto* wanted = std::get_if<Message>(&message);
+            if (wanted != nullptr && !heard) heard = *wanted;
+          }
+          return heard.has_value();
+        },
+        "what the robot is told");
+    return heard.value_or(Message{});
   }
 };
 
@@ -184,50 +190,61 @@ TEST_F(DeskTest, ServersAreAskedOnlyWhileSomebodyLooks) {
   EXPECT_TRUE(server->Take(milliseconds(500)).empty());
   ASSERT_TRUE(desk_.See(0, milliseconds(20'000)));
   bool asked = false;
-  while (!asked) {
-    for (const exchange::Message& message : server->Take(milliseconds(100))) {
-      asked |= std::holds_alternative<exchange::MissionRequest>(message);
-      EXPECT_FALSE(std::holds_alternative<exchange::CatalogRequest>(message))
-          << "no robot is on any";
-    }
-  }
+  test::Await(
+      [&] {
+        for (const exchange::Message& message : server->Take(milliseconds(100))) {
+          asked |= std::holds_alternative<exchange::MissionRequest>(message);
+          EXPECT_FALSE(std::holds_alternative<exchange::CatalogRequest>(message))
+              << "no robot is on any";
+        }
+        return asked;
+      },
+      "a server to be asked");
 }
 
 TEST_F(DeskTest, WhoLooksAgainLaterSeesNothingOld) {
   const auto first = hasty_.See(0, milliseconds(20'000));
   ASSERT_TRUE(first);
   std::shared_ptr<const Desk::News> later;
-  do {
-    (void)robot_->Take(milliseconds(300));  // meanwhile nobody looks
-    later = hasty_.See(0, milliseconds(20'000));
-    ASSERT_TRUE(later);
-  } while (later->number == first->number);
+  test::Await(
+      [&] {
+        (void)robot_->Take(milliseconds(300));  // meanwhile nobody looks
+        later = hasty_.See(0, test::kLongEnough);
+        return later && later->number != first->number;
+      },
+      "news that are new");
+  ASSERT_TRUE(later);
   EXPECT_EQ(*later->state, *first->state);
 }
 
 TEST_F(DeskTest, AServerSaysWhatItHasAndWhyItChangesNothing) {
   const auto server = bus_.Open(exchange::ServerTopics());
   const auto answer = [&](const std::string& error) {
-    while (true) {
-      for (const exchange::Message& message : server->Take(milliseconds(100))) {
-        exchange::CatalogReply reply;
-        reply.server = AgentId("barn");
-        reply.error = error;
-        if (const auto* query = std::get_if<exchange::CatalogRequest>(&message)) {
-          EXPECT_EQ(query->query.name_prefix, "ha");
-          reply.client = query->client;
-          reply.request = query->request;
-          reply.page.total = 7;
-        } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&message)) {
-          EXPECT_EQ(edit->edit.route, "hall");
-          reply.client = edit->client;
-          reply.request = edit->request;
-        } else {
-          continue;
-        }
-        return (void)server->Publish(reply);
+    const auto answers = [&](const exchange::Message& message) {
+      exchange::CatalogReply reply;
+      reply.server = AgentId("barn");
+      reply.error = error;
+      if (const auto* query = std::get_if<exchange::CatalogRequest>(&message)) {
+        EXPECT_EQ(query->query.name_prefix, "ha");
+        reply.client = query->client;
+        reply.request = query->request;
+        reply.page.total = 7;
+      } else if (const auto* edit = std::get_if<exchange::RouteEditRequest>(&message)) {
+        EXPECT_EQ(edit->edit.route, "hall");
+        reply.client = edit->client;
+        reply.request = edit->request;
+      } else {
+        return false;
       }
-    }
+      EXPECT_TRUE(server->Publish(reply));
+      return true;
+    };
+    test::Await(
+        [&] {
+          const auto heard = server->Take(milliseconds(100));
+          return std::any_of(heard.begin(), heard.end(), answers);
+        },
+        "a question to the server");
   };
   auto routes = std::async(std::launch::async, [&] { return desk_.Routes({.name_prefix = "ha"}); });
   answer("");
@@ -259,17 +276,20 @@ TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {
       return one.wait_for(milliseconds(0)) == std::future_status::ready;
     });
   };
-  while (!all_have_seen()) {
-    for (const exchange::Message& message : robot_->Take(milliseconds(10))) {
-      const auto* request = std::get_if<exchange::GlanceRequest>(&message);
-      if (request == nullptr) continue;
-      ++asked;
-      ASSERT_TRUE(robot_->Publish(exchange::Glance{.agent = request->agent,
-                                                   .client = request->client,
-                                                   .request = request->request,
-                                                   .picture = {1, 2, 3}}));
-    }
-  }
+  test::Await(
+      [&] {
+        for (const exchange::Message& message : robot_->Take(milliseconds(10))) {
+          const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+          if (request == nullptr) continue;
+          ++asked;
+          EXPECT_TRUE(robot_->Publish(exchange::Glance{.agent = request->agent,
+                                                       .client = request->client,
+                                                       .request = request->request,
+                                                       .picture = {1, 2, 3}}));
+        }
+        return all_have_seen();
+      },
+      "pictures for all");
   for (auto& one : seen) EXPECT_TRUE(one.get());
   EXPECT_LT(asked, kLookers);
 }

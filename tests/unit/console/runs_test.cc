@@ -13,6 +13,7 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
+#include "tests/support/await.h"
 #include "tests/support/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
@@ -66,14 +67,17 @@ class RunsTest : public testing::Test {
   // Once it has been read.
   [[nodiscard]] Replied Read(const std::string& path) const {
     Replied now;
-    do now = Get(path);
-    while (now.status == 202);
+    test::Await([&] { return (now = Get(path)).status != 202; }, "a log to be read");
     return now;
   }
   [[nodiscard]] json List(const std::string& query = "") const {
     Replied now;
-    do now = Get("/api/runs" + query);
-    while (now.status == 200 && now.body["unread"] > 0);
+    test::Await(
+        [&] {
+          now = Get("/api/runs" + query);
+          return now.status != 200 || now.body["unread"] == 0;
+        },
+        "all logs to be looked at");
     EXPECT_EQ(now.status, 200) << now.body;
     return now.body["runs"];
   }

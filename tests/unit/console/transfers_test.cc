@@ -14,6 +14,7 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
+#include "tests/support/await.h"
 #include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
@@ -64,10 +65,12 @@ class TransfersTest : public testing::Test {
   [[nodiscard]] json AtItsEnd(const json& begun) const {
     const std::string path = "/api/transfers/" + begun.value("transfer", "none");
     Replied now;
-    do {
-      now = Read(Client().Get(path));
-      std::this_thread::sleep_for(milliseconds(20));
-    } while (now.status == 200 && now.body["state"] == "under way");
+    test::Await(
+        [&] {
+          now = Read(Client().Get(path));
+          return now.status != 200 || now.body["state"] != "under way";
+        },
+        "the transfer's end");
     return now.body;
   }
 

@@ -89,8 +89,12 @@ TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
   status.role = exchange::AgentRole::kFollower;
   status.mode = exchange::AgentMode::kTeaching;
   ASSERT_TRUE(robot->Publish(status));
-  while (!json::parse(Client().Get("/api/state")->body)["robots"][0].value("teaches", false)) {
-  }
+  ASSERT_TRUE(test::Await(
+      [&] {
+        const json state = json::parse(Client().Get("/api/state")->body);
+        return state["robots"][0].value("teaches", false);
+      },
+      "the robot to teach"));
   const auto drive = [&](const char* body) {
     return Client().Post("/api/robots/robot1/drive", body, "application/json")->status;
   };

@@ -85,17 +85,27 @@ class Ros2DeviceTest : public testing::Test {
     ASSERT_TRUE(
         robot_->Publish(dds::Ros2Range{stamp_, 0, {0.1, 0.02, 4.0, range_m.value_or(kNothing)}}));
   }
+  // Says something again and again until that is there.
+  template <typename Value>
+  static void Until(std::future<Value>& next, const std::function<void()>& say,
+                    milliseconds every = milliseconds(20)) {
+    test::Await(
+        [&] {
+          if (next.wait_for(every) == std::future_status::ready) return true;
+          say();
+          return false;
+        },
+        "what the device makes of it");
+  }
   // All of it, until `next` has a frame.
   Result<std::optional<Observation>> SayAllUntil(
       std::future<Result<std::optional<Observation>>>& next, std::optional<float> range_m) {
-    const auto deadline = steady_clock::now() + test::kLongEnough;
-    while (next.wait_for(milliseconds(20)) != std::future_status::ready &&
-           steady_clock::now() < deadline) {
+    Until(next, [&] {
       GoOn();
       if (!run_.topics.scan.empty()) SayScan(range_m);
       if (!run_.topics.ranges.empty()) SayRange(range_m);
       Say();
-    }
+    });
     return next.get();
   }
   // Lying so far uphill.
@@ -120,7 +130,7 @@ class Ros2DeviceTest : public testing::Test {
   // Says it again until the device has it: samples to a reader that is just being matched get lost.
   Result<std::optional<Observation>> SayUntilSeen(bool with_odometry = true) {
     auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-    while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say(with_odometry);
+    Until(next, [&] { Say(with_odometry); });
     return next.get();
   }
   // At thirty frames a second.
@@ -130,10 +140,13 @@ class Ros2DeviceTest : public testing::Test {
       for (int i = 0; seen && i < 5; ++i) seen = device_->Next();
       return seen;
     });
-    while (next.wait_for(kCameraFrame) != std::future_status::ready) {
-      GoOn();
-      Say();
-    }
+    Until(
+        next,
+        [&] {
+          GoOn();
+          Say();
+        },
+        kCameraFrame);
     const auto seen = next.get();
     ASSERT_TRUE(seen) << seen.error().message;
     EXPECT_TRUE((*seen)->odometry);
@@ -200,11 +213,11 @@ TEST_F(Ros2DeviceTest, AFrameComesWithWhatTheImuSaidSinceTheOneBefore) {
   const auto deadline = steady_clock::now() + test::kLongEnough;
   while (felt == 0 && steady_clock::now() < deadline) {
     auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-    while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+    Until(next, [&] {
       GoOn();
       for (int i = 0; i < 4; ++i) SayImu(0.1);
       Say();
-    }
+    });
     const auto seen = next.get();
     ASSERT_TRUE(seen) << seen.error().message;
     felt = (*seen)->imu.size();
@@ -237,7 +250,7 @@ TEST_F(Ros2DeviceTest, GivesEachFrameOnceHoweverOftenItIsSaid) {
     EXPECT_EQ(next.wait_for(milliseconds(10)), std::future_status::timeout);
   }
   GoOn();
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say();
+  Until(next, [&] { Say(); });
   EXPECT_EQ(next.get().value()->stamp, stamp_);
 }
 
@@ -281,11 +294,11 @@ TEST_F(Ros2DeviceTest, OdometryThatIsOnlyRepeatedIsNone) {
     return seen.error().message;
   });
   const SensorTime stands = stamp_;
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn(0.0);
     odometry_lag_ = stamp_ - stands;
     Say();
-  }
+  });
   EXPECT_THAT(next.get(), HasSubstr("no odometry for 0.3 s: it comes, but its stamps do not"));
 }
 
@@ -308,7 +321,7 @@ TEST_F(Ros2DeviceTest, ADamagedPictureIsLeftOut) {
   run_.patience = kSoonTired;
   Open();
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     ASSERT_TRUE(robot_->Publish(dds::Ros2Image{.stamp = stamp_,
                                                .width_px = 160,
@@ -316,7 +329,7 @@ TEST_F(Ros2DeviceTest, ADamagedPictureIsLeftOut) {
                                                .encoding = "mono8",
                                                .step = 160,
                                                .data = {1, 2, 3}}));
-  }
+  });
   const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message, HasSubstr("no picture could be read for 1.5 s"));
@@ -363,10 +376,10 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) 
   ASSERT_TRUE(ToldToStandWithoutPictures());
   const SensorTime silent = stamp_;
   // Stamps go on: on a busy machine odometry that is only repeated would count as standing still.
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     Say();
-  }
+  });
   const auto seen = next.get();
   ASSERT_TRUE(seen) << seen.error().message;
   EXPECT_GT((*seen)->stamp, silent);
@@ -382,10 +395,10 @@ TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
   Open();
   ASSERT_TRUE(SayUntilSeen());
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     SayOdometry();
-  }
+  });
   const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message,
@@ -486,10 +499,10 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheScannerIsSilent) {
     while (seen) seen = device_->Next();
     return seen.error().message;
   });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     Say();
-  }
+  });
   EXPECT_THAT(next.get(), AllOf(HasSubstr("scan /robot1/scan: no scan for 0.3 s"),
                                 HasSubstr("not within 1.5 s")));
   EXPECT_THAT(
@@ -521,10 +534,10 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenARangeSensorIsSilent) {
     while (seen) seen = device_->Next();
     return seen.error().message;
   });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     Say();
-  }
+  });
   EXPECT_THAT(next.get(), HasSubstr("range /robot1/sonar: no range for 0.3 s"));
 }
 
@@ -537,10 +550,10 @@ TEST_F(Ros2DeviceTest, ARangeSensorThatIsNotThereIsNamed) {
   topics.ranges.clear();
   robot_ = dds::Ros2Robot::Open(topics).value();
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     Say();
-  }
+  });
   const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message, HasSubstr("nobody publishes /robot1/sonar"));
@@ -592,10 +605,10 @@ TEST_F(Ros2DeviceTest, WithAScanTopicItDoesNotDriveBeforeTheFirstScan) {
   run_.patience = milliseconds(500);
   Open();
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     GoOn();
     Say();
-  }
+  });
   const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message, HasSubstr("no scan that can be one came on /robot1/scan"));
@@ -629,10 +642,10 @@ TEST_F(Ros2DeviceTest, NeedsOdometryUnlessToldThatThereIsNone) {
   run_.patience = milliseconds(500);
   Open();
   auto next = std::async(std::launch::async, [this] { return device_->Next(); });
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) {
+  Until(next, [&] {
     Say(false);
     GoOn();
-  }
+  });
   const auto seen = next.get();
   ASSERT_FALSE(seen);
   EXPECT_THAT(seen.error().message, HasSubstr("no odometry came on /robot1/odom"));
@@ -669,7 +682,7 @@ TEST_F(Ros2DeviceTest, InLockstepAnswersAlsoWhileTeaching) {
   EXPECT_TRUE(Told(kStand));
   EXPECT_EQ(latest_.stamp, stamp_);
   GoOn();
-  while (next.wait_for(milliseconds(20)) != std::future_status::ready) Say();
+  Until(next, [&] { Say(); });
   EXPECT_TRUE(next.get());
 }
 

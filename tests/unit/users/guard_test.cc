@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "services/users/secret.h"
+#include "tests/support/await.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::users {
@@ -185,10 +186,12 @@ TEST_F(GuardTest, ManyAtOnceAreSentAwayAndHoldUpNobodyWhoIsIn) {
       if (turned != nullptr && turned->why == Turned::Why::kBusy) ++busy;
     });
   }
-  while (busy < kMany - Guard::kMostWaiting - 1 || hashed_ < 2) {
-    EXPECT_TRUE(guard_->WhoIn(session));
-    std::this_thread::yield();
-  }
+  test::Await(
+      [&] {
+        EXPECT_TRUE(guard_->WhoIn(session));
+        return busy >= kMany - Guard::kMostWaiting - 1 && hashed_ >= 2;
+      },
+      "those to be sent away who are too many");
   EXPECT_EQ(hashed_, 2) << "one of the strangers'";
   Hold(false);
   for (std::thread& stranger : strangers) stranger.join();

@@ -28,7 +28,7 @@ class SilentDevice : public test::DrivenDevice {
   Result<std::optional<Observation>> Next() override {
     if (late_ == late_.zero() && along_m > kSilentFrom_m) {
       tell_(why);
-      while (!heard_again) std::this_thread::sleep_for(milliseconds(1));
+      test::Await([this] { return heard_again.load(); }, "the robot to be heard again");
       tell_({});
       late_ += std::chrono::minutes(2);
     }
