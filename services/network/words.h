@@ -103,7 +103,6 @@ struct Listed {
 [[nodiscard]] Listed ParseListed(std::string_view line);
 // Before an edit that is not used.
 inline constexpr std::string_view kUnused = "unused ";
-inline constexpr std::string_view kProposed = "proposed ";
 inline constexpr std::string_view kTakenBy = ", taken by ";
 
 // A PLACE, or what one is called: then `name` alone is set.

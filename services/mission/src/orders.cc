@@ -277,7 +277,7 @@ std::string ToText(const Going& going, std::span<const Task> tasks) {
   if (going.way > 1) text += fmt::format(" way {}", going.way);
   if (going.why == Going::Why::kQueued) text += fmt::format(" {}", kQueued);
   if (going.why == Going::Why::kAdmitted) text += fmt::format(" {}", kAdmitted);
-  text += " " + ToText(tasks);
+  text += fmt::format(" {}", ToText(tasks));
   if (!going.because.empty()) text += " because " + going.because;
   return text;
 }

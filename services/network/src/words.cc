@@ -27,6 +27,7 @@ constexpr const char* kEdits =
     "PLACE PLACE' or 'refuse all [below F]'";
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
+constexpr std::string_view kProposed = "proposed ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
 
