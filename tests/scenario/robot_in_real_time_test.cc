@@ -1,4 +1,5 @@
 // An agent follows a virtual robot that keeps pace with the clock, and over what real ones do.
+#include <string>
 #include <vector>
 
 #include "tests/scenario/robots.h"
@@ -10,8 +11,8 @@ using testing::HasSubstr;
 
 struct Life {
   const char* name;
-  Words robot;
-  Words said;
+  std::vector<std::string> robot;
+  std::vector<std::string> said;
 };
 
 class RobotInRealTime : public RobotsTest, public testing::WithParamInterface<Life> {};
