@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/exchange/bounds.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
 
