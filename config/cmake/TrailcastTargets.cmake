@@ -80,11 +80,11 @@ endfunction()
 #                APART b_test.cc DEPS x SHARDS n)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation.
 # The cases of a unit test's program run in one process, since under sanitizers most take longer to
-# start than to run; where they wait, SHARDS of them run side by side. With TOGETHER other cases are
+# start than to run; where that takes a minute, SHARDS of them run side by side. With TOGETHER other cases are
 # one as well, since they share what is slow to come by.
 # ALONE: nothing runs beside them, since they measure time; REAL_TIME: no other such, since their
 # robots keep pace with the clock; WAITS: it mostly waits, and takes half as much of a machine as
-# others: ./run test has twice as many at a time as there are cores, of which the others count for two.
+# others, of which each counts for two of the tests that ./run test has at a time.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
 # `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
