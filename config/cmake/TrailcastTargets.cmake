@@ -80,8 +80,8 @@ endfunction()
 #                APART b_test.cc DEPS x SHARDS n)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation.
 # The cases of a unit test's program run in one process, since under sanitizers most take longer to
-# start than to run; where that takes a minute, SHARDS of them run side by side. With TOGETHER other cases are
-# one as well, since they share what is slow to come by.
+# start than to run; where that takes a minute, SHARDS of them run side by side. With TOGETHER other
+# cases are one as well, since they share what is slow to come by.
 # ALONE: nothing runs beside them, since they measure time; REAL_TIME: no other such, since their
 # robots keep pace with the clock; WAITS: it mostly waits, and takes half as much of a machine as
 # others, of which each counts for two of the tests that ./run test has at a time.
