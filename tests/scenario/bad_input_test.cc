@@ -117,6 +117,18 @@ TEST_F(BadInputTest, ALogThatIsNoMcapFile) {
   EXPECT_THAT(told.output, HasSubstr("not a replay's log: it is no MCAP file"));
 }
 
+// People's scripts say where a robot begins: whichever way they do, it is the route that is
+// missing.
+TEST_F(BadInputTest, EachWayToSayWhereARobotBeginsIsUnderstood) {
+  const std::string walk = Walk("walk", 2);
+  for (const Words& begins :
+       {Words{"--from-start"}, Words{"--start", "beginning"}, Words{"--start", "anywhere"}}) {
+    const auto run = RunAgent(With(ReplayWords(walk, "a.db"), begins));
+    EXPECT_EQ(run.status, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("there is no route"));
+  }
+}
+
 TEST_F(BadInputTest, ANameThatIsNone) {
   const auto run = RunAgent(With(TeachWords("x", "a.db"), {"--name", "Dr. Who?"}));
   EXPECT_EQ(run.status, 2);

@@ -184,6 +184,8 @@ void AddReplayOptions(CLI::App& command, ReplayCommand& replay) {
       ->check(CLI::Range(1, 1'000'000))
       ->needs(view);
   command.option_defaults()->group(kHowItFollows);
+  command.add_flag("--from-start", replay.from_start,
+                   "With --start left: forgets where its last run has left it");
   command.add_option("--speed-factor", replay.speed_factor, "Times the taught speed")
       ->check(CLI::Range(0.1, 3.0));
   command.add_flag("--backwards", replay.backwards,

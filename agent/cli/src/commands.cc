@@ -134,7 +134,7 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.diagnosis.patient = follower.open_loop;
   follower.how.session.anywhere = replay.start == "anywhere";
   follower.how.session.else_anywhere = replay.start == "left" && !follower.open_loop;
-  follower.link.from_start = replay.start != "left";
+  follower.link.from_start = replay.from_start || replay.start != "left";
   // A robot of its own: one that is simulated here begins at the start whenever its agent does.
   if (!follower.open_loop && !replay.device.is_simulated()) {
     follower.link.place_file = BesideStore(options, "place");

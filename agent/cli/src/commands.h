@@ -51,6 +51,7 @@ struct ReplayCommand {
   bool wait_for_route = false;
   double speed_factor = 1.0;
   bool backwards = false;
+  bool from_start = false;
   std::string start = "left";
   double look_around_deg = kUsualLookAround_deg;
   double keep_distance_m = KeepDistanceOptions{}.distance_m;

@@ -134,7 +134,7 @@ bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
   const char* what_to_do = place_finder_->told()
                                ? "Put it there, or send it from where it stands"
                                : "Put it back to either, or begin at the start all the same with "
-                                 "--start beginning";
+                                 "--from-start";
   standing.state = ReplayState::kLost;
   standing.trust = Trust::kLost;
   standing.reason = fmt::format("not {}, {}{} in view at best. {}", there, elsewhere,
