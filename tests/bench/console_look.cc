@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
-#include <functional>
 #include <future>
 #include <memory>
 #include <sstream>
@@ -34,15 +33,6 @@ constexpr int kHeapsOfADay = 24;
 
 double Since_s(steady_clock::time_point then) {
   return std::chrono::duration<double>(steady_clock::now() - then).count();
-}
-
-bool WaitFor(const std::function<bool()>& condition) {
-  const auto until = steady_clock::now() + test::kLongEnough;
-  while (!condition()) {
-    if (steady_clock::now() > until) return false;
-    std::this_thread::sleep_for(milliseconds(50));
-  }
-  return true;
 }
 
 // Of all of the process's threads.
@@ -103,7 +93,7 @@ class Look {
       for (int i = 0; i < kMorePages; ++i) pages.push_back(std::make_unique<Listener>(port_));
       Cost(fmt::format("{} streams", kMorePages));
     }
-    if (!WaitFor([&] { return Metric("trailcast_console_streams") == 0.0; }))
+    if (!test::WaitUntil([&] { return Metric("trailcast_console_streams") == 0.0; }))
       return Fail(ErrorCode::kUnavailable, "streams stay");
     if (auto looked = Pages(); !looked) return looked;
     if (options_.day > 0) return Day();
@@ -158,7 +148,7 @@ class Look {
     const std::string output = console_->output();
     port_ = std::stoi(output.substr(output.find(said) + said.size()));
     const double moving = 0.9 * options_.robots;
-    if (!WaitFor([&] { return Metric("trailcast_robots{state=\"driving\"}") >= moving; })) {
+    if (!test::WaitUntil([&] { return Metric("trailcast_robots{state=\"driving\"}") >= moving; })) {
       return Failed("the console does not hear all robots:\n" + console_->output());
     }
     return SendAll();
@@ -264,7 +254,7 @@ class Look {
   // In ms; 0: never.
   double Shown() {
     double ms = 0.0;
-    (void)WaitFor([&] {
+    (void)test::WaitUntil([&] {
       const Json shown = browser_->Run("return bench.shown()");
       ms = shown.is_number() ? shown.get<double>() : 0.0;
       return ms > 0.0;

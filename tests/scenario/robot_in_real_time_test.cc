@@ -28,12 +28,7 @@ TEST_P(RobotInRealTime, IsFollowed) {
   for (const std::string& word : GetParam().said) {
     EXPECT_THAT(follower->output(), HasSubstr(word));
   }
-  robot->Signal(SIGTERM);
-  ASSERT_EQ(End(*robot).status, 0) << robot->output();
-  const auto places = TruePlaces();
-  ASSERT_FALSE(places.empty());
-  EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
-  EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
+  EndAtThePathsEnd(*robot);
 }
 
 INSTANTIATE_TEST_SUITE_P(

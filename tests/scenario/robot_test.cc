@@ -61,12 +61,8 @@ TEST_F(RobotTest, AFollowerWaitsBeforeWhatStandsInItsWayAndArrives) {
     EXPECT_THAT(follower->output(),
                 AllOf(HasSubstr("in the way: the robot waits"), HasSubstr("the way is free"),
                       HasSubstr("state=ARRIVED")));
-    robot->Signal(SIGTERM);
-    ASSERT_EQ(End(*robot).status, 0) << robot->output();
+    ASSERT_NO_FATAL_FAILURE(EndAtThePathsEnd(*robot));
     const auto places = TruePlaces();
-    ASSERT_FALSE(places.empty());
-    EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
-    EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
     // Its front is 0.2 m ahead of its axle, the obstacle's near side at 2.8 m.
     const double stood_m = LongestStand(places);
     EXPECT_LE(stood_m, 2.8 - 0.2 - 0.2);
@@ -104,12 +100,7 @@ TEST_F(RobotTest, ACarArrives) {
                                       "--sim-truth", Path("truth.csv")});
   const auto follower = Follow({"--lockstep", "--min-turn-radius", "0.6", "--max-speed", "0.3"});
   EXPECT_EQ(End(*follower).status, 0) << follower->output() << robot->output();
-  robot->Signal(SIGTERM);
-  ASSERT_EQ(End(*robot).status, 0) << robot->output();
-  const auto places = TruePlaces();
-  ASSERT_FALSE(places.empty());
-  EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
-  EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
+  EndAtThePathsEnd(*robot);
 }
 
 TEST_F(RobotTest, AnAgentWithoutARobotSaysWhatIsMissing) {

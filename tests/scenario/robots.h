@@ -120,6 +120,15 @@ class RobotsTest : public ProgramsTest {
     }
     return places;
   }
+  // The robot is stopped, and its truth says that it has come to the end of kPath.
+  void EndAtThePathsEnd(Process& robot) {
+    robot.Signal(SIGTERM);
+    ASSERT_EQ(End(robot).status, 0) << robot.output();
+    const auto places = TruePlaces();
+    ASSERT_FALSE(places.empty());
+    EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
+    EXPECT_NEAR(places.back().y_m, 1.5, 0.25);
+  }
   static double Number(const std::string& text, const std::string& key) {
     const auto at = text.find(key + "=");
     double value = -1.0;

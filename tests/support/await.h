@@ -12,19 +12,25 @@ namespace trailcast::test {
 // a fault alone reaches it: a test that passes never waits for it.
 inline constexpr std::chrono::seconds kLongEnough{120};
 
-// Asks again and again until `condition` holds. A test in which it does not within kLongEnough
-// fails, and names `what` it waited for. The condition may itself wait for a moment.
+// Asks every `pause` whether `condition` holds. False: it did not within `bound`.
 template <typename Condition>
-bool Await(Condition condition, std::string_view what) {
-  const auto until = std::chrono::steady_clock::now() + kLongEnough;
+[[nodiscard]] bool WaitUntil(Condition condition, std::chrono::seconds bound = kLongEnough,
+                             std::chrono::milliseconds pause = std::chrono::milliseconds(20)) {
+  const auto until = std::chrono::steady_clock::now() + bound;
   while (!condition()) {
-    if (std::chrono::steady_clock::now() > until) {
-      ADD_FAILURE() << "not within " << kLongEnough.count() << " s: " << what;
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (std::chrono::steady_clock::now() > until) return false;
+    std::this_thread::sleep_for(pause);
   }
   return true;
+}
+
+// A test in which `condition` does not come to hold fails, and names `what` it waited for. The
+// condition may itself wait for a moment.
+template <typename Condition>
+bool Await(Condition condition, std::string_view what) {
+  const bool holds = WaitUntil(condition, kLongEnough, std::chrono::milliseconds(1));
+  EXPECT_TRUE(holds) << "not within " << kLongEnough.count() << " s: " << what;
+  return holds;
 }
 
 }  // namespace trailcast::test

@@ -13,7 +13,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/support/await.h"
@@ -72,7 +71,7 @@ class Process {
 
   // The exit status, or 128 and the signal that ended it; nothing if it goes on beyond the bound.
   [[nodiscard]] std::optional<int> Wait(std::chrono::seconds bound = kLongEnough) {
-    WaitUntil([&] { return Ended(); }, bound);
+    (void)WaitUntil([&] { return Ended(); }, bound);
     return status_;
   }
   [[nodiscard]] bool Ended() {
@@ -84,16 +83,6 @@ class Process {
   }
 
  private:
-  template <typename Predicate>
-  static bool WaitUntil(Predicate predicate, std::chrono::seconds bound = kLongEnough) {
-    const auto deadline = std::chrono::steady_clock::now() + bound;
-    while (!predicate()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return true;
-  }
-
   std::filesystem::path output_;
   pid_t pid_ = -1;
   std::optional<int> status_;

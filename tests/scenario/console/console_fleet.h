@@ -3,7 +3,6 @@
 #include <httplib.h>
 
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/robots.h"
@@ -82,15 +81,6 @@ class ConsoleFleetTest : public RobotsTest {
       if (robot["name"] == "robot1") return robot;
     }
     return json::object();
-  }
-  static bool WaitUntil(const std::function<bool()>& condition) {
-    using std::chrono::steady_clock;
-    const auto until = steady_clock::now() + test::kLongEnough;
-    while (!condition()) {
-      if (steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return true;
   }
   bool WaitForState(const std::string& state) {
     return WaitUntil([&] { return Robot1().value("state", "") == state; });

@@ -29,14 +29,11 @@ class ConsoleRoutesTest : public ConsoleFleetTest {
   void Slide() { ASSERT_TRUE(browser_->Type("//input[@type='range']", kSlide)); }
   // Of a picture that was chosen.
   bool WaitForAnswer() {
-    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
-    while (std::chrono::steady_clock::now() < until) {
+    return WaitUntil([&] {
       const std::string text = browser_->Text();
       const bool none = text.find("No route looks like this") != text.npos;
-      if (none || text.find("segment ") != text.npos || text.find("⚠") != text.npos) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return false;
+      return none || text.find("segment ") != text.npos || text.find("⚠") != text.npos;
+    });
   }
 
   std::unique_ptr<Browser> browser_;

@@ -88,12 +88,7 @@ class Browser {
     return text.is_string() ? text.get<std::string>() : text.dump();
   }
   [[nodiscard]] bool WaitForText(const std::string& text) {
-    const auto until = std::chrono::steady_clock::now() + test::kLongEnough;
-    while (Text().find(text) == std::string::npos) {
-      if (std::chrono::steady_clock::now() > until) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return true;
+    return WaitUntil([&] { return Text().find(text) != std::string::npos; });
   }
   // As a person's click: where the element is, if nothing lies above it. Until then, and while it
   // moves away under the pointer, it is tried again.
@@ -112,12 +107,8 @@ class Browser {
   }
   // Once the element is there.
   [[nodiscard]] bool Type(const std::string& xpath, const std::string& keys) {
-    const auto gives_up = std::chrono::steady_clock::now() + test::kLongEnough;
     std::string element;
-    while ((element = Find(xpath)).empty()) {
-      if (std::chrono::steady_clock::now() > gives_up) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    if (!WaitUntil([&] { return !(element = Find(xpath)).empty(); })) return false;
     return Ask("POST", session_ + "/element/" + element + "/value", {{"text", keys}}).is_null();
   }
   // Whatever has the focus sees the key go down, and up again after so long.
