@@ -1,4 +1,4 @@
-// What members of the fleet ask of the server, want changed, and send robots to do.
+// The server handles here what members of the fleet ask, want changed, and send robots to do.
 #include "route_server/server.h"
 #include "services/base/unix_time.h"
 #include "services/catalog/catalog.h"
@@ -85,7 +85,7 @@ Result<void> Server::Enqueue(const exchange::Message& request) {
   return added;
 }
 
-// At least one, and no more than fit into the slice. Missions are stored with one commit.
+// Serves at least one, and no more than fit into the slice. It stores missions with one commit.
 void Server::ServeRequests() {
   const auto until = steady_clock::now() + kRequestsASlice;
   std::vector<mission::Mission> missions;

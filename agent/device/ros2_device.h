@@ -45,7 +45,7 @@ struct Ros2Run {
 class Ros2Device final : public RobotDevice {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Device>> Open(const Ros2Run& run);
-  // The same over a driver that is open; what Open refuses is not looked at.
+  // This takes a driver that is open already, and does not look at what Open refuses.
   Ros2Device(const Ros2Run& run, std::unique_ptr<dds::Ros2Driver> driver);
   ~Ros2Device() override;
 

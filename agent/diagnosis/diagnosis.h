@@ -18,7 +18,7 @@ struct DiagnosisOptions {
   std::filesystem::path log{};   // an MCAP file; empty: none
   std::filesystem::path view{};  // a folder for pictures of the frames; empty: none
   int view_every = 1;            // frames
-  // Nothing drives: rather wait for a slow disk than leave frames out of the log.
+  // Nothing drives here, so it waits for a slow disk rather than leave frames out of the log.
   bool patient = false;
   double picture_every_s = kEveryPicture_s;  // in the log; 0: none
   // Then a log has no more frames, and says so; 0: any number.

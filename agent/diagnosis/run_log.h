@@ -94,7 +94,7 @@ struct RunEvent {
   std::string text{};  // for people; may be empty
 };
 
-// What happened, in a line: without the frame and the time.
+// Describes what happened in one line, without the frame and the time.
 [[nodiscard]] std::string DescribeEvent(const RunEvent& event);
 
 struct RunLog {

@@ -21,8 +21,8 @@ struct ReadLimits {
 [[nodiscard]] Result<RunLog> ReadRunLog(const std::filesystem::path& file,
                                         const ReadLimits& limits = {});
 
-// The same without what lies between a long log's first frame and its last seconds, and without
-// what is damaged, for those who list many.
+// Reads a log for those who list many: it leaves out what lies between a long log's first frame and
+// its last seconds, and what is damaged.
 [[nodiscard]] Result<RunLog> ReadRunEnds(const std::filesystem::path& file);
 
 }  // namespace trailcast::agent

@@ -35,8 +35,8 @@ class RunMcap {
   explicit RunMcap(double picture_every_s = kEveryPicture_s);
   void Add(const RunMoment& moment);
   void End();
-  // What has been made since the last time: the first frame, and what is said between frames, at
-  // once, else a second of frames.
+  // Returns what has been made since the last time: the first frame and what is said between frames
+  // come at once, other frames by the second.
   [[nodiscard]] bag::Bytes TakeBytes() { return writer_.TakeBytes(); }
 
  private:

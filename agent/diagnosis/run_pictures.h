@@ -13,8 +13,8 @@
 
 namespace trailcast::agent {
 
-// What a replay's log has of what its robot saw, found by the times of frames. One thread at a
-// time.
+// This finds the pictures in a replay's log by the times of frames. One thread at a time may use
+// it.
 class RunPictures {
  public:
   // The largest that is handed out.

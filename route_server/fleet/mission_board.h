@@ -19,7 +19,7 @@
 
 namespace trailcast::server {
 
-// What a server says of a mission that it does not take now.
+// A server answers with this report to a mission that it does not take now.
 [[nodiscard]] mission::Report PutOff(const mission::Mission& mission, const std::string& why);
 
 // Keeps what operators send robots to do: stores it before it says so, hands it over once the robot
@@ -72,7 +72,7 @@ class MissionBoard {
   [[nodiscard]] Result<void> LoadCurrent();
   void NoteCurrent(const mission::Report& report);
   void Keep(const mission::Mission& mission, mission::Record stored);
-  // Those that no robot has answered and that it gives a reason for, with one commit.
+  // Drops with one commit the missions that no robot has answered and that `why` has a reason for.
   using Why = std::function<std::optional<std::string>(const mission::Record&)>;
   void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms);
   void Expire(std::int64_t now_unix_ms);

@@ -301,7 +301,7 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   }
   if (why_not) {
     const bool is_queued = rest->going.why == Why::kQueued;
-    // After a start of the server: it is taken to have been told what is so now.
+    // After the server has started, a robot is taken to have been told what is so now.
     if (is_queued && !robot.told) robot.told = why_not;
     const bool is_told = is_queued && robot.told == why_not;
     // While it still drives it may come to an end without a stop.

@@ -46,7 +46,7 @@ class LaneKeeper {
   [[nodiscard]] Lines LookAtAll(Time now);
 
  private:
-  // For whom one waits that is not let in.
+  // A robot that is not let in is told for whom it waits.
   struct WhyNot {
     AgentId other{};
     std::string lane{};      // that it is to leave, as people call it; empty: it is ahead of it

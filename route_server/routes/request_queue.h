@@ -11,13 +11,13 @@
 
 namespace trailcast::server {
 
-// Who asks, of one of those that wait here: all processes of a member together.
+// Tells which member asks; all of its processes are one.
 [[nodiscard]] AgentId MemberOf(const exchange::Message& request);
 
-// What members of the fleet ask of the catalog, the network of routes or the missions, what they
-// want changed, and the missions that they send, waits here for its turn: the members are served
-// one after the other, each in the order in which it asked, so that one who asks for much, or
-// slowly, holds up neither the others nor the segments. Bounded.
+// Questions about the catalog, the network of routes and missions, edits, and the missions that are
+// sent wait here for their turn. The members of the fleet are served one after the other, each in
+// the order in which it asked, so that one who asks for much, or slowly, delays neither the others
+// nor the segments. The queue is bounded.
 class RequestQueue {
  public:
   static constexpr std::size_t kMostOfAMember = 16;
@@ -28,7 +28,7 @@ class RequestQueue {
   // too many wait.
   [[nodiscard]] Result<void> Add(const exchange::Message& request);
   [[nodiscard]] std::optional<exchange::Message> Next();
-  // All that wait, before their turn: what is told to robots now is about them, too.
+  // Takes all missions before their turn: what is told to robots now is about them, too.
   [[nodiscard]] std::vector<mission::Mission> TakeMissions();
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }

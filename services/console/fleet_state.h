@@ -17,9 +17,9 @@ namespace trailcast::console {
 
 enum class RobotState : std::uint8_t;
 
-// What openapi.yaml calls State, of what FleetState::Shown gives. Without line breaks.
+// Makes what openapi.yaml calls State of what FleetState::Shown gives, without line breaks.
 [[nodiscard]] std::string StateBody(const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
-// What openapi.yaml calls Change: what of `state` is not as in `from`.
+// Makes what openapi.yaml calls Change: it has what of `state` is not as in `from`.
 [[nodiscard]] std::string ChangeBody(const nlohmann::ordered_json& from,
                                      const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
 
@@ -54,7 +54,7 @@ class FleetState {
   // Routes that robots are on and of which more is to be asked now.
   [[nodiscard]] std::vector<RouteId> TakeLackingRoutes(Time now);
 
-  // What openapi.yaml calls State, but for its time: robots by name, all with the same members;
+  // Shows what openapi.yaml calls State, but for its time: robots by name, with the same members;
   // missions are null until it is known whether there are any.
   [[nodiscard]] nlohmann::ordered_json Shown() const;
   // Robots, servers and missions, for Prometheus.

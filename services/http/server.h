@@ -46,7 +46,7 @@ struct Refusal {
 // told to it before it listens.
 class Server final : public httplib::Server {
  public:
-  // Of what was thrown on its threads: whoever asked was answered with 500, or hung up on.
+  // It is told what was thrown on its threads; whoever asked was answered with 500 or hung up on.
   using Complain = std::function<void(const Error&)>;
   using Judge = std::function<std::optional<Refusal>(const httplib::Request&)>;
   using Refuse = std::function<void(const Refusal&, httplib::Response&)>;
@@ -69,7 +69,7 @@ class Server final : public httplib::Server {
   [[nodiscard]] int port() const { return port_; }
 
  private:
-  // Until it is over, whatever is thrown meanwhile.
+  // Accepts until it is over, whatever is thrown meanwhile.
   void AcceptAll();
   void Accept();
   [[nodiscard]] bool Failed(const Result<void>& done) const;  // and complains of it

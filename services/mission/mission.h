@@ -44,7 +44,7 @@ inline constexpr std::uint8_t kStates = 10;  // those that a mission is kept in
 [[nodiscard]] const char* ToString(State state);  // "under way"
 [[nodiscard]] bool HasEnded(State state);
 
-// What a robot stands and waits for, by its own word, that cannot go on by itself.
+// A robot that cannot go on by itself says what it stands and waits for.
 enum class WaitsFor : std::uint8_t {
   kNothing = 0,
   kWay = 1,   // off the way that it was sent last, or at its end: to be told another from there

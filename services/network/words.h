@@ -133,7 +133,7 @@ struct Question {
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
 [[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
-// For people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
+// Says for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
 [[nodiscard]] std::string Describe(const LostStretch& lost);
 
 // What holds after such an edit: of one kind, a closed stretch, one that is driven backwards, too,

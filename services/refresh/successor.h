@@ -8,7 +8,7 @@
 
 namespace trailcast::refresh {
 
-// What a revision is tagged with that refreshes another one (RouteInfo::refreshes), so that it is
+// A revision that refreshes another one (RouteInfo::refreshes) is tagged with this, so that it is
 // found.
 inline constexpr std::string_view kTag = "refreshed";
 

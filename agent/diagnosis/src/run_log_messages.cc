@@ -24,8 +24,8 @@ constexpr std::uint64_t kMostGrowth = 32;
 using Member = std::variant<int FrameRow::*, double FrameRow::*, std::optional<double> FrameRow::*,
                             Phase FrameRow::*>;
 
-// Those of the message Frame, in the order of its fields, which are numbered from 1: writer and
-// reader are made of this table.
+// The message Frame has these members, in the order of its fields, which are numbered from 1. The
+// writer and the reader both go by this table.
 const std::array kMembers = std::to_array<Member>({
     &FrameRow::frame,
     &FrameRow::t_s,

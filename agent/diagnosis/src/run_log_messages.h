@@ -12,8 +12,8 @@
 
 namespace trailcast::agent {
 
-// Where in its MCAP file a log has its messages of idl/run_log.proto, which are what readers of it
-// go by.
+// A log has its messages of idl/run_log.proto under these topics of its MCAP file; its readers go
+// by them alone.
 inline constexpr const char* kHeaderTopic = "/replay/header";
 inline constexpr const char* kFrameTopic = "/replay/frame";
 inline constexpr const char* kEventTopic = "/replay/event";
@@ -25,8 +25,8 @@ inline constexpr std::size_t kMostFields = 64;
 [[nodiscard]] std::string FrameMessage(const FrameRow& row);
 [[nodiscard]] std::string EventMessage(const RunEvent& event);
 
-// Of bytes that may be anybody's. Texts are plain, numbers finite; fields that are not known are
-// passed over. Errors are kCorrupt and say what is wrong with the message.
+// These read bytes that may be anybody's. They return plain texts and finite numbers, and pass over
+// fields that they do not know. Errors are kCorrupt and say what is wrong with the message.
 [[nodiscard]] Result<Fields> ReadHeader(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<FrameRow> ReadFrame(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<RunEvent> ReadEvent(std::span<const std::uint8_t> message);

@@ -16,7 +16,7 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kDamageKept = 20;
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-// Of a log that is read for a list.
+// These bound what is read of a log for a list.
 constexpr std::chrono::seconds kEnd{2};
 constexpr std::size_t kMostAtTheEnd = 10'000;
 

@@ -5,7 +5,7 @@
 
 namespace trailcast::agent {
 
-// Of its feature, in pictures and in logs.
+// Pictures and logs draw a verdict's feature in this colour.
 [[nodiscard]] image::Color VerdictColor(replay::FeatureVerdict verdict);
 
 }  // namespace trailcast::agent

@@ -38,7 +38,7 @@ double CpuMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// For people; `last`: the state of the last step.
+// Tells people how a run ended; `last` is the state of its last step.
 const char* StateText(RunEnd end, ReplayState last) {
   switch (end) {
     case RunEnd::kArrived:
@@ -63,7 +63,7 @@ const char* StateText(RunEnd end, ReplayState last) {
   return "UNKNOWN";
 }
 
-// Of a run that ends when the robot is so.
+// A run that ends while the robot is in `state` ends like this.
 RunEnd EndIn(ReplayState state) {
   if (state == ReplayState::kArrived) return RunEnd::kArrived;
   if (state == ReplayState::kLost) return RunEnd::kLost;

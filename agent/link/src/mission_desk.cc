@@ -35,7 +35,7 @@ std::vector<std::string> FieldsIn(const std::string& line) {
   }
 }
 
-// For people: of one who is on another way than at first, which.
+// Adds for people which way a robot is on, if that is not the first.
 std::string WithWay(const std::string& detail, std::uint32_t way) {
   return way < 2 ? detail : fmt::format("{}{}(way {})", detail, detail.empty() ? "" : " ", way);
 }

@@ -38,7 +38,7 @@ Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission) {
   return orders;
 }
 
-// With the name, which is the first and stays.
+// A change has the name as well, which comes first and stays.
 Json Changed(const Json& from, const Json& to) {
   Json changed = Json::object();
   for (const auto& [name, value] : to.items()) {

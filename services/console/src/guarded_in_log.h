@@ -9,7 +9,7 @@
 
 namespace trailcast::console {
 
-// As Guarded. Whoever asked for it is told of a fault of the program, and so is the console's log.
+// Does what Guarded does, and tells the console's log of a fault of the program as well.
 template <typename Body>
 [[nodiscard]] auto GuardedInLog(std::string_view thread, Body&& body) {
   auto done = Guarded(thread, std::forward<Body>(body));

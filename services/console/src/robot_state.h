@@ -7,7 +7,7 @@
 
 namespace trailcast::console {
 
-// What a robot does.
+// A robot is shown in one of these states.
 enum class RobotState : std::uint8_t {
   kSilent,
   kStopped,
@@ -21,7 +21,7 @@ enum class RobotState : std::uint8_t {
   kEnded,
   kFault
 };
-// In the words of openapi.yaml, in that order.
+// These are openapi.yaml's words for them, in that order.
 inline constexpr std::array kRobotStates{"silent",  "stopped", "paused",   "starting",
                                          "free",    "waiting", "teaching", "driving",
                                          "arrived", "ended",   "fault"};

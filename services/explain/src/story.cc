@@ -102,7 +102,7 @@ std::string WhatHappened(const Story& story) {
   return text;
 }
 
-// All that is in the log beside frames.
+// Lists all that is in the log beside frames.
 std::string Events(const RunLog& log) {
   std::string text = "Events\n";
   for (const agent::RunEvent& event : log.events) {

@@ -57,7 +57,7 @@ Json JointJson(const network::Joint& joint) {
           {"lie", std::move(lie)}};
 }
 
-// With what is said of it besides.
+// Adds to an object what is said of it besides.
 Json With(Json object, const char* name, Json value) {
   object[name] = std::move(value);
   return object;

@@ -12,7 +12,7 @@
 
 namespace trailcast::demo {
 
-// What became of a journey by its robot's own word.
+// A journey ended like this by its robot's own word.
 struct JourneyEnd {
   std::string said;                     // what `send` said of it last, for people
   std::optional<mission::Report> last;  // none was heard: it was not sent

@@ -25,7 +25,7 @@ class NetworkShow {
   NetworkShow(std::filesystem::path programs, std::filesystem::path folder,
               const program::CommonOptions& network, const NetworkPlan& plan);
 
-  // Whatever is heard; from the main thread, as all of this.
+  // Takes in whatever is heard. The main thread calls this, as all of this class.
   void Hear(const std::vector<exchange::Message>& messages);
   // As far as it can go now; from the main thread. An error: a command that failed, and what it
   // said.
@@ -34,7 +34,7 @@ class NetworkShow {
   [[nodiscard]] bool over() const { return stage_ == Stage::kOver; }
   // What was typed, each with the line it was answered with last.
   [[nodiscard]] const std::vector<std::string>& typed() const { return typed_; }
-  // What became of each journey, in the plan's order.
+  // Tells how each journey ended, in the plan's order.
   [[nodiscard]] std::vector<JourneyEnd> Ends() const;
 
  private:

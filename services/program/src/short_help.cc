@@ -17,7 +17,7 @@ struct Group {
   Options options;
 };
 
-// Those of `app` that have a group; one that a command shares with others has its own help flags.
+// Sorts the options of `app` by group. What a command shares with others comes without help flags.
 std::vector<Group> GroupsOf(const CLI::App& app, bool shared) {
   std::vector<Group> groups;
   for (const std::string& name : app.get_groups()) {

@@ -126,7 +126,7 @@ std::string EndedStates() {
   return list;
 }
 
-// That a row's client is the name in a parameter, or one of its processes: ProcessName puts "-p"
+// A row's client must be the name in the parameter or one of its processes: ProcessName puts "-p"
 // and digits behind, so that "desk-p7" is of "desk", and "desk-pump" is not.
 std::string IsOrIsOf(int parameter) {
   return fmt::format(
