@@ -17,6 +17,7 @@
 #include "services/lab/trial/judge/recording_csv.h"
 #include "services/lab/trial/judge/recording_plot.h"
 #include "services/lab/trial/judge/recording_report.h"
+#include "services/lab/trial/recording/odometry_noise.h"
 #include "services/program/live_lines.h"
 #include "services/program/output_file.h"
 #include "services/tool/commands/command.h"
@@ -37,6 +38,7 @@ struct JudgeCommand {
   fs::path replay_odometry;
   std::optional<double> rate_hz;
   std::vector<std::string> disturbances{"none"};
+  std::vector<std::string> odometry_noises{"none"};
   fs::path pairs;
   fs::path data;
   std::string method = "default";
@@ -84,7 +86,8 @@ constexpr const char* kJudgeExamples =
     "A file of pairs is a CSV with the columns teach,replay and, as far as they are needed,\n"
     "kind (identity, right, wrong), set (pairs that make a column of the tables), truth, "
     "steering,\n"
-    "disturb, teach_odometry, replay_odometry, rate, visits (with + between), disturb_visits.\n"
+    "disturb, teach_odometry, replay_odometry, odometry_noise, rate, visits (with + between),\n"
+    "disturb_visits.\n"
     "\n"
     "Disturbances, drawn from --seed; several are joined with '+':\n";
 
@@ -115,6 +118,13 @@ void AddPairOptions(CLI::App& app, JudgeCommand& judge) {
       ->needs(teach);
   app.add_option("--replay-odometry", judge.replay_odometry, "The same, of the replay")
       ->needs(replays);
+  app.add_option("--odometry-noise", judge.odometry_noises,
+                 "What is wrong with the replay's odometry: see below; with commas between, one "
+                 "after the other")
+      ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false)
+      ->needs("--replay-odometry");
   app.add_option("--rate", judge.rate_hz, "Frames a second; default: the video's own, or 30")
       ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--disturb", judge.disturbances,
@@ -168,6 +178,15 @@ std::string ShortName(const fs::path& recording) {
   return (path.parent_path().filename() / path.filename()).string();
 }
 
+// What is done to the pictures, and to the odometry, in each of the replays of a recording.
+std::vector<std::pair<std::string, std::string>> Each(const JudgeCommand& judge) {
+  std::vector<std::pair<std::string, std::string>> each;
+  for (const std::string& disturbance : judge.disturbances) {
+    for (const std::string& noise : judge.odometry_noises) each.emplace_back(disturbance, noise);
+  }
+  return each;
+}
+
 Result<std::vector<trial::RecordingPair>> PairsOf(const JudgeCommand& judge) {
   if (!judge.pairs.empty()) {
     return trial::ReadPairs(judge.pairs,
@@ -183,9 +202,14 @@ Result<std::vector<trial::RecordingPair>> PairsOf(const JudgeCommand& judge) {
     const auto parsed = trial::ParseDisturbance(disturbance);
     if (!parsed) return tl::unexpected(parsed.error());
   }
+  for (const std::string& noise : judge.odometry_noises) {
+    if (auto parsed = trial::ParseOdometryNoise(noise); !parsed) {
+      return tl::unexpected(parsed.error());
+    }
+  }
   std::vector<trial::RecordingPair> pairs;
   for (const fs::path& replay : judge.replays) {
-    for (const std::string& disturbance : judge.disturbances) {
+    for (const auto& [disturbance, noise] : Each(judge)) {
       trial::RecordingPair pair;
       pair.kind =
           IsSame(judge.teach, replay) ? trial::PairKind::kIdentity : trial::PairKind::kRight;
@@ -198,6 +222,7 @@ Result<std::vector<trial::RecordingPair>> PairsOf(const JudgeCommand& judge) {
       pair.reference = judge.truth;
       pair.steering = judge.steering;
       pair.disturbance = disturbance == "none" ? "" : disturbance;
+      pair.odometry_noise = noise;
       pairs.push_back(std::move(pair));
     }
   }
@@ -260,7 +285,9 @@ Command AddJudgeCommand(CLI::App& parent) {
   auto judge = std::make_shared<JudgeCommand>();
   CLI::App* app = parent.add_subcommand(
       "judge", "Teach and replay recordings, and measure how well the route was followed");
-  app->footer(kJudgeExamples + trial::ChangeHelp());
+  app->footer(kJudgeExamples + trial::ChangeHelp() +
+              "\nWhat may be wrong with odometry, several joined with '+':\n" +
+              trial::OdometryNoiseHelp());
   AddOptions(*app, *judge);
   app->callback([judge] {
     if (judge->replays.empty() && judge->pairs.empty()) {

@@ -32,12 +32,13 @@ struct RecordingPair {
   std::filesystem::path reference;  // of the replay on the teaching; empty: none
   std::filesystem::path steering;   // of the replay's driver; empty: none
   std::string disturbance;          // of the replay, as ParseDisturbance takes it
+  std::string odometry_noise;       // of the replay's odometry, as ParseOdometryNoise takes it
 };
 
 // CSV with a header; `teach` and `replay` are needed, `kind`, `set`, `truth`, `steering`,
-// `disturb`, `teach_odometry`, `replay_odometry`, `rate`, `visits` (with + between) and
-// `disturb_visits` may be given, in any order. Files are below `root` unless they say otherwise.
-// Errors name file, line and what was expected there.
+// `disturb`, `teach_odometry`, `replay_odometry`, `odometry_noise`, `rate`, `visits` (with +
+// between) and `disturb_visits` may be given, in any order. Files are below `root` unless they say
+// otherwise. Errors name file, line and what was expected there.
 [[nodiscard]] Result<std::vector<RecordingPair>> ReadPairs(const std::filesystem::path& file,
                                                            const std::filesystem::path& root);
 

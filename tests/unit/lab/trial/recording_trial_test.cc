@@ -187,7 +187,7 @@ class RecordingViewTest : public RecordingTrialTest {
     return {folder_ / "first", folder_ / "odometry.csv", 2.0};
   }
   std::vector<double> MetresIn(const std::string& disturbance) const {
-    auto view = RecordingView::Open(Run(), *ParseDisturbance(disturbance), 1);
+    auto view = RecordingView::Open(Run(), *ParseDisturbance(disturbance), {}, 1);
     EXPECT_TRUE(view) << view.error().message;
     std::vector<double> metres;
     while (true) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "services/base/number.h"
+#include "services/lab/trial/recording/odometry_noise.h"
 
 namespace trailcast::trial {
 namespace {
@@ -17,10 +18,19 @@ namespace {
 namespace fs = std::filesystem;
 using Cells = std::map<std::string, std::string>;
 
-constexpr std::array kColumns{
-    "kind",     "set",           "teach",          "replay",          "truth",
-    "steering", "disturb",       "teach_odometry", "replay_odometry", "rate",
-    "visits",   "disturb_visits"};
+constexpr std::array kColumns{"kind",
+                              "set",
+                              "teach",
+                              "replay",
+                              "truth",
+                              "steering",
+                              "disturb",
+                              "teach_odometry",
+                              "replay_odometry",
+                              "rate",
+                              "visits",
+                              "disturb_visits",
+                              "odometry_noise"};
 
 std::vector<std::string> Split(std::string line, char separator = ',') {
   if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -60,6 +70,10 @@ Result<RecordingPair> PairOf(Cells& cells, const fs::path& root) {
                 kind);
   }
   pair.kind = *found;
+  pair.odometry_noise = cells["odometry_noise"];
+  if (auto parsed = ParseOdometryNoise(pair.odometry_noise); !parsed) {
+    return tl::unexpected(parsed.error());
+  }
   pair.visits_disturbance = cells["disturb_visits"];
   for (const std::string& each : {pair.disturbance, pair.visits_disturbance}) {
     if (auto parsed = ParseDisturbance(each); !parsed) return tl::unexpected(parsed.error());

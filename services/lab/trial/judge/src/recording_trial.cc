@@ -33,6 +33,10 @@ RecordingRow BeginRow(const RecordingPair& pair, const RecordingOptions& options
   }
   row.replay = pair.replay_name;
   row.disturbance = pair.disturbance.empty() ? "none" : pair.disturbance;
+  if (!pair.replay.odometry.empty()) {
+    const bool is_wrong = !pair.odometry_noise.empty() && pair.odometry_noise != "none";
+    row.disturbance += is_wrong ? ", odometry " + pair.odometry_noise : ", odometry";
+  }
   row.method = agent::ToString(options.method);
   return row;
 }
@@ -164,7 +168,9 @@ Result<RecordingOutcome> RunRecordingTrial(const RecordingPair& pair, const Taug
                                            const std::function<void(double share)>& on_progress) {
   const auto disturbance = ParseDisturbance(pair.disturbance);
   if (!disturbance) return tl::unexpected(disturbance.error());
-  auto view = RecordingView::Open(pair.replay, *disturbance, options.seed);
+  const auto noise = ParseOdometryNoise(pair.odometry_noise);
+  if (!noise) return tl::unexpected(noise.error());
+  auto view = RecordingView::Open(pair.replay, *disturbance, *noise, options.seed);
   if (!view) return tl::unexpected(view.error());
   const auto reference = ReferenceOf(pair, view->recorded_frames());
   if (!reference) return tl::unexpected(reference.error());

@@ -7,7 +7,8 @@
 namespace trailcast::trial {
 
 Result<RecordingView> RecordingView::Open(const agent::RecordedRun& run,
-                                          const Disturbance& disturbance, std::uint64_t seed) {
+                                          const Disturbance& disturbance,
+                                          const OdometryNoise& noise, std::uint64_t seed) {
   // Also finds out what is unusable, as an agent does.
   const auto device = agent::RecordedDevice::Open(run);
   if (!device) return tl::unexpected(device.error());
@@ -25,6 +26,7 @@ Result<RecordingView> RecordingView::Open(const agent::RecordedRun& run,
     auto odometry = agent::OdometryFile::Read(run.odometry);
     if (!odometry) return tl::unexpected(odometry.error());
     view.odometry_ = std::move(*odometry);
+    view.spoiler_.emplace(noise, static_cast<double>(view.order().size()) / view.rate_hz_, seed);
   }
   return view;
 }
@@ -41,7 +43,7 @@ Result<std::optional<agent::Observation>> RecordingView::Next() {
   if (odometry_) {
     auto pose = PoseAt(order()[static_cast<std::size_t>(next_)]);
     if (!pose) return tl::unexpected(pose.error());
-    seen.odometry = *pose;
+    seen.odometry = spoiler_->Tell(seen.stamp, *pose);
   }
   ++next_;
   return seen;

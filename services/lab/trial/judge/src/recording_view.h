@@ -9,6 +9,7 @@
 #include "agent/device/recorded_device.h"
 #include "agent/session/observation.h"
 #include "services/base/result.h"
+#include "services/lab/trial/recording/odometry_noise.h"
 #include "services/lab/trial/recording/ordered_frames.h"
 #include "services/lab/trial/recording/picture_change.h"
 
@@ -19,7 +20,7 @@ class RecordingView {
  public:
   [[nodiscard]] static Result<RecordingView> Open(const agent::RecordedRun& run,
                                                   const Disturbance& disturbance,
-                                                  std::uint64_t seed);
+                                                  const OdometryNoise& noise, std::uint64_t seed);
 
   // The next observation, or nothing at the end. Frames come at the recording's rate in whatever
   // order they are; odometry tells of the way that the frames show, and nothing of a cut.
@@ -39,6 +40,7 @@ class RecordingView {
   OrderedFrames frames_;
   PictureChanger changer_;
   std::optional<agent::OdometryFile> odometry_;
+  std::optional<OdometrySpoiler> spoiler_;  // of that
   double rate_hz_ = agent::RecordedDevice::kDefaultRate_hz;
   int width_px_ = 0;
   int recorded_frames_ = 0;

@@ -15,7 +15,7 @@ Result<std::string> Visit(const agent::RecordedRun& run, const Disturbance& dist
                           const RecordingOptions& options,
                           const std::function<void(double share)>& on_progress,
                           TaughtRoute& route) {
-  auto view = RecordingView::Open(run, disturbance, options.seed);
+  auto view = RecordingView::Open(run, disturbance, {}, options.seed);
   if (!view) return tl::unexpected(view.error());
   auto session = OpenSession(
       route, {.method = options.method, .anywhere = options.anywhere, .take_experience = true});
