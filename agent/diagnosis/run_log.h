@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "agent/session/evidence.h"
+
 namespace trailcast::agent {
 
 // A replay's log as values; idl/run_log.proto has the messages in its file.
@@ -84,6 +86,11 @@ struct FrameRow {
   std::optional<double> place;
   std::optional<double> place_sigma;
   std::optional<double> off_route;  // probability
+  // Of odometry, as a witness of how the robot moves: how far it is believed, 0 to 1, and the
+  // route's metres for each of its own.
+  std::optional<double> odometry_trust;
+  std::optional<double> odometry_scale;
+  Evidence evidence = Evidence::kNothing;
 };
 
 struct RunEvent {

@@ -81,6 +81,10 @@ struct ConfidenceOptions {
   int covered_least_expected = 10;
   // How far a robot that is not sure may go on, and how long one without odometry, or one that has
   // not found the route yet, may look around, before it is lost.
+  // Further, or longer, than this after it was last sure it does not follow but drive blindly:
+  // a handful of features agree in any picture.
+  double unsure_limit_m = 0.5;
+  double unsure_limit_s = 1.0;
   double blind_limit_m = 2.5;
   double blind_limit_s = 3.0;
   // A view of so many times the features it takes to be sure, gone within so many seconds, was

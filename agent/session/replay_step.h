@@ -4,6 +4,7 @@
 #include <string>
 
 #include "agent/session/confidence.h"
+#include "agent/session/evidence.h"
 #include "agent/session/replay_state.h"
 #include "agent/session/sight.h"
 #include "services/base/ids.h"
@@ -17,6 +18,13 @@ struct Believed {
   double place = 0.0;
   double sigma = 0.0;
   double off_route = 0.0;  // probability
+};
+
+// Odometry as a witness of how the robot moves, against the others: what it is told, and the pace
+// of the scout.
+struct OdometryFigures {
+  double trust = 0.0;  // probability that it tells how the robot moves
+  double scale = 1.0;  // metres of the route for each of its own
 };
 
 // What became of one frame.
@@ -38,8 +46,10 @@ struct ReplayStep {
   replay::FollowStep decision;  // what the method saw and asked for
   Sight sight;
   std::optional<Believed> believed;
-  std::string reason;   // kLost, kBlind, kWaiting: one line for people
-  std::string passing;  // as replay::Passing says it
+  Evidence evidence = Evidence::kNothing;
+  std::optional<OdometryFigures> odometry;  // of a robot that has it
+  std::string reason;                       // kLost, kBlind, kWaiting: one line for people
+  std::string passing;                      // as replay::Passing says it
   // The camera gave nothing to look at: `trust` says nothing of the path.
   bool saw_nothing = false;
   // What of the robot has failed, for which it stands until that is over; empty: nothing.

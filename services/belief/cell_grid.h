@@ -37,6 +37,8 @@ class CellGrid {
   void AddEvenly(double mass);
   // What would leave the line stays at its end.
   void Move(const Taps& taps);
+  // So much of each cell's mass in another grid of as many cells.
+  void Add(const CellGrid& other, double factor);
   // Blocks of no more than this mass lose their features.
   void Forget(double negligible);
 

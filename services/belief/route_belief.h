@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "services/belief/cell_grid.h"
+#include "services/belief/moved_grid.h"
+#include "services/belief/witness.h"
 
 namespace trailcast::belief {
 
@@ -34,15 +35,6 @@ struct TrackedPlace {
   int agreed = 0;
 };
 
-// How the robot moved since the last call, along the route, in the route's units.
-struct Motion {
-  double along = 0.0;
-  double sigma = 0.0;
-  // Nobody measured it: about this far forward, but standing or up to some times as much is as
-  // likely. `sigma` is then of no interest.
-  bool guessed = false;
-};
-
 struct RouteBeliefOptions {
   double cell = 0.1;    // of the grid; the route's units
   double window = 1.0;  // to either side of the likeliest place: what counts as one place
@@ -66,6 +58,9 @@ struct RouteBeliefOptions {
   double returns = 0.002;
   double starts_off = 0.1;         // chance that a robot that is said to be at a place is not
   double starts_elsewhere = 0.01;  // and that it comes upon the route somewhere else then
+  // Chance that another witness of how the robot moves is the better one, for each independent
+  // look.
+  double witness_changes = 0.02;
   double diffusion = 0.02;  // of the place, per root unit along, besides the motion's own sigma
   // Off the route, there is no place: `here` of the mass has to be about one place and so many
   // features to agree there, in the median of the last looks, for the place to be held. A handful
@@ -82,7 +77,8 @@ struct RouteBeliefOptions {
 // metres, or, where it was taught without odometry, seconds of teaching in motion.
 class RouteBelief {
  public:
-  explicit RouteBelief(const RouteBeliefOptions& options = {}) : options_(options) {}
+  explicit RouteBelief(const RouteBeliefOptions& options = {})
+      : options_(options), witnesses_(1, Witness(options.cell)) {}
 
   // The route grows at its end: by so much, with key views at these places from the new part's
   // beginning, in rising order.
@@ -98,7 +94,13 @@ class RouteBelief {
   // Of a run that goes on: what the one before knew of the magnification, as its logarithm.
   void KnowMagnification(double log_magnification);
 
-  void Move(const Motion& motion);
+  // How the robot moved, by each of those who can tell: the same ones, in the same order, at each
+  // call. Where they differ, what is recognised decides between them.
+  void Move(std::span<const Motion> told);
+  void Move(const Motion& told) { Move({&told, 1}); }
+  // Something else than the views says that this witness is wrong: such a share of its mass goes to
+  // the others, if there are any.
+  void Contradict(std::size_t witness, double share);
   // `independent`: how much of a new look it is, 0 to 1: a robot that stands sees the same again.
   void Weigh(std::span<const ComparedView> compared, double independent,
              const std::optional<TrackedPlace>& tracked = std::nullopt);
@@ -113,6 +115,10 @@ class RouteBelief {
     double come = 0.0;       // along the route while held, since it last jumped
   };
   [[nodiscard]] const Place& place() const { return place_; }
+  // The probability that this one of Move's witnesses tells how the robot moves, of them all; and
+  // how far it comes for each unit that this one tells.
+  [[nodiscard]] double Trust(std::size_t witness) const;
+  [[nodiscard]] double ScaleOf(std::size_t witness) const { return witnesses_[witness].scale(); }
   // How much larger this camera shows things than the scout's, as a natural logarithm: the median
   // of what was seen at held places; nothing before.
   [[nodiscard]] std::optional<double> log_magnification() const { return log_magnification_; }
@@ -127,24 +133,21 @@ class RouteBelief {
   // turns.
   [[nodiscard]] std::vector<std::size_t> WorthComparing(std::size_t near, std::size_t others);
 
-  // For people and plots: the probability of each cell, from the route's beginning.
-  [[nodiscard]] const CellGrid& cells() const { return cells_; }
-  [[nodiscard]] double cell_at(std::size_t cell) const {
-    return (static_cast<double>(cell) + 0.5) * options_.cell + offset_;
-  }
-
  private:
   struct Neighbours;
+  [[nodiscard]] std::size_t cells() const { return witnesses_.front().grid().cells().size(); }
+  [[nodiscard]] double each() const { return static_cast<double>(witnesses_.size()); }
   [[nodiscard]] double Alike(int agreed, int best) const;
   [[nodiscard]] double SizeFits(const ComparedView& view, double growth) const;
   [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
-  void WeighCellsAbout(const ComparedView& view, int best, double independent);
-  void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent);
-  [[nodiscard]] std::size_t CellOf(double along) const;
-  void Spread(double variance);
-  void Guess(double along);
+  void WeighCellsAbout(const ComparedView& view, int best, double independent, MovedGrid& grid);
+  void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent, MovedGrid& grid);
+  void Hear(std::size_t witnesses);
+  void SwitchWitnesses(double independent);
   void Leave(double independent);
   void Normalise();
+  struct Window;
+  [[nodiscard]] Window WindowAbout(double middle) const;
   void Locate();
   void NoteGrowth(std::span<const ComparedView> compared);
   void NoteLook(std::span<const ComparedView> compared, double independent,
@@ -155,9 +158,7 @@ class RouteBelief {
   RouteBeliefOptions options_;
   std::vector<ViewPlace> views_;  // from the route's beginning, rising
   double length_ = 0.0;
-  CellGrid cells_;
-  double offset_ = 0.0;        // of all cells along the route: moved that far since they last were
-  double variance_due_ = 0.0;  // of spreading, until it is worth while
+  std::vector<Witness> witnesses_;  // at least one; their masses and off_ add up to 1
   double off_ = 1.0;
   std::optional<double> start_;  // where it was said to be, until it is held somewhere
   Place place_;
@@ -165,10 +166,6 @@ class RouteBelief {
   // At held places: the logarithm of the magnification, and how much of a new look it was.
   std::deque<std::pair<double, double>> magnifications_;
   std::optional<double> log_magnification_;
-  // Of guessed motion: how fast the robot is against the guess, and how far it was guessed to come
-  // since the last look.
-  double pace_ = 1.0;
-  double moved_ = 0.0;
   double held_along_ = 0.0;
   // What was recognised well in the last look, and by how much of its logarithm the magnification
   // of a view has grown from look to look, lately: it falls when a robot drives backwards.

@@ -11,9 +11,6 @@
 
 namespace trailcast::replay {
 
-// Robots without odometry are told a speed all the same: a walking pace that any of them can do.
-constexpr double kSpeedWithoutOdometry_mps = 0.3;
-
 struct FollowInput {
   // Where the segment's features are now: pixels of the follower's own camera from its image
   // centre; id is the position in Segment::features.

@@ -61,6 +61,8 @@ struct Segment {
   double heading_change_rad = 0.0;     // counter-clockwise positive
   double heading_variation_rad = 0.0;  // largest |heading| inside the segment: sigma_h
   HeadingPolynomial heading;
+  // Without odometry: how far the picture turned, against seconds in motion (picture_turn.h).
+  std::optional<HeadingPolynomial> seen_heading;
   double duration_s = 0.0;  // how long teaching took; speed is length over duration
   // Turned on the spot before the segment's first image, counter-clockwise positive: the segment
   // begins where the last one ended, and heads so much further to the left.

@@ -19,7 +19,7 @@ struct KeyViewRecorderOptions {
   std::size_t middle_features = 0;
 
   // For routes with odometry, whose followers know about where they are: half of the bytes.
-  [[nodiscard]] static KeyViewRecorderOptions WithOdometry() { return {26, 8, 0.25, 13}; }
+  [[nodiscard]] static KeyViewRecorderOptions WithOdometry() { return {32, 8, 0.4, 13}; }
 };
 
 // Why followers may not recognise where they are by what is seen now.

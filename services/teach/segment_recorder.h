@@ -56,6 +56,7 @@ class SegmentRecorder {
   // `width_px`: of the scout's frames.
   explicit SegmentRecorder(int width_px, const SegmentRecorderOptions& options = {})
       : options_(options),
+        width_px_(width_px),
         still_px_(options.still_px_at_320 * width_px / 320.0),
         next_index_(options.first_index) {}
 
@@ -98,13 +99,14 @@ class SegmentRecorder {
   struct Moment {
     Features features;
     double distance_m = 0.0;
-    double heading_rad = 0.0;
-    SensorTime moving{0};  // time driven; a robot that waits does not teach slowness
+    double heading_rad = 0.0;  // without odometry, as far as the picture turned
+    SensorTime moving{0};      // time driven; a robot that waits does not teach slowness
     std::vector<route::View> key_views;
   };
 
   [[nodiscard]] bool Moved(const Features& tracked,
                            const std::optional<motion::OdometryIncrement>& step) const;
+  [[nodiscard]] double SeenTurn(const std::vector<route::TrackedFeature>& tracked) const;
   [[nodiscard]] bool LongEnough() const;
   [[nodiscard]] Event TurnOnTheSpot(SpotTurnWatch::State before);
   enum class Way { kOn, kBehind, kOther };
@@ -120,6 +122,7 @@ class SegmentRecorder {
   [[nodiscard]] double FractionAt(const Moment& moment) const;
 
   SegmentRecorderOptions options_;
+  int width_px_;
   double still_px_;
   SegmentIndex next_index_;
   std::vector<route::DescribedFeature> first_;

@@ -22,7 +22,7 @@ constexpr std::size_t kLongestValue = 1000;  // of texts
 constexpr std::uint64_t kMostGrowth = 32;
 
 using Member = std::variant<int FrameRow::*, double FrameRow::*, std::optional<double> FrameRow::*,
-                            Phase FrameRow::*>;
+                            Phase FrameRow::*, Evidence FrameRow::*>;
 
 // The message Frame has these members, in the order of its fields, which are numbered from 1. The
 // writer and the reader both go by this table.
@@ -61,6 +61,9 @@ const std::array kMembers = std::to_array<Member>({
     &FrameRow::place,
     &FrameRow::place_sigma,
     &FrameRow::off_route,
+    &FrameRow::odometry_trust,
+    &FrameRow::odometry_scale,
+    &FrameRow::evidence,
 });
 
 // Protobuf has negative numbers in 64 bits.
@@ -68,6 +71,9 @@ void Put(ProtobufWriter& to, std::uint32_t field, int value) {
   to.Number(field, static_cast<std::uint64_t>(std::int64_t{value}));
 }
 void Put(ProtobufWriter& to, std::uint32_t field, Phase value) {
+  Put(to, field, static_cast<int>(value));
+}
+void Put(ProtobufWriter& to, std::uint32_t field, Evidence value) {
   Put(to, field, static_cast<int>(value));
 }
 void Put(ProtobufWriter& to, std::uint32_t field, double value) {
@@ -96,6 +102,11 @@ bool Take(const Field& field, int& value) {
 bool Take(const Field& field, Phase& value) {
   const bool known = field.integer <= static_cast<std::uint64_t>(Phase::kLooking);
   if (known) value = static_cast<Phase>(field.integer);
+  return known;
+}
+bool Take(const Field& field, Evidence& value) {
+  const bool known = field.integer <= static_cast<std::uint64_t>(Evidence::kMotion);
+  if (known) value = static_cast<Evidence>(field.integer);
   return known;
 }
 bool Take(const Field& field, double& value) {

@@ -112,6 +112,11 @@ FrameRow RunRecorder::RowOf(const RunFrame& frame, const ReplayStep& step) const
     row.place_sigma = step.believed->sigma;
     row.off_route = step.believed->off_route;
   }
+  row.evidence = step.evidence;
+  if (step.odometry) {
+    row.odometry_trust = step.odometry->trust;
+    row.odometry_scale = step.odometry->scale;
+  }
   return row;
 }
 

@@ -136,6 +136,7 @@ class Loop {
   bool held_ = false;
   bool was_held_ = false;
   std::optional<ReplayStep> last_;
+  motion::VelocityCommand told_;  // the base, last
   RunEnd end_ = RunEnd::kWaiting;
   std::string reason_;
   ReplayLog log_;
@@ -242,6 +243,7 @@ Result<void> Loop::Run(Standstill& standstill) {
           last_ && !last_->reason.empty() ? last_->reason : "the recording ends");
       return {};
     }
+    if (!options_.open_loop) (*observation)->told = told_;
     auto on = Step(**observation);
     if (!on) return tl::unexpected(on.error());
     if (changes_over_) standstill.Leave();
@@ -292,6 +294,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   const auto left_to_look_m = LeftToLookForNext_m(*step, end_m);
   if (left_to_look_m) step->command = next_->WhileItLooks(step->command, *left_to_look_m);
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
+  told_ = step->command;
   link_.Report(*step);
   ShowGlance(*step);
   if (observation.unknown.distance_m > 0.0) {
@@ -357,6 +360,7 @@ bool Loop::ChangesOver(const Observation& observation) {
 
 Result<bool> Loop::EndAt(double end_m) {
   if (auto stood = device_.Drive({}); !stood) return tl::unexpected(stood.error());
+  told_ = {};
   if (PastEnd_m(*last_, end_m) > kDrivenPast_m) {
     return End(RunEnd::kLost,
                fmt::format("it was to end {:.1f} m along the route, and finds itself at {:.1f} m: "

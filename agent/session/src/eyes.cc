@@ -6,9 +6,16 @@
 namespace trailcast::agent {
 namespace {
 
+constexpr double kUsual = 0.2;  // a frame
+// Between two frames, by odometry; and by the picture, as a share of its width.
+constexpr double kStands_m = 1e-4;
+constexpr double kStands_rad = 1e-4;
+constexpr double kMoves_flow = 0.0015;
+constexpr double kFrozen_s = 0.3;
+
 // How far most features moved between two frames, as a share of the picture's width.
-double Flow(const std::vector<route::TrackedFeature>& before,
-            const std::vector<route::TrackedFeature>& now, int width_px) {
+std::optional<double> Flow(const std::vector<route::TrackedFeature>& before,
+                           const std::vector<route::TrackedFeature>& now, int width_px) {
   std::vector<double> moved;
   std::size_t i = 0;
   for (const route::TrackedFeature& feature : now) {
@@ -16,7 +23,7 @@ double Flow(const std::vector<route::TrackedFeature>& before,
     if (i == before.size()) break;
     moved.push_back(std::hypot(feature.u_px - before[i].u_px, feature.v_px - before[i].v_px));
   }
-  if (moved.size() < 4) return 1.0;
+  if (moved.size() < 4) return std::nullopt;
   const auto middle = moved.begin() + std::ssize(moved) / 2;
   std::nth_element(moved.begin(), middle, moved.end());
   return *middle / width_px;
@@ -35,18 +42,34 @@ std::optional<motion::OdometryIncrement> Eyes::Driven(const Observation& observa
   return step;
 }
 
+bool Eyes::IsFrozen(const Seen& seen) {
+  const bool stands = seen.measured && std::abs(seen.measured->distance_m) < kStands_m &&
+                      std::abs(seen.measured->heading_change_rad) < kStands_rad;
+  const bool moves = seen.usual_flow > kMoves_flow;
+  frozen_s_ = stands && moves ? frozen_s_ + seen.dt_s : 0.0;
+  return frozen_s_ > kFrozen_s;
+}
+
 Result<Seen> Eyes::See(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
   Seen seen;
   seen.frame = &intake_.Take(observation.image);
-  seen.driven = Driven(observation);
-  seen.unknown = observation.unknown;
-  if (observation.stands) seen.stands = &*observation.stands;
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
+  seen.measured = Driven(observation);
+  is_told_ = observation.told.has_value();
+  if (is_told_) seen.told = told_.Drive(*observation.told, seen.dt_s);
+  seen.driven = seen.measured ? seen.measured : seen.told;
+  seen.unknown = observation.unknown;
+  if (!seen.measured && seen.told) seen.unknown = DoubtOfTold(*seen.told);
+  if (observation.stands) seen.stands = &*observation.stands;
   const std::vector<route::TrackedFeature> before = tracker_.Current();
   seen.features = tracker_.Track(*seen.frame, seen.driven ? seen.driven->heading_change_rad : 0.0);
-  seen.flow = Flow(before, seen.features, seen.frame->width);
+  const auto flow = Flow(before, seen.features, seen.frame->width);
+  if (flow) usual_flow_ += kUsual * (*flow - usual_flow_);
+  seen.flow = flow.value_or(1.0);
+  seen.usual_flow = usual_flow_;
+  seen.frozen = IsFrozen(seen);
   return seen;
 }
 

@@ -5,6 +5,7 @@
 
 #include "agent/session/frame_check.h"
 #include "agent/session/observation.h"
+#include "agent/session/src/told_motion.h"
 #include "services/base/result.h"
 #include "services/base/time.h"
 #include "services/image/image.h"
@@ -17,11 +18,18 @@ namespace trailcast::agent {
 
 // What one frame shows.
 struct Seen {
-  const image::GrayImage* frame = nullptr;          // as the intake makes it; until the next
-  std::vector<route::TrackedFeature> features;      // those that are followed, where they are now
-  double flow = 0.0;                                // how far most moved, as a share of the width
-  std::optional<motion::OdometryIncrement> driven;  // since the last frame; nothing: no odometry
-  motion::OdometryIncrement unknown{};              // besides, as in Observation
+  const image::GrayImage* frame = nullptr;      // as the intake makes it; until the next
+  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now
+  // How far most moved, as a share of the width; 1 where they are too few to tell.
+  double flow = 0.0;
+  double usual_flow = 0.0;  // the same, lately, as far as it could be told
+  bool frozen = false;      // odometry tells that it stands, and what it sees moves all the while
+  // Since the last frame, by odometry, and by what the base was told; nothing: there is none.
+  std::optional<motion::OdometryIncrement> measured;
+  std::optional<motion::OdometryIncrement> told;
+  // The better one of these,
+  std::optional<motion::OdometryIncrement> driven;
+  motion::OdometryIncrement unknown{};                   // and besides, as in Observation
   const std::vector<Eigen::Vector2d>* stands = nullptr;  // as in Observation; until the next
   double dt_s = 0.0;                                     // the same
   double looked_s = 0.0;  // the same, and no longer than kLongestFrame_s
@@ -41,14 +49,21 @@ class Eyes {
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
   [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
   [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }
+  // It is known how the robot moves, if only by what it is told.
+  [[nodiscard]] bool knows_motion() const { return has_odometry() || is_told_; }
 
  private:
   [[nodiscard]] std::optional<motion::OdometryIncrement> Driven(const Observation& observation);
+  [[nodiscard]] bool IsFrozen(const Seen& seen);
 
   FrameCheck check_;
   vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
   std::optional<motion::Pose2> last_odometry_;
+  ToldMotion told_;
+  double usual_flow_ = 0.0;
+  double frozen_s_ = 0.0;
+  bool is_told_ = false;
   std::optional<SensorTime> last_stamp_;
 };
 

@@ -14,6 +14,7 @@
 #include "agent/session/src/place/view_taker.h"
 #include "agent/session/src/standing.h"
 #include "agent/session/src/upright_watch.h"
+#include "services/route/as_driven.h"
 
 namespace trailcast::agent {
 namespace {
@@ -23,6 +24,12 @@ constexpr double kFirstFrame_s = 1.0 / 30.0;
 // How far from the route's start a robot may be that is put there, in the route's units.
 constexpr double kStart_sigma = 0.25;
 constexpr double kLeft_m = 0.5;  // and from where it was left
+// Odometry that is doubted so far tells next to nothing; that is believed so far carries a robot.
+constexpr double kDoubted = 0.6;
+constexpr double kBelieved = 0.6;
+constexpr double kHere = 0.5;  // of where the belief holds the robot to be; the route's units
+constexpr double kTurns_rad_per_m = 1.0;
+constexpr double kUnknownScale = 0.3;  // of a way
 
 }  // namespace
 
@@ -40,16 +47,21 @@ struct ReplaySession::State {
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
-  // Without odometry, in the route or on the robot, our own method goes by what is recognised.
+  // Where nothing tells how the robot or the scout moved, our own method goes by what is
+  // recognised.
   [[nodiscard]] bool ByViews() const {
     return options.method == ReplayMethod::kDefault &&
-           !(eyes.has_odometry() && route.segments().front().has_odometry);
+           !(eyes.knows_motion() && route.segments().front().has_odometry);
   }
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
   bool Locate(const Seen& seen);  // true: what is recognised was looked at
+  void ToRoute(Seen& seen) const;
+  [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
+  [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
+  [[nodiscard]] bool ViewsKnowBetter(const ReplayStep& features, const ReplayStep& views) const;
   [[nodiscard]] ReplayStep StandMisturned();
 
   ReplayMethodOptions options;
@@ -64,6 +76,8 @@ struct ReplaySession::State {
   std::optional<LeftAt> left;
   bool begun = false;  // a frame was seen while something of the route was known
   Standing standing;
+  Standing of_features;          // what following by features alone has come to
+  bool steers_by_views = false;  // in the last frame
   std::optional<SensorTime> last_stamp;
   double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
   double without_picture_s = 0.0;
@@ -112,20 +126,89 @@ void ReplaySession::State::StartPlace(int width_px) {
 // A robot that is sure of its features asks what is recognised of the route only now and then.
 bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
-  std::optional<motion::OdometryIncrement> along = seen.driven;
-  if (along && by_features.reverses()) along->distance_m = -along->distance_m;
-  place.Move({along, seen.flow, seen.dt_s, seen.unknown.distance_m});
-  const bool looks = ByViews() || standing.trust != Trust::kSure || place.LookIsDue();
+  FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
+                    seen.unknown.distance_m, seen.frozen};
+  if (by_features.reverses()) {
+    if (along.odometry) along.odometry->distance_m = -along.odometry->distance_m;
+    if (along.told) along.told->distance_m = -along.told->distance_m;
+  }
+  place.Move(along);
+  const bool looks = steers_by_views || standing.trust != Trust::kSure || place.LookIsDue();
   if (looks) place.LookAt(*seen.frame);
   return looks;
 }
 
+Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
+  if (step.state == ReplayState::kFollowing) {
+    return steers_by_views ? Evidence::kViews : Evidence::kFeatures;
+  }
+  return step.command == motion::VelocityCommand{} ? Evidence::kNothing : Evidence::kMotion;
+}
+
+// Of odometry that the pictures contradict: the robot may have come as far as the scout did in that
+// time, and turned as much as that takes, besides what odometry tells.
+// Where the scout's own metres are not known, the robot's are brought to those that are taken for
+// them.
+void ReplaySession::State::ToRoute(Seen& seen) const {
+  if (!place.metric() && seen.driven) {
+    seen.driven->distance_m *= place.ScaleOfWay();
+    seen.unknown.distance_m = std::hypot(place.ScaleOfWay() * seen.unknown.distance_m,
+                                         kUnknownScale * seen.driven->distance_m);
+  }
+  const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
+  if (doubt < kDoubted || !seen.driven) return;
+  const double come_m = std::max(std::abs(seen.driven->distance_m), place.PaceAt_m(seen.dt_s));
+  seen.unknown.distance_m = std::hypot(seen.unknown.distance_m, doubt * come_m);
+  seen.unknown.heading_change_rad =
+      std::hypot(seen.unknown.heading_change_rad,
+                 doubt * (kTurns_rad_per_m * come_m + std::abs(seen.driven->heading_change_rad)));
+}
+
+// Views that are recognised say more than features that are not seen, or lie where they should be
+// if the robot were somewhere else. What stands before the camera hides both.
+bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
+                                           const ReplayStep& views) const {
+  const bool follows = features.state == ReplayState::kFollowing;
+  if (features.trust == Trust::kCovered || by_features.seeks_start()) return false;
+  if (views.state == ReplayState::kArrived) return !follows;
+  return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
+}
+
+// Of a robot that is recognised where it holds itself to be: odometry that is believed carries it
+// on more exactly, for a short way, than a view steers.
+bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
+  const double apart = place.where().along - place.AlongOf({features.segment, features.fraction});
+  return features.command != motion::VelocityCommand{} && std::abs(apart) <= kHere &&
+         place.TrustInOdometry().value_or(0.0) >= kBelieved;
+}
+
 ReplayStep ReplaySession::State::Follow(const Seen& seen) {
-  if (!ByViews()) return by_features.Report(by_features.Step(seen, standing), standing);
-  ReplayStep step = by_views.Step(seen.looked_s);
-  standing = {step.state, step.trust, step.reason};
-  eyes.tracker().Detect();  // whose flow tells whether the robot moves
-  return step;
+  if (ByViews()) {
+    steers_by_views = true;
+    ReplayStep views = by_views.Step(seen.looked_s);
+    eyes.tracker().Detect();  // whose flow tells whether the robot moves
+    standing = {views.state, views.trust, views.reason};
+    return views;
+  }
+  ReplayStep features = by_features.Report(by_features.Step(seen, of_features), of_features);
+  if (!place.metric()) features.command.angular_radps *= place.ScaleOfWay();
+  steers_by_views = false;
+  standing = of_features;
+  if (AsPrinted(options.method)) return features;
+  ReplayStep views = by_views.Step(seen.looked_s);
+  if (!ViewsKnowBetter(features, views)) return features;
+  if (CarriedByOdometry(features)) {
+    features.state = views.state;
+    features.trust = Trust::kUnsure;
+    standing = {features.state, features.trust, features.reason};
+    return features;
+  }
+  steers_by_views = true;
+  views.sight = std::move(features.sight);
+  views.found_share = features.found_share;
+  views.hand_overs = features.hand_overs;
+  standing = {views.state, views.trust, views.reason};
+  return views;
 }
 
 // Nothing that it would do on such pictures is right: left is right, or up.
@@ -157,7 +240,8 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
   s.by_features.Learn(segment);
   s.place.Learn(segment);
   if (s.views_met) s.views_met->Learn(segment);
-  s.route.Add(std::move(segment));
+  s.route.Add(AsPrinted(s.options.method) ? std::move(segment)
+                                          : route::AsDriven(std::move(segment)));
   return {};
 }
 
@@ -168,7 +252,9 @@ void ReplaySession::GoOnFrom(const LeftAt& left) {
   state_->by_features.GoOnFrom(left);
 }
 
-double ReplaySession::known_m() const { return state_->route.length_m(); }
+double ReplaySession::known_m() const {
+  return state_->place.known() && state_->place.metric() ? state_->route.length_m() : 0.0;
+}
 
 Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   State& s = *state_;
@@ -185,13 +271,27 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
   if (s.standing.state == ReplayState::kArrived || s.upright.misturned()) return s.last;
-  if (s.route.segments().empty()) return s.by_features.Report({}, s.standing);
+  if (s.route.segments().empty()) return s.by_features.Report({}, s.of_features);
   const bool looked = s.Locate(*seen);
+  s.ToRoute(*seen);
   s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
   if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
+  if (getenv("TC_DEBUG"))
+    fprintf(stderr,
+            "at %.2f here %.2f off %.2f agreed %d now %d held %d come %.2f | seg %u fr %.2f feat "
+            "%d state %s trust %s flow %.3f odo %.2f sc %.2f views %d\n",
+            where.along, where.here, where.off_route, where.agreed, s.place.agreed_now(),
+            where.held, where.come, s.last.segment.value(), s.last.fraction,
+            s.last.decision.agreeing, ToString(s.last.state), ToString(s.of_features.trust),
+            seen->usual_flow, s.place.TrustInOdometry().value_or(-1),
+            s.place.TrustInOdometry() ? s.place.belief().ScaleOf(0) : -1, s.steers_by_views);
+  s.last.evidence = s.EvidenceOf(s.last);
+  if (const auto trust = s.place.TrustInOdometry()) {
+    s.last.odometry = {*trust, s.place.belief().ScaleOf(0)};
+  }
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};
   return s.last;
 }

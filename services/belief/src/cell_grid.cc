@@ -141,6 +141,16 @@ void CellGrid::Move(const Taps& taps) {
   });
 }
 
+void CellGrid::Add(const CellGrid& other, double factor) {
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    if (other.active_[block] != 0) Activate(block);
+    if (active_[block] == 0) continue;
+    const auto [first, last] = CellsOf(block);
+    for (std::size_t i = first; i < last; ++i) cells_[i] += factor * other.at(i);
+  }
+  even_ += factor * other.even_;
+}
+
 void CellGrid::Forget(double negligible) {
   double even = even_ * static_cast<double>(even_cells());
   for (std::size_t block = 0; block < blocks(); ++block) {

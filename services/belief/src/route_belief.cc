@@ -15,24 +15,8 @@ constexpr std::size_t kMagnificationsKept = 60;
 constexpr double kFewestMagnifications = 3.0;  // of independent looks
 constexpr double kKnownMagnification = 10.0;   // what an earlier run knew counts as so many
 
-// How far a robot may have come whose way nobody measured, in multiples of what is guessed: about
-// that half of the time, anything from standing to a multiple of it otherwise; a little backwards.
-struct Share {
-  double of_guess = 0.0;
-  double weight = 0.0;
-};
-constexpr std::array kGuesses = {Share{0.0, 0.11}, Share{0.35, 0.08}, Share{0.7, 0.16},
-                                 Share{1.0, 0.25}, Share{1.4, 0.14},  Share{2.0, 0.10},
-                                 Share{3.0, 0.05}, Share{-1.0, 0.05}};
-// Whatever the pace so far, some multiples of the taught one.
-constexpr std::array kPaces = {Share{3.0, 0.04}, Share{4.5, 0.02}};
-constexpr double kSlowestPace = 0.2;
-constexpr double kFastestBackwards = -3.0;
-constexpr double kFastestPace = 4.0;
-constexpr double kPaceLearns = 0.1;       // a look
-constexpr double kGrowthLearns = 0.15;    // a look
-constexpr double kShrinks = -0.003;       // a look: a robot that drives backwards
-constexpr double kLongestPaceStep = 0.4;  // route units between looks that say something of pace
+constexpr double kGrowthLearns = 0.15;  // a look
+constexpr double kShrinks = -0.003;     // a look: a robot that drives backwards
 
 // Half of the weight is below it.
 double WeightedMedian(const std::deque<std::pair<double, double>>& values_and_weights) {
@@ -61,33 +45,35 @@ void RouteBelief::Extend(double length, std::span<const ViewPlace> views) {
   for (const ViewPlace& view : views) views_.push_back({length_ + view.at, view.growth, view.own});
   length_ += length;
   const auto cells = static_cast<std::size_t>(std::floor(length_ / options_.cell)) + 1;
-  cells_.Grow(cells - cells_.size());
-}
-
-std::size_t RouteBelief::CellOf(double along) const {
-  const double cell = std::floor((along - offset_) / options_.cell);
-  return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(cells_.size()) - 1.0));
+  for (Witness& witness : witnesses_) {
+    CellGrid& grid = witness.grid().cells();
+    grid.Grow(cells - grid.size());
+  }
 }
 
 void RouteBelief::StartAt(double along, double sigma) {
-  if (cells_.size() == 0) return;
+  if (cells() == 0) return;
   constexpr double kReach = 5.0;  // standard deviations
   const double width = std::max(sigma, 0.5 * options_.cell);
-  cells_.Reset(0.0);
-  for (std::size_t i = CellOf(along - kReach * width); i <= CellOf(along + kReach * width); ++i) {
-    const double off = (cell_at(i) - along) / width;
-    cells_.Set(i, std::exp(-0.5 * off * off));
+  for (Witness& witness : witnesses_) {
+    MovedGrid& grid = witness.grid();
+    grid.cells().Reset(0.0);
+    const std::size_t last = grid.CellOf(along + kReach * width);
+    for (std::size_t i = grid.CellOf(along - kReach * width); i <= last; ++i) {
+      const double off = (grid.PlaceOf(i) - along) / width;
+      grid.cells().Set(i, std::exp(-0.5 * off * off));
+    }
+    grid.cells().Scale((1.0 - options_.starts_off) / (grid.cells().Sum() * each()));
   }
-  cells_.Scale((1.0 - options_.starts_off) / cells_.Sum());
   off_ = options_.starts_off;
   start_ = along;
   Locate();
 }
 
 void RouteBelief::StartAnywhere() {
-  if (cells_.size() == 0) return;
+  if (cells() == 0) return;
   constexpr double kOn = 0.1;
-  cells_.Reset(kOn);
+  for (Witness& witness : witnesses_) witness.grid().cells().Reset(kOn / each());
   off_ = 1.0 - kOn;
   start_.reset();
   Locate();
@@ -98,46 +84,60 @@ void RouteBelief::KnowMagnification(double log_magnification) {
   log_magnification_ = log_magnification;
 }
 
-// A random walk of that variance, as steps to the neighbouring cells.
-void RouteBelief::Spread(double variance) {
-  constexpr double kWorthWhile = 0.1;  // of a cell squared
-  constexpr double kMostAStep = 0.25;
-  variance_due_ += variance / (options_.cell * options_.cell);
-  if (variance_due_ < kWorthWhile) return;
-  while (variance_due_ > 0.0) {
-    const double aside = std::min(kMostAStep, 0.5 * variance_due_);
-    cells_.Move({-1, {aside, 1.0 - 2.0 * aside, aside}});
-    variance_due_ -= 2.0 * aside;
+// So many witnesses tell from now on how the robot moves: what is believed is so whichever of them
+// is right.
+void RouteBelief::Hear(std::size_t witnesses) {
+  if (witnesses_.size() == witnesses) return;
+  Witness all = witnesses_.front();
+  for (std::size_t i = 1; i < witnesses_.size(); ++i) {
+    all.grid().cells().Add(witnesses_[i].grid().cells(), 1.0);
   }
-  variance_due_ = 0.0;
+  Witness one(options_.cell);
+  one.grid() = all.grid();
+  one.grid().cells().Scale(1.0 / static_cast<double>(witnesses));
+  witnesses_.assign(witnesses, one);
 }
 
-void RouteBelief::Guess(double along) {
-  CellGrid::Taps taps;
-  for (const Share& share : kGuesses) {
-    taps.Add(share.of_guess * pace_ * along / options_.cell, share.weight);
+void RouteBelief::Move(std::span<const Motion> told) {
+  if (cells() == 0) return;
+  Hear(told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) witnesses_[i].Move(told[i], options_.diffusion);
+  // A guess tells nothing of the place that the next look would not tell better.
+  if (std::any_of(told.begin(), told.end(), [](const Motion& each) { return !each.guessed; })) {
+    Locate();
   }
-  for (const Share& share : kPaces) {
-    taps.Add(share.of_guess * along / options_.cell, share.weight);
-  }
-  cells_.Move(taps);
 }
 
-void RouteBelief::Move(const Motion& motion) {
-  if (cells_.size() == 0) return;
-  if (motion.guessed) {
-    Guess(motion.along);
-    moved_ += motion.along;
-    return;
+void RouteBelief::Contradict(std::size_t witness, double share) {
+  if (witnesses_.size() == 1) return;
+  const CellGrid wrong = witnesses_[witness].grid().cells();
+  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+    CellGrid& cells = witnesses_[i].grid().cells();
+    if (i == witness) {
+      cells.Scale(1.0 - share);
+    } else {
+      cells.Add(wrong, share / (each() - 1.0));
+    }
   }
-  offset_ += motion.along;
-  const double cells = std::floor(offset_ / options_.cell);
-  if (cells != 0.0) {
-    cells_.Move({static_cast<std::ptrdiff_t>(cells), {1.0}});
-    offset_ -= cells * options_.cell;
+}
+
+double RouteBelief::Trust(std::size_t witness) const {
+  const double on = 1.0 - off_;
+  return on > 0.0 ? witnesses_[witness].grid().cells().Sum() / on : 1.0 / each();
+}
+
+// The better witness may be another one by now.
+void RouteBelief::SwitchWitnesses(double independent) {
+  if (witnesses_.size() == 1) return;
+  const double changes = options_.witness_changes * independent;
+  CellGrid all = witnesses_.front().grid().cells();
+  for (std::size_t i = 1; i < witnesses_.size(); ++i) {
+    all.Add(witnesses_[i].grid().cells(), 1.0);
   }
-  Spread(motion.sigma * motion.sigma +
-         options_.diffusion * options_.diffusion * std::abs(motion.along));
+  for (Witness& witness : witnesses_) {
+    witness.grid().cells().Scale(1.0 - changes);
+    witness.grid().cells().Add(all, changes / each());
+  }
 }
 
 // Log-likelihood ratio by how many features agree.
@@ -174,7 +174,8 @@ RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
 }
 
 // Between two views both count, each the more the nearer it is.
-void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double independent) {
+void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double independent,
+                                  MovedGrid& grid) {
   const double at = views_[view.view].at;
   const auto [first_here, next] = NeighboursOf(view.view);
   const bool is_first = first_here == 0;
@@ -185,11 +186,11 @@ void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double ind
   const std::optional<double> grows_on = is_last ? std::nullopt : views_[next].growth;
   const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;
   const double alike = Alike(view.agreed, best);
-  const std::size_t first = is_first ? 0 : CellOf(before);
-  const std::size_t last = is_last ? cells_.size() - 1 : CellOf(after);
+  const std::size_t first = is_first ? 0 : grid.CellOf(before);
+  const std::size_t last = is_last ? cells() - 1 : grid.CellOf(after);
   std::vector<double> factors(last - first + 1, 1.0);
   for (std::size_t i = first; i <= last; ++i) {
-    const double along = cell_at(i);
+    const double along = grid.PlaceOf(i);
     const bool is_before = along < at;
     const double gap = is_before ? at - before : after - at;
     const double off = std::clamp((along - at) / gap, -1.0, 1.0);
@@ -200,26 +201,28 @@ void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double ind
     const double share = at_the_end ? 1.0 : 1.0 - std::abs(off);
     factors[i - first] = std::exp(independent * share * ratio);
   }
-  cells_.Multiply(first, factors);
+  grid.cells().Multiply(first, factors);
 }
 
 // The less the further off, as between two views.
-void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, int best, double independent) {
+void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, int best, double independent,
+                                  MovedGrid& grid) {
   const double ratio = Alike(tracked.agreed, best);
-  const std::size_t first = CellOf(tracked.along - options_.window);
-  const std::size_t last = CellOf(tracked.along + options_.window);
+  const std::size_t first = grid.CellOf(tracked.along - options_.window);
+  const std::size_t last = grid.CellOf(tracked.along + options_.window);
   std::vector<double> factors(last - first + 1, 1.0);
   for (std::size_t i = first; i <= last; ++i) {
-    const double off = std::abs(cell_at(i) - tracked.along) / options_.window;
+    const double off = std::abs(grid.PlaceOf(i) - tracked.along) / options_.window;
     factors[i - first] = std::exp(independent * std::max(0.0, 1.0 - off) * ratio);
   }
-  cells_.Multiply(first, factors);
+  grid.cells().Multiply(first, factors);
 }
 
 void RouteBelief::Weigh(std::span<const ComparedView> compared, double independent,
                         const std::optional<TrackedPlace>& tracked) {
-  if (cells_.size() == 0 || compared.empty()) return;
+  if (cells() == 0 || compared.empty()) return;
   Leave(independent);
+  SwitchWitnesses(independent);
   int best = tracked ? tracked->agreed : 0;
   for (const ComparedView& view : compared) best = std::max(best, view.agreed);
   std::vector<ComparedView> ordered(compared.begin(), compared.end());
@@ -231,13 +234,14 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
     const auto end = std::find_if(view, ordered.end(), [&](const ComparedView& other) {
       return views_[other.view].at - at >= kSamePlace;
     });
-    WeighCellsAbout(
-        *std::max_element(view, end,
-                          [](const auto& a, const auto& b) { return a.agreed < b.agreed; }),
-        best, independent);
+    const ComparedView& likest = *std::max_element(
+        view, end, [](const auto& a, const auto& b) { return a.agreed < b.agreed; });
+    for (Witness& each : witnesses_) WeighCellsAbout(likest, best, independent, each.grid());
     view = end;
   }
-  if (tracked) WeighCellsAbout(*tracked, best, independent);
+  for (Witness& each : witnesses_) {
+    if (tracked) WeighCellsAbout(*tracked, best, independent, each.grid());
+  }
   Normalise();
   Locate();
   NoteLook(ordered, independent, tracked);
@@ -246,50 +250,79 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
 void RouteBelief::Leave(double independent) {
   const double leaves = options_.leaves * independent;
   const double returns = options_.returns * independent;
-  cells_.Scale(1.0 - leaves);
+  const double returned = off_ * returns / each();
   const double evenly = start_ ? options_.starts_elsewhere : 1.0;
-  cells_.AddEvenly(evenly * off_ * returns);
-  if (start_) {
-    const std::size_t first = CellOf(*start_ - options_.window);
-    const std::size_t last = CellOf(*start_ + options_.window);
-    const double each = (1.0 - evenly) * off_ * returns / static_cast<double>(last - first + 1);
-    for (std::size_t i = first; i <= last; ++i) cells_.Set(i, cells_.at(i) + each);
+  for (Witness& witness : witnesses_) {
+    MovedGrid& grid = witness.grid();
+    grid.cells().Scale(1.0 - leaves);
+    grid.cells().AddEvenly(evenly * returned);
+    if (!start_) continue;
+    const std::size_t first = grid.CellOf(*start_ - options_.window);
+    const std::size_t last = grid.CellOf(*start_ + options_.window);
+    const double each_cell = (1.0 - evenly) * returned / static_cast<double>(last - first + 1);
+    for (std::size_t i = first; i <= last; ++i) {
+      grid.cells().Set(i, grid.cells().at(i) + each_cell);
+    }
   }
   off_ += leaves * (1.0 - off_) - returns * off_;
 }
 
 void RouteBelief::Normalise() {
   constexpr double kNegligible = 1e-6;
-  const double sum = cells_.Sum() + off_;
-  cells_.Scale(1.0 / sum);
+  double sum = off_;
+  for (const Witness& witness : witnesses_) sum += witness.grid().cells().Sum();
+  for (Witness& witness : witnesses_) {
+    witness.grid().cells().Scale(1.0 / sum);
+    witness.grid().cells().Forget(kNegligible);
+  }
   off_ /= sum;
-  cells_.Forget(kNegligible);
 }
 
-void RouteBelief::Locate() {
-  const double middle = cell_at(cells_.Peak());
+// The mass about a place, and its first two moments about that.
+struct RouteBelief::Window {
+  double middle = 0.0;
   double mass = 0.0;
   double first = 0.0;
   double second = 0.0;
-  for (std::size_t i = CellOf(middle - options_.window); i <= CellOf(middle + options_.window);
-       ++i) {
-    const double off = cell_at(i) - middle;
-    mass += cells_.at(i);
-    first += cells_.at(i) * off;
-    second += cells_.at(i) * off * off;
+};
+
+RouteBelief::Window RouteBelief::WindowAbout(double middle) const {
+  Window window{middle};
+  for (const Witness& witness : witnesses_) {
+    const MovedGrid& grid = witness.grid();
+    const std::size_t last = grid.CellOf(middle + options_.window);
+    for (std::size_t i = grid.CellOf(middle - options_.window); i <= last; ++i) {
+      const double off = grid.PlaceOf(i) - middle;
+      const double mass = grid.cells().at(i);
+      window.mass += mass;
+      window.first += mass * off;
+      window.second += mass * off * off;
+    }
   }
-  place_.here = mass;
+  return window;
+}
+
+void RouteBelief::Locate() {
+  Window likeliest;
+  for (const Witness& witness : witnesses_) {
+    const MovedGrid& grid = witness.grid();
+    const Window window = WindowAbout(grid.PlaceOf(grid.cells().Peak()));
+    if (window.mass > likeliest.mass) likeliest = window;
+  }
+  place_.here = likeliest.mass;
   place_.off_route = off_;
-  if (mass <= 0.0) return;
-  const double mean = first / mass;
-  place_.along = std::clamp(middle + mean, 0.0, length_);
-  place_.sigma = std::sqrt(std::max(0.0, second / mass - mean * mean));
+  if (likeliest.mass <= 0.0) return;
+  const double mean = likeliest.first / likeliest.mass;
+  place_.along = std::clamp(likeliest.middle + mean, 0.0, length_);
+  place_.sigma = std::sqrt(std::max(0.0, likeliest.second / likeliest.mass - mean * mean));
 }
 
 std::vector<double> RouteBelief::Likeliest(std::size_t most, double least, double apart) const {
   std::vector<double> places;
-  std::vector<double> left(cells_.size());
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] = cells_.at(i);
+  std::vector<double> left(cells(), 0.0);
+  for (const Witness& witness : witnesses_) {
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] += witness.grid().cells().at(i);
+  }
   while (places.size() < most && !left.empty()) {
     const auto peak = std::max_element(left.begin(), left.end());
     const auto at = static_cast<std::size_t>(peak - left.begin());
@@ -300,7 +333,7 @@ std::vector<double> RouteBelief::Likeliest(std::size_t most, double least, doubl
     };
     const auto [first, end] = within(options_.window);
     if (*peak <= 0.0 || std::accumulate(first, end, 0.0) < least) break;
-    places.push_back(std::clamp(cell_at(at), 0.0, length_));
+    places.push_back(std::clamp(witnesses_.front().grid().PlaceOf(at), 0.0, length_));
     const auto [cleared, cleared_end] = within(std::max(apart, options_.window));
     std::fill(cleared, cleared_end, 0.0);
   }
@@ -347,17 +380,17 @@ void RouteBelief::NoteLook(std::span<const ComparedView> compared, double indepe
 }
 
 void RouteBelief::NoteWay(bool was_held) {
-  const double moved = std::exchange(moved_, 0.0);
   const double come = place_.along - std::exchange(held_along_, place_.along);
   const bool jumped = std::abs(come) >= options_.window;
   const bool goes_on = place_.held && was_held && !jumped;
   if (jumped) place_.come = 0.0;
   if (goes_on) place_.come += come;
-  if (!place_.held) {
-    pace_ += kPaceLearns * (1.0 - pace_);
-  } else if (goes_on && moved > 0.0 && moved < kLongestPaceStep) {
-    const double slowest = growth_ < kShrinks ? kFastestBackwards : kSlowestPace;
-    pace_ = std::clamp(pace_ + kPaceLearns * (come / moved - pace_), slowest, kFastestPace);
+  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+    if (goes_on) {
+      witnesses_[i].NoteWay(come, growth_ < kShrinks, Trust(i));
+    } else {
+      witnesses_[i].NoteGap(place_.held);
+    }
   }
 }
 

@@ -23,6 +23,7 @@ constexpr int kManyRejected = 4;
 constexpr double kFarBeside_m = 0.25;
 constexpr double kFarInTruth_m = 0.3;
 constexpr double kSlowShare = 0.75;
+constexpr double kNotBelieved = 0.2;
 constexpr std::size_t kShortest_frames = 5;
 
 // Rows after one another for which `holds`, told by `tell` from their first, last and worst.
@@ -94,6 +95,20 @@ Stretches BesideInTruth(const RunLog& log) {
                                   std::abs(*row.left_m), row.left_sigma_m.value_or(0.0));
             }
             return text;
+          }};
+}
+
+Stretches OdometryLies(const RunLog& log) {
+  return {"odometry", 18.0,
+          [&log](std::size_t i) {
+            const FrameRow& row = log.frames[i];
+            return Driving(row) && row.odometry_trust.value_or(1.0) < kNotBelieved;
+          },
+          [](const FrameRow& row) { return 1.0 - row.odometry_trust.value_or(1.0); },
+          [](const FrameRow& row, std::size_t frames) {
+            return fmt::format(
+                "the odometry contradicts the pictures: believed to {:.0f} % at worst ({} frames)",
+                100.0 * *row.odometry_trust, frames);
           }};
 }
 
@@ -171,9 +186,9 @@ std::vector<Incident> CarriedOff(const RunLog& log) {
 
 std::vector<Incident> FrameIncidents(const RunLog& log) {
   std::vector<Incident> all;
-  for (const auto& found :
-       {Drops(log), Find(log, Disagreeing(log)), Find(log, Beside(log)),
-        Find(log, BesideInTruth(log)), Slow(log), LookedAgain(log), CarriedOff(log)}) {
+  for (const auto& found : {Drops(log), Find(log, Disagreeing(log)), Find(log, Beside(log)),
+                            Find(log, BesideInTruth(log)), Find(log, OdometryLies(log)), Slow(log),
+                            LookedAgain(log), CarriedOff(log)}) {
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;

@@ -68,6 +68,14 @@ std::string Beside(const FrameRow& row) {
   return text;
 }
 
+std::string Odometry(const FrameRow& row) {
+  std::string text = fmt::format("believed to {:.0f} %", 100.0 * *row.odometry_trust);
+  if (row.odometry_scale) {
+    text += fmt::format("; each of its metres is {:.2f} of the route's", *row.odometry_scale);
+  }
+  return text;
+}
+
 std::string Belief(const FrameRow& row) {
   std::string text = fmt::format("at {:.1f} % of the route", 100.0 * *row.place);
   if (row.place_sigma) text += fmt::format(", +- {:.1f} %", 100.0 * *row.place_sigma);
@@ -83,6 +91,7 @@ std::vector<Said> TellFrame(const RunLog& log, std::size_t number) {
   std::vector<Said> said{{"Mode", Mode(log, row)}, {"Along", Along(row)}};
   if (row.left_m) said.push_back({"Beside", Beside(row)});
   if (row.place) said.push_back({"Belief", Belief(row)});
+  if (row.odometry_trust) said.push_back({"Odometry", Odometry(row)});
   if (row.stored > 0) said.push_back({"Features", Features(row)});
   said.push_back({"Turn", Turn(row)});
   if (row.delta) said.push_back({"Delta", fmt::format("{:.2f}", *row.delta)});

@@ -16,6 +16,7 @@
 namespace trailcast::explain {
 namespace {
 
+using agent::Evidence;
 using agent::FrameRow;
 using agent::Phase;
 using agent::RunEvent;
@@ -147,6 +148,30 @@ void AddOffset(const RunLog& log, std::vector<std::string>& lines) {
                                                truth.mean, truth.largest)));
 }
 
+void AddEvidence(const RunLog& log, std::vector<std::string>& lines) {
+  const auto share = [&](Evidence evidence) {
+    return 100.0 * Over(log, [evidence](const FrameRow& row) {
+                     return row.evidence == evidence ? 1.0 : 0.0;
+                   }).mean;
+  };
+  lines.push_back(Line(
+      "goes by",
+      fmt::format("features in {:.0f} % of the frames, the view as a whole in "
+                  "{:.0f} %, motion alone in {:.0f} %",
+                  share(Evidence::kFeatures), share(Evidence::kViews), share(Evidence::kMotion))));
+  const Spread doubt = Over(log, [](const FrameRow& row) -> std::optional<double> {
+    if (!row.odometry_trust) return std::nullopt;
+    return 1.0 - *row.odometry_trust;
+  });
+  if (doubt.count == 0) return;
+  const double scale = log.frames.back().odometry_scale.value_or(1.0);
+  lines.push_back(Line(
+      "odometry", fmt::format("believed to {:.0f} % on average, {:.0f} % at least;"
+                              " at last each of its metres was {:.2f} of the "
+                              "route's",
+                              100.0 * (1.0 - doubt.mean), 100.0 * (1.0 - doubt.largest), scale)));
+}
+
 // Which frames took how long: the searches, and the rest.
 enum FrameKind { kPlain, kNear, kWide, kAgain, kSearching, kFrameKinds };
 
@@ -204,6 +229,7 @@ std::vector<std::string> RunFigures(const RunLog& log) {
   AddFeatures(log, lines);
   AddTurns(log, lines);
   AddOffset(log, lines);
+  AddEvidence(log, lines);
   AddTimes(log, lines);
   return lines;
 }

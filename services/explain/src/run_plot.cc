@@ -123,6 +123,15 @@ plot::StripChart Belief(const RunLog& log) {
   return chart;
 }
 
+plot::StripChart Odometry(const RunLog& log) {
+  plot::StripChart chart{"odometry: how far it is believed, and its scale", {}, 0.0, 1.0};
+  chart.curves.push_back(CurveOf(log, "believed", plot::kBlue,
+                                 [](const FrameRow& row) { return row.odometry_trust; }));
+  chart.curves.push_back(CurveOf(log, "the route's metres for each of its own", plot::kOrange,
+                                 [](const FrameRow& row) { return row.odometry_scale; }));
+  return chart;
+}
+
 plot::StripChart Speed(const RunLog& log) {
   plot::StripChart chart{"speed told to the base [m/s]", {}, 0.0, 0.1};
   chart.curves.push_back(CurveOf(
@@ -148,6 +157,9 @@ std::vector<plot::StripChart> Charts(const RunLog& log) {
   }
   if (AnyFrame(log, [](const FrameRow& row) { return row.place.has_value(); })) {
     charts.push_back(Belief(log));
+  }
+  if (AnyFrame(log, [](const FrameRow& row) { return row.odometry_trust.has_value(); })) {
+    charts.push_back(Odometry(log));
   }
   charts.push_back(Speed(log));
   return charts;

@@ -25,6 +25,9 @@ struct TrialOptions {
   // How far beside the path a follower with a scanner may pass what stands on it; nothing: as the
   // scenario says.
   std::optional<double> pass_obstacles_m;
+  // Who has odometry: "both", "scout", "follower" or "none".
+  std::string odometry = "both";
+  std::string odometry_noise;      // of the follower's, as ParseOdometryNoise takes it
   std::vector<std::string> flaws;  // of the follower, each for itself; empty: the scenario's
   double speed_mps = 0.0;          // of the scout on the straight; 0: the scenario's own
   int trials = 10;                 // of each method and each of the scenario's cases

@@ -14,6 +14,7 @@
 #include "services/lab/sim/core/path.h"
 #include "services/lab/sim/core/world.h"
 #include "services/lab/sim/places/place.h"
+#include "services/lab/trial/recording/odometry_noise.h"
 #include "services/lab/trial/spoiled_eyes.h"
 #include "services/lab/trial/trial_options.h"
 
@@ -41,9 +42,12 @@ struct TrialSetup {
   sim::DrivenPath path;
   double speed_mps = 0.0;
   sim::Disturbances follower;
-  bool backwards = false;                       // from the taught path's end to its beginning
-  int laps = 1;                                 // that each follower drives, one after the other
-  bool sun_moves = false;                       // between teaching and following
+  bool backwards = false;  // from the taught path's end to its beginning
+  int laps = 1;            // that each follower drives, one after the other
+  bool sun_moves = false;  // between teaching and following
+  bool scout_has_odometry = true;
+  bool follower_has_odometry = true;
+  OdometryNoise odometry_noise;                 // of the follower's
   bool same_robot = false;                      // each follower is the scout that taught it
   double scout_roll_deg = 0.0;                  // what they are told of their cameras
   agent::ReplayMethodOptions follower_options;  // but for the method

@@ -8,6 +8,7 @@
 #include "services/replay/src/track_progress.h"
 #include "services/route/heading.h"
 #include "services/route/track.h"
+#include "services/route/usual_camera.h"
 
 namespace trailcast::replay {
 namespace {
@@ -137,8 +138,8 @@ FollowStep FunnelFollower::Step(const FollowInput& input) {
     driven_.heading_change_rad += input.odometry->heading_change_rad;
   }
   const bool by_odometry = input.odometry && segment_.has_odometry;
-  const double speed_mps = segment_.has_odometry ? options_.speed_factor * segment_.speed_mps()
-                                                 : kSpeedWithoutOdometry_mps;
+  const double speed_mps =
+      segment_.has_odometry ? options_.speed_factor * segment_.speed_mps() : route::kUsualSpeed_mps;
   FollowStep step;
   Matched matched = Match(input.features);
   if (options_.compensate_roll) matched.UndoRoll(options_.roll);

@@ -163,22 +163,28 @@ Result<Terrain> ReadTerrain(const format::v1::Terrain& in) {
   return terrain;
 }
 
-Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
-  if (in.heading_polynomial_size() != static_cast<int>(segment.heading.c.size())) {
+Result<HeadingPolynomial> ReadHeading(const google::protobuf::RepeatedField<float>& in) {
+  HeadingPolynomial heading;
+  if (in.size() != static_cast<int>(heading.c.size())) {
     return Fail(ErrorCode::kCorrupt, "segment's heading polynomial has {} coefficients, not {}",
-                in.heading_polynomial_size(), segment.heading.c.size());
+                in.size(), heading.c.size());
   }
+  std::copy(in.begin(), in.end(), heading.c.begin());
+  if (!std::all_of(heading.c.begin(), heading.c.end(), [](double c) { return std::isfinite(c); })) {
+    return Fail(ErrorCode::kCorrupt, "segment's heading polynomial is not finite");
+  }
+  return heading;
+}
+
+Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
+  const auto heading = ReadHeading(in.heading_polynomial());
+  if (!heading) return tl::unexpected(heading.error());
   segment.has_odometry = true;
   segment.length_m = in.length_tenth_mm() / kStepsPerMetre;
   segment.heading_change_rad = in.heading_change_centi_mrad() / kStepsPerRadian;
   segment.heading_variation_rad = in.heading_variation_centi_mrad() / kStepsPerRadian;
   segment.turn_before_rad = in.turn_before_centi_mrad() / kStepsPerRadian;
-  std::copy(in.heading_polynomial().begin(), in.heading_polynomial().end(),
-            segment.heading.c.begin());
-  if (!std::all_of(segment.heading.c.begin(), segment.heading.c.end(),
-                   [](double c) { return std::isfinite(c); })) {
-    return Fail(ErrorCode::kCorrupt, "segment's heading polynomial is not finite");
-  }
+  segment.heading = *heading;
   return {};
 }
 
@@ -362,6 +368,9 @@ Bytes Encode(const Segment& segment) {
   out.set_index(segment.index.value());
   out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
+  if (segment.seen_heading) {
+    for (const double c : segment.seen_heading->c) out.add_seen_heading(static_cast<float>(c));
+  }
   const bool missed = std::any_of(segment.features.begin(), segment.features.end(),
                                   [](const Feature& f) { return f.missed > 0; });
   const bool described =
@@ -408,6 +417,11 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
     if (Result<void> odometry = ReadOdometry(in.odometry(), segment); !odometry) {
       return tl::unexpected(odometry.error());
     }
+  }
+  if (in.seen_heading_size() > 0) {
+    auto heading = ReadHeading(in.seen_heading());
+    if (!heading) return tl::unexpected(heading.error());
+    segment.seen_heading = *heading;
   }
   segment.reverse = in.reverse();
   if (segment.reverse && (in.format_version() < 3 || !segment.has_odometry)) {

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "services/teach/picture_turn.h"
+
 namespace trailcast::teach {
 namespace {
 
@@ -51,6 +53,16 @@ bool SegmentRecorder::Moved(const Features& tracked,
   const auto middle = moved_px.begin() + std::ssize(moved_px) / 2;
   std::nth_element(moved_px.begin(), middle, moved_px.end());
   return *middle >= still_px_;
+}
+
+// Since the robot last moved, by its picture.
+double SegmentRecorder::SeenTurn(const std::vector<route::TrackedFeature>& tracked) const {
+  std::vector<MovedFeature> moved;
+  for (const route::TrackedFeature& feature : tracked) {
+    const auto before = moved_features_.find(feature.id);
+    if (before != moved_features_.end()) moved.push_back({before->second, feature});
+  }
+  return TurnOf(FlowOf(moved, still_px_), width_px_);
 }
 
 bool SegmentRecorder::LongEnough() const {
@@ -115,6 +127,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     step = motion::IncrementBetween(*moved_odometry_, *odometry);
   }
   const bool moved = Moved(features, step);
+  const double seen_turn_rad = moved && !step ? SeenTurn(tracked) : 0.0;
   const std::optional<motion::Pose2> from = moved_odometry_;
   const SensorTime took = stamp - last_stamp_;
   last_stamp_ = stamp;
@@ -139,7 +152,7 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
     moment.key_views.clear();
     moment.moving += took;
     moment.distance_m += step ? way_ * step->distance_m : 0.0;
-    moment.heading_rad += step ? step->heading_change_rad : 0.0;
+    moment.heading_rad += step ? step->heading_change_rad : seen_turn_rad;
   }
   moment.features = std::move(features);
   advanced_ = moved;
@@ -269,6 +282,13 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
       headings.push_back({moment.distance_m, moment.heading_rad});
     }
     segment.heading = FitHeading(headings);
+  } else {
+    std::vector<HeadingSample> headings;
+    headings.reserve(moments_.size());
+    for (const Moment& moment : moments_) {
+      headings.push_back({Seconds(moment.moving), moment.heading_rad});
+    }
+    segment.seen_heading = FitHeading(headings);
   }
   const std::size_t most = MostFeatures(segment);
   const int knots = KnotsFor(segment.length_m);

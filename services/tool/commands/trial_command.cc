@@ -98,6 +98,12 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
   app.add_option("--pass-obstacles", options.pass_obstacles_m,
                  "What a follower with a scanner is told by --pass-obstacles, metres; 0: it waits")
       ->check(CLI::Range(0.0, 2.0));
+  app.add_option("--odometry", options.odometry,
+                 "Who has odometry; a follower without it goes by what it tells its base to drive")
+      ->check(CLI::IsMember({"both", "scout", "follower", "none"}));
+  app.add_option(
+      "--odometry-noise", options.odometry_noise,
+      "What is wrong with the follower's, joined with '+':\n" + trial::OdometryNoiseHelp());
   app.add_option("--flaw", options.flaws, FlawHelp())->delimiter(',');
   app.add_option("--speed", options.speed_mps, "The scout's, m/s; 0: the scenario's")
       ->check(CLI::Range(0.0, 1.0));

@@ -98,6 +98,78 @@ TEST(RouteBelief, FollowsARobotWhoseWayNobodyMeasuresAtAnyPace) {
   }
 }
 
+// Odometry that tells so much of the way, besides the guess that is always there.
+class Told {
+ public:
+  explicit Told(double length) : route_(static_cast<int>(length)) {
+    route_.belief.StartAt(0.0, 0.5);
+  }
+
+  // Drives to there, while odometry tells so many metres for each; returns the share of the looks
+  // at which the place was held and right.
+  double Drive(double to, double told_per_m) {
+    constexpr double kStep_m = 0.2;
+    int right = 0;
+    int looks = 0;
+    for (; along_ < to; along_ += kStep_m) {
+      route_.See(along_);
+      const RouteBelief::Place& place = route_.belief.place();
+      right += place.held && std::abs(place.along - along_) < 1.0;
+      ++looks;
+      const Motion odometry{told_per_m * kStep_m, 0.01, false};
+      route_.belief.Move(std::vector{odometry, Motion{kStep_m, 0.0, true}});
+    }
+    return right / static_cast<double>(looks);
+  }
+  [[nodiscard]] double Trust() const { return route_.belief.Trust(0); }
+  [[nodiscard]] double Scale() const { return route_.belief.ScaleOf(0); }
+
+ private:
+  Route route_;
+  double along_ = 0.0;
+};
+
+TEST(RouteBelief, BelievesOdometryThatAgreesWithThePictures) {
+  Told robot(60);
+  EXPECT_EQ(robot.Drive(20.0, 1.0), 1.0);
+  EXPECT_GT(robot.Trust(), 0.8);
+  EXPECT_NEAR(robot.Scale(), 1.0, 0.05);
+}
+
+TEST(RouteBelief, OdometryThatLiesIsNotBelievedAndComesBackOnceItIsRight) {
+  for (const double lie : {0.0, -1.0, 4.0}) {
+    Told robot(60);
+    robot.Drive(10.0, 1.0);
+    EXPECT_GE(robot.Drive(20.0, lie), 0.95) << lie;
+    EXPECT_LT(robot.Trust(), 0.2) << lie;
+    EXPECT_EQ(robot.Drive(40.0, 1.0), 1.0) << lie;
+    EXPECT_GT(robot.Trust(), 0.6) << lie;
+  }
+}
+
+TEST(RouteBelief, LearnsHowFarItComesForEachMetreThatItIsTold) {
+  for (const double told_per_m : {0.8, 1.25}) {
+    Told robot(60);
+    EXPECT_EQ(robot.Drive(40.0, told_per_m), 1.0);
+    EXPECT_NEAR(robot.Scale() * told_per_m, 1.0, 0.06) << told_per_m;
+    EXPECT_GT(robot.Trust(), 0.5) << told_per_m;
+  }
+}
+
+// A robot may lose its odometry on the way, or begin to be told.
+TEST(RouteBelief, WitnessesComeAndGoWithoutAnyoneLosingThePlace) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  const double along = route.Drive(10.0);
+  route.belief.Move(std::vector{Motion{0.0, 0.01, false}, Motion{0.0, 0.0, true}});
+  route.See(along);
+  EXPECT_TRUE(route.belief.place().held);
+  EXPECT_NEAR(route.belief.place().along, along, 0.3);
+  EXPECT_NEAR(route.belief.Trust(0) + route.belief.Trust(1), 1.0, 1e-6);
+  route.belief.Move({0.0, 0.01, false});
+  EXPECT_NEAR(route.belief.Trust(0), 1.0, 1e-6);
+}
+
 TEST(RouteBelief, ARobotThatStandsStaysWhereItIs) {
   Route route(60);
   route.belief.StartAt(20.0, 0.5);

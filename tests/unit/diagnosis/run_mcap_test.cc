@@ -165,6 +165,9 @@ TEST_F(RunMcapTest, ViewersFindEachValueUnderItsName) {
   row.place = 0.3125;
   row.place_sigma = 0.015625;
   row.off_route = 0.03125;
+  row.odometry_trust = 0.875;
+  row.odometry_scale = 1.125;
+  row.evidence = Evidence::kViews;
   Fields header;
   header.Add("route", "hall");
   RunEvent event{7, 0.25, "hand-over", {}, "words"};
@@ -184,7 +187,8 @@ TEST_F(RunMcapTest, ViewersFindEachValueUnderItsName) {
                   "left_m: -0.75 left_sigma_m: 0.25 heading_rad: -1.25 along_m: 1.75 "
                   "mount_yaw_rad: 2.25 magnification: 0.5 driven_m: 151.25 x_m: -103.5 "
                   "y_m: 42.125 linear_mps: 0.375 angular_radps: -0.0625 cpu_ms: 12.25 "
-                  "true_off_m: 0.5625 place: 0.3125 place_sigma: 0.015625 off_route: 0.03125"));
+                  "true_off_m: 0.5625 place: 0.3125 place_sigma: 0.015625 off_route: 0.03125 "
+                  "odometry_trust: 0.875 odometry_scale: 1.125 evidence: VIEWS"));
   EXPECT_THAT(viewer.Read("/replay/header"),
               ElementsAre("fields { key: \"route\" value: \"hall\" }"));
   EXPECT_THAT(viewer.Read("/replay/event"),

@@ -106,6 +106,16 @@ TEST(Codec, SegmentWithoutFeaturesOrOdometryComesBackUnchanged) {
   EXPECT_EQ(*decoded, segment);
 }
 
+TEST(Codec, HowFarThePictureTurnedComesBackWithoutOdometry) {
+  Segment segment = SampleSegment(7, 3);
+  segment.has_odometry = false;
+  segment.length_m = segment.heading_change_rad = segment.heading_variation_rad = 0.0;
+  segment.heading = {};
+  const std::size_t without = Encode(segment).size();
+  segment.seen_heading = HeadingPolynomial{{0.25, -0.5, 0.125}};
+  EXPECT_EQ(ThereAndBack(segment).size(), without + 14U);
+}
+
 TEST(Codec, LargestNumbersComeBackUnchanged) {
   Segment segment;
   segment.has_odometry = true;

@@ -113,6 +113,46 @@ TEST_P(ReplaySessionTest, WhatWasTaughtIsFollowedInEveryFrame) {
   }
 }
 
+// A route taught with odometry or without it, by a robot that has none: what it is told to drive,
+// and the pictures, are all that there is.
+TEST_P(ReplaySessionTest, IsFollowedByWhatTheBaseIsTold) {
+  ReplaySession session = SessionOn(Taught(odometry()));
+  ReplayStep step;
+  for (int i = 0; i < kFrames; ++i) {
+    Observation seen;
+    seen.stamp = StampOf(i);
+    seen.image = Walk()[static_cast<std::size_t>(i)];
+    seen.told = motion::VelocityCommand{kStep_m * kFrames_hz, 0.0};
+    step = session.Observe(seen).value();
+    EXPECT_TRUE(step.state == ReplayState::kFollowing || step.state == ReplayState::kArrived)
+        << "frame " << i << ": " << ToString(step.state) << ", " << step.reason;
+    EXPECT_NEAR(step.believed->place, i / (kFrames - 1.0), 0.25) << i;
+    EXPECT_FALSE(step.odometry);
+  }
+  EXPECT_NE(step.evidence, Evidence::kMotion);
+}
+
+TEST(ReplaySessionOdometry, ThatContradictsThePicturesIsNotBelieved) {
+  for (const double lie : {0.0, 5.0}) {
+    constexpr double kFast_m = 0.1;
+    ReplaySession session = SessionOn(Taught(true, Walk(), kFast_m));
+    int follows = 0;
+    ReplayStep step;
+    for (int i = 0; i < kFrames; ++i) {
+      step = session
+                 .Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)],
+                           PoseAt(i, true, lie * kFast_m)})
+                 .value();
+      if (step.state == ReplayState::kFollowing || step.state == ReplayState::kArrived) ++follows;
+      // Before a wall ten metres away a metre more or less shows next to nothing.
+      EXPECT_NEAR(step.progress, i / (kFrames - 1.0), 0.35) << lie << ", frame " << i;
+    }
+    EXPECT_GE(follows, 9 * kFrames / 10) << lie;
+    ASSERT_TRUE(step.odometry);
+    EXPECT_LT(step.odometry->trust, 0.4) << lie;
+  }
+}
+
 TEST_P(ReplaySessionTest, BeginsAnywhereIfToldSo) {
   constexpr int kFirst = 30;
   ReplayMethodOptions options;

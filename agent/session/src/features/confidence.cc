@@ -97,7 +97,9 @@ Trust Confidence::Decide(const Sighting& seen, bool by_distance) const {
     return Trust::kLost;
   }
   if (!sure_once_) return Trust::kSeeking;
-  return seen.agreeing >= options_.min_features ? Trust::kUnsure : Trust::kBlind;
+  const bool a_moment_ago = by_distance ? unsure_m_ <= options_.unsure_limit_m
+                                        : unsure_s_ <= options_.unsure_limit_s + kTimeSlack_s;
+  return seen.agreeing >= options_.min_features && a_moment_ago ? Trust::kUnsure : Trust::kBlind;
 }
 
 std::string Confidence::Explain(const Sighting& seen, bool by_distance) const {
@@ -120,7 +122,7 @@ Verdict Confidence::Judge(const Sighting& seen,
                                       carries_)};
   }
   if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
-    return {Trust::kSure, "this stretch was taught without features: on by odometry"};
+    return {Trust::kBlind, "this stretch was taught without features: on by odometry"};
   }
   NoteView(seen);
   if (since_covered_s_) *since_covered_s_ += seen.dt_s;
@@ -137,6 +139,12 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_s_ += seen.dt_s;
   const bool gone = seen.agreeing < options_.min_features;
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
+  // Whatever hides the segment's features does not hide the view.
+  if (seen.recognised || seen.elsewhere) {
+    covered_ = false;
+    since_good_s_.reset();
+    since_covered_s_.reset();
+  }
   if (covered_) since_covered_s_ = 0.0;
   const bool by_distance = moved.has_value() && sure_once_;
   const Trust trust = Decide(seen, by_distance);

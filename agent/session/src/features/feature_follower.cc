@@ -18,6 +18,12 @@ constexpr double kLookAgain_s = 5.0 / 30.0;
 // So far along its segment one may be from where it was that was carried, and turned as well.
 constexpr double kCarried_m = 1.0;
 constexpr double kShareToSkip = 0.5;
+constexpr double kApart = 0.5;  // the route's units
+// Features that move further than this from picture to picture, as a share of its width, are lost
+// without anybody covering them.
+constexpr double kRushes = 0.025;
+// So many features agree with no view of another place.
+constexpr int kRecognised = 8;
 // What a robot that stands does not see where it should be, it will not see there later.
 constexpr double kLookThere_s = 1.5;
 constexpr double kLensTurn_rad = 0.2;
@@ -87,8 +93,9 @@ replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) 
   } else {
     step = follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
   }
-  const bool in_vain = standing.trust == Trust::kLost ||
-                       (standing.trust == Trust::kSeeking && confidence_.unsure_s() > kLookThere_s);
+  const bool in_vain = !place_.where().held &&
+                       (standing.trust == Trust::kLost || (standing.trust == Trust::kSeeking &&
+                                                           confidence_.unsure_s() > kLookThere_s));
   if (in_vain && LooksElsewhere(standing)) return {};
   RefuseReverse(standing);
   return step;
@@ -107,8 +114,22 @@ void FeatureFollower::RefuseReverse(Standing& standing) const {
 // view. After it, and before it drives on, the robot has to be sure of them.
 replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
   const replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
-  standing = {ReplayState::kFollowing, Trust::kSure, "turns on the spot"};
+  const bool agrees =
+      step.agreeing >= confidence_.options().min_features || place_.agreed_now() >= kEnoughAgreed;
+  turns_unseen_s_ = agrees ? 0.0 : turns_unseen_s_ + seen.looked_s;
+  if (turns_unseen_s_ <= confidence_.options().unsure_limit_s) {
+    standing = {ReplayState::kFollowing, Trust::kSure, "turns on the spot"};
+  } else {
+    standing = {ReplayState::kBlind, Trust::kBlind, "turns on the spot, by odometry alone"};
+  }
   place_.SetTracked(std::nullopt, 0);
+  Sighting sighting;
+  Compare({follower_->segment().index, 0.0}, sighting);
+  if (sighting.elsewhere) {
+    look_again_at_s_ = 0.0;
+    LookAgain(0.0, true);
+    return step;
+  }
   if (follower_->turn_is_in_view()) {
     search_.Refresh(*follower_, step.agreeing, seen.looked_s, false);
   }
@@ -128,12 +149,15 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
       follower_->Step({seen.features, seen.driven, seen.unknown,
                        follower_->segment().reverse ? 0.0 : passing_.left_m()});
   Judge(step, seen, standing);
+  const bool anew = follower_->segment().index != before;  // it has found itself elsewhere
   if (look_around_.turns()) step.command = {0.0, look_around_.turn_rate_radps()};
   if (follower_->segment().index == before) LookWhatStands(step, seen, standing);
   if (!AsPrinted(options_.method)) {
     search_.Refresh(*follower_, step.agreeing, seen.looked_s, step.carried_left_m.has_value());
   }
-  if (step.offset && EndsAtTheAxle()) {
+  if (anew) {
+    step.ended = step.wants_next = false;
+  } else if (step.offset && EndsAtTheAxle()) {
     step.ended = step.offset->along_m >= follower_->segment().length_m;
   }
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
@@ -182,7 +206,7 @@ int FeatureFollower::InPicture() const {
 Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {
   const route::Segment& segment = follower_->segment();
   Sighting sighting{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
-                    eyes_.tracker().losses().not_returned};
+                    seen.usual_flow < kRushes ? eyes_.tracker().losses().not_returned : 0};
   sighting.dt_s = seen.looked_s;
   sighting.carried_off = step.carried_left_m.has_value();
   if (step.offset) {
@@ -200,24 +224,30 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
   sighting.elsewhere = !here && place_.where().agreed >= kEnoughAgreed;
   // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
   sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
-                        !follower_->segment().reverse && place_.agreed_now() >= kEnoughAgreed;
+                        !follower_->segment().reverse && place_.agreed_now() >= kRecognised;
 }
 
 void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
   Sighting sighting = SightOf(step, seen);
-  // Features that lie where odometry and the taught geometry have them outweigh it.
-  const bool elsewhere =
-      std::exchange(sighting.elsewhere, sighting.elsewhere && AsPrinted(options_.method));
+  // As many features that lie where odometry and the taught geometry have them outweigh it.
+  sighting.elsewhere =
+      sighting.elsewhere && (AsPrinted(options_.method) || place_.where().agreed > step.agreeing);
+  const bool elsewhere = sighting.elsewhere;
   Verdict verdict = confidence_.Judge(sighting, seen.driven);
   if (AsPrinted(options_.method)) {  // which know no doubt of their own
     Verdict by_place = place_trust_.Judge(place_.where(), seen.looked_s);
     if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
   }
   standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
+  NoteWay(step, standing);
   LookAroundFirst(seen, standing);
-  const bool tracked = standing.trust == Trust::kSure && step.offset && step.agreeing > 0;
+  // Where odometry stands still, what is tracked holds the robot where it was.
+  const bool tracked =
+      standing.trust == Trust::kSure && step.offset && step.agreeing > 0 && !seen.frozen;
   const RoutePoint point{follower_->segment().index, step.fraction};
-  place_.SetTracked(tracked ? std::optional(point) : std::nullopt, step.agreeing);
+  // Less those that agree with any place, for it is fitted to them.
+  place_.SetTracked(tracked ? std::optional(point) : std::nullopt,
+                    std::max(0, step.agreeing - replay::kFewestAgreeing));
   const bool astray = standing.trust == Trust::kBlind || standing.trust == Trust::kSeeking ||
                       standing.trust == Trust::kLooking ||
                       (elsewhere && standing.trust == Trust::kUnsure) ||
@@ -226,10 +256,22 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
   if (astray && standing.state != ReplayState::kLost) LookAgain(step.fraction, elsewhere);
 }
 
+void FeatureFollower::NoteWay(const replay::FollowStep& step, const Standing& standing) {
+  std::optional<double> sure_along;
+  if (standing.trust == Trust::kSure) {
+    sure_along = place_.AlongOf({follower_->segment().index, step.fraction});
+  }
+  if (sure_along && sure_along_ && std::abs(*sure_along - *sure_along_) < kApart) {
+    came_m_ += std::max(0.0, *sure_along - *sure_along_);
+  }
+  sure_along_ = sure_along;
+}
+
 // Whoever would give up because it does not see the path may have been turned away from it.
 void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
   if (standing.trust != Trust::kLost) look_around_.Rest();
-  if (standing.trust == Trust::kLost && confidence_.ever_sure()) TurnToLook(seen, standing);
+  if (standing.trust != Trust::kLost || !confidence_.ever_sure() || place_.where().held) return;
+  TurnToLook(seen, standing);
 }
 
 // Nor does one that may be anywhere on the route, and recognises nothing of it.
@@ -253,18 +295,21 @@ void FeatureFollower::TurnToLook(const Seen& seen, Standing& standing) {
   }
 }
 
-// Where the belief holds it to be, if that is somewhere else; otherwise about where it is thought
-// to be and at the next segment's start, by turns: what is near may be gone for good.
+// Where the belief holds it to be, if that is somewhere else; otherwise there, about where it is
+// thought to be and at the next segment's start, by turns: what is near may be gone for good.
 void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   if (confidence_.unsure_s() + kTimeSlack_s < look_again_at_s_) return;
   const auto turn = static_cast<int>((confidence_.unsure_s() + kTimeSlack_s) / kLookAgain_s);
   look_again_at_s_ = (turn + 1) * kLookAgain_s;
   const SegmentIndex index = follower_->segment().index;
   const std::size_t next = index.value() + 1;
-  const bool ahead = !elsewhere && route_.has(next) && turn % 2 == 0 && !route_.stands_after(index);
-  const RoutePoint point = elsewhere ? place_.point()
-                           : ahead   ? RoutePoint{route_.segments()[next].index, 0.0}
-                                     : RoutePoint{index, fraction};
+  const bool apart = place_.where().held &&
+                     std::abs(place_.where().along - place_.AlongOf({index, fraction})) > kApart;
+  const bool believed = elsewhere || (apart && turn % 3 == 2);
+  const bool ahead = !believed && route_.has(next) && turn % 2 == 0 && !route_.stands_after(index);
+  const RoutePoint point = believed ? place_.point()
+                           : ahead  ? RoutePoint{route_.segments()[next].index, 0.0}
+                                    : RoutePoint{index, fraction};
   const route::Segment& segment = route_.segment(point.segment);
   if (segment.features.empty()) return;
   const auto found = search_.Recover(*follower_, segment, point);
@@ -272,9 +317,10 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
   if (found.empty() || too_far) return;
-  if (elsewhere) {
+  if (elsewhere && AsPrinted(options_.method)) {
     follower_->BeginAt(segment, point.fraction);
-  } else if (look_around_.turns()) {
+  } else if (believed || look_around_.turns()) {
+    if (believed) came_m_ = 0.0;
     // How far a robot was carried that was turned as well, its odometry does not know.
     follower_->BeginAbout(segment, point.fraction, {kCarried_m, follower_->focal()});
   } else if (ahead) {

@@ -53,6 +53,10 @@ class FeatureFollower {
   // Of a robot that has been sure of its path; otherwise what it was told.
   [[nodiscard]] std::optional<OwnLens> lens() const;
 
+  // It was put somewhere, and does not know yet where that is.
+  [[nodiscard]] bool seeks_start() const {
+    return place_finder_ || (anywhere_ && !follower_ && !was_lost_);
+  }
   // Driven backwards, it comes along the route.
   [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
   // Of the segment being followed; nullptr before the first.
@@ -65,7 +69,7 @@ class FeatureFollower {
   static constexpr int kEnoughAgreed = 10;
 
   [[nodiscard]] bool by_odometry() const {
-    return eyes_.has_odometry() && UsesOdometry(options_.method);
+    return eyes_.knows_motion() && UsesOdometry(options_.method);
   }
   // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
   [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
@@ -89,6 +93,7 @@ class FeatureFollower {
   void Begin(const route::Segment& segment);
   void EndSegment(Standing& standing);
   [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
+  [[nodiscard]] bool HasCome() const;
 
   [[nodiscard]] replay::FollowStep Steer(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
@@ -99,6 +104,7 @@ class FeatureFollower {
   [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
   void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
+  void NoteWay(const replay::FollowStep& step, const Standing& standing);
   void LookAroundFirst(const Seen& seen, Standing& standing);
   [[nodiscard]] replay::FollowStep LookAroundForAny(const Seen& seen, Standing& standing);
   void TurnToLook(const Seen& seen, Standing& standing);
@@ -124,13 +130,19 @@ class FeatureFollower {
   std::optional<replay::FocalLength> focal_;  // in this run's pixels
   PlaceTrust place_trust_;                    // of the printed methods
   double look_again_at_s_ = 0.0;              // of being unsure
-  std::optional<PlaceFinder> place_finder_;   // until it has found the place
-  bool anywhere_;                             // on the route it may be, until it is found
-  std::string not_there_;                     // where it looks along the whole route: why
-  std::vector<RoutePoint> to_compare_;        // places that it may be at,
-  std::vector<PlaceByFeatures> compared_;     // and what their features say
-  std::string nowhere_;                       // why it begins at none of them
-  double moved_m_ = 0.0;                      // since it began to compare
+  // Come along the route while it was sure, since it began at the beginning or was held to be
+  // elsewhere all at once: the end of a lap looks like its beginning.
+  double came_m_ = 0.0;
+  std::optional<double> sure_along_;         // at the last frame; nothing: it was not sure
+  double turns_unseen_s_ = 0.0;              // on the spot, since something agreed
+  std::optional<PlaceFinder> place_finder_;  // until it has found the place
+  bool anywhere_;                            // on the route it may be, until it is found
+  bool was_lost_ = false;                    // it had found its path before
+  std::string not_there_;                    // where it looks along the whole route: why
+  std::vector<RoutePoint> to_compare_;       // places that it may be at,
+  std::vector<PlaceByFeatures> compared_;    // and what their features say
+  std::string nowhere_;                      // why it begins at none of them
+  double moved_m_ = 0.0;                     // since it began to compare
   std::optional<ExperienceTaker> experience_;
   // One that knows the route, and is nowhere yet, as long as it is worth keeping: to be copied.
   std::unique_ptr<replay::Follower> fresh_;

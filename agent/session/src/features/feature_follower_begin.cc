@@ -39,6 +39,8 @@ constexpr double kOutside = 1.0;
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
+// So far a robot has to have come along a route to have arrived.
+constexpr double kCome_m = 0.5;
 
 }  // namespace
 
@@ -56,7 +58,7 @@ void FeatureFollower::GoOnFrom(const LeftAt& left) {
 }
 
 const replay::Follower& FeatureFollower::Fresh(const route::Segment& first) {
-  const bool odometry = eyes_.has_odometry() && first.has_odometry;
+  const bool odometry = eyes_.knows_motion() && first.has_odometry;
   if (fresh_ && fresh_by_odometry_ == odometry) return *fresh_;
   const auto known =
       place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
@@ -114,6 +116,7 @@ bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
       follower_->BeginAt(segment, found->fraction);
     }
     place_.StartAt(place_.AlongOf({found->segment, found->fraction}), kFound_m);
+    came_m_ = kCome_m;
     search_.TakeUpWhereLeft(found->seen, *follower_);
     place_finder_.reset();
     if (recognised_m && std::abs(*recognised_m - place_.where().along) < kElsewhere) {
@@ -155,6 +158,7 @@ bool FeatureFollower::LooksElsewhere(Standing& standing) {
     confidence_.SeekAnew("the path is not found again");
   }
   anywhere_ = true;
+  was_lost_ = lost;
   follower_.reset();
   fresh_.reset();
   place_finder_.reset();
@@ -214,14 +218,14 @@ bool FeatureFollower::MayBeRecognised() const {
 // Where it is, and how large its camera shows things, is one unknown to a robot that stands;
 // turning tells the second. Once.
 bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
-  if (focal_ || lens_turn_.furthest_rad() == 0.0 || !seen.driven) return false;
+  if (focal_ || lens_turn_.furthest_rad() == 0.0 || !seen.measured) return false;
   if (!turn_flow_) {
     turn_flow_.emplace(seen.frame->width);
     eyes_.tracker().Detect();
   } else {
-    turn_flow_->Look(seen.features, seen.driven->heading_change_rad);
+    turn_flow_->Look(seen.features, seen.measured->heading_change_rad);
   }
-  if (!lens_turn_.Turn(seen.driven->heading_change_rad, seen.looked_s)) {
+  if (!lens_turn_.Turn(seen.measured->heading_change_rad, seen.looked_s)) {
     focal_ = turn_flow_->focal();
     return false;
   }
@@ -317,7 +321,9 @@ void FeatureFollower::BeginAtLikeliest() {
   const RoutePoint point = place_.PointAt(along);
   if (focal_) search_.hand_over().KnowMagnification(best.magnification);
   const auto begun = BeginAbout(point) ? std::optional(along) : BeginBehind(best.by);
-  if (begun) place_.StartAt(*begun, std::max(kFound_m, last - first));
+  if (!begun) return;
+  place_.StartAt(*begun, std::max(kFound_m, last - first));
+  came_m_ = kCome_m;
 }
 
 // That its camera is of such a focal length, by what turning has told of it: in features.
@@ -368,6 +374,10 @@ bool FeatureFollower::IsElsewhereThanAtTheEnd() const {
   return place_.where().held && left > std::max(kEnd, kEndShare * place_.belief().length());
 }
 
+bool FeatureFollower::HasCome() const {
+  return std::max(came_m_, place_.where().come) >= std::min(kCome_m, 0.5 * route_.length_m());
+}
+
 void FeatureFollower::EndSegment(Standing& standing) {
   const std::size_t next = follower_->segment().index.value() + 1;
   const double turn_rad = route_.turn_after_rad(follower_->segment().index);
@@ -378,7 +388,7 @@ void FeatureFollower::EndSegment(Standing& standing) {
                             Degrees(turn_rad), ToString(options_.method))};
   } else if (route_.has(next)) {
     Begin(route_.segments()[next]);
-  } else if (route_.complete() && !IsElsewhereThanAtTheEnd()) {
+  } else if (route_.complete() && !IsElsewhereThanAtTheEnd() && HasCome()) {
     standing.state = ReplayState::kArrived;
     standing.reason = "arrived at the end of the route";
   } else if (route_.complete()) {

@@ -50,7 +50,7 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.magnification = follower_->magnification();
   report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
   report.progress = route_.ProgressAt(report.segment, report.fraction);
-  if (confidence_.ever_sure() && segment.has_odometry) {
+  if (confidence_.ever_sure() && place_.metric()) {
     // A segment's start may still be ahead: its features are followed as soon as they are in view.
     const double along_m = step.offset ? std::min(step.offset->along_m, segment.length_m)
                                        : report.fraction * segment.length_m;

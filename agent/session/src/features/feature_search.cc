@@ -21,7 +21,7 @@ void FeatureSearch::Open(const image::GrayImage& frame) {
 // are lost and sought again (0.58 instead of 0.81 of the turns right on a recording at 2.6 times).
 void FeatureSearch::Follow(const std::vector<route::TrackedFeature>& found,
                            const replay::Follower& follower) {
-  if (eyes_.has_odometry()) eyes_.tracker().SetMagnification(follower.magnification());
+  if (eyes_.knows_motion()) eyes_.tracker().SetMagnification(follower.magnification());
   eyes_.tracker().Follow(found);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/route/usual_camera.h"
 #include "services/view/key_views.h"
 
 namespace trailcast::agent {
@@ -22,6 +23,8 @@ constexpr double kLeastNew = 0.08;
 constexpr double kStill_flow = 0.0006;
 constexpr double kHere = 1.0;            // about the place; the route's units
 constexpr double kOdometrySigma = 0.05;  // a share of the way
+constexpr double kToldSigma = 0.2;       // the same, of what the base was told
+constexpr double kContradictedWithin_s = 0.3;
 // Which features' agreement tells how the pictures map onto each other.
 constexpr std::size_t kViewsToRecognise = 4;
 constexpr int kEnoughToRecognise = 7;
@@ -44,19 +47,37 @@ void PlaceKeeper::KnowMagnification(double magnification, int width_px) {
 }
 
 void PlaceKeeper::Move(const FrameMotion& moved) {
-  if (moved.odometry) {
-    new_since_look_ += std::abs(moved.odometry->distance_m) / kNewLook_m +
-                       std::abs(moved.odometry->heading_change_rad) / kNewLook_rad;
-  } else {
-    new_since_look_ += moved.flow / kNewLook_flow;
+  const auto& driven = moved.odometry ? moved.odometry : moved.told;
+  // Whichever says more: odometry may stand still, and few features be followed.
+  const double by_flow = moved.flow / kNewLook_flow;
+  const double by_way = driven ? std::abs(driven->distance_m) / kNewLook_m +
+                                     std::abs(driven->heading_change_rad) / kNewLook_rad
+                               : 0.0;
+  new_since_look_ += std::max(by_flow, by_way);
+  std::vector<belief::Motion> witnesses;
+  const auto hear = [&](const motion::OdometryIncrement& by, double sigma) {
+    const double along = by.distance_m / (metric() ? 1.0 : route::kUsualSpeed_mps);
+    witnesses.push_back({along, std::hypot(sigma * along, moved.unknown_m), false});
+  };
+  by_odometry_ = moved.odometry.has_value();
+  if (moved.odometry) hear(*moved.odometry, kOdometrySigma);
+  if (moved.told) hear(*moved.told, kToldSigma);
+  const bool moves = moved.flow > kStill_flow && moved.dt_s > 0.0;
+  const double speed = metric() ? speeds_mps_[point().segment.value()] : 1.0;
+  witnesses.push_back({moves ? moved.dt_s * speed : 0.0, 0.0, true});
+  place_.belief().Move(witnesses);
+  if (moved.frozen) {
+    place_.belief().Contradict(0, std::min(1.0, moved.dt_s / kContradictedWithin_s));
   }
-  if (moved.odometry && metric()) {
-    const double along_m = moved.odometry->distance_m;
-    place_.belief().Move({along_m, std::hypot(kOdometrySigma * along_m, moved.unknown_m), false});
-  } else if (moved.flow > kStill_flow && moved.dt_s > 0.0) {
-    const double speed = metric() ? speeds_mps_[point().segment.value()] : 1.0;
-    place_.belief().Move({moved.dt_s * speed, 0.0, true});
-  }
+}
+
+double PlaceKeeper::PaceAt_m(double dt_s) const {
+  return dt_s * (metric() ? speeds_mps_[point().segment.value()] : route::kUsualSpeed_mps);
+}
+
+std::optional<double> PlaceKeeper::TrustInOdometry() const {
+  if (!by_odometry_) return std::nullopt;
+  return belief().Trust(0);
 }
 
 void PlaceKeeper::SetTracked(const std::optional<RoutePoint>& point, int agreed) {

@@ -14,10 +14,13 @@ namespace trailcast::agent {
 
 // How a robot moved since the last frame.
 struct FrameMotion {
-  std::optional<motion::OdometryIncrement> odometry;  // along the route
+  // Along the route, by odometry, and by what the base was told; nothing: there is none.
+  std::optional<motion::OdometryIncrement> odometry;
+  std::optional<motion::OdometryIncrement> told;
   double flow = 0.0;  // of most features in the picture, as a share of its width
   double dt_s = 0.0;
   double unknown_m = 0.0;  // besides, one way or the other
+  bool frozen = false;     // odometry tells that it stands, against what it sees
 };
 
 // Keeps the belief in a robot's place on a route (route_belief.h) up to date with how it moves and
@@ -63,6 +66,13 @@ class PlaceKeeper {
   [[nodiscard]] RoutePoint PointAt(double along) const { return place_.PointAt(along); }
   [[nodiscard]] double AlongOf(const RoutePoint& point) const { return place_.AlongOf(point); }
   [[nodiscard]] bool metric() const { return place_.metric(); }
+  // How far odometry is believed against all else that tells how the robot moves, 0 to 1; nothing:
+  // it has none.
+  [[nodiscard]] std::optional<double> TrustInOdometry() const;
+  // Metres of the route for each that the robot is measured or told to come.
+  [[nodiscard]] double ScaleOfWay() const { return belief().ScaleOf(0); }
+  // How far the scout came in so long a time where the robot is.
+  [[nodiscard]] double PaceAt_m(double dt_s) const;
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
   // This camera's pixels per scout's; nothing before it was seen.
   [[nodiscard]] std::optional<double> Magnification(int width_px) const;
@@ -74,6 +84,7 @@ class PlaceKeeper {
   std::optional<belief::TrackedPlace> tracked_;
   Look look_;
   double new_since_look_ = 1.0;  // how much of a new look the next one is
+  bool by_odometry_ = false;     // the belief's first witness is odometry
 };
 
 }  // namespace trailcast::agent

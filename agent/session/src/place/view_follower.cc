@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/replay/follower.h"
+#include "services/route/usual_camera.h"
 
 namespace trailcast::agent {
 namespace {
@@ -92,7 +93,7 @@ ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
   Verdict verdict = trust_.Judge(where, dt_s, doubt);
   const RoutePoint point = place_.point();
   const route::Segment& here = route_.segment(point.segment);
-  const double speed_mps = here.has_odometry ? here.speed_mps() : replay::kSpeedWithoutOdometry_mps;
+  const double speed_mps = here.has_odometry ? here.speed_mps() : route::kUsualSpeed_mps;
   const ViewSteering steering =
       SteerByViews(place_, options_.speed_factor * speed_mps, options_.limits);
   ReplayStep step;

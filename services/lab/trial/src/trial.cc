@@ -79,7 +79,8 @@ class Replaying {
   Replaying(sim::SimulatedRobot& robot, std::optional<FlawedRobot> flawed, const Taught& taught,
             agent::ReplaySession session, SessionOpener open_next, int laps,
             agent::Diagnosis diagnosis, double push_m, std::optional<double> set_down_m,
-            std::optional<ScannedWay> way, Spoiled spoiled, std::uint64_t seed)
+            std::optional<ScannedWay> way, Spoiled spoiled, std::uint64_t seed,
+            std::optional<OdometrySpoiler> odometry)
       : robot_(robot),
         flawed_(std::move(flawed)),
         truth_(robot),
@@ -94,6 +95,7 @@ class Replaying {
         way_(std::move(way)),
         spoiled_(spoiled),
         seed_(seed),
+        odometry_(std::move(odometry)),
         limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
   // One frame. False when the replay is over; `state` and `reason` then say how.
@@ -101,6 +103,12 @@ class Replaying {
     if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
     std::optional<agent::Observation> observation = See();
     if (!observation) return !End("blind", "no picture came for long");
+    observation->told = last_.command;
+    if (observation->odometry && odometry_) {
+      observation->odometry = odometry_->Tell(observation->stamp, *observation->odometry);
+    } else {
+      observation->odometry.reset();
+    }
     Spoil(spoiled_, seed_, observation->image);
     if (Waits()) return !Ended(motion::Position(truth_.true_pose()));
     if (way_) observation->stands = way_->scanned();
@@ -265,6 +273,7 @@ class Replaying {
   std::optional<ScannedWay> way_;  // of one with a scanner
   Spoiled spoiled_;
   std::uint64_t seed_;
+  std::optional<OdometrySpoiler> odometry_;  // of one that has odometry
   bool waits_ = false;
   std::string passing_;  // as it says it
   double limit_s_;
@@ -358,10 +367,14 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
   const Taught turned = setup.backwards ? TurnedRound(taught) : Taught();
   const Taught& judged_by = setup.backwards ? turned : taught;
+  std::optional<OdometrySpoiler> odometry;
+  if (setup.follower_has_odometry) {
+    odometry.emplace(setup.odometry_noise, taught.duration_s, seeds.follower);
+  }
   Replaying replaying(**robot, std::move(flawed), judged_by, std::move(*session), open, setup.laps,
                       std::move(*diagnosis), trial_case.push_m, set_down_m,
                       setup.scanner ? std::optional<ScannedWay>(visit.world) : std::nullopt,
-                      visit.spoiled, seeds.follower);
+                      visit.spoiled, seeds.follower, std::move(odometry));
   for (int frame = 0;; ++frame) {
     const Result<bool> more = replaying.Step();
     if (!more) return Wrap(more.error(), "the follower");

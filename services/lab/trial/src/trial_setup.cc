@@ -168,6 +168,11 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
                 "what is spoiled is seen by who comes after: how many visits are there to be?");
   }
   setup.spoiled = *spoiled;
+  auto noise = ParseOdometryNoise(options.odometry_noise);
+  if (!noise) return tl::unexpected(noise.error());
+  setup.odometry_noise = std::move(*noise);
+  setup.scout_has_odometry = options.odometry == "both" || options.odometry == "scout";
+  setup.follower_has_odometry = options.odometry == "both" || options.odometry == "follower";
   setup.scenario = scenario->name;
   auto cases = MakeCases(*scenario, options);
   if (!cases) return tl::unexpected(cases.error());

@@ -39,6 +39,7 @@ class Teaching {
            const std::vector<agent::TeachOptions>& teachings, sim::SimulatedRobot& robot)
       : robot_(robot),
         truth_(robot),
+        has_odometry_(setup.scout_has_odometry),
         driver_(setup.path.points,
                 {.speed_mps = setup.speed_mps, .shunts_from = setup.path.shunts_from}) {
     for (const auto& options : teachings) {
@@ -50,7 +51,8 @@ class Teaching {
   Result<bool> Step() {
     sim::Observation frame = robot_.Step(command_);
     taught_.path.Add(motion::Position(truth_.true_pose()));
-    const agent::Observation seen{frame.stamp, std::move(frame.image), frame.odometry};
+    agent::Observation seen{frame.stamp, std::move(frame.image), frame.odometry};
+    if (!has_odometry_) seen.odometry.reset();
     for (RouteRecorder& recorder : recorders_) {
       if (auto kept = recorder.Observe(seen); !kept) return tl::unexpected(kept.error());
     }
@@ -80,6 +82,7 @@ class Teaching {
  private:
   sim::SimulatedRobot& robot_;
   sim::Judge truth_;
+  bool has_odometry_;
   sim::PathFollowDriver driver_;
   std::vector<RouteRecorder> recorders_;
   motion::VelocityCommand command_;
