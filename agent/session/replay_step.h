@@ -23,7 +23,8 @@ struct Believed {
 // Odometry as a witness of how the robot moves, against the others: what it is told, and the pace
 // of the scout.
 struct OdometryFigures {
-  double trust = 0.0;  // probability that it tells how the robot moves
+  double trust =
+      0.0;  // how likely it is to tell how the robot moves, against the likeliest of them
   double scale = 1.0;  // metres of the route for each of its own
 };
 

@@ -115,8 +115,9 @@ class RouteBelief {
     double come = 0.0;       // along the route while held, since it last jumped
   };
   [[nodiscard]] const Place& place() const { return place_; }
-  // The probability that this one of Move's witnesses tells how the robot moves, of them all; and
-  // how far it comes for each unit that this one tells.
+  // How likely it is that this one of Move's witnesses tells how the robot moves, against the
+  // likeliest of them: 1 for that one, and for all that agree with it. And how far the robot comes
+  // for each unit that this one tells.
   [[nodiscard]] double Trust(std::size_t witness) const;
   [[nodiscard]] double ScaleOf(std::size_t witness) const { return witnesses_[witness].scale(); }
   // How much larger this camera shows things than the scout's, as a natural logarithm: the median

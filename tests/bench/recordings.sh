@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # The pairs of the given recordings that `./run recordings` judges, as a file for `trailcast judge --pairs`:
-#   tests/bench/recordings.sh [plain|disturbed|refreshed|all] >pairs.csv
+#   tests/bench/recordings.sh [plain|disturbed|refreshed|wheels|all] >pairs.csv
 # plain: what was taught, the same way at another time, and every recording of another place;
 # disturbed: the same ways with what is done to the replays; refreshed: laps of the patio, as they are and
-# disturbed, on a route that another lap has refreshed. Followers are tuned on donkey_track and
+# disturbed, on a route that another lap has refreshed; wheels: laps of two cars, without odometry, with what
+# was reckoned from their commands, and with that made wrong in named ways. Followers are tuned on donkey_track and
 # night_drive alone; what has anything of the others in it is held out.
 set -euo pipefail
 
@@ -41,7 +42,7 @@ set_of() {
 
 # pair KIND TEACH REPLAY [DISTURB [TRUTH [STEERING]]]
 pair() {
-  printf '%s,%s,%s,%s,%s,%s,%s,%s,\n' "$(set_of "$2" "$3")" "$1" "$2" "$3" "${4-}" "${5-}" "${6-}" $rate
+  printf '%s,%s,%s,%s,%s,%s,%s,%s,,,,\n' "$(set_of "$2" "$3")" "$1" "$2" "$3" "${4-}" "${5-}" "${6-}" $rate
 }
 
 plain() {
@@ -81,23 +82,59 @@ refreshed() {
     for each in "${refreshed[@]}"; do
       # shellcheck disable=SC2086
       set -- $each
-      printf '%s,right,%s,%s,%s,%s,,%s,%s\n' 'refreshed' "$1" "$3" "$change" "$4" $rate "$2"
+      printf '%s,right,%s,%s,%s,%s,,%s,%s,,,\n' 'refreshed' "$1" "$3" "$change" "$4" $rate "$2"
     done
   done
 }
 
-echo 'set,kind,teach,replay,disturb,truth,steering,rate,visits'
+# teach, replay, truth, odometry of the teaching, of the replay
+wheels=(
+  'donkey_track/teach donkey_track/replay donkey_track/truth_replay.csv commanded_teach commanded_replay'
+  'race_laps/lap0 race_laps/lap1 race_laps/truth_lap1.csv commanded_lap0 commanded_lap1'
+  'race_laps/lap0 race_laps/lap2 race_laps/truth_lap2.csv commanded_lap0 commanded_lap2'
+)
+noises=(none scale=0.9 scale=1.1 turn=0.8 turn=1.2 drift=3 delay=0.2 slips frozen=2 jumps=2
+  scale=1.4+bias=0.1)
+
+# And what was taught itself, and cars of other places, all with odometry.
+wheels() {
+  local each noise place other
+  for each in "${wheels[@]}"; do
+    # shellcheck disable=SC2086
+    set -- $each
+    place=${1%%/*}
+    printf 'without,right,%s,%s,,%s,,%s,,,,\n' "$1" "$2" "$3" $rate
+    for noise in "${noises[@]}"; do
+      printf 'wheels,right,%s,%s,,%s,,%s,,%s,%s,%s\n' "$1" "$2" "$3" $rate \
+        "$place/odometry_$4.csv" "$place/odometry_$5.csv" "$noise"
+    done
+    printf 'wheels,identity,%s,%s,,,,%s,,%s,%s,\n' "$1" "$1" $rate "$place/odometry_$4.csv" \
+      "$place/odometry_$4.csv"
+  done
+  for other in 'race_laps/lap0 donkey_track/replay commanded_lap0 commanded_replay' \
+    'donkey_track/teach race_laps/lap1 commanded_teach commanded_lap1' \
+    'donkey_track/teach race_laps/lap2 commanded_teach commanded_lap2'; do
+    # shellcheck disable=SC2086
+    set -- $other
+    printf 'wheels,wrong,%s,%s,,,,%s,,%s,%s,\n' "$1" "$2" $rate "${1%%/*}/odometry_$3.csv" \
+      "${2%%/*}/odometry_$4.csv"
+  done
+}
+
+echo 'set,kind,teach,replay,disturb,truth,steering,rate,visits,teach_odometry,replay_odometry,odometry_noise'
 case $what in
   plain) plain ;;
   disturbed) disturbed ;;
   refreshed) refreshed ;;
+  wheels) wheels ;;
   all)
     plain
     disturbed
     refreshed
+    wheels
     ;;
   *)
-    echo "recordings.sh: expected plain, disturbed, refreshed or all, not '$what'" >&2
+    echo "recordings.sh: expected plain, disturbed, refreshed, wheels or all, not '$what'" >&2
     exit 2
     ;;
 esac

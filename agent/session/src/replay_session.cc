@@ -25,8 +25,8 @@ constexpr double kFirstFrame_s = 1.0 / 30.0;
 constexpr double kStart_sigma = 0.25;
 constexpr double kLeft_m = 0.5;  // and from where it was left
 // Odometry that is doubted so far tells next to nothing; that is believed so far carries a robot.
-constexpr double kDoubted = 0.6;
-constexpr double kBelieved = 0.6;
+constexpr double kDoubted = 0.85;
+constexpr double kBelieved = 0.3;
 constexpr double kHere = 0.5;  // of where the belief holds the robot to be; the route's units
 constexpr double kTurns_rad_per_m = 1.0;
 constexpr double kUnknownScale = 0.3;  // of a way

@@ -122,8 +122,9 @@ void RouteBelief::Contradict(std::size_t witness, double share) {
 }
 
 double RouteBelief::Trust(std::size_t witness) const {
-  const double on = 1.0 - off_;
-  return on > 0.0 ? witnesses_[witness].grid().cells().Sum() / on : 1.0 / each();
+  double most = 0.0;
+  for (const Witness& each : witnesses_) most = std::max(most, each.grid().cells().Sum());
+  return most > 0.0 ? witnesses_[witness].grid().cells().Sum() / most : 1.0;
 }
 
 // The better witness may be another one by now.

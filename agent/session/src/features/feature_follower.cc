@@ -221,7 +221,8 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
 void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const {
   if (!place_.where().held) return;
   const bool here = std::abs(place_.where().along - place_.AlongOf(point)) <= kElsewhere;
-  sighting.elsewhere = !here && place_.where().agreed >= kEnoughAgreed;
+  const bool sees = AsPrinted(options_.method) || place_.agreed_now() >= kRecognised;
+  sighting.elsewhere = !here && sees && place_.where().agreed >= kEnoughAgreed;
   // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
   sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
                         !follower_->segment().reverse && place_.agreed_now() >= kRecognised;

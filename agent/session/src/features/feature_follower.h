@@ -64,7 +64,7 @@ class FeatureFollower {
 
  private:
   // So far from where its features are, the belief holds the robot to be somewhere else.
-  static constexpr double kElsewhere = 2.0;
+  static constexpr double kElsewhere = 1.0;
   // A handful agree in any picture.
   static constexpr int kEnoughAgreed = 10;
 

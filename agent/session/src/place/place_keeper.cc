@@ -47,13 +47,14 @@ void PlaceKeeper::KnowMagnification(double magnification, int width_px) {
 }
 
 void PlaceKeeper::Move(const FrameMotion& moved) {
+  looked_ = false;
   const auto& driven = moved.odometry ? moved.odometry : moved.told;
-  // Whichever says more: odometry may stand still, and few features be followed.
-  const double by_flow = moved.flow / kNewLook_flow;
-  const double by_way = driven ? std::abs(driven->distance_m) / kNewLook_m +
-                                     std::abs(driven->heading_change_rad) / kNewLook_rad
-                               : 0.0;
-  new_since_look_ += std::max(by_flow, by_way);
+  if (driven && !moved.frozen) {
+    new_since_look_ += std::abs(driven->distance_m) / kNewLook_m +
+                       std::abs(driven->heading_change_rad) / kNewLook_rad;
+  } else {
+    new_since_look_ += moved.flow / kNewLook_flow;
+  }
   std::vector<belief::Motion> witnesses;
   const auto hear = [&](const motion::OdometryIncrement& by, double sigma) {
     const double along = by.distance_m / (metric() ? 1.0 : route::kUsualSpeed_mps);
@@ -93,10 +94,12 @@ void PlaceKeeper::LookAt(const image::GrayImage& frame) {
       frame, belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
   belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
   new_since_look_ = 0.0;
+  looked_ = true;
 }
 
 int PlaceKeeper::agreed_now() const {
   int most = 0;
+  if (!looked_) return most;
   for (const Look::Recognised& each : look_.views) {
     const bool here = std::abs(belief().view_at(each.view) - where().along) <= kHere;
     if (here) most = std::max(most, each.comparison.agreed());

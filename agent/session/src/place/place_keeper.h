@@ -47,7 +47,8 @@ class PlaceKeeper {
   // the picture has changed until then.
   void LookAt(const image::GrayImage& frame);
   [[nodiscard]] const Look& look() const { return look_; }  // the last one
-  // The features that agreed in it with the view that is recognised best about the place.
+  // The features that agree in this frame with the view that is recognised best about the place; 0
+  // where it was not looked at.
   [[nodiscard]] int agreed_now() const;
   // Once the robot has come some way since the last, and always while the place is not held.
   [[nodiscard]] bool LookIsDue() const;
@@ -66,8 +67,8 @@ class PlaceKeeper {
   [[nodiscard]] RoutePoint PointAt(double along) const { return place_.PointAt(along); }
   [[nodiscard]] double AlongOf(const RoutePoint& point) const { return place_.AlongOf(point); }
   [[nodiscard]] bool metric() const { return place_.metric(); }
-  // How far odometry is believed against all else that tells how the robot moves, 0 to 1; nothing:
-  // it has none.
+  // How far odometry is believed against what else tells how the robot moves, 0 to 1; nothing: it
+  // has none.
   [[nodiscard]] std::optional<double> TrustInOdometry() const;
   // Metres of the route for each that the robot is measured or told to come.
   [[nodiscard]] double ScaleOfWay() const { return belief().ScaleOf(0); }
@@ -84,6 +85,7 @@ class PlaceKeeper {
   std::optional<belief::TrackedPlace> tracked_;
   Look look_;
   double new_since_look_ = 1.0;  // how much of a new look the next one is
+  bool looked_ = false;          // since the last Move
   bool by_odometry_ = false;     // the belief's first witness is odometry
 };
 
