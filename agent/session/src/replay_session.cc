@@ -197,7 +197,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   if (AsPrinted(options.method)) return features;
   ReplayStep views = by_views.Step(seen.looked_s);
   if (!ViewsKnowBetter(features, views)) return features;
-  if (CarriedByOdometry(features)) {
+  if (views.state == ReplayState::kFollowing && CarriedByOdometry(features)) {
     features.state = views.state;
     features.trust = Trust::kUnsure;
     standing = {features.state, features.trust, features.reason};

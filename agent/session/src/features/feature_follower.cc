@@ -270,7 +270,7 @@ void FeatureFollower::NoteWay(const replay::FollowStep& step, const Standing& st
 
 // Whoever would give up because it does not see the path may have been turned away from it.
 void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
-  if (standing.trust != Trust::kLost) look_around_.Rest();
+  if (standing.trust != Trust::kLost || place_.where().held) look_around_.Rest();
   if (standing.trust != Trust::kLost || !confidence_.ever_sure() || place_.where().held) return;
   TurnToLook(seen, standing);
 }

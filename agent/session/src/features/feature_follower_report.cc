@@ -62,7 +62,8 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.decision = step;
   const bool on_by_odometry =
       state == ReplayState::kBlind && standing.trust == Trust::kBlind && by_odometry();
-  if (state == ReplayState::kFollowing || on_by_odometry || look_around_.turns()) {
+  const bool looks_around = state == ReplayState::kBlind && look_around_.turns();
+  if (state == ReplayState::kFollowing || on_by_odometry || looks_around) {
     const double share = SpeedShare(step, standing.trust);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
   }
