@@ -57,7 +57,7 @@ Result<Seen> Eyes::See(const Observation& observation) {
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
   seen.measured = Driven(observation);
-  is_told_ = observation.told.has_value();
+  is_told_ = by_commands_ && observation.told.has_value();
   if (is_told_) seen.told = told_.Drive(*observation.told, seen.dt_s);
   seen.driven = seen.measured ? seen.measured : seen.told;
   seen.unknown = observation.unknown;

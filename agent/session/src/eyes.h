@@ -38,7 +38,9 @@ struct Seen {
 // A picture's first station: checked, taken in, its features tracked.
 class Eyes {
  public:
-  explicit Eyes(const vision::IntakeOptions& intake) : intake_(intake) {}
+  // `by_commands`: what the base is told counts as motion.
+  Eyes(const vision::IntakeOptions& intake, bool by_commands)
+      : intake_(intake), by_commands_(by_commands) {}
 
   // Errors: those of FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
@@ -60,6 +62,7 @@ class Eyes {
   vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
   std::optional<motion::Pose2> last_odometry_;
+  bool by_commands_;
   ToldMotion told_;
   double usual_flow_ = 0.0;
   double frozen_s_ = 0.0;

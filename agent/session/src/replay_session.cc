@@ -39,7 +39,7 @@ struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
         route(info.segment_count),
-        eyes(method.intake),
+        eyes(method.intake, !AsPrinted(method.method)),
         upright(method.intake),
         place(info.image_width_px),
         by_features(method, {info.image_width_px, info.image_height_px}, route, eyes, place),
@@ -279,15 +279,6 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
-  if (getenv("TC_DEBUG"))
-    fprintf(stderr,
-            "at %.2f here %.2f off %.2f agreed %d now %d held %d come %.2f | seg %u fr %.2f feat "
-            "%d state %s trust %s flow %.3f odo %.2f sc %.2f views %d\n",
-            where.along, where.here, where.off_route, where.agreed, s.place.agreed_now(),
-            where.held, where.come, s.last.segment.value(), s.last.fraction,
-            s.last.decision.agreeing, ToString(s.last.state), ToString(s.of_features.trust),
-            seen->usual_flow, s.place.TrustInOdometry().value_or(-1),
-            s.place.TrustInOdometry() ? s.place.belief().ScaleOf(0) : -1, s.steers_by_views);
   s.last.evidence = s.EvidenceOf(s.last);
   if (const auto trust = s.place.TrustInOdometry()) {
     s.last.odometry = {*trust, s.place.belief().ScaleOf(0)};
