@@ -51,6 +51,8 @@ class Eyes {
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
   [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
   [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }
+  // The base does what it is told: whatever is believed moves a robot.
+  [[nodiscard]] bool drives() const { return is_told_; }
   // It is known how the robot moves, if only by what it is told.
   [[nodiscard]] bool knows_motion() const { return has_odometry() || is_told_; }
 

@@ -170,6 +170,9 @@ bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
                                            const ReplayStep& views) const {
   const bool follows = features.state == ReplayState::kFollowing;
   if (features.trust == Trust::kCovered || by_features.seeks_start()) return false;
+  // A handful of another camera's features agree with a place some metres off: too few to drive by.
+  constexpr int kToDriveBy = 10;
+  if (eyes.drives() && place.agreed_now() < kToDriveBy) return false;
   if (views.state == ReplayState::kArrived) return !follows;
   return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
 }

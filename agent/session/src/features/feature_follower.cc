@@ -220,9 +220,13 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
 // By the belief over the whole route, of a robot that is thought to be at `point`.
 void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const {
   if (!place_.where().held) return;
-  const bool here = std::abs(place_.where().along - place_.AlongOf(point)) <= kElsewhere;
+  // Another camera's views may be a little like those of a place some metres off.
+  const bool drives = eyes_.drives();
+  const double apart = std::abs(place_.where().along - place_.AlongOf(point));
+  const bool here = apart <= (drives ? kElsewhereDriving : kElsewhere);
   const bool sees = AsPrinted(options_.method) || place_.agreed_now() >= kRecognised;
-  sighting.elsewhere = !here && sees && place_.where().agreed >= kEnoughAgreed;
+  const int enough = drives ? kEnoughAgreedDriving : kEnoughAgreed;
+  sighting.elsewhere = !here && sees && place_.where().agreed >= enough;
   // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
   sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
                         !follower_->segment().reverse && place_.agreed_now() >= kRecognised;

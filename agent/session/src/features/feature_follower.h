@@ -65,8 +65,10 @@ class FeatureFollower {
  private:
   // So far from where its features are, the belief holds the robot to be somewhere else.
   static constexpr double kElsewhere = 1.0;
+  static constexpr double kElsewhereDriving = 2.0;  // of a robot that it moves
   // A handful agree in any picture.
   static constexpr int kEnoughAgreed = 10;
+  static constexpr int kEnoughAgreedDriving = 15;
 
   [[nodiscard]] bool by_odometry() const {
     return eyes_.knows_motion() && UsesOdometry(options_.method);
