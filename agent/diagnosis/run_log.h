@@ -86,8 +86,8 @@ struct FrameRow {
   std::optional<double> place;
   std::optional<double> place_sigma;
   std::optional<double> off_route;  // probability
-  // Of odometry, as a witness of how the robot moves: how far it is believed, 0 to 1, and the
-  // route's metres for each of its own.
+  // These tell how far odometry is believed, 0 to 1, and how many of the route's metres each of its
+  // own is.
   std::optional<double> odometry_trust;
   std::optional<double> odometry_scale;
   Evidence evidence = Evidence::kNothing;

@@ -23,7 +23,7 @@ struct Observation {
   // Where something stands, by its scanner's newest look, seen from its axle: x ahead, y left;
   // nothing: it has no scanner.
   std::optional<std::vector<Eigen::Vector2d>> stands{};
-  // What the base was told to drive since the last frame; nothing: what is told moves nobody (a
+  // The base was told to drive so since the last frame; nothing: commands move nobody (a
   // recording).
   std::optional<motion::VelocityCommand> told{};
 };

@@ -12,6 +12,7 @@ class MovedGrid {
  public:
   explicit MovedGrid(double cell) : cell_(cell) {}
 
+  [[nodiscard]] double cell() const { return cell_; }  // a cell's length
   [[nodiscard]] CellGrid& cells() { return cells_; }
   [[nodiscard]] const CellGrid& cells() const { return cells_; }
   // The cell that a place is in; the nearest one for a place outside.

@@ -143,6 +143,7 @@ class RouteBelief {
   [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
   void WeighCellsAbout(const ComparedView& view, int best, double independent, MovedGrid& grid);
   void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent, MovedGrid& grid);
+  [[nodiscard]] CellGrid Together() const;
   void Hear(std::size_t witnesses);
   void SwitchWitnesses(double independent);
   void Leave(double independent);

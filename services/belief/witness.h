@@ -22,7 +22,7 @@ struct Motion {
 // Transactions on Automatic Control 33(8), 1988, over a histogram instead of Kalman filters).
 class Witness {
  public:
-  explicit Witness(double cell) : grid_(cell), cell_(cell) {}
+  explicit Witness(double cell) : grid_(cell) {}
 
   [[nodiscard]] MovedGrid& grid() { return grid_; }
   [[nodiscard]] const MovedGrid& grid() const { return grid_; }
@@ -43,7 +43,6 @@ class Witness {
   void LearnScale(double come, double moved, double trust);
 
   MovedGrid grid_;
-  double cell_;
   bool guesses_ = false;
   double scale_ = 1.0;
   double scale_sigma_ = 0.2;  // of a measured way

@@ -5,6 +5,7 @@
 
 #include "services/replay/focal_length.h"
 #include "services/route/route.h"
+#include "services/route/usual_camera.h"
 
 namespace trailcast::replay {
 
@@ -48,8 +49,8 @@ void DrawTogether(std::vector<InverseDepth>& depths);
 
 struct TaughtFlowOptions {
   // What is believed before anything was seen: a usual webcam, and how far from one it may be.
-  double focal_share = 0.87;  // of the picture's width
-  double focal_sigma = 0.4;   // relative
+  double focal_share = route::kUsualFocalShare;  // of the picture's width
+  double focal_sigma = 0.4;                      // relative
   double widening = 0.8;
   double widening_sigma = 0.5;
   double mount_sigma_rad = 0.05;

@@ -47,8 +47,7 @@ struct ReplaySession::State {
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
-  // Where nothing tells how the robot or the scout moved, our own method goes by what is
-  // recognised.
+  // Our own method goes by what is recognised where nothing tells how the robot or the scout moved.
   [[nodiscard]] bool ByViews() const {
     return options.method == ReplayMethod::kDefault &&
            !(eyes.knows_motion() && route.segments().front().has_odometry);
@@ -58,6 +57,7 @@ struct ReplaySession::State {
   void StartPlace(int width_px);
   bool Locate(const Seen& seen);  // true: what is recognised was looked at
   void ToRoute(Seen& seen) const;
+  void Doubt(Seen& seen) const;
   [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
   [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
@@ -145,16 +145,18 @@ Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
   return step.command == motion::VelocityCommand{} ? Evidence::kNothing : Evidence::kMotion;
 }
 
-// Of odometry that the pictures contradict: the robot may have come as far as the scout did in that
-// time, and turned as much as that takes, besides what odometry tells.
-// Where the scout's own metres are not known, the robot's are brought to those that are taken for
+// Where the scout's own metres are not known, this brings the robot's to those that are taken for
 // them.
 void ReplaySession::State::ToRoute(Seen& seen) const {
-  if (!place.metric() && seen.driven) {
-    seen.driven->distance_m *= place.ScaleOfWay();
-    seen.unknown.distance_m = std::hypot(place.ScaleOfWay() * seen.unknown.distance_m,
-                                         kUnknownScale * seen.driven->distance_m);
-  }
+  if (place.metric() || !seen.driven) return;
+  seen.driven->distance_m *= place.ScaleOfWay();
+  seen.unknown.distance_m = std::hypot(place.ScaleOfWay() * seen.unknown.distance_m,
+                                       kUnknownScale * seen.driven->distance_m);
+}
+
+// Where the pictures contradict odometry, the robot may have come as far as the scout did in that
+// time, and turned as much as that takes, besides what odometry tells.
+void ReplaySession::State::Doubt(Seen& seen) const {
   const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
   if (doubt < kDoubted || !seen.driven) return;
   const double come_m = std::max(std::abs(seen.driven->distance_m), place.PaceAt_m(seen.dt_s));
@@ -177,8 +179,8 @@ bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
   return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
 }
 
-// Of a robot that is recognised where it holds itself to be: odometry that is believed carries it
-// on more exactly, for a short way, than a view steers.
+// Odometry that is believed carries a robot more exactly, for a short way, than a view steers it,
+// if the robot is recognised where it holds itself to be.
 bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
   const double apart = place.where().along - place.AlongOf({features.segment, features.fraction});
   return features.command != motion::VelocityCommand{} && std::abs(apart) <= kHere &&
@@ -277,6 +279,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (s.route.segments().empty()) return s.by_features.Report({}, s.of_features);
   const bool looked = s.Locate(*seen);
   s.ToRoute(*seen);
+  s.Doubt(*seen);
   s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
   if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);

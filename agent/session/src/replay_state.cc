@@ -1,7 +1,5 @@
 #include "agent/session/replay_state.h"
 
-#include "agent/session/evidence.h"
-
 namespace trailcast::agent {
 
 const char* ToString(ReplayState state) {
@@ -22,20 +20,6 @@ const char* ToString(ReplayState state) {
       return "LOST";
   }
   return "UNKNOWN";
-}
-
-const char* ToString(Evidence evidence) {
-  switch (evidence) {
-    case Evidence::kNothing:
-      return "nothing";
-    case Evidence::kFeatures:
-      return "features";
-    case Evidence::kViews:
-      return "views";
-    case Evidence::kMotion:
-      return "motion";
-  }
-  return "unknown";
 }
 
 bool Waits(ReplayState state) {

@@ -84,16 +84,22 @@ void RouteBelief::KnowMagnification(double log_magnification) {
   log_magnification_ = log_magnification;
 }
 
+// The mass of all witnesses, whichever of them is right.
+CellGrid RouteBelief::Together() const {
+  CellGrid all = witnesses_.front().grid().cells();
+  for (std::size_t i = 1; i < witnesses_.size(); ++i) {
+    all.Add(witnesses_[i].grid().cells(), 1.0);
+  }
+  return all;
+}
+
 // So many witnesses tell from now on how the robot moves: what is believed is so whichever of them
 // is right.
 void RouteBelief::Hear(std::size_t witnesses) {
   if (witnesses_.size() == witnesses) return;
-  Witness all = witnesses_.front();
-  for (std::size_t i = 1; i < witnesses_.size(); ++i) {
-    all.grid().cells().Add(witnesses_[i].grid().cells(), 1.0);
-  }
   Witness one(options_.cell);
-  one.grid() = all.grid();
+  one.grid() = witnesses_.front().grid();
+  one.grid().cells() = Together();
   one.grid().cells().Scale(1.0 / static_cast<double>(witnesses));
   witnesses_.assign(witnesses, one);
 }
@@ -131,10 +137,7 @@ double RouteBelief::Trust(std::size_t witness) const {
 void RouteBelief::SwitchWitnesses(double independent) {
   if (witnesses_.size() == 1) return;
   const double changes = options_.witness_changes * independent;
-  CellGrid all = witnesses_.front().grid().cells();
-  for (std::size_t i = 1; i < witnesses_.size(); ++i) {
-    all.Add(witnesses_[i].grid().cells(), 1.0);
-  }
+  const CellGrid all = Together();
   for (Witness& witness : witnesses_) {
     witness.grid().cells().Scale(1.0 - changes);
     witness.grid().cells().Add(all, changes / each());
@@ -320,10 +323,9 @@ void RouteBelief::Locate() {
 
 std::vector<double> RouteBelief::Likeliest(std::size_t most, double least, double apart) const {
   std::vector<double> places;
-  std::vector<double> left(cells(), 0.0);
-  for (const Witness& witness : witnesses_) {
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] += witness.grid().cells().at(i);
-  }
+  const CellGrid all = Together();
+  std::vector<double> left(all.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = all.at(i);
   while (places.size() < most && !left.empty()) {
     const auto peak = std::max_element(left.begin(), left.end());
     const auto at = static_cast<std::size_t>(peak - left.begin());

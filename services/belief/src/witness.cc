@@ -45,10 +45,10 @@ void Witness::Move(const Motion& motion, double diffusion) {
   if (guesses_) {
     CellGrid::Taps taps;
     for (const Share& share : kGuesses) {
-      taps.Add(share.of_guess * scale_ * motion.along / cell_, share.weight);
+      taps.Add(share.of_guess * scale_ * motion.along / grid_.cell(), share.weight);
     }
     for (const Share& share : kPaces) {
-      taps.Add(share.of_guess * motion.along / cell_, share.weight);
+      taps.Add(share.of_guess * motion.along / grid_.cell(), share.weight);
     }
     grid_.Scatter(taps);
     return;

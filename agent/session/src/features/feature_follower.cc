@@ -22,7 +22,7 @@ constexpr double kApart = 0.5;  // the route's units
 // Features that move further than this from picture to picture, as a share of its width, are lost
 // without anybody covering them.
 constexpr double kRushes = 0.025;
-// So many features agree with no view of another place.
+// No view of another place agrees in so many features.
 constexpr int kRecognised = 8;
 // What a robot that stands does not see where it should be, it will not see there later.
 constexpr double kLookThere_s = 1.5;
@@ -234,7 +234,7 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
 
 void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
   Sighting sighting = SightOf(step, seen);
-  // As many features that lie where odometry and the taught geometry have them outweigh it.
+  // The belief is outweighed by as many features that lie where the taught geometry has them.
   sighting.elsewhere =
       sighting.elsewhere && (AsPrinted(options_.method) || place_.where().agreed > step.agreeing);
   const bool elsewhere = sighting.elsewhere;
@@ -246,7 +246,7 @@ void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, St
   standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
   NoteWay(step, standing);
   LookAroundFirst(seen, standing);
-  // Where odometry stands still, what is tracked holds the robot where it was.
+  // What is tracked would hold the robot where it was while odometry stands still.
   const bool tracked =
       standing.trust == Trust::kSure && step.offset && step.agreeing > 0 && !seen.frozen;
   const RoutePoint point{follower_->segment().index, step.fraction};
@@ -300,8 +300,9 @@ void FeatureFollower::TurnToLook(const Seen& seen, Standing& standing) {
   }
 }
 
-// Where the belief holds it to be, if that is somewhere else; otherwise there, about where it is
-// thought to be and at the next segment's start, by turns: what is near may be gone for good.
+// It looks where the belief holds the robot to be, if that is somewhere else; otherwise there,
+// about where it is thought to be and at the next segment's start, by turns: what is near may be
+// gone for good.
 void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   if (confidence_.unsure_s() + kTimeSlack_s < look_again_at_s_) return;
   const auto turn = static_cast<int>((confidence_.unsure_s() + kTimeSlack_s) / kLookAgain_s);

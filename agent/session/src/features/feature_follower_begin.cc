@@ -39,7 +39,7 @@ constexpr double kOutside = 1.0;
 // How much of a route may be left where a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
-// So far a robot has to have come along a route to have arrived.
+// A robot has to have come so far along a route to have arrived.
 constexpr double kCome_m = 0.5;
 
 }  // namespace

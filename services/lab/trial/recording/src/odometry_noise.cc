@@ -1,25 +1,16 @@
 #include "services/lab/trial/recording/odometry_noise.h"
 
-#include <algorithm>
 #include <array>
-#include <numbers>
 #include <random>
-#include <string_view>
 #include <utility>
 
-#include "services/base/number.h"
+#include "services/base/angles.h"
+#include "services/lab/trial/recording/src/named_changes.h"
 
 namespace trailcast::trial {
 namespace {
 
-struct KnownFault {
-  OdometryFault fault;
-  const char* name;
-  double value;  // where none is given
-  double least;
-  double most;
-  const char* help;
-};
+using KnownFault = NamedChange<OdometryFault>;
 
 constexpr std::array kKnownFaults{
     KnownFault{OdometryFault::kScale, "scale", 1.1, 0.0, 10.0, "each metre counts as so many"},
@@ -42,54 +33,15 @@ constexpr double kLatest = 0.65;
 constexpr motion::VelocityCommand kSpins{0.4, 0.8};
 constexpr motion::OdometryIncrement kJump{2.0, 1.0};
 
-Result<OdometryChange> ParseFault(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  const std::string_view name = text.substr(0, equals);
-  const auto* known = std::find_if(kKnownFaults.begin(), kKnownFaults.end(),
-                                   [&](const KnownFault& each) { return each.name == name; });
-  if (known == kKnownFaults.end()) {
-    std::string names;
-    for (const KnownFault& each : kKnownFaults)
-      names += (names.empty() ? "" : ", ") + std::string(each.name);
-    return Fail(ErrorCode::kInvalidArgument, "there is no fault of odometry '{}'; there are: {}",
-                name, names);
-  }
-  if (equals == std::string_view::npos) return OdometryChange{known->fault, known->value};
-  const std::string_view value = text.substr(equals + 1);
-  const auto number = ParseNumber<double>(value);
-  if (!number || !(*number >= known->least && *number <= known->most)) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "odometry's fault '{}' takes a number from {} to {}, not '{}'", name, known->least,
-                known->most, value);
-  }
-  return OdometryChange{known->fault, *number};
-}
-
 double Share(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1.0p-53; }
 
 }  // namespace
 
 Result<OdometryNoise> ParseOdometryNoise(const std::string& text) {
-  OdometryNoise noise;
-  if (text.empty() || text == "none") return noise;
-  std::string_view left = text;
-  while (true) {
-    const std::size_t plus = left.find('+');
-    auto change = ParseFault(left.substr(0, plus));
-    if (!change) return tl::unexpected(change.error());
-    noise.push_back(*change);
-    if (plus == std::string_view::npos) return noise;
-    left.remove_prefix(plus + 1);
-  }
+  return ParseNamedChanges<OdometryChange>(text, kKnownFaults, "fault of odometry");
 }
 
-std::string OdometryNoiseHelp() {
-  std::string help;
-  for (const KnownFault& each : kKnownFaults) {
-    help += fmt::format("  {:<12} {}\n", fmt::format("{}={:g}", each.name, each.value), each.help);
-  }
-  return help;
-}
+std::string OdometryNoiseHelp() { return HelpOf(kKnownFaults); }
 
 OdometrySpoiler::OdometrySpoiler(OdometryNoise noise, double drive_s, std::uint64_t seed)
     : noise_(std::move(noise)) {
@@ -120,7 +72,7 @@ motion::OdometryIncrement OdometrySpoiler::Spoil(motion::OdometryIncrement moved
         moved.heading_change_rad *= value;
         break;
       case OdometryFault::kDrift:
-        moved.heading_change_rad += driven_m * value * std::numbers::pi / 180.0;
+        moved.heading_change_rad += driven_m * Radians(value);
         break;
       case OdometryFault::kBias:
         moved.heading_change_rad += value * dt_s;
