@@ -74,7 +74,7 @@ struct RouteBeliefOptions {
 // filter; Thrun et al., Probabilistic Robotics, ch. 4; over the views of a route as in hidden
 // Markov models of place recognition) over all of the route, moved by odometry or by a broad prior,
 // weighed by the key views that are recognised. No vision, no clock, no DDS. The route's units are
-// metres, or, where it was taught without odometry, seconds of teaching in motion.
+// metres, or whatever it was measured in where it was taught without odometry.
 class RouteBelief {
  public:
   explicit RouteBelief(const RouteBeliefOptions& options = {})

@@ -34,9 +34,10 @@ struct Dirt {
   }
 };
 
-// Seen by a robot that looks so many pixels to the right of where the scout did.
+// Of a walk of some ten key views, seen by a robot that looks so many pixels to the right of where
+// the scout did.
 image::GrayImage LapFrame(int number, Wall wall, int right_px = 0) {
-  const image::GrayImage taught = test::WalkFrame(number, kLapWidth_px + 2 * kSpare_px);
+  const image::GrayImage taught = test::WalkFrame(2 * number, kLapWidth_px + 2 * kSpare_px);
   image::GrayImage picture{kLapWidth_px, taught.height, {}};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < kLapWidth_px; ++x) {

@@ -89,6 +89,8 @@ class FeatureFollower {
   void ComparePlaces();
   void CompareSome();
   void BeginAtLikeliest();
+  // A part of the route, in its units, for people.
+  [[nodiscard]] std::string InWords(double way) const;
   [[nodiscard]] double Unlikely(const std::optional<replay::FocalLength>& focal) const;
   [[nodiscard]] const replay::Follower& Fresh(const route::Segment& first);
   void Make(const route::Segment& first);

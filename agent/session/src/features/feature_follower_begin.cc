@@ -295,6 +295,11 @@ void FeatureFollower::CompareSome() {
   search_.Forget();
 }
 
+std::string FeatureFollower::InWords(double way) const {
+  if (place_.metric()) return fmt::format("{:.1f} m", way);
+  return fmt::format("{:.0f} % of the route", 100.0 * way / place_.belief().length());
+}
+
 // Of those that were compared, if that is one place, and on the route.
 void FeatureFollower::BeginAtLikeliest() {
   nowhere_.clear();
@@ -302,20 +307,20 @@ void FeatureFollower::BeginAtLikeliest() {
   const int enough = place_.where().held ? kEnoughHeld : kEnoughAgreed;
   if (!likeliest || likeliest->best.agreeing < enough) return;
   const auto& [best, first, last] = *likeliest;
-  const char* unit = place_.metric() ? "m" : "s of teaching";
-  const double along = std::clamp(best.along, 0.0, place_.belief().length());
+  const double length = place_.belief().length();
+  const double along = std::clamp(best.along, 0.0, length);
   const double outside = std::abs(best.along - along);
   if (last - first > kOnePlace) {
     nowhere_ = fmt::format(
-        "from {:.1f} to {:.1f} {} along the route it looks alike: begin where more is near, or at "
-        "the beginning",
-        std::max(0.0, first), std::min(place_.belief().length(), last), unit);
+        "from {} to {} along the route it looks alike: begin where more is near, or at the "
+        "beginning",
+        InWords(std::max(0.0, first)), InWords(std::min(length, last)));
     return;
   }
   if (outside > kOutside) {
-    nowhere_ =
-        fmt::format("what it sees is of the route, from {:.1f} {} {}: put it on the route", outside,
-                    unit, best.along < along ? "before its beginning" : "beyond its end");
+    nowhere_ = fmt::format("what it sees is of the route, from {} {}: put it on the route",
+                           InWords(outside),
+                           best.along < along ? "before its beginning" : "beyond its end");
     return;
   }
   const RoutePoint point = place_.PointAt(along);
@@ -392,11 +397,9 @@ void FeatureFollower::EndSegment(Standing& standing) {
     standing.state = ReplayState::kArrived;
     standing.reason = "arrived at the end of the route";
   } else if (route_.complete()) {
-    standing = {
-        ReplayState::kLost, Trust::kLost,
-        fmt::format("the last segment is over, but what is seen is {:.1f} {} before its end",
-                    place_.belief().length() - place_.where().along,
-                    place_.metric() ? "m" : "s of teaching")};
+    standing = {ReplayState::kLost, Trust::kLost,
+                fmt::format("the last segment is over, but what is seen is {} before its end",
+                            InWords(place_.belief().length() - place_.where().along))};
   } else {
     standing.state = ReplayState::kWaiting;
     standing.reason = fmt::format("waiting for segment {}: not received yet", next);

@@ -34,7 +34,6 @@ constexpr int kEnoughToRecognise = 7;
 void PlaceKeeper::Learn(const route::Segment& segment) {
   const std::vector<route::KeyView> views = view::KeyViewsOf(segment);
   place_.Learn(segment, views, recogniser_.Learn(views));
-  speeds_mps_.push_back(segment.speed_mps());
 }
 
 void PlaceKeeper::StartAt(double along, double sigma) { place_.belief().StartAt(along, sigma); }
@@ -56,16 +55,17 @@ void PlaceKeeper::Move(const FrameMotion& moved) {
     new_since_look_ += moved.flow / kNewLook_flow;
   }
   std::vector<belief::Motion> witnesses;
+  const double pace = place_.PaceAt(where().along);
+  const double units_in_m = metric() ? 1.0 : pace / route::kUsualSpeed_mps;
   const auto hear = [&](const motion::OdometryIncrement& by, double sigma) {
-    const double along = by.distance_m / (metric() ? 1.0 : route::kUsualSpeed_mps);
-    witnesses.push_back({along, std::hypot(sigma * along, moved.unknown_m), false});
+    witnesses.push_back({units_in_m * by.distance_m,
+                         units_in_m * std::hypot(sigma * by.distance_m, moved.unknown_m), false});
   };
   by_odometry_ = moved.odometry.has_value();
   if (moved.odometry) hear(*moved.odometry, kOdometrySigma);
   if (moved.told) hear(*moved.told, kToldSigma);
   const bool moves = moved.flow > kStill_flow && moved.dt_s > 0.0;
-  const double speed = metric() ? speeds_mps_[point().segment.value()] : 1.0;
-  witnesses.push_back({moves ? moved.dt_s * speed : 0.0, 0.0, true});
+  witnesses.push_back({moves ? moved.dt_s * pace : 0.0, 0.0, true});
   place_.belief().Move(witnesses);
   if (moved.frozen) {
     place_.belief().Contradict(0, std::min(1.0, moved.dt_s / kContradictedWithin_s));
@@ -73,7 +73,7 @@ void PlaceKeeper::Move(const FrameMotion& moved) {
 }
 
 double PlaceKeeper::PaceAt_m(double dt_s) const {
-  return dt_s * (metric() ? speeds_mps_[point().segment.value()] : route::kUsualSpeed_mps);
+  return dt_s * (metric() ? place_.PaceAt(where().along) : route::kUsualSpeed_mps);
 }
 
 std::optional<double> PlaceKeeper::TrustInOdometry() const {

@@ -81,7 +81,6 @@ class PlaceKeeper {
  private:
   Recogniser recogniser_;
   RoutePlace place_;
-  std::vector<double> speeds_mps_;  // taught, of each segment
   std::optional<belief::TrackedPlace> tracked_;
   Look look_;
   double new_since_look_ = 1.0;  // how much of a new look the next one is

@@ -17,9 +17,13 @@ struct RoutePoint {
 };
 
 // The belief over a route's segments as they become known: its units, and which segment is where.
-// Metres, or, where the route was taught without odometry, seconds of teaching in motion.
+// The units are metres. Where the route was taught without odometry they are seconds of teaching in
+// motion, as long as it takes for kViewsInUnit key views to follow each other there: so it is what
+// changes in the picture that decides how well a place is known, and no clock or frame rate.
 class RoutePlace {
  public:
+  static constexpr double kViewsInUnit = 4.0;
+
   // Segments in order, with the places of their key views as fractions of them, and how much larger
   // each shows things than the one before it.
   void Learn(const route::Segment& segment, std::span<const route::KeyView> views,
@@ -33,11 +37,21 @@ class RoutePlace {
   [[nodiscard]] double AlongOf(const RoutePoint& point) const;
   [[nodiscard]] RoutePoint PointAt(double along) const;
   [[nodiscard]] double ExtentOf(SegmentIndex segment) const;
+  // Units in a second of teaching there.
+  [[nodiscard]] double PaceAt(double along) const { return paces_[PointAt(along).segment.value()]; }
 
  private:
+  [[nodiscard]] double PaceByViews(const route::Segment& segment,
+                                   std::span<const route::KeyView> views);
+
   std::optional<belief::RouteBelief> belief_;
   bool metric_ = false;
   std::vector<double> begins_;  // of each segment, and the last one's end
+  std::vector<double> paces_;   // of each segment
+  // Of a route without odometry: how long it usually takes from one key view to the next, and how
+  // long it has been since the last.
+  std::optional<double> usual_gap_s_;
+  double since_view_s_ = 0.0;
 };
 
 }  // namespace trailcast::agent

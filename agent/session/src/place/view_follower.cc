@@ -13,11 +13,12 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kLookAhead_s = 0.2;
+// In the route's units, where they are no metres, and in metres.
+constexpr double kLookAhead = 0.2;
 constexpr double kLookAhead_m = 0.3;
-constexpr double kArrived_s = 0.15;
+constexpr double kArrived = 0.06;
 constexpr double kArrived_m = 0.15;
-constexpr double kCome_s = 1.0;
+constexpr double kCome = 1.0;
 constexpr double kCome_m = 0.5;
 constexpr double kTurn_m = 0.3;      // so far before one the robot stands
 constexpr double kTurnTime_s = 0.3;  // over which a turn is carried out
@@ -50,7 +51,7 @@ std::vector<replay::SeenKeyView> SeenFrom(const PlaceKeeper& place, const Look& 
 
 ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
                           const motion::VelocityLimits& limits) {
-  const double ahead = place.metric() ? kLookAhead_m : kLookAhead_s;
+  const double ahead = place.metric() ? kLookAhead_m : kLookAhead;
   const replay::ViewTurn turn =
       replay::TurnTowards(place.where().along + ahead, SeenFrom(place, place.look()),
                           place.recogniser().scout_width_px());
@@ -58,13 +59,13 @@ ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
 }
 
 bool ViewFollower::SeesTheEnd() const {
-  const double tolerance = place_.metric() ? kArrived_m : kArrived_s;
+  const double tolerance = place_.metric() ? kArrived_m : kArrived;
   return place_.where().held && place_.where().along >= place_.belief().length() - tolerance;
 }
 
 bool ViewFollower::HasCome() const {
   return place_.where().come >=
-         std::min(place_.metric() ? kCome_m : kCome_s, 0.5 * place_.belief().length());
+         std::min(place_.metric() ? kCome_m : kCome, 0.5 * place_.belief().length());
 }
 
 // What comes, at the place or shortly after, that nobody drives by views: of a turn on the spot

@@ -11,8 +11,10 @@
 namespace trailcast::agent {
 namespace {
 
-// In the route's units: from no further off is a place seen as its key view shows it.
-constexpr double kHere = 0.3;
+// From no further off is a place seen as its key view shows it; in metres, and in a route's other
+// units.
+constexpr double kHere_m = 0.3;
+constexpr double kHere = 0.2;
 constexpr int kFewestLooks = 2;
 // So many features that agree tell how two pictures lie to each other to a pixel or two.
 constexpr int kTells = 10;
@@ -27,7 +29,8 @@ constexpr auto kNoPlace = static_cast<std::size_t>(-1);
 // looks from places so far apart, is no part of the place.
 constexpr double kStays = 0.03;
 constexpr int kStays_bits = 60;
-constexpr double kElsewhere = 0.5;
+constexpr double kElsewhere_m = 0.5;
+constexpr double kElsewhere = 0.15;
 constexpr std::size_t kMostThatStays = 500;
 
 bool IsSame(const view::ViewTable& a, std::size_t i, const view::ViewTable& b, std::size_t j) {
@@ -108,8 +111,10 @@ void ViewTaker::Note(const view::ViewTable& seen, Place& at, std::size_t variant
   at.seen = seen;
 }
 
-void ViewTaker::NoteWhatStays(const view::ViewTable& seen, double along) {
-  if (last_along_ && std::abs(along - *last_along_) < kElsewhere) return;
+void ViewTaker::NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& place) {
+  const double along = place.where().along;
+  const double elsewhere = place.metric() ? kElsewhere_m : kElsewhere;
+  if (last_along_ && std::abs(along - *last_along_) < elsewhere) return;
   for (std::size_t i = 0; last_along_ && i < seen.size(); ++i) {
     if (stays_.size() >= kMostThatStays || !Has(last_seen_, seen, i) || Has(stays_, seen, i)) {
       continue;
@@ -126,11 +131,12 @@ void ViewTaker::NoteWhatStays(const view::ViewTable& seen, double along) {
 void ViewTaker::See(const PlaceKeeper& place) {
   if (!place.where().held) return;
   const view::ViewTable& seen = place.look().seen;
-  NoteWhatStays(seen, place.where().along);
+  NoteWhatStays(seen, place);
+  const double here = place.metric() ? kHere_m : kHere;
   for (const Look::Recognised& each : place.look().views) {
     const auto [at, variant] = views_[each.view];
     const double off = place.belief().view_at(each.view) - place.where().along;
-    if (at == kNoPlace || std::abs(off) > kHere) continue;
+    if (at == kNoPlace || std::abs(off) > here) continue;
     if (variant == 0) ++places_[at].looks;
     Note(seen, places_[at], variant, each.comparison);
   }

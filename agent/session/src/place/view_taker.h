@@ -45,7 +45,7 @@ class ViewTaker {
 
   void Note(const view::ViewTable& seen, Place& at, std::size_t variant,
             const view::Comparison& comparison);
-  void NoteWhatStays(const view::ViewTable& seen, double along);
+  void NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& place);
   [[nodiscard]] route::View AsTaught(const Place& at) const;
   [[nodiscard]] refresh::Sought Judge(const Place& at, std::size_t variant) const;
   [[nodiscard]] route::View OfferOf(const Place& at) const;
