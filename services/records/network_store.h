@@ -15,6 +15,8 @@
 
 namespace trailcast::store {
 
+struct OwnDatabase;
+
 // A joint that was found, and what an operator said of it.
 struct ProposedJoint {
   enum class Verdict : std::uint8_t { kNone = 0, kRefused = 1, kTaken = 2 };
@@ -107,9 +109,8 @@ class NetworkStore {
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 
  private:
-  struct Database;
-  explicit NetworkStore(std::unique_ptr<Database> database);
-  std::unique_ptr<Database> database_;
+  explicit NetworkStore(std::unique_ptr<OwnDatabase> database);
+  std::unique_ptr<OwnDatabase> database_;
 };
 
 }  // namespace trailcast::store

@@ -46,12 +46,8 @@ struct HistoryStore::Database : OwnDatabase {
       : OwnDatabase(file, kHistoryFile), since_thinned_(most), most_kept(most) {}
 
   void Insert(const network::Change& change) {
-    auto insert =
-        compiled.Take("INSERT INTO change (at_unix_ms, made_by, what) VALUES (?1, ?2, ?3)");
-    insert->bind(1, change.at_unix_ms);
-    insert->bind(2, change.by);
-    insert->bind(3, change.what);
-    insert->exec();
+    Run("INSERT INTO change (at_unix_ms, made_by, what) VALUES (?1, ?2, ?3)", change.at_unix_ms,
+        change.by, change.what);
     ++since_thinned_;
   }
 
@@ -96,10 +92,9 @@ Result<std::unique_ptr<HistoryStore>> HistoryStore::Open(const fs::path& file,
 
 Result<std::int64_t> HistoryStore::KeptSince(std::int64_t now_unix_ms) {
   return database_->Guarded("reading since when it is kept", [&]() -> Result<std::int64_t> {
-    auto begin = database_->compiled.Take(
-        "INSERT INTO kept (since_unix_ms) SELECT ?1 WHERE NOT EXISTS (SELECT 1 FROM kept)");
-    begin->bind(1, now_unix_ms);
-    begin->exec();
+    database_->Run(
+        "INSERT INTO kept (since_unix_ms) SELECT ?1 WHERE NOT EXISTS (SELECT 1 FROM kept)",
+        now_unix_ms);
     return database_->db.execAndGet("SELECT since_unix_ms FROM kept").getInt64();
   });
 }
@@ -121,12 +116,10 @@ Result<std::optional<route::RouteInfo>> HistoryStore::Noted(const route::RouteKe
 
 Result<void> HistoryStore::Note(std::span<const network::Change> changes,
                                 std::span<const route::RouteInfo> revisions) {
-  return database_->Guarded("storing a change", [&]() -> Result<void> {
-    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+  return database_->AllOrNothing("storing a change", [&]() -> Result<void> {
     for (const network::Change& change : changes) database_->Insert(change);
     for (const route::RouteInfo& info : revisions) database_->Note(info);
     database_->Thin();
-    transaction.commit();
     return {};
   });
 }

@@ -151,18 +151,11 @@ struct MissionStore::Database : OwnDatabase {
   }
 
   void Insert(const mission::Mission& mission, std::int64_t now_unix_ms) {
-    auto insert = compiled.Take(
-        "INSERT INTO mission (agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, "
+    Run("INSERT INTO mission (agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, "
         "change, state, task, way, waits_for, detail, changed_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, "
-        "?6, ?7, 0, 0, 0, 1, 0, '', ?7)");
-    insert->bind(1, mission.agent.value());
-    insert->bind(2, mission.id);
-    insert->bind(3, mission.client.value());
-    insert->bind(4, mission.orders);
-    insert->bind(5, static_cast<std::int64_t>(mission.valid_for_s));
-    insert->bind(6, mission.goes_on ? 1 : 0);
-    insert->bind(7, now_unix_ms);
-    insert->exec();
+        "?6, ?7, 0, 0, 0, 1, 0, '', ?7)",
+        mission.agent.value(), mission.id, mission.client.value(), mission.orders,
+        static_cast<std::int64_t>(mission.valid_for_s), mission.goes_on, now_unix_ms);
     NameRoutes(db.getLastInsertRowid(), mission.orders);
   }
 
@@ -184,20 +177,15 @@ struct MissionStore::Database : OwnDatabase {
 
   // A server's own word (0) counts until the robot's does.
   bool Change(const mission::Report& report, std::int64_t now_unix_ms) {
-    auto update = compiled.Take(
+    const int changed = Run(
         "UPDATE mission SET change = ?3, state = ?4, task = ?5, way = ?6, waits_for = ?7, detail = "
         "?8, changed_unix_ms = ?9 WHERE agent = ?1 AND id = ?2 AND (change < ?3 OR (?3 = 0 AND "
-        "change = 0 AND state = 0))");
-    update->bind(1, report.agent.value());
-    update->bind(2, report.mission);
-    update->bind(3, static_cast<std::int64_t>(report.change));
-    update->bind(4, static_cast<int>(report.state));
-    update->bind(5, static_cast<std::int64_t>(report.task));
-    update->bind(6, static_cast<std::int64_t>(report.way));
-    update->bind(7, static_cast<int>(report.waits_for));
-    update->bind(8, report.detail);
-    update->bind(9, now_unix_ms);
-    return update->exec() > 0;
+        "change = 0 AND state = 0))",
+        report.agent.value(), report.mission, static_cast<std::int64_t>(report.change),
+        static_cast<int>(report.state), static_cast<std::int64_t>(report.task),
+        static_cast<std::int64_t>(report.way), static_cast<int>(report.waits_for), report.detail,
+        now_unix_ms);
+    return changed > 0;
   }
 
   // A member's processes are counted together: each `trailcast send` has a name of its own.
@@ -210,11 +198,7 @@ struct MissionStore::Database : OwnDatabase {
 
   void NameRoutes(std::int64_t number, const std::string& orders) {
     for (const std::string& route : mission::RoutesIn(orders)) {
-      auto name =
-          compiled.Take("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)");
-      name->bind(1, number);
-      name->bind(2, route);
-      name->exec();
+      Run("INSERT OR IGNORE INTO mission_route (number, route) VALUES (?1, ?2)", number, route);
     }
   }
 
@@ -269,13 +253,11 @@ Result<std::unique_ptr<MissionStore>> MissionStore::Open(const fs::path& file,
 std::vector<Result<mission::Record>> MissionStore::Add(std::span<const mission::Mission> missions,
                                                        std::int64_t now_unix_ms) {
   using Stored = std::vector<Result<mission::Record>>;
-  auto stored = database_->Guarded("storing missions", [&]() -> Result<Stored> {
-    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+  auto stored = database_->AllOrNothing("storing missions", [&]() -> Result<Stored> {
     Stored each;
     for (const mission::Mission& mission : missions) {
       each.push_back(database_->Add(mission, now_unix_ms));
     }
-    transaction.commit();
     return each;
   });
   if (stored) return *std::move(stored);
@@ -284,8 +266,7 @@ std::vector<Result<mission::Record>> MissionStore::Add(std::span<const mission::
 
 Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
                                  const std::string& orders) {
-  return database_->Guarded("storing other orders of mission " + id, [&]() -> Result<bool> {
-    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
+  return database_->AllOrNothing("storing other orders of mission " + id, [&]() -> Result<bool> {
     auto update = database_->compiled.Take(
         "UPDATE mission SET orders = ?3 WHERE agent = ?1 AND id = ?2 RETURNING number");
     update->bind(1, agent.value());
@@ -295,32 +276,27 @@ Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
     const std::int64_t number = update->getColumn(0).getInt64();
     while (update->executeStep()) continue;
     database_->NameRoutes(number, orders);
-    transaction.commit();
     return true;
   });
 }
 
 Result<std::vector<bool>> MissionStore::Change(std::span<const mission::Report> reports,
                                                std::int64_t now_unix_ms) {
-  return database_->Guarded("storing what became of missions", [&]() -> Result<std::vector<bool>> {
-    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-    std::vector<bool> are_news;
+  using AreNews = std::vector<bool>;
+  return database_->AllOrNothing("storing what became of missions", [&]() -> Result<AreNews> {
+    AreNews are_news;
     for (const mission::Report& report : reports) {
       are_news.push_back(database_->Change(report, now_unix_ms));
     }
-    transaction.commit();
     return are_news;
   });
 }
 
 Result<std::vector<mission::Record>> MissionStore::Unanswered() {
-  return database_->Guarded("reading missions", [&]() -> Result<std::vector<mission::Record>> {
-    std::vector<mission::Record> missions;
-    auto select = database_->compiled.Take(std::string("SELECT ") + kColumns +
-                                           " FROM mission WHERE state = 0 ORDER BY number");
-    while (select->executeStep()) missions.push_back(RecordIn(*select));
-    return missions;
-  });
+  return database_->Read(
+      "reading missions",
+      std::string("SELECT ") + kColumns + " FROM mission WHERE state = 0 ORDER BY number",
+      RecordIn);
 }
 
 Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
@@ -358,36 +334,25 @@ Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {
 }
 
 Result<void> MissionStore::Add(const mission::NowCommand& command, std::int64_t now_unix_ms) {
-  return database_->Guarded("storing a command", [&]() -> Result<void> {
-    SQLite::Transaction transaction(database_->db, SQLite::TransactionBehavior::IMMEDIATE);
-    auto insert = database_->compiled.Take(
+  return database_->AllOrNothing("storing a command", [&]() -> Result<void> {
+    database_->Run(
         "INSERT OR IGNORE INTO command (client, drawn, order_given, whom, name, reason, "
-        "given_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
-    insert->bind(1, command.client.value());
-    insert->bind(2, static_cast<std::int64_t>(command.number));
-    insert->bind(3, static_cast<int>(command.order));
-    insert->bind(4, static_cast<int>(command.whom));
-    insert->bind(5, command.name);
-    insert->bind(6, command.reason);
-    insert->bind(7, now_unix_ms);
-    insert->exec();
+        "given_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+        command.client.value(), static_cast<std::int64_t>(command.number),
+        static_cast<int>(command.order), static_cast<int>(command.whom), command.name,
+        command.reason, now_unix_ms);
     database_->Thin();
-    transaction.commit();
     return {};
   });
 }
 
 Result<void> MissionStore::Add(const mission::NowAnswer& answer) {
   return database_->Guarded("storing an answer", [&]() -> Result<void> {
-    auto insert = database_->compiled.Take(
+    database_->Run(
         "INSERT OR IGNORE INTO answer (client, drawn, agent, refused, detail) SELECT ?1, ?2, ?3, "
-        "?4, ?5 WHERE EXISTS (SELECT 1 FROM command WHERE client = ?1 AND drawn = ?2)");
-    insert->bind(1, answer.client.value());
-    insert->bind(2, static_cast<std::int64_t>(answer.number));
-    insert->bind(3, answer.agent.value());
-    insert->bind(4, answer.refused ? 1 : 0);
-    insert->bind(5, answer.detail);
-    insert->exec();
+        "?4, ?5 WHERE EXISTS (SELECT 1 FROM command WHERE client = ?1 AND drawn = ?2)",
+        answer.client.value(), static_cast<std::int64_t>(answer.number), answer.agent.value(),
+        answer.refused, answer.detail);
     return {};
   });
 }

@@ -4,7 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/store/compiled_statements.h"
@@ -41,13 +44,53 @@ struct OwnDatabase {
   auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
     return Guard(path, own, doing, work);
   }
+  // In a transaction, too, of which nothing stays where `work` fails.
+  template <typename Work>
+  auto AllOrNothing(const std::string& doing, const Work& work) -> decltype(work()) {
+    return Guarded(doing, [&] {
+      SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+      auto done = work();
+      if (done) transaction.commit();
+      return done;
+    });
+  }
+  // What `in` makes of each row.
+  template <typename Value>
+  Result<std::vector<Value>> Read(const std::string& doing, std::string_view sql,
+                                  Value (*in)(SQLite::Statement&)) {
+    return Guarded(doing, [&]() -> Result<std::vector<Value>> {
+      auto select = compiled.Take(sql);
+      std::vector<Value> all;
+      while (select->executeStep()) all.push_back(in(*select));
+      return all;
+    });
+  }
 
+  // These throw SQLite's exceptions. The values are the parameters from the first on; an empty one
+  // is NULL. Returns how many rows are changed.
+  template <typename... Values>
+  int Run(std::string_view sql, const Values&... values) {
+    auto statement = compiled.Take(sql);
+    int parameter = 0;
+    (Bind(*statement, ++parameter, values), ...);
+    return statement->exec();
+  }
   [[nodiscard]] std::int64_t Count(const char* sql);
 
   std::filesystem::path path;
   OwnFile own;
   SQLite::Database db;
   CompiledStatements compiled;
+
+ private:
+  template <typename Value>
+  static void Bind(SQLite::Statement& statement, int parameter, const Value& value) {
+    statement.bind(parameter, value);
+  }
+  template <typename Value>
+  static void Bind(SQLite::Statement& statement, int parameter, const std::optional<Value>& value) {
+    value ? statement.bind(parameter, *value) : statement.bind(parameter);
+  }
 };
 
 }  // namespace trailcast::store

@@ -1,0 +1,158 @@
+#include "services/records/network_store.h"
+#include "services/records/src/own_file.h"
+
+namespace trailcast::store {
+namespace {
+
+network::Joint JointIn(SQLite::Statement& row) {
+  network::Joint joint{.from = {row.getColumn(0).getString(), row.getColumn(1).getDouble()},
+                       .to = {row.getColumn(2).getString(), row.getColumn(3).getDouble()},
+                       .both = row.getColumn(4).getInt() != 0};
+  if (!row.getColumn(5).isNull()) {
+    joint.lie = {.ahead_m = row.getColumn(5).getDouble(),
+                 .left_m = row.getColumn(6).getDouble(),
+                 .turn_rad = row.getColumn(7).getDouble()};
+  }
+  return joint;
+}
+
+ProposedJoint ProposedIn(SQLite::Statement& row) {
+  using Verdict = ProposedJoint::Verdict;
+  const int verdict = row.getColumn(9).getInt();
+  return {.proposal = {JointIn(row), row.getColumn(8).getDouble()},
+          .verdict = verdict == 1   ? Verdict::kRefused
+                     : verdict == 2 ? Verdict::kTaken
+                                    : Verdict::kNone,
+          .length_m = row.getColumn(10).getDouble()};
+}
+
+std::string TextIn(SQLite::Statement& row) { return row.getColumn(0).getString(); }
+
+// The first parameters are its places, the others follow.
+template <typename... Values>
+void RunAt(OwnDatabase& database, const char* sql, const network::Joint& joint,
+           const Values&... values) {
+  database.Run(sql, joint.from.route, joint.from.along_m, joint.to.route, joint.to.along_m,
+               values...);
+}
+
+// The first parameters are all of it.
+template <typename... Values>
+void RunWith(OwnDatabase& database, const char* sql, const network::Joint& joint,
+             const Values&... values) {
+  const auto lie = [&](double network::Lie::*part) {
+    return joint.lie ? std::optional((*joint.lie).*part) : std::nullopt;
+  };
+  RunAt(database, sql, joint, joint.both, lie(&network::Lie::ahead_m), lie(&network::Lie::left_m),
+        lie(&network::Lie::turn_rad), values...);
+}
+
+void RemoveJoint(OwnDatabase& database, const network::Joint& joint) {
+  RunAt(database,
+        "DELETE FROM joint WHERE from_route = ?1 AND from_m = ?2 AND to_route = ?3 AND to_m = ?4",
+        joint);
+}
+
+Result<void> InsertJoint(OwnDatabase& database, const network::Joint& joint, const std::string& by,
+                         std::int64_t now_unix_ms) {
+  RemoveJoint(database, joint);
+  if (database.Count("SELECT count(*) FROM joint") >= NetworkStore::kMostJoints) {
+    return Fail(ErrorCode::kUnavailable, "{} joints are kept already: no more",
+                NetworkStore::kMostJoints);
+  }
+  RunWith(database,
+          "INSERT INTO joint (from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, "
+          "set_by, set_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+          joint, by, now_unix_ms);
+  return {};
+}
+
+Result<void> InsertProposed(OwnDatabase& database, const ProposedJoint& proposed,
+                            const std::string& by, std::int64_t now_unix_ms) {
+  const network::Joint& joint = proposed.proposal.joint;
+  RunWith(database,
+          "INSERT OR REPLACE INTO proposed_joint (from_route, from_m, to_route, to_m, both, "
+          "ahead_m, left_m, turn_rad, confidence, verdict, set_by, set_unix_ms) VALUES (?1, ?2, "
+          "?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
+          joint, proposed.proposal.confidence, static_cast<int>(proposed.verdict), by, now_unix_ms);
+  if (proposed.length_m > 0.0) {
+    RunAt(database,
+          "INSERT OR REPLACE INTO shared_by_routes (from_route, from_m, to_route, to_m, length_m) "
+          "VALUES (?1, ?2, ?3, ?4, ?5)",
+          joint, proposed.length_m);
+  }
+  if (proposed.verdict != ProposedJoint::Verdict::kTaken) return {};
+  return InsertJoint(database, joint, by, now_unix_ms);
+}
+
+}  // namespace
+
+Result<std::vector<network::Joint>> NetworkStore::Joints() {
+  return database_->Read("reading joints",
+                         "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, "
+                         "turn_rad FROM joint ORDER BY number",
+                         JointIn);
+}
+
+Result<void> NetworkStore::Put(const network::Joint& joint, const std::string& by,
+                               std::int64_t now_unix_ms) {
+  return database_->AllOrNothing("storing a joint", [&]() -> Result<void> {
+    return InsertJoint(*database_, joint, by, now_unix_ms);
+  });
+}
+
+Result<void> NetworkStore::Drop(const network::Joint& joint) {
+  return database_->Guarded("forgetting a joint", [&]() -> Result<void> {
+    RemoveJoint(*database_, joint);
+    return {};
+  });
+}
+
+Result<std::vector<ProposedJoint>> NetworkStore::Proposals() {
+  return database_->Read(
+      "reading proposals",
+      "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, turn_rad, confidence, "
+      "verdict, coalesce(length_m, 0.0) FROM proposed_joint LEFT JOIN shared_by_routes USING "
+      "(from_route, from_m, to_route, to_m) ORDER BY number",
+      ProposedIn);
+}
+
+Result<void> NetworkStore::Put(std::span<const ProposedJoint> proposed, const std::string& by,
+                               std::int64_t now_unix_ms) {
+  return database_->AllOrNothing("storing proposals", [&]() -> Result<void> {
+    for (const ProposedJoint& each : proposed) {
+      if (auto put = InsertProposed(*database_, each, by, now_unix_ms); !put) return put;
+    }
+    if (database_->Count("SELECT count(*) FROM proposed_joint") > kMostProposals) {
+      return Fail(ErrorCode::kUnavailable, "{} proposed joints are kept already: no more",
+                  kMostProposals);
+    }
+    return {};
+  });
+}
+
+Result<void> NetworkStore::DropProposals(const std::string& revision) {
+  return database_->AllOrNothing("forgetting proposals", [&]() -> Result<void> {
+    for (const char* sql : {"DELETE FROM proposed_joint WHERE from_route = ?1 OR to_route = ?1",
+                            "DELETE FROM shared_by_routes WHERE from_route = ?1 OR to_route = ?1",
+                            "DELETE FROM searched WHERE revision = ?1"}) {
+      database_->Run(sql, revision);
+    }
+    return {};
+  });
+}
+
+Result<std::vector<std::string>> NetworkStore::Searched() {
+  return database_->Read("reading proposals", "SELECT revision FROM searched", TextIn);
+}
+
+Result<void> NetworkStore::MarkSearched(std::span<const std::string> revisions) {
+  return database_->AllOrNothing("storing what was looked at", [&]() -> Result<void> {
+    for (const std::string& revision : revisions) {
+      database_->Run("INSERT OR IGNORE INTO searched (revision) VALUES (?1)", revision);
+    }
+    return {};
+  });
+}
+
+}  // namespace trailcast::store
