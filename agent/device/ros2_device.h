@@ -35,6 +35,8 @@ struct Ros2Run {
   std::chrono::milliseconds still_at_end{0};
   // Asked while waiting for the robot: the drive is over.
   std::function<bool()> stop = [] { return false; };
+  // What time it is, for all but the robot's own stamps. Asked by two threads.
+  std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
 };
 
 // A ROS 2 robot over DDS, without ROS. A thread of its own hears the robot, and tells it to stand

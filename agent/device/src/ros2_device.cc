@@ -198,10 +198,10 @@ Result<std::optional<Ros2Frame>> Ros2Device::State::Await(std::unique_lock<std::
     answered = true;
     if (auto said = Tell({}); !said) return tl::unexpected(said.error());
   }
-  while (deaf || !ready(steady_clock::now())) {
+  while (deaf || !ready(run.clock())) {
     ShareTrouble();
     if (run.stop()) return std::nullopt;
-    if (auto error = GiveUp(steady_clock::now())) return tl::unexpected(*error);
+    if (auto error = GiveUp(run.clock())) return tl::unexpected(*error);
     news.wait_for(guard, kListen);
   }
   ShareTrouble();
@@ -222,7 +222,7 @@ void Ros2Device::State::Leave(const Error& damage) {
 Result<std::optional<Observation>> Ros2Device::Next() {
   State& s = *state_;
   std::unique_lock guard(s.lock);
-  s.waiting_since = steady_clock::now();
+  s.waiting_since = s.run.clock();
   s.why_unreadable.clear();
   while (true) {
     const auto awaited = s.Await(guard);
@@ -257,7 +257,7 @@ Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
   const std::lock_guard guard(s.lock);
   s.answered = true;
   // What an old picture led to is no more to be done.
-  const bool old = !s.run.lockstep && steady_clock::now() - s.given_came_at > s.run.sensor_timeout;
+  const bool old = !s.run.lockstep && s.run.clock() - s.given_came_at > s.run.sensor_timeout;
   return s.Tell(s.deaf || s.trouble || old ? motion::VelocityCommand{} : s.Within(command));
 }
 
@@ -270,7 +270,7 @@ std::string Ros2Device::camera() const {
 std::optional<std::uint8_t> Ros2Device::battery_percent() const {
   State& s = *state_;
   const std::lock_guard guard(s.lock);
-  const bool old = steady_clock::now() > s.battery_heard_at + kBatteryCounts;
+  const bool old = s.run.clock() > s.battery_heard_at + kBatteryCounts;
   return old ? std::nullopt : s.battery_percent;
 }
 

@@ -30,7 +30,7 @@ void Ros2Device::State::Hear() {
     auto sensed = driver->Take(kListen);
     const std::lock_guard guard(lock);
     if (ending) return;
-    const auto now = steady_clock::now();
+    const auto now = run.clock();
     for (dds::Ros2Sensed& one : sensed) Keep(std::move(one), now);
     StopIfInDoubt(now);
     news.notify_one();
@@ -142,7 +142,7 @@ void Ros2Device::State::AnswerByStanding() {
 }
 
 Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
-  told_at = steady_clock::now();
+  told_at = run.clock();
   return Say(command);
 }
 
@@ -169,7 +169,7 @@ motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand&
     limits.turn_rate_radps = std::min(limits.turn_rate_radps, kTryTurn_radps);
   }
   double since_s = kLongestRamp_s;
-  if (!run.lockstep) since_s = Seconds(steady_clock::now() - told_at);
+  if (!run.lockstep) since_s = Seconds(run.clock() - told_at);
   if (run.lockstep && given_before) since_s = Seconds(*given - *given_before);
   return motion::Shape(wanted, told, std::clamp(since_s, 0.0, kLongestRamp_s), limits);
 }
@@ -185,7 +185,7 @@ motion::VelocityCommand Ros2Device::State::Within(const motion::VelocityCommand&
         ObstacleWatch::kUnseen_mps);
   }
   backs_unseen = obstacles->backs_unseen();
-  if (obstacles->waits()) stop_said_until = steady_clock::now() + kSayAgain;
+  if (obstacles->waits()) stop_said_until = run.clock() + kSayAgain;
   return allowed;
 }
 
