@@ -6,36 +6,25 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "services/image/files.h"
 #include "services/lab/demo/child_process.h"
+#include "tests/support/await.h"
 #include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::demo {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const std::filesystem::path kPrograms = ProgramsDir();
-
-bool Within(seconds bound, const std::function<bool()>& predicate) {
-  const auto deadline = std::chrono::steady_clock::now() + bound;
-  while (!predicate()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  return true;
-}
 
 // As far as it can be read: a process may end meanwhile, and its file with it.
 std::string Contents(const std::filesystem::path& file) {
@@ -102,7 +91,8 @@ class DemoTest : public ::testing::Test {
 
 TEST_F(DemoTest, AllRobotsArriveAndNothingButThePictureIsLeft) {
   ChildProcess demo = StartDemo();
-  ASSERT_TRUE(Within(seconds(540), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return demo.Poll().has_value(); }, seconds(540)))
+      << Contents(log());
   EXPECT_TRUE(demo.Poll()->ok()) << Contents(log());
   const std::string text = Contents(log());
   for (const char* robot : {"scout", "follower-1", "follower-2", "follower-3"}) {
@@ -119,14 +109,14 @@ TEST_F(DemoTest, AllRobotsArriveAndNothingButThePictureIsLeft) {
 TEST_F(DemoTest, WhenInterruptedItEndsAllItsProcessesAndTakesItsFilesAway) {
   ChildProcess demo = StartDemo();
   // Well under way: one server and four agents, and the operator has heard of the teaching.
-  ASSERT_TRUE(Within(seconds(120), [&] {
+  ASSERT_TRUE(test::WaitUntil([&] {
     return Fleet().size() == 5 && Contents(log()).find(" teaching ") != std::string::npos;
   })) << Contents(log());
   EXPECT_EQ(Left(scratch()).size(), 1U);
   const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
   ASSERT_EQ(demos.size(), 1U);
   ASSERT_EQ(kill(demos.front(), SIGINT), 0);
-  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return demo.Poll().has_value(); })) << Contents(log());
   EXPECT_EQ(demo.Poll()->code, 130);
   EXPECT_THAT(Contents(log()), HasSubstr("interrupted"));
   EXPECT_THAT(Fleet(), IsEmpty());
@@ -136,20 +126,20 @@ TEST_F(DemoTest, WhenInterruptedItEndsAllItsProcessesAndTakesItsFilesAway) {
 
 TEST_F(DemoTest, WhenItIsKilledItsProcessesDieWithIt) {
   ChildProcess demo = StartDemo();
-  ASSERT_TRUE(Within(seconds(60), [&] { return Fleet().size() == 5; })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return Fleet().size() == 5; })) << Contents(log());
   const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
   ASSERT_EQ(demos.size(), 1U);
   ASSERT_EQ(kill(demos.front(), SIGKILL), 0);
-  EXPECT_TRUE(Within(seconds(30), [&] { return Fleet().empty(); }));
+  EXPECT_TRUE(test::WaitUntil([&] { return Fleet().empty(); }));
 }
 
 TEST_F(DemoTest, WhenTheServerDiesItSaysSoAndEnds) {
   ChildProcess demo = StartDemo();
-  ASSERT_TRUE(Within(seconds(60), [&] { return Fleet().size() == 5; })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return Fleet().size() == 5; })) << Contents(log());
   const std::vector<pid_t> servers = ProcessesOf(scratch(), "trailcast-server");
   ASSERT_EQ(servers.size(), 1U);
   ASSERT_EQ(kill(servers.front(), SIGKILL), 0);
-  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return demo.Poll().has_value(); })) << Contents(log());
   EXPECT_EQ(demo.Poll()->code, 1);
   EXPECT_THAT(Contents(log()), HasSubstr("the route server ended by signal 9"));
   EXPECT_THAT(Fleet(), IsEmpty());
@@ -169,19 +159,19 @@ std::string StateOf(const std::string& robot, httplib::Client& client) {
 TEST_F(DemoTest, WithAConsoleRobotsOnDutyDriveUntilItIsInterrupted) {
   ChildProcess demo = StartDemo({"--console", "--http-port", "0"});
   const std::string said = "open http://localhost:";
-  ASSERT_TRUE(Within(seconds(120), [&] { return Contents(log()).find(said) != std::string::npos; }))
+  ASSERT_TRUE(test::WaitUntil([&] { return Contents(log()).find(said) != std::string::npos; }))
       << Contents(log());
   const std::string text = Contents(log());
   httplib::Client client("localhost", std::stoi(text.substr(text.find(said) + said.size())));
   for (const char* robot : {"robot-1", "robot-2"}) {
-    EXPECT_TRUE(Within(seconds(200), [&] { return StateOf(robot, client) == "driving"; }))
+    EXPECT_TRUE(test::WaitUntil([&] { return StateOf(robot, client) == "driving"; }, seconds(200)))
         << robot << Contents(log());
   }
   EXPECT_EQ(StateOf("robot-3", client), "free");
   const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
   ASSERT_EQ(demos.size(), 1U);
   ASSERT_EQ(kill(demos.front(), SIGINT), 0);
-  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return demo.Poll().has_value(); })) << Contents(log());
   EXPECT_TRUE(demo.Poll()->ok()) << Contents(log());
   EXPECT_FALSE(client.Get("/api/state"));
   EXPECT_THAT(Fleet(), IsEmpty());
@@ -193,7 +183,7 @@ TEST_F(DemoTest, WhereTheConsolesPortIsTakenItSaysSoAndEnds) {
   const int port = other.bind_to_any_port("127.0.0.1");
   ASSERT_GT(port, 0);
   ChildProcess demo = StartDemo({"--console", "--http-port", std::to_string(port)});
-  ASSERT_TRUE(Within(seconds(60), [&] { return demo.Poll().has_value(); })) << Contents(log());
+  ASSERT_TRUE(test::WaitUntil([&] { return demo.Poll().has_value(); })) << Contents(log());
   EXPECT_EQ(demo.Poll()->code, 1);
   EXPECT_THAT(Contents(log()), HasSubstr("is the port taken"));
   EXPECT_THAT(Contents(log()), HasSubstr("--http-port"));
@@ -206,7 +196,7 @@ TEST_F(DemoTest, AskingForRoutesWhereThereIsNoServerFailsAndSaysWhy) {
        "lo", "--dds-tag", "nobody-" + scratch().parent_path().filename().string()},
       log());
   ASSERT_TRUE(routes.has_value());
-  ASSERT_TRUE(Within(seconds(60), [&] { return routes->Poll().has_value(); }));
+  ASSERT_TRUE(test::WaitUntil([&] { return routes->Poll().has_value(); }));
   EXPECT_EQ(routes->Poll()->code, 1);
   EXPECT_THAT(Contents(log()), HasSubstr("no route server answered"));
 }

@@ -137,8 +137,14 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
       }
     }
   });
-  const auto picture = Client().Get("/api/robots/robot1/glance");
-  const auto none = Client().Get("/api/robots/robot1/glance");
+  // Who is answered waits for no longer than that takes.
+  Desk patient{AgentId("patient"), bus_.Open(ConsoleTopics()),
+               Desk::Options{.answer_within = test::kLongEnough}};
+  const auto web = Web::Open(patient, atlas_, nullptr, "localhost", 0, {}).value();
+  httplib::Client client("localhost", web->port());
+  client.set_read_timeout(test::kLongEnough);
+  const auto picture = client.Get("/api/robots/robot1/glance");
+  const auto none = client.Get("/api/robots/robot1/glance");
   const auto silent = Client().Get("/api/robots/robot7/glance");
   ends = true;
   answering.join();

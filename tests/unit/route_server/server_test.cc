@@ -22,7 +22,6 @@ namespace trailcast::server {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 // Takes whatever is appended, and thinks for a while about each query.
@@ -73,9 +72,9 @@ class ServerTest : public testing::Test {
   }
   // Until all is receipted, or the server refuses something for a reason like this.
   static bool Delivers(exchange::RouteSender& sender, exchange::RouteExchange& exchange,
-                       milliseconds within, const std::string& until_refused = {}) {
+                       const std::string& until_refused = {}) {
     bool refused = false;
-    const auto until = steady_clock::now() + within;
+    const auto until = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < until && !sender.AllReceipted() && !refused) {
       for (const exchange::Message& message : exchange.Take(milliseconds(20))) {
         sender.Handle(message, steady_clock::now());
@@ -87,9 +86,9 @@ class ServerTest : public testing::Test {
     return refused || sender.AllReceipted();
   }
   // Messages are taken until one of them, or time, is right.
-  static bool Hears(exchange::RouteExchange& exchange, milliseconds within,
+  static bool Hears(exchange::RouteExchange& exchange,
                     const std::function<bool(const exchange::Message&)>& right) {
-    const auto until = steady_clock::now() + within;
+    const auto until = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < until) {
       for (const exchange::Message& message : exchange.Take(milliseconds(20))) {
         if (right(message)) return true;
@@ -103,7 +102,7 @@ class ServerTest : public testing::Test {
   std::string NetworkSays(exchange::RouteExchange& desk, const Words& words) {
     std::string said;
     EXPECT_TRUE(desk.Publish(words));
-    EXPECT_TRUE(Hears(desk, seconds(20), [&](const exchange::Message& message) {
+    EXPECT_TRUE(Hears(desk, [&](const exchange::Message& message) {
       const auto* reply = std::get_if<exchange::NetworkReply>(&message);
       if (reply == nullptr || reply->client != words.client || reply->request != words.request) {
         return false;
@@ -127,14 +126,14 @@ TEST_F(ServerTest, PassesOnWhatOperatorsTellRobotsAndTheirAnswersOnce) {
   const auto robot = bus_.Open(program::WithAgents(exchange::FollowerTopics()));
   const exchange::NowCommand stop{.client = AgentId("desk"), .number = 1};
   ASSERT_TRUE(desk->Publish(stop));
-  EXPECT_TRUE(Hears(*robot, seconds(10), [](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*robot, [](const exchange::Message& message) {
     const auto* command = std::get_if<exchange::NowCommand>(&message);
     return command != nullptr && command->relayed && command->client == AgentId("desk");
   }));
   const exchange::NowAnswer answer{
       .agent = AgentId("robot"), .client = AgentId("desk"), .number = 1};
   ASSERT_TRUE(robot->Publish(answer));
-  EXPECT_TRUE(Hears(*desk, seconds(10), [](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*desk, [](const exchange::Message& message) {
     const auto* passed = std::get_if<exchange::NowAnswer>(&message);
     return passed != nullptr && passed->relayed && passed->agent == AgentId("robot");
   }));
@@ -147,7 +146,7 @@ TEST_F(ServerTest, PassesOnWhatOperatorsTellRobotsAndTheirAnswersOnce) {
   next.number = 3;
   ASSERT_TRUE(desk->Publish(next));
   int heard = 0;
-  EXPECT_TRUE(Hears(*robot, seconds(10), [&](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*robot, [&](const exchange::Message& message) {
     const auto* command = std::get_if<exchange::NowCommand>(&message);
     heard += command != nullptr && command->number == 2 ? 1 : 0;
     return command != nullptr && command->number == 3 && command->relayed;
@@ -159,7 +158,7 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   Start();
   constexpr int kClients = 500;
   const auto desk = bus_.Open(exchange::OperatorTopics());
-  ASSERT_TRUE(Hears(*desk, seconds(20), [](const exchange::Message& message) {
+  ASSERT_TRUE(Hears(*desk, [](const exchange::Message& message) {
     const auto* status = std::get_if<exchange::AgentStatus>(&message);
     return status != nullptr && status->mode == exchange::AgentMode::kWaiting;
   })) << "it serves";
@@ -171,7 +170,7 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   route::SegmentPiece piece{test::KeyNumber(1), SegmentIndex(0), {}, {1, 2, 3}};
   piece.digest = route::Sha256(piece.bytes);
   ASSERT_TRUE(scout->Publish(exchange::SegmentBatch{AgentId("scout"), {piece}}));
-  ASSERT_TRUE(Hears(*scout, seconds(20), [](const exchange::Message& message) {
+  ASSERT_TRUE(Hears(*scout, [](const exchange::Message& message) {
     const auto* receipt = std::get_if<exchange::Receipt>(&message);
     return receipt != nullptr && receipt->durable_prefix == 1;
   }));
@@ -184,7 +183,7 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   };
   for (const exchange::Message& message : desk->Take(milliseconds(0))) (void)count(message);
   EXPECT_LT(answered, kClients / 2) << "a receipt does not wait for them";
-  EXPECT_TRUE(Hears(*desk, seconds(60), count)) << "all are answered in the end";
+  EXPECT_TRUE(Hears(*desk, count)) << "all are answered in the end";
   EXPECT_GE(statuses, 2) << "it tells of itself each second meanwhile";
 }
 
@@ -197,7 +196,7 @@ TEST_F(ServerTest, ADeliveredRouteIsPartOfTheNetworkAtOnce) {
   EXPECT_EQ(NetworkSays(*desk, close), "there is no route 'corridor'");
   const auto scout = bus_.Open(exchange::ScoutTopics());
   exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 12);
-  ASSERT_TRUE(Delivers(sender, *scout, seconds(30)));
+  ASSERT_TRUE(Delivers(sender, *scout));
   exchange::NetworkEdit again = close;
   again.request = 2;
   EXPECT_EQ(NetworkSays(*desk, again), "close corridor 5..7\n");
@@ -221,18 +220,18 @@ TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {
   Start({.segments_per_s = 5});
   const auto scout = bus_.Open(exchange::ScoutTopics());
   exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 12);
-  EXPECT_TRUE(Delivers(sender, *scout, seconds(30), "may have 5 segments a second"));
+  EXPECT_TRUE(Delivers(sender, *scout, "may have 5 segments a second"));
   EXPECT_FALSE(sender.AllReceipted());
-  EXPECT_TRUE(Delivers(sender, *scout, seconds(60))) << sender.Unreceipted().size() << " left";
+  EXPECT_TRUE(Delivers(sender, *scout)) << sender.Unreceipted().size() << " left";
 }
 
 TEST_F(ServerTest, ARouteBeyondAScoutsQuotaWaits) {
   Start({.routes = 1});
   const auto scout = bus_.Open(exchange::ScoutTopics());
   exchange::RouteSender first = SenderOf(test::KeyNumber(1), 2);
-  EXPECT_TRUE(Delivers(first, *scout, seconds(30)));
+  EXPECT_TRUE(Delivers(first, *scout));
   exchange::RouteSender second = SenderOf(test::KeyNumber(2), 2);
-  EXPECT_TRUE(Delivers(second, *scout, seconds(30), "may have 1 routes here"));
+  EXPECT_TRUE(Delivers(second, *scout, "may have 1 routes here"));
   EXPECT_EQ(second.Unreceipted().size(), 2U);
 }
 
@@ -250,7 +249,7 @@ TEST_F(ServerTest, AClientOverItsQuotaIsAnsweredWithTheReason) {
       ASSERT_TRUE(desk->Publish(
           exchange::CatalogRequest{AgentId("desk"), asked, {.name = fmt::format("r{}", asked)}}));
     }
-    (void)Hears(*desk, seconds(20), [&](const exchange::Message& message) {
+    (void)Hears(*desk, [&](const exchange::Message& message) {
       if (const auto* reply = std::get_if<exchange::CatalogReply>(&message)) {
         ++(reply->error.find("over quota") != std::string::npos ? refused : answered);
       }
@@ -281,7 +280,7 @@ class MissionsTest : public ServerTest {
   mission::Report Answered(const mission::Mission& mission) {
     EXPECT_TRUE(desk_->Publish(mission));
     mission::Report answer;
-    EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [&](const exchange::Message& message) {
+    EXPECT_TRUE(Hears(*desk_, [&](const exchange::Message& message) {
       const auto* report = std::get_if<mission::Report>(&message);
       if (report == nullptr || report->mission != mission.id) return false;
       answer = *report;
@@ -315,7 +314,7 @@ TEST_F(MissionsTest, OfAMemberOverItsQuotaArePutOffAndAStopIsNot) {
   EXPECT_EQ(Answered(Of("desk-p1", "wrong", "dance")).state, mission::State::kRefused)
       << "what nobody understands costs nothing and is refused for good";
   ASSERT_TRUE(desk_->Publish(exchange::NowCommand{.client = AgentId("desk"), .number = 1}));
-  EXPECT_TRUE(Hears(*robot, test::kLongEnough, [](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*robot, [](const exchange::Message& message) {
     const auto* command = std::get_if<exchange::NowCommand>(&message);
     return command != nullptr && command->relayed;
   }));
@@ -331,7 +330,7 @@ TEST_F(MissionsTest, QuestionsAboutThemCountAsOthersDo) {
         ++request;
         EXPECT_TRUE(desk_->Publish(exchange::MissionRequest{
             .client = AgentId("desk-p" + std::to_string(request)), .request = request}));
-        EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [&](const exchange::Message& message) {
+        EXPECT_TRUE(Hears(*desk_, [&](const exchange::Message& message) {
           const auto* reply = std::get_if<exchange::MissionReply>(&message);
           if (reply == nullptr || reply->request != request) return false;
           refused = reply->error.find("over quota: 'desk'") != std::string::npos;
@@ -345,7 +344,7 @@ TEST_F(MissionsTest, QuestionsAboutThemCountAsOthersDo) {
 TEST_F(MissionsTest, AServerThatKeepsNoneSaysSo) {
   Start();
   ASSERT_TRUE(desk_->Publish(exchange::MissionRequest{.client = AgentId("desk"), .request = 1}));
-  EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     const auto* reply = std::get_if<exchange::MissionReply>(&message);
     return reply != nullptr && reply->error.find("keeps no missions") != std::string::npos;
   }));
@@ -361,11 +360,11 @@ TEST_F(MissionsTest, ThatWaitForTheirTurnAreVoidedByAStopToo) {
   ASSERT_TRUE(desk_->Publish(Of("desk", "m1")));
   // What is told on another topic may come first: the server has the mission once this is answered.
   ASSERT_TRUE(desk_->Publish(exchange::MissionRequest{.client = AgentId("lab"), .request = 1}));
-  ASSERT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+  ASSERT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     return std::holds_alternative<exchange::MissionReply>(message);
   }));
   ASSERT_TRUE(desk_->Publish(exchange::NowCommand{.client = AgentId("lab"), .number = 1}));
-  EXPECT_TRUE(Hears(*desk_, test::kLongEnough, [](const exchange::Message& message) {
+  EXPECT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     const auto* report = std::get_if<mission::Report>(&message);
     return report != nullptr && report->state == mission::State::kCancelled;
   }));

@@ -120,7 +120,7 @@ TEST_F(FollowerTest, IsToldToStandAndSaysWhyWhenItsLinkThreadThrows) {
   device_.before_frame = [&](int frame) -> Result<void> {
     if (frame != kFrames / 3) return {};
     link.throws = true;
-    const auto thrown = link.thrown.get_future().wait_for(std::chrono::minutes(1));
+    const auto thrown = link.thrown.get_future().wait_for(test::kLongEnough);
     EXPECT_EQ(thrown, std::future_status::ready);
     return {};
   };

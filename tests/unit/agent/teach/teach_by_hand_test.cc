@@ -6,6 +6,7 @@
 
 #include "agent/teach/scout.h"
 #include "services/route/digest.h"
+#include "tests/support/await.h"
 #include "tests/unit/agent/driven_device.h"
 #include "tests/unit/agent/swarm.h"
 
@@ -104,7 +105,7 @@ TEST_F(TeachByHandTest, WhatIsCancelledIsFollowedByNobodyAndOfferedToNobody) {
 TEST_F(TeachByHandTest, WhatAServerHasOfACancelledOneIsNotFollowed) {
   swarm_.StartServer();
   const auto listener = swarm_.Join({.write = {}, .read = {exchange::Topic::kReceipts}});
-  const auto gives_up = steady_clock::now() + std::chrono::seconds(60);
+  const auto gives_up = steady_clock::now() + test::kLongEnough;
   bool stored = false;
   device_.before_frame = [&, this](double along_m) {
     if (along_m < 2.5) return Drive(0.6);
@@ -145,7 +146,7 @@ TEST_F(TeachByHandTest, TheRobotStandsWhenItsDriverFallsSilentAndTeachingGoesOn)
 TEST_F(TeachByHandTest, WhoDrivesItIsToldWhatStandsInItsWay) {
   const std::string what = "something stands 0.3 m ahead, in the way: the robot waits";
   const auto listener = swarm_.Join(exchange::OperatorTopics());
-  const auto gives_up = steady_clock::now() + std::chrono::seconds(60);
+  const auto gives_up = steady_clock::now() + test::kLongEnough;
   const auto told = [&](const std::string& detail) {
     for (const exchange::Message& message : listener->Take(milliseconds(0))) {
       const auto* status = std::get_if<exchange::AgentStatus>(&message);

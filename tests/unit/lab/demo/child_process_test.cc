@@ -4,28 +4,17 @@
 #include <sys/types.h>
 
 #include <csignal>
-#include <functional>
-#include <thread>
 
+#include "tests/support/await.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::demo {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-bool Within(seconds bound, const std::function<bool()>& predicate) {
-  const auto deadline = std::chrono::steady_clock::now() + bound;
-  while (!predicate()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(milliseconds(5));
-  }
-  return true;
-}
 
 // Ended, though perhaps not yet collected by a parent that takes its time.
 bool HasEnded(pid_t pid) {
@@ -44,7 +33,7 @@ class ChildProcessTest : public ::testing::Test {
   // The number that the script printed as its first line.
   pid_t PrintedPid() {
     std::vector<std::string> lines;
-    EXPECT_TRUE(Within(seconds(10), [&] { return !(lines = LastLines(log(), 1)).empty(); }));
+    EXPECT_TRUE(test::WaitUntil([&] { return !(lines = LastLines(log(), 1)).empty(); }));
     return lines.empty() ? -1 : std::stoi(lines.front());
   }
   [[nodiscard]] std::filesystem::path log() const { return folder_ / "log.txt"; }
@@ -55,7 +44,7 @@ class ChildProcessTest : public ::testing::Test {
 
 TEST_F(ChildProcessTest, TellsHowItEndedAndKeepsWhatItPrinted) {
   ChildProcess child = Shell("echo one; echo two >&2; echo three; exit 3");
-  ASSERT_TRUE(Within(seconds(10), [&] { return child.Poll().has_value(); }));
+  ASSERT_TRUE(test::WaitUntil([&] { return child.Poll().has_value(); }));
   EXPECT_EQ(child.Poll()->code, 3);
   EXPECT_FALSE(child.Poll()->ok());
   EXPECT_THAT(LastLines(log(), 2), ElementsAre("two", "three"));
@@ -66,7 +55,7 @@ TEST_F(ChildProcessTest, EndsWhenAskedTo) {
   PrintedPid();
   EXPECT_FALSE(child.Poll().has_value());
   child.Terminate();
-  child.Reap(seconds(10));
+  child.Reap(test::kLongEnough);
   EXPECT_EQ(child.Poll()->code, 7);
 }
 
@@ -76,7 +65,7 @@ TEST_F(ChildProcessTest, IsKilledWithItsOwnChildrenWhenItDoesNotListen) {
   child.Terminate();
   child.Reap(milliseconds(50));
   EXPECT_EQ(child.Poll()->signal, SIGKILL);
-  EXPECT_TRUE(Within(seconds(10), [&] { return HasEnded(grandchild); }));
+  EXPECT_TRUE(test::WaitUntil([&] { return HasEnded(grandchild); }));
 }
 
 TEST_F(ChildProcessTest, IsGoneWhenItsObjectGoes) {
