@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "services/route/tracked_feature.h"
 
@@ -18,6 +19,10 @@ struct MovedFeature {
   route::TrackedFeature before;
   route::TrackedFeature now;
 };
+
+// Those that are in both of two frames, where `now` is `before` without some, as a tracker has it.
+[[nodiscard]] std::vector<MovedFeature> MovedBetween(std::span<const route::TrackedFeature> before,
+                                                     std::span<const route::TrackedFeature> now);
 
 // A shift and a growth of the whole picture by robust least squares (Cauchy weights). Driving on
 // makes the picture grow, turning shifts it. `noise_px`: of a tracked feature. No features, no

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstddef>
 
 #include "services/base/square.h"
 #include "services/route/usual_camera.h"
@@ -14,6 +15,18 @@ constexpr int kIterations = 8;
 constexpr double kWidest = 64.0;  // times the noise
 
 }  // namespace
+
+std::vector<MovedFeature> MovedBetween(std::span<const route::TrackedFeature> before,
+                                       std::span<const route::TrackedFeature> now) {
+  std::vector<MovedFeature> moved;
+  std::size_t i = 0;
+  for (const route::TrackedFeature& feature : now) {
+    while (i < before.size() && before[i].id != feature.id) ++i;
+    if (i == before.size()) break;
+    moved.push_back({before[i], feature});
+  }
+  return moved;
+}
 
 PictureFlow FlowOf(std::span<const MovedFeature> features, double noise_px) {
   Eigen::Vector3d flow = Eigen::Vector3d::Zero();
