@@ -73,6 +73,9 @@ class ScoutLink {
 
   // From the control loop. False: the disk does not keep up, or failed; see Finish.
   [[nodiscard]] bool Offer(route::Segment segment);
+  // The same: what was offered so far is void, and discarded; what comes next is another teaching
+  // of the route, by pictures of this size. Of one that began with Start.
+  [[nodiscard]] bool BeginAnew(int width_px, int height_px);
   void Report(const TeachingNow& now);
   // The store failed: teaching is of no use any more.
   [[nodiscard]] bool failed() const { return failed_.load(); }
@@ -106,9 +109,21 @@ class ScoutLink {
   void Run();
   [[nodiscard]] Result<void> Work();
   [[nodiscard]] Result<void> Step();
+  // One of the two.
+  struct Offered {
+    std::optional<route::Segment> segment;
+    struct Anew {
+      int width_px = 0;
+      int height_px = 0;
+    };
+    std::optional<Anew> anew;
+  };
+  [[nodiscard]] bool Put(Offered offered);
   [[nodiscard]] Result<void> StoreOffered();
+  [[nodiscard]] Result<void> Begin(const Offered::Anew& anew);
   [[nodiscard]] Result<void> Trade();
   [[nodiscard]] Result<void> End();
+  [[nodiscard]] Result<void> DiscardTaught();
   [[nodiscard]] Result<void> Deliver();
   [[nodiscard]] Result<void> TellHeld();
   [[nodiscard]] bool HasAsked() const;
@@ -132,7 +147,7 @@ class ScoutLink {
   std::vector<route::RouteKey> held_revisions_;
   bool told_no_server_ = false;
 
-  Mailbox<std::optional<route::Segment>> segments_{256};
+  Mailbox<std::unique_ptr<Offered>> offered_{256};
   Mailbox<TeachingNow> reports_{64};
   TeachingNow latest_;
   Bell bell_;

@@ -41,6 +41,7 @@ class FeatureTracker {
   explicit FeatureTracker(const FeatureTrackerOptions& options = {});
   ~FeatureTracker();
   FeatureTracker(FeatureTracker&&) noexcept;
+  FeatureTracker& operator=(FeatureTracker&&) noexcept;
 
   // Takes the next frame and finds the current features in it. The first frame gives none.
   // `turned_rad`: what odometry says that the robot turned meanwhile, counter-clockwise positive. A

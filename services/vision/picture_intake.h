@@ -35,6 +35,9 @@ class PictureIntake {
   PictureIntake(PictureIntake&&) noexcept;
   PictureIntake& operator=(PictureIntake&&) noexcept;
 
+  // The first of these alone, so that a picture can be kept that is taken later.
+  [[nodiscard]] const image::GrayImage& Reduce(const image::GrayImage& frame);
+
   // Valid until the next call; `frame` itself where nothing is to be done. All frames must have the
   // size of the first.
   [[nodiscard]] const image::GrayImage& Take(const image::GrayImage& frame);

@@ -81,9 +81,15 @@ Result<void> ScoutLink::StartFrom(const route::RouteInfo& cut_off) {
   return {};
 }
 
-bool ScoutLink::Offer(route::Segment segment) {
+bool ScoutLink::Offer(route::Segment segment) { return Put({std::move(segment), {}}); }
+
+bool ScoutLink::BeginAnew(int width_px, int height_px) {
+  return Put({{}, Offered::Anew{width_px, height_px}});
+}
+
+bool ScoutLink::Put(Offered offered) {
   if (failed()) return false;
-  const bool put = segments_.TryPut(std::move(segment));
+  const bool put = offered_.TryPut(std::make_unique<Offered>(std::move(offered)));
   bell_.Ring();
   return put;
 }
@@ -138,11 +144,26 @@ Result<void> ScoutLink::Work() {
 }
 
 Result<void> ScoutLink::End() {
-  if (auto ended = outbox_.Complete(*key_, how_ != Ending::kComplete); !ended) return ended;
-  if (how_ != Ending::kDiscard) return {};
+  if (how_ == Ending::kDiscard) return DiscardTaught();
+  return outbox_.Complete(*key_, how_ != Ending::kComplete);
+}
+
+Result<void> ScoutLink::DiscardTaught() {
+  if (auto ended = outbox_.Complete(*key_, /*cut_off=*/true); !ended) return ended;
   const route::RouteInfo taught = outbox_.info(*key_);
   key_.reset();
   return Discard(taught);
+}
+
+Result<void> ScoutLink::Begin(const Offered::Anew& anew) {
+  if (key_) {
+    if (auto discarded = DiscardTaught(); !discarded) return discarded;
+    planned_->key.teaching = MakeTeachingId();
+    if (auto numbered = Number(*planned_); !numbered) return numbered;
+  }
+  planned_->image_width_px = anew.width_px;
+  planned_->image_height_px = anew.height_px;
+  return {};
 }
 
 Result<void> ScoutLink::TellHeld() {
@@ -163,16 +184,22 @@ Result<void> ScoutLink::Step() {
 }
 
 Result<void> ScoutLink::StoreOffered() {
-  while (auto segment = segments_.TryGet()) {
+  while (const auto taken = offered_.TryGet()) {
+    const Offered& offered = **taken;
+    if (offered.anew) {
+      if (auto begun = Begin(*offered.anew); !begun) return begun;
+      continue;
+    }
+    const route::Segment& segment = *offered.segment;
     if (!key_) {
       if (auto begun = outbox_.Begin(*planned_); !begun) return begun;
       key_ = planned_->key;
     }
-    if (auto added = outbox_.Add(*key_, **segment); !added) return added;
+    if (auto added = outbox_.Add(*key_, segment); !added) return added;
     const route::RouteInfo& info = outbox_.info(*key_);
     spdlog::info("segment {} of '{}': {:.2f} m, {} features; {} bytes stored so far",
-                 (*segment)->index.value(), info.name, (*segment)->length_m,
-                 (*segment)->features.size(), info.bytes);
+                 segment.index.value(), info.name, segment.length_m, segment.features.size(),
+                 info.bytes);
   }
   while (auto report = reports_.TryGet()) latest_ = *report;
   return {};

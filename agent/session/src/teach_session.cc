@@ -1,8 +1,15 @@
 #include "agent/session/teach_session.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
 #include <utility>
 #include <vector>
 
+#include "agent/session/src/kept_drive.h"
+#include "agent/session/src/mount_watch.h"
+#include "agent/session/src/told_motion.h"
 #include "services/teach/ground_feel.h"
 #include "services/teach/picture_shake.h"
 #include "services/vision/view_features.h"
@@ -12,6 +19,15 @@ namespace {
 
 // With fewer features than this in view a segment says nothing of where the path leads.
 constexpr std::size_t kMinFeatures = 8;
+
+Observation Reduced(const Observation& seen, vision::PictureIntake& intake) {
+  return {seen.stamp, intake.Reduce(seen.image), seen.odometry, seen.unknown, seen.imu};
+}
+
+int LongerSide(const image::GrayImage& picture, const vision::IntakeOptions& intake) {
+  const auto size = vision::WorkingSize({picture.width, picture.height}, intake);
+  return std::max(size.width, size.height);
+}
 
 }  // namespace
 
@@ -29,6 +45,7 @@ struct TeachSession::State {
   teach::PictureShake shake;
   teach::GroundFeel feel;
   std::optional<SensorTime> last_stamp;
+  std::vector<teach::MovedFeature> moved;  // since the last frame
   teach::KeyViewRecorder key_views;
   int middle_features;
   route::View last_view;
@@ -47,7 +64,9 @@ struct TeachSession::State {
 
 TeachSession::State::Event TeachSession::State::Add(const image::GrayImage& frame,
                                                     const Observation& observation) {
+  const std::vector<route::TrackedFeature> before = tracker.Current();
   const std::vector<route::TrackedFeature> tracked = tracker.Track(frame);
+  moved = teach::MovedBetween(before, tracked);
   if (recording == Recording::kNothing) return Event::kEnds;
   const bool by_features = recording == Recording::kFeatures;
   const Event event =
@@ -99,13 +118,97 @@ void TeachSession::State::KeepView(const image::GrayImage& frame) {
   if (last_is_kept) recorder.Keep(key_views.kept());
 }
 
+// Until a turn has told how the camera hangs.
+struct TeachSession::Mount {
+  explicit Mount(std::size_t most_kept_bytes) : kept(most_kept_bytes) {}
+
+  MountWatch watch;
+  KeptDrive kept;
+  ToldMotion base;
+  std::optional<SensorTime> last_stamp;
+  std::optional<motion::Pose2> last_odometry;
+};
+
+// Frames that are to be taught before those that come next.
+struct TeachSession::Waiting {
+  std::deque<KeptDrive::Frame> frames;
+};
+
 TeachSession::TeachSession(const TeachOptions& options)
-    : options_(options), intake_(options.intake) {}
+    : options_(options),
+      intake_(options.intake),
+      mount_(std::make_unique<Mount>(options.most_kept_bytes)),
+      waiting_(std::make_unique<Waiting>()) {}
 TeachSession::~TeachSession() = default;
 TeachSession::TeachSession(TeachSession&&) noexcept = default;
 
 Result<TeachStep> TeachSession::Observe(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
+  const int number = observed_++;
+  if (!waiting_->frames.empty()) {
+    waiting_->frames.push_back({number, Reduced(observation, intake_)});
+    return *CatchUp();
+  }
+  frame_ = number;
+  TeachStep step = Take(observation);
+  if (!mount_) return step;
+  auto anew = LookAtMount(observation);
+  if (!anew) return tl::unexpected(anew.error());
+  if (!*anew) return step;
+  step = {};
+  step.anew = *std::move(*anew);
+  return step;
+}
+
+bool TeachSession::catching_up() const { return !waiting_->frames.empty(); }
+
+std::optional<TeachStep> TeachSession::CatchUp() {
+  if (waiting_->frames.empty()) return std::nullopt;
+  const KeptDrive::Frame next = std::move(waiting_->frames.front());
+  waiting_->frames.pop_front();
+  frame_ = next.number;
+  return Take(next.seen);
+}
+
+// Of the frame that was taken last. Nothing: the camera hangs as it was said to, as far as is
+// known.
+Result<std::optional<TaughtAnew>> TeachSession::LookAtMount(const Observation& observation) {
+  Mount& mount = *mount_;
+  std::optional<motion::OdometryIncrement> measured;
+  std::optional<motion::OdometryIncrement> told;
+  double dt_s = 0.0;
+  if (mount.last_stamp) dt_s = Seconds(observation.stamp - *mount.last_stamp);
+  if (mount.last_odometry && observation.odometry) {
+    measured = motion::IncrementBetween(*mount.last_odometry, *observation.odometry);
+  }
+  if (observation.told) told = mount.base.Drive(*observation.told, dt_s);
+  mount.last_stamp = observation.stamp;
+  mount.last_odometry = observation.odometry;
+  const auto& picture = observation.image;
+  mount.watch.Add(state_->moved, told, measured, dt_s, LongerSide(picture, options_.intake));
+  if (observation.odometry || observation.told) {
+    mount.kept.Add(frame_, Reduced(observation, intake_));
+  }
+  const auto roll_deg = mount.watch.roll_deg();
+  if (!roll_deg) return std::nullopt;
+  const auto watched = std::move(mount_);
+  if (*roll_deg == 0.0) return std::nullopt;
+  TaughtAnew anew{options_.intake, watched->watch.Text()};
+  anew.intake.roll_deg = std::fmod(options_.intake.roll_deg + *roll_deg + 360.0, 360.0);
+  if (!watched->kept.whole()) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{}. It is too late to turn what was taught before this first turn: teach it again "
+                "with --camera-roll {:g}",
+                anew.text, anew.intake.roll_deg);
+  }
+  options_.intake = anew.intake;
+  intake_ = vision::PictureIntake(anew.intake);
+  state_.reset();
+  waiting_->frames = watched->kept.Take();
+  return anew;
+}
+
+TeachStep TeachSession::Take(const Observation& observation) {
   const image::GrayImage& frame = intake_.Take(observation.image);
   if (!state_) state_ = std::make_unique<State>(options_, frame, observation.odometry.has_value());
   State& s = *state_;

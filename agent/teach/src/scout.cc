@@ -88,6 +88,28 @@ void TellWeakness(const TeachStep& step, Drive& drive) {
   }
 }
 
+// What came of the drive so far is taken back, and comes again.
+Result<void> BeginAnew(const TaughtAnew& anew, const Observation& observation, ScoutLink& link,
+                       Drive& drive) {
+  spdlog::warn(
+      "frame {}: {}. Pictures are turned by {:g} degrees, and what was driven is taught anew from "
+      "its beginning; --camera-roll {:g} has it so at once",
+      drive.frames, anew.text, anew.intake.roll_deg, anew.intake.roll_deg);
+  drive.features = 0;
+  const auto size =
+      vision::WorkingSize({observation.image.width, observation.image.height}, anew.intake);
+  if (link.BeginAnew(size.width, size.height)) return {};
+  return Fail(ErrorCode::kUnavailable, "the store does not keep up with teaching");
+}
+
+// Of a drive that is over.
+void TellMount(const TeachSession& session, const Drive& drive) {
+  if (session.turns_told() || !drive.has_odometry) return;
+  spdlog::info(
+      "no turn of this drive told whether the camera hangs upright: it is taken to hang as it was "
+      "said to (--camera-roll)");
+}
+
 void TellReverse(const TeachStep& step, Drive& drive) {
   if (step.reverse == drive.reverse) return;
   drive.reverse = step.reverse;
@@ -101,8 +123,8 @@ void TellReverse(const TeachStep& step, Drive& drive) {
   }
 }
 
-// False: the drive is over.
-Result<bool> Steer(RobotDevice& device, Hands* hands) {
+// False: the drive is over. `told`: the base, last.
+Result<bool> Steer(RobotDevice& device, Hands* hands, motion::VelocityCommand& told) {
   if (hands == nullptr) return true;
   hands->Take();
   if (hands->hold().cancelled || hands->hold().ended) return false;
@@ -110,7 +132,15 @@ Result<bool> Steer(RobotDevice& device, Hands* hands) {
   if (!wanted) return true;
   const auto driven = device.Drive(*wanted);
   if (!driven) return tl::unexpected(driven.error());
+  told = *wanted;
   return true;
+}
+
+// One more of the frames that are taught again, if there are any.
+Result<void> CatchUp(TeachSession& session, ScoutLink& link, Drive& drive, TeachingNow& now) {
+  auto step = session.CatchUp();
+  if (!step || !step->finished) return {};
+  return PassOn(std::move(*step->finished), link, drive, now);
 }
 
 // The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
@@ -120,6 +150,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   TeachOptions teach;
   teach.intake = options.intake;
   teach.recorder.first_index = link.first_index();
+  if (teach.recorder.first_index != SegmentIndex(0)) teach.most_kept_bytes = 0;
   TeachSession session(teach);
   TeachingNow now;
   const EarForTrouble ear(device, [&](const RobotDevice::Halt& halt) {
@@ -127,6 +158,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     link.Report(now);
   });
   std::optional<Observation> observation = std::move(first);
+  motion::VelocityCommand told;
   Result<void> result;
   while (result && observation && !options.link.stop()) {
     auto step = session.Observe(*observation);
@@ -134,7 +166,9 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       result = Wrap(step.error(), fmt::format("frame {}", drive.frames));
       break;
     }
+    if (step->anew) result = BeginAnew(*step->anew, *observation, link, drive);
     if (step->finished) result = PassOn(std::move(*step->finished), link, drive, now);
+    if (result) result = CatchUp(session, link, drive, now);
     TellDarkness(*step, drive);
     TellWeakness(*step, drive);
     TellReverse(*step, drive);
@@ -146,7 +180,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       options.glances->Show({.picture = observation->image});
     }
     if (!result) break;
-    const auto goes_on = Steer(device, hands);
+    const auto goes_on = Steer(device, hands, told);
     if (!goes_on) result = tl::unexpected(goes_on.error());
     if (!goes_on || !*goes_on) break;
     auto next = device.Next();
@@ -154,9 +188,14 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       result = tl::unexpected(next.error());
     } else {
       observation = std::move(*next);
+      if (observation && hands != nullptr) observation->told = told;
     }
   }
   standstill.Stop();
+  while (result && !link.failed() && session.catching_up()) {
+    result = CatchUp(session, link, drive, now);
+  }
+  TellMount(session, drive);
   auto last = session.Finish();
   drive.turned_rad = session.turned_rad();
   if (last && !link.failed()) {

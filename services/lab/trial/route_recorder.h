@@ -33,12 +33,15 @@ class RouteRecorder {
   [[nodiscard]] const std::vector<FrameSpan>& spans() const { return spans_; }
 
  private:
+  void Take(const agent::TeachStep& step);
   void Keep(const std::optional<route::Segment>& segment, int last_frame);
+  void SetSize(const vision::IntakeOptions& intake);
 
   vision::IntakeOptions intake_;
+  vision::PictureSize camera_;
   agent::TeachSession session_;
   TaughtRoute taught_;
-  int frames_ = 0;
+  bool has_odometry_ = false;
   std::optional<int> began_;  // the frame with which the segment under way did
   std::vector<FrameSpan> spans_;
 };

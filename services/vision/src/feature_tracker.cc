@@ -179,6 +179,7 @@ FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
 
 FeatureTracker::~FeatureTracker() = default;
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 
 std::vector<route::TrackedFeature> FeatureTracker::Track(const image::GrayImage& frame,
                                                          double turned_rad) {

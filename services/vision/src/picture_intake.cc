@@ -137,6 +137,10 @@ PictureIntake::~PictureIntake() = default;
 PictureIntake::PictureIntake(PictureIntake&&) noexcept = default;
 PictureIntake& PictureIntake::operator=(PictureIntake&&) noexcept = default;
 
+const image::GrayImage& PictureIntake::Reduce(const image::GrayImage& frame) {
+  return state_->Reduce(frame);
+}
+
 const image::GrayImage& PictureIntake::Take(const image::GrayImage& frame) {
   State& s = *state_;
   return s.unroller.Unroll(s.Untilt(s.Turn(s.Reduce(frame))));

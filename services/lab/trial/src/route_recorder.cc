@@ -17,23 +17,43 @@ RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
 }
 
 Result<void> RouteRecorder::Observe(const agent::Observation& seen) {
-  if (frames_ == 0) {
-    const auto size = vision::WorkingSize({seen.image.width, seen.image.height}, intake_);
-    taught_.info.image_width_px = size.width;
-    taught_.info.image_height_px = size.height;
-  }
+  camera_ = {seen.image.width, seen.image.height};
+  has_odometry_ = seen.odometry.has_value();
+  if (session_.frame() < 0) SetSize(intake_);
   const auto step = session_.Observe(seen);
   if (!step) return tl::unexpected(step.error());
-  Keep(step->finished, frames_);
-  // With odometry a segment is under way even where there is nothing to see.
-  const bool under_way = !step->too_few_features || seen.odometry.has_value();
-  if (!began_ && under_way) began_ = frames_;
-  ++frames_;
+  Take(*step);
+  if (const auto more = session_.CatchUp()) Take(*more);
   return {};
 }
 
+void RouteRecorder::Take(const agent::TeachStep& step) {
+  if (step.anew) {
+    SetSize(step.anew->intake);
+    taught_.pieces.clear();
+    taught_.ground = {};
+    taught_.info.segment_count = 0;
+    taught_.info.length_m = 0.0;
+    taught_.info.bytes = 0;
+    spans_.clear();
+    began_.reset();
+    return;
+  }
+  Keep(step.finished, session_.frame());
+  // With odometry a segment is under way even where there is nothing to see.
+  const bool under_way = !step.too_few_features || has_odometry_;
+  if (!began_ && under_way) began_ = session_.frame();
+}
+
+void RouteRecorder::SetSize(const vision::IntakeOptions& intake) {
+  const auto size = vision::WorkingSize(camera_, intake);
+  taught_.info.image_width_px = size.width;
+  taught_.info.image_height_px = size.height;
+}
+
 Result<TaughtRoute> RouteRecorder::Finish() {
-  Keep(session_.Finish(), frames_ - 1);
+  while (const auto step = session_.CatchUp()) Take(*step);
+  Keep(session_.Finish(), session_.frame());
   if (taught_.pieces.empty()) {
     return Fail(ErrorCode::kUnavailable,
                 "teaching gave no segment: the scout's camera saw nothing to hold on to");

@@ -10,10 +10,12 @@
 #include <sstream>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "tests/support/await.h"
+#include "tests/support/turning_walk.h"
 #include "tests/unit/agent/swarm.h"
 
 namespace trailcast::agent {
@@ -74,6 +76,43 @@ TEST_F(ScoutTest, KeepsTheRouteInItsOwnStoreWithoutAServer) {
   EXPECT_EQ(route.image_width_px, 160);
   EXPECT_NEAR(route.length_m, 0.02 * (kFrames - 1), 0.1);
   EXPECT_THAT(*swarm_.OpenStore("scout")->HeldSegments(route.key), SizeIs(route.segment_count));
+}
+
+// It stands on its side, drives straight on at first, and then turns to either side.
+class SideDevice : public WalkDevice {
+ public:
+  SideDevice() : WalkDevice(kFrames) {}
+  Result<std::optional<Observation>> Next() override {
+    const int frame = next;
+    const int turning = std::max(0, frame - 60);
+    auto seen = WalkDevice::Next();
+    if (!seen || !*seen) return seen;
+    (*seen)->image = test::Rolled(test::TurningWalkFrame(frame, turning), 90.0);
+    (*seen)->odometry->heading_rad = test::HeadingAt(turning);
+    return seen;
+  }
+};
+
+TEST_F(ScoutTest, TeachesAnewOnceATurnTellsThatItsCameraStandsOnItsSide) {
+  swarm_.StartServer();
+  SideDevice device;
+  const Said said;
+  const auto summary = swarm_.Teach(device, swarm_.ScoutNamed("scout"), true);
+  EXPECT_EQ(Value(summary, "unreceipted"), "0");
+  swarm_.StopServer();
+  EXPECT_THAT(said.text(), AllOf(HasSubstr("the camera looks on its side"),
+                                 HasSubstr("--camera-roll 90"), HasSubstr("is discarded")));
+  std::vector<route::RouteInfo> kept;
+  for (const auto& route : *swarm_.OpenStore("scout")->FindRoutesByName("hall")) {
+    if (route.standing != route::Standing::kRetired) kept.push_back(route);
+  }
+  ASSERT_THAT(kept, SizeIs(1));
+  EXPECT_EQ(kept.front().state, RouteState::kComplete);
+  EXPECT_FALSE(kept.front().cut_off);
+  EXPECT_EQ(kept.front().image_width_px, test::kTurningWidth_px);
+  EXPECT_EQ(kept.front().image_height_px, test::kTurningHeight_px);
+  EXPECT_NEAR(kept.front().length_m, 0.02 * (kFrames - 1), 0.1);
+  EXPECT_EQ(Value(summary, "segments"), std::to_string(kept.front().segment_count));
 }
 
 TEST_F(ScoutTest, EndsWhenTheServerHasConfirmedEverySegment) {
