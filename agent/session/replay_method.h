@@ -36,6 +36,8 @@ enum class ReplayMethod {
 struct OwnLens {
   double focal_share = 0.0;  // of the picture's width
   double sigma = 0.0;        // relative
+  // How it hangs, as it was found to, instead of ReplayMethodOptions::intake's.
+  std::optional<double> roll_deg = {};
 };
 
 struct ReplayMethodOptions {

@@ -50,7 +50,10 @@ struct ReplayStep {
   Evidence evidence = Evidence::kNothing;
   std::optional<OdometryFigures> odometry;  // of a robot that has it
   std::string reason;                       // kLost, kBlind, kWaiting: one line for people
-  std::string passing;                      // as replay::Passing says it
+  // How its pictures are turned since its camera was found to hang otherwise than the scout's, one
+  // line for people; empty: they are not.
+  std::string turned;
+  std::string passing;  // as replay::Passing says it
   // The camera gave nothing to look at: `trust` says nothing of the path.
   bool saw_nothing = false;
   // What of the robot has failed, for which it stands until that is over; empty: nothing.

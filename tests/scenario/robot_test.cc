@@ -103,6 +103,40 @@ TEST_F(RobotTest, ACarArrives) {
   EndAtThePathsEnd(*robot);
 }
 
+// Nobody has said so, to the scout's agent or to the followers'.
+TEST_F(RobotTest, AFleetWhoseCamerasHangOtherwiseTeachesAndFollowsAllTheSame) {
+  constexpr const char* kBends = "1,1.5\n2.3,1.5\n3.2,1.9\n4.5,1.9\n";
+  for (const std::string roll_deg : {"180", "90"}) {
+    SCOPED_TRACE(roll_deg);
+    const std::string camera = "webcam+roll_deg=" + roll_deg;
+    const std::string scout = "scout" + roll_deg;
+    const std::string follower = "robot" + roll_deg;
+    const std::string store = roll_deg + ".db";
+    const auto drives = Robot(scout, {"--scout", "--lockstep", "--camera", camera}, kBends);
+    const auto taught =
+        RunAgent(With(With({"teach", "--route", "hall", "--store", Path(store)}, Drives(scout)),
+                      {"--lockstep", "--end-when-still", "1"}));
+    ASSERT_EQ(taught.status, 0) << taught.output << drives->output();
+    EXPECT_THAT(taught.output,
+                AllOf(HasSubstr("the camera looks"), HasSubstr("taught anew from its beginning"),
+                      HasSubstr("--camera-roll " + roll_deg)));
+    const auto robot =
+        Robot(follower,
+              {"--seed", "7", "--lockstep", "--camera", camera, "--sim-truth", Path("truth.csv")},
+              kBends);
+    const auto replay = Follow(follower, store, {"--lockstep"}, "follower" + roll_deg);
+    EXPECT_EQ(End(*replay).status, 0) << replay->output() << robot->output();
+    EXPECT_THAT(replay->output(),
+                AllOf(HasSubstr("against the one that taught"), HasSubstr("state=ARRIVED")));
+    robot->Signal(SIGTERM);
+    ASSERT_EQ(End(*robot).status, 0) << robot->output();
+    const auto places = TruePlaces();
+    ASSERT_FALSE(places.empty());
+    EXPECT_NEAR(places.back().x_m, 4.5, 0.4);
+    EXPECT_NEAR(places.back().y_m, 1.9, 0.25);
+  }
+}
+
 TEST_F(RobotTest, AnAgentWithoutARobotSaysWhatIsMissing) {
   Teach();
   const auto follower = Follow({"--sensor-patience", "0.5"});

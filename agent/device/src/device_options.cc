@@ -435,9 +435,11 @@ CLI::Validator CameraAheadRange() { return CLI::Range(-2.0, 2.0); }
 
 void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
   command
-      .add_option("--camera-roll", intake.roll_deg,
-                  "Degrees by which the camera is rolled about where it looks, clockwise as seen "
-                  "from behind it: 180 hangs upside down, 90 stands on its right side")
+      .add_option(
+          "--camera-roll", intake.roll_deg,
+          "Degrees by which the camera is rolled about where it looks, clockwise as seen "
+          "from behind it: 180 hangs upside down, 90 stands on its right side; quarter turns "
+          "are found out, by the robot's turns, if nobody says so")
       ->check(CameraRollValidator())
       ->group("Camera");
 }

@@ -413,6 +413,10 @@ void Loop::Tell(const ReplayStep& step) {
   } else if (last_->segment != step.segment) {
     spdlog::info("segment {}: {} features", step.segment.value(), step.features);
   }
+  if (!step.turned.empty() && (!last_ || last_->turned.empty())) {
+    spdlog::warn("{}", step.turned);
+    diagnosis_.Note("camera", step.turned);
+  }
   const std::string before = last_ ? last_->passing : std::string();
   if (step.passing == before) return;
   const std::string now = step.passing.empty() ? "nothing stands on the path" : step.passing;

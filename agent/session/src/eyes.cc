@@ -14,14 +14,10 @@ constexpr double kMoves_flow = 0.0015;
 constexpr double kFrozen_s = 0.3;
 
 // How far most features moved between two frames, as a share of the picture's width.
-std::optional<double> Flow(const std::vector<route::TrackedFeature>& before,
-                           const std::vector<route::TrackedFeature>& now, int width_px) {
+std::optional<double> Flow(const std::vector<teach::MovedFeature>& features, int width_px) {
   std::vector<double> moved;
-  std::size_t i = 0;
-  for (const route::TrackedFeature& feature : now) {
-    while (i < before.size() && before[i].id != feature.id) ++i;
-    if (i == before.size()) break;
-    moved.push_back(std::hypot(feature.u_px - before[i].u_px, feature.v_px - before[i].v_px));
+  for (const auto& [before, now] : features) {
+    moved.push_back(std::hypot(now.u_px - before.u_px, now.v_px - before.v_px));
   }
   if (moved.size() < 4) return std::nullopt;
   const auto middle = moved.begin() + std::ssize(moved) / 2;
@@ -30,6 +26,13 @@ std::optional<double> Flow(const std::vector<route::TrackedFeature>& before,
 }
 
 }  // namespace
+
+void Eyes::Turn(const vision::IntakeOptions& intake) {
+  options_ = intake;
+  intake_ = vision::PictureIntake(intake);
+  tracker_ = vision::FeatureTracker();
+  mount_ = {};
+}
 
 std::optional<motion::OdometryIncrement> Eyes::Driven(const Observation& observation) {
   std::optional<motion::OdometryIncrement> step;
@@ -58,14 +61,19 @@ Result<Seen> Eyes::See(const Observation& observation) {
   last_stamp_ = observation.stamp;
   seen.measured = Driven(observation);
   is_told_ = by_commands_ && observation.told.has_value();
-  if (is_told_) seen.told = told_.Drive(*observation.told, seen.dt_s);
+  std::optional<motion::OdometryIncrement> told;
+  if (observation.told) told = told_.Drive(*observation.told, seen.dt_s);
+  if (is_told_) seen.told = told;
   seen.driven = seen.measured ? seen.measured : seen.told;
   seen.unknown = observation.unknown;
   if (!seen.measured && seen.told) seen.unknown = DoubtOfTold(*seen.told);
   if (observation.stands) seen.stands = &*observation.stands;
   const std::vector<route::TrackedFeature> before = tracker_.Current();
   seen.features = tracker_.Track(*seen.frame, seen.driven ? seen.driven->heading_change_rad : 0.0);
-  const auto flow = Flow(before, seen.features, seen.frame->width);
+  const auto moved = teach::MovedBetween(before, seen.features);
+  mount_.Add(moved, told, seen.measured, seen.dt_s,
+             std::max(seen.frame->width, seen.frame->height));
+  const auto flow = Flow(moved, seen.frame->width);
   if (flow) usual_flow_ += kUsual * (*flow - usual_flow_);
   seen.flow = flow.value_or(1.0);
   seen.usual_flow = usual_flow_;

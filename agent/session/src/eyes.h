@@ -5,6 +5,7 @@
 
 #include "agent/session/frame_check.h"
 #include "agent/session/observation.h"
+#include "agent/session/src/mount_watch.h"
 #include "agent/session/src/told_motion.h"
 #include "services/base/result.h"
 #include "services/base/time.h"
@@ -40,7 +41,10 @@ class Eyes {
  public:
   // `by_commands`: what the base is told counts as motion.
   Eyes(const vision::IntakeOptions& intake, bool by_commands)
-      : intake_(intake), by_commands_(by_commands) {}
+      : options_(intake), intake_(intake), by_commands_(by_commands) {}
+
+  // From the next frame on pictures are taken in so; what was tracked is lost.
+  void Turn(const vision::IntakeOptions& intake);
 
   // Errors: those of FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
@@ -50,6 +54,9 @@ class Eyes {
 
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
   [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
+  // How pictures are taken in, and whether the robot's turns agree with that.
+  [[nodiscard]] const vision::IntakeOptions& intake() const { return options_; }
+  [[nodiscard]] const MountWatch& mount() const { return mount_; }
   [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }
   // The base does what it is told: whatever is believed moves a robot.
   [[nodiscard]] bool drives() const { return is_told_; }
@@ -61,11 +68,13 @@ class Eyes {
   [[nodiscard]] bool IsFrozen(const Seen& seen);
 
   FrameCheck check_;
+  vision::IntakeOptions options_;
   vision::PictureIntake intake_;
   vision::FeatureTracker tracker_;
   std::optional<motion::Pose2> last_odometry_;
   bool by_commands_;
   ToldMotion told_;
+  MountWatch mount_;
   double usual_flow_ = 0.0;
   double frozen_s_ = 0.0;
   bool is_told_ = false;

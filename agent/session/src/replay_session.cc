@@ -1,6 +1,9 @@
 #include "agent/session/replay_session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,9 +30,15 @@ constexpr double kLeft_m = 0.5;  // and from where it was left
 // Odometry that is doubted so far tells next to nothing; that is believed so far carries a robot.
 constexpr double kDoubted = 0.85;
 constexpr double kBelieved = 0.3;
-constexpr double kHere = 0.5;  // of where the belief holds the robot to be; the route's units
+constexpr double kThere = 0.5;  // of where the belief holds the robot to be; the route's units
 constexpr double kTurns_rad_per_m = 1.0;
 constexpr double kUnknownScale = 0.3;  // of a way
+
+vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
+  vision::IntakeOptions intake = options.intake;
+  if (options.lens) intake.roll_deg = options.lens->roll_deg.value_or(intake.roll_deg);
+  return intake;
+}
 
 }  // namespace
 
@@ -39,11 +48,11 @@ struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
         route(info.segment_count),
-        eyes(method.intake, !AsPrinted(method.method)),
-        upright(method.intake),
+        eyes(IntakeOf(method), !AsPrinted(method.method)),
         place(info.image_width_px),
-        by_features(method, {info.image_width_px, info.image_height_px}, route, eyes, place),
+        scout{info.image_width_px, info.image_height_px},
         by_views(method, route, place) {
+    by_features.emplace(method, scout, route, eyes, place);
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
@@ -62,6 +71,7 @@ struct ReplaySession::State {
   [[nodiscard]] ReplayStep Follow(const Seen& seen);
   [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
   [[nodiscard]] bool ViewsKnowBetter(const ReplayStep& features, const ReplayStep& views) const;
+  [[nodiscard]] ReplayStep Turned(double turn_deg, const Observation& observation);
   [[nodiscard]] ReplayStep StandMisturned();
 
   ReplayMethodOptions options;
@@ -70,7 +80,8 @@ struct ReplaySession::State {
   UprightWatch upright;
   FramePace pace;
   PlaceKeeper place;
-  FeatureFollower by_features;
+  vision::PictureSize scout;
+  std::optional<FeatureFollower> by_features;  // always
   ViewFollower by_views;
   std::optional<ViewTaker> views_met;
   std::optional<LeftAt> left;
@@ -82,7 +93,9 @@ struct ReplaySession::State {
   double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
   double without_picture_s = 0.0;
   const image::GrayImage* picture = nullptr;
-  bool passed = false;  // it was not looked at
+  bool passed = false;     // it was not looked at
+  std::string turned;      // as in ReplayStep
+  bool misturned = false;  // whatever it does by its pictures is wrong
   ReplayStep last;
 };
 
@@ -128,7 +141,7 @@ bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
                     seen.unknown.distance_m, seen.frozen};
-  if (by_features.reverses()) {
+  if (by_features->reverses()) {
     if (along.odometry) along.odometry->distance_m = -along.odometry->distance_m;
     if (along.told) along.told->distance_m = -along.told->distance_m;
   }
@@ -171,7 +184,7 @@ void ReplaySession::State::Doubt(Seen& seen) const {
 bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
                                            const ReplayStep& views) const {
   const bool follows = features.state == ReplayState::kFollowing;
-  if (features.trust == Trust::kCovered || by_features.seeks_start()) return false;
+  if (features.trust == Trust::kCovered || by_features->seeks_start()) return false;
   // A handful of another camera's features agree with a place some metres off: too few to drive by.
   constexpr int kToDriveBy = 10;
   if (eyes.drives() && place.agreed_now() < kToDriveBy) return false;
@@ -183,7 +196,7 @@ bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
 // if the robot is recognised where it holds itself to be.
 bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
   const double apart = place.where().along - place.AlongOf({features.segment, features.fraction});
-  return features.command != motion::VelocityCommand{} && std::abs(apart) <= kHere &&
+  return features.command != motion::VelocityCommand{} && std::abs(apart) <= kThere &&
          place.TrustInOdometry().value_or(0.0) >= kBelieved;
 }
 
@@ -195,7 +208,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
     standing = {views.state, views.trust, views.reason};
     return views;
   }
-  ReplayStep features = by_features.Report(by_features.Step(seen, of_features), of_features);
+  ReplayStep features = by_features->Report(by_features->Step(seen, of_features), of_features);
   if (!place.metric()) features.command.angular_radps *= place.ScaleOfWay();
   steers_by_views = false;
   standing = of_features;
@@ -216,9 +229,38 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   return views;
 }
 
+// What was seen so far was not what is there. It stands in this frame, and begins with the next.
+ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& observation) {
+  vision::IntakeOptions intake = eyes.intake();
+  intake.roll_deg = std::fmod(intake.roll_deg + turn_deg + 360.0, 360.0);
+  turned = fmt::format(
+      "{}: its pictures are turned by {:g} degrees from here on; --camera-roll {:g} has it so from "
+      "the beginning",
+      upright.Text(), turn_deg, intake.roll_deg);
+  eyes.Turn(intake);
+  picture = eyes.Pass(observation);
+  by_features.emplace(options, scout, route, eyes, place);
+  if (left) by_features->GoOnFrom(*left);
+  of_features = {};
+  standing = {ReplayState::kBlind, Trust::kSeeking, "turns its pictures as its camera hangs"};
+  steers_by_views = false;
+  ReplayStep step = by_features->Report({}, standing);
+  step.saw_nothing = true;
+  step.turned = turned;
+  return step;
+}
+
 // Nothing that it would do on such pictures is right: left is right, or up.
 ReplayStep ReplaySession::State::StandMisturned() {
-  standing = {ReplayState::kLost, Trust::kLost, upright.reason()};
+  misturned = true;
+  const double roll_deg =
+      std::fmod(eyes.intake().roll_deg + *eyes.mount().roll_by_told_deg() + 360.0, 360.0);
+  standing = {ReplayState::kLost, Trust::kLost,
+              fmt::format("{}. It stands rather than steer by that: {} with --camera-roll {:g}",
+                          eyes.mount().Text(),
+                          upright.upright() ? "teach the route again, whose pictures are so, too,"
+                                            : "begin again",
+                          roll_deg)};
   ReplayStep step = last;
   step.command = {};
   step.state = standing.state;
@@ -242,7 +284,7 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
     return Fail(ErrorCode::kInvalidArgument, "segment {} was given where {} comes next",
                 segment.index.value(), next);
   }
-  s.by_features.Learn(segment);
+  s.by_features->Learn(segment);
   s.place.Learn(segment);
   if (s.views_met) s.views_met->Learn(segment);
   s.route.Add(AsPrinted(s.options.method) ? std::move(segment)
@@ -254,7 +296,7 @@ void ReplaySession::MarkComplete() { state_->route.MarkComplete(); }
 
 void ReplaySession::GoOnFrom(const LeftAt& left) {
   state_->left = left;
-  state_->by_features.GoOnFrom(left);
+  state_->by_features->GoOnFrom(left);
 }
 
 double ReplaySession::known_m() const {
@@ -275,12 +317,17 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
-  if (s.standing.state == ReplayState::kArrived || s.upright.misturned()) return s.last;
-  if (s.route.segments().empty()) return s.by_features.Report({}, s.of_features);
+  if (s.standing.state == ReplayState::kArrived || s.misturned) return s.last;
+  if (s.route.segments().empty()) return s.by_features->Report({}, s.of_features);
   const bool looked = s.Locate(*seen);
   s.ToRoute(*seen);
   s.Doubt(*seen);
-  s.last = s.upright.Look(*seen, s.place) ? s.StandMisturned() : s.Follow(*seen);
+  if (s.eyes.mount().roll_by_told_deg().value_or(0.0) != 0.0) return s.last = s.StandMisturned();
+  if (const auto turn_deg = s.upright.Look(*seen, s.place)) {
+    return s.last = s.Turned(*turn_deg, observation);
+  }
+  s.last = s.Follow(*seen);
+  s.last.turned = s.turned;
   if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
@@ -301,17 +348,21 @@ void ReplaySession::Pass(const Observation& observation) {
 std::optional<refresh::Visit> ReplaySession::TakeVisit() {
   if (state_->standing.state != ReplayState::kArrived) return std::nullopt;
   if (!state_->views_met) return std::nullopt;
-  refresh::Visit visit = state_->by_features.TakeVisit().value_or(refresh::Visit{});
+  refresh::Visit visit = state_->by_features->TakeVisit().value_or(refresh::Visit{});
   state_->views_met->Take(visit);
   return visit;
 }
 
-std::optional<OwnLens> ReplaySession::lens() const { return state_->by_features.lens(); }
+std::optional<OwnLens> ReplaySession::lens() const {
+  auto lens = state_->by_features->lens();
+  if (lens) lens->roll_deg = state_->eyes.intake().roll_deg;
+  return lens;
+}
 
 const image::GrayImage* ReplaySession::picture() const { return state_->picture; }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
-  const replay::Follower* follower = state_->by_features.follower();
+  const replay::Follower* follower = state_->by_features->follower();
   if (follower == nullptr || state_->passed) return {};
   return replay::ViewFeatures(*follower, state_->eyes.tracker().Current(), step.decision.roll_rad);
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <utility>
+
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 namespace {
@@ -15,33 +17,33 @@ constexpr double kWatched_s = 20.0;
 
 }  // namespace
 
-bool UprightWatch::Look(const Seen& seen, const PlaceKeeper& place) {
-  if (upright_ || misturned_ || watched_s_ > kWatched_s) return misturned_;
+std::optional<double> UprightWatch::Look(const Seen& seen, const PlaceKeeper& place) {
+  if (upright_ || watched_s_ > kWatched_s) return std::nullopt;
   watched_s_ += seen.looked_s;
   const bool due = frames_ < kEachFrame || frames_ % kOneInSoMany == 0;
   ++frames_;
-  if (!due) return false;
-  const int as_it_is = place.AgreedIn(*seen.frame);
-  upright_ = as_it_is >= kRecognised;
-  if (as_it_is > kNotRecognised) return false;
-  double best_deg = 0.0;
-  int best = kRecognised - 1;
+  if (!due) return std::nullopt;
+  as_it_is_ = place.AgreedIn(*seen.frame);
+  upright_ = as_it_is_ >= kRecognised;
+  if (as_it_is_ > kNotRecognised) return std::nullopt;
+  const double before_deg = std::exchange(turn_deg_, 0.0);
+  agreed_ = kRecognised - 1;
   for (const double turn_deg : {180.0, 90.0, 270.0}) {
     vision::PictureIntake turned({.roll_deg = turn_deg});
     const int agreed = place.AgreedIn(turned.Take(*seen.frame));
-    if (agreed <= best) continue;
-    best = agreed;
-    best_deg = turn_deg;
+    if (agreed <= agreed_) continue;
+    agreed_ = agreed;
+    turn_deg_ = turn_deg;
   }
-  misturned_ = best_deg != 0.0 && best_deg == turn_deg_;  // twice the same is no chance
-  turn_deg_ = best_deg;
-  if (!misturned_) return false;
-  reason_ = fmt::format(
-      "the camera is mounted {} against the one that taught: {} features agree with the route once "
-      "the picture is turned by {:g} degrees, {} as it is; begin again with --camera-roll {:g}",
-      best_deg == 180.0 ? "upside down" : "on its side", best, best_deg, as_it_is,
-      std::fmod(told_.roll_deg + best_deg + 360.0, 360.0));
-  return true;
+  upright_ = turn_deg_ != 0.0 && turn_deg_ == before_deg;  // twice the same is no chance
+  return upright_ ? std::optional(turn_deg_) : std::nullopt;
+}
+
+std::string UprightWatch::Text() const {
+  return fmt::format(
+      "the camera hangs {} against the one that taught: {} features agree with the route once the "
+      "picture is turned by {:g} degrees, {} as it is",
+      HangsText(turn_deg_), agreed_, turn_deg_, as_it_is_);
 }
 
 }  // namespace trailcast::agent

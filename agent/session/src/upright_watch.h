@@ -1,10 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "agent/session/src/eyes.h"
 #include "agent/session/src/place/place_keeper.h"
-#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
@@ -13,23 +13,23 @@ namespace trailcast::agent {
 // has recognised the route upright is looked at no more. No clock.
 class UprightWatch {
  public:
-  // `told`: how the camera is said to be mounted.
-  explicit UprightWatch(const vision::IntakeOptions& told) : told_(told) {}
-
-  // Of the next frame, at the place that is believed. True, once and for all: it is mounted
-  // otherwise.
-  [[nodiscard]] bool Look(const Seen& seen, const PlaceKeeper& place);
-  [[nodiscard]] bool misturned() const { return misturned_; }
-  [[nodiscard]] const std::string& reason() const { return reason_; }  // one line for people
+  // Of the next frame, at the place that is believed: by how many degrees clockwise its pictures
+  // are to be turned to be as the scout's. Nothing: by none, as far as is known.
+  [[nodiscard]] std::optional<double> Look(const Seen& seen, const PlaceKeeper& place);
+  // After Look has told: what was seen, one line for people.
+  [[nodiscard]] std::string Text() const;
+  // It was recognised, as it is or once it was turned.
+  [[nodiscard]] bool upright() const { return upright_; }
 
  private:
-  vision::IntakeOptions told_;
   bool upright_ = false;
-  bool misturned_ = false;
   int frames_ = 0;
   double watched_s_ = 0.0;
-  double turn_deg_ = 0.0;  // by which the last frame looked at was recognised; 0: by none
-  std::string reason_;
+  // Of the last frame looked at: the turn by which it was recognised, 0 if by none, how many
+  // features agreed then, and as it was.
+  double turn_deg_ = 0.0;
+  int agreed_ = 0;
+  int as_it_is_ = 0;
 };
 
 }  // namespace trailcast::agent
