@@ -25,7 +25,8 @@ struct Believed {
 struct OdometryFigures {
   double trust =
       0.0;  // how likely it is to tell how the robot moves, against the likeliest of them
-  double scale = 1.0;  // metres of the route for each of its own
+  // Metres of the route for each of its own; nothing on a route that was taught without odometry.
+  std::optional<double> scale;
 };
 
 // What became of one frame.

@@ -25,6 +25,7 @@ void Stand::Begin(const ReplayStep& step, SensorTime stamp) {
 ReplayStep StandingStep(ReplayStep step, ReplayState state, std::string reason) {
   step.command = {};
   step.state = state;
+  step.evidence = Evidence::kNothing;
   step.reason = std::move(reason);
   return step;
 }

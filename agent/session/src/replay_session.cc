@@ -108,6 +108,7 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   report.command = {};
   report.state = lost ? ReplayState::kLost : ReplayState::kBlind;
   report.trust = lost ? Trust::kLost : Trust::kBlind;
+  report.evidence = Evidence::kNothing;
   report.reason = why;
   report.saw_nothing = true;
   standing.trust = report.trust;
@@ -334,7 +335,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   const double length = std::max(1e-9, s.place.belief().length());
   s.last.evidence = s.EvidenceOf(s.last);
   if (const auto trust = s.place.TrustInOdometry()) {
-    s.last.odometry = {*trust, s.place.belief().ScaleOf(0)};
+    s.last.odometry = {*trust, std::nullopt};
+    if (s.place.metric()) s.last.odometry->scale = s.place.ScaleOfWay();
   }
   s.last.believed = {where.along / length, where.sigma / length, where.off_route};
   return s.last;

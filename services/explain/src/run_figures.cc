@@ -164,12 +164,12 @@ void AddEvidence(const RunLog& log, std::vector<std::string>& lines) {
     return 1.0 - *row.odometry_trust;
   });
   if (doubt.count == 0) return;
-  const double scale = log.frames.back().odometry_scale.value_or(1.0);
-  lines.push_back(Line(
-      "odometry", fmt::format("believed to {:.0f} % on average, {:.0f} % at least;"
-                              " at last each of its metres was {:.2f} of the "
-                              "route's",
-                              100.0 * (1.0 - doubt.mean), 100.0 * (1.0 - doubt.largest), scale)));
+  std::string text = fmt::format("believed to {:.0f} % on average, {:.0f} % at least",
+                                 100.0 * (1.0 - doubt.mean), 100.0 * (1.0 - doubt.largest));
+  if (const auto scale = log.frames.back().odometry_scale) {
+    text += fmt::format("; at last each of its metres was {:.2f} of the route's", *scale);
+  }
+  lines.push_back(Line("odometry", text));
 }
 
 // Which frames took how long: the searches, and the rest.

@@ -155,6 +155,19 @@ TEST_P(ReplaySessionTest, FollowsForASecondAtMostOnceNothingAgrees) {
   }
 }
 
+TEST(ReplaySessionOdometry, HasAScaleOnlyOnARouteThatHasMetres) {
+  for (const bool metres : {false, true}) {
+    ReplaySession session = SessionOn(Taught(metres));
+    for (int i = 0; i < 5; ++i) {
+      const ReplayStep step =
+          session.Observe({StampOf(i), Walk()[static_cast<std::size_t>(i)], PoseAt(i, true)})
+              .value();
+      ASSERT_TRUE(step.odometry);
+      EXPECT_EQ(step.odometry->scale.has_value(), metres);
+    }
+  }
+}
+
 TEST(ReplaySessionOdometry, ThatStandsWhileThePictureMovesIsNotBelieved) {
   constexpr double kFast_m = 0.1;
   ReplaySession session = SessionOn(Taught(true, Walk(), kFast_m));

@@ -15,6 +15,7 @@ ReplayStep StepAt(double along_m) {
   step.along_m = along_m;
   step.command = {0.5, 0.2};
   step.segment = SegmentIndex(7);
+  step.evidence = Evidence::kFeatures;
   return step;
 }
 
@@ -49,6 +50,7 @@ TEST_F(YieldingTest, StandsAndSaysBehindWhom) {
   EXPECT_EQ(step.state, ReplayState::kYielding);
   EXPECT_EQ(step.reason, "waits for a, 1.4 m ahead");
   EXPECT_EQ(step.segment, SegmentIndex(7));
+  EXPECT_EQ(step.evidence, Evidence::kNothing) << "that carries it";
 }
 
 TEST_F(YieldingTest, LooksAtItsPicturesUntilItHasComeToAStandAndAgainWhenItGoesOn) {
