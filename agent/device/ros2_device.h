@@ -31,7 +31,7 @@ struct Ros2Run {
   // The robot waits for a command with the stamp of its frame: answer each, even while teaching.
   bool lockstep = false;
   // The drive is over when the robot, after having moved, has stood for so long; 0: it never is.
-  // By odometry and its stamps.
+  // By odometry, by the pictures of a robot that has none, and by their stamps.
   std::chrono::milliseconds still_at_end{0};
   // Asked while waiting for the robot: the drive is over.
   std::function<bool()> stop = [] { return false; };

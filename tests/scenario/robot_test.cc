@@ -94,6 +94,25 @@ TEST_F(RobotTest, AFollowerThatMayGoesRoundWhatStandsOnItsPath) {
   }
 }
 
+TEST_F(RobotTest, WithoutOdometryATeachingEndsWhereTheRobotStands) {
+  const auto robot = Robot("scout", {"--scout", "--lockstep", "--sim-truth", Path("truth.csv")});
+  const auto scout = RunAgent(
+      With(With({"teach", "--route", "hall", "--store", Path("routes.db")}, Drives("scout")),
+           {"--odom-topic", "", "--lockstep", "--end-when-still", "1"}));
+  EXPECT_EQ(scout.status, 0) << scout.output << robot->output();
+  robot->Signal(SIGTERM);
+  ASSERT_EQ(End(*robot).status, 0) << robot->output();
+  const auto places = TruePlaces();
+  ASSERT_GT(places.size(), 30U);
+  EXPECT_NEAR(places.back().x_m, 4.5, 0.1) << "the whole path";
+  const auto at_its_end = std::find_if(places.begin(), places.end(), [&](const Place& place) {
+    return std::abs(place.x_m - places.back().x_m) < 0.005;
+  });
+  const auto stood = places.end() - at_its_end;
+  EXPECT_GE(stood, 30) << "frames, of 30 a second";
+  EXPECT_LE(stood, 120) << "brakes and all";
+}
+
 TEST_F(RobotTest, ACarArrives) {
   Teach();
   const auto robot = Robot("robot1", {"--seed", "7", "--lockstep", "--turn-radius", "0.6",

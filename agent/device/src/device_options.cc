@@ -147,7 +147,8 @@ CLI::Option* AddRos2Options(CLI::App& command, DeviceOptions& options, bool scou
   if (scout) {
     AddImuTopicOption(command, ros2, robot, topics);
     add("--end-when-still", options.still_at_end_s,
-        "Seconds of standing, after it has moved, that end the route; 0: only a signal ends it")
+        "Seconds of standing, after it has moved, that end the route: by its odometry, or by what "
+        "it sees if it has none; 0: only a signal ends it")
         ->check(CLI::Range(0.0, 3600.0));
   }
   return ros2;

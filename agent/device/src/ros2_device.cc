@@ -41,7 +41,8 @@ Ros2Device::State::State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver>
             has_odometry(), has_scan(), device.topics.ranges.size()),
       poses(GateOf(device.limits),
             device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
-      still(device.still_at_end) {
+      still(device.still_at_end),
+      still_by_sight(has_odometry() ? milliseconds(0) : device.still_at_end) {
   // What the topics say counts.
   run.obstacles.range_mounts.resize(run.topics.ranges.size());
   if (has_scan() || !run.topics.ranges.empty()) obstacles.emplace(run.obstacles, has_scan());
@@ -180,10 +181,6 @@ Ros2Device::~Ros2Device() {
 }
 
 Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
-  if (run.still_at_end > milliseconds(0) && run.topics.odometry.empty()) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "that a robot stands is known by its odometry, of which there is none");
-  }
   if (run.topics.image_is_compressed()) {
     if (auto can = image::CanDecode(); !can) return Wrap(can.error(), run.topics.ImageTopic());
   }
@@ -240,7 +237,9 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     observation.imu = s.TakeImu();
     guard.unlock();
     auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
+    const bool over = gray && s.still_by_sight.Over(frame.taken, *gray);
     guard.lock();
+    if (over) return std::nullopt;
     if (gray) {
       observation.image = std::move(*gray);
       s.width_px = observation.image.width;

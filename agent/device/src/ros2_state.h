@@ -16,6 +16,7 @@
 #include "agent/device/sensed_poses.h"
 #include "agent/device/src/robot_watch.h"
 #include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/still_picture_watch.h"
 #include "agent/device/src/still_watch.h"
 #include "services/motion/battery.h"
 
@@ -117,6 +118,7 @@ struct Ros2Device::State {
   std::chrono::steady_clock::time_point waiting_since;  // for a frame
   Halt shared;
   StillWatch still;
+  StillPictureWatch still_by_sight;  // without odometry; the driving thread's, without the lock
   int width_px = 0;
   int height_px = 0;
 
